@@ -1,0 +1,5 @@
+//! The hierarchy against its slow twin, and meshes that must not leak.
+
+mod leaks;
+mod meshes;
+mod twin;

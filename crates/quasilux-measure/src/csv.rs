@@ -1,0 +1,82 @@
+//! One sensor as comma-separated values: a header with units, then one line a point.
+//!
+//! Fields are numbers, so none needs the quoting of RFC 4180; lines end in LF; a missing number is
+//! an empty field.
+
+use crate::SensorReport;
+use crate::number::exact;
+use std::fmt::Write;
+
+const COLUMNS: &str = "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,half_width_lx,direct_lx";
+
+/// The points of a sensor as CSV; the lines of a grid begin with the indices `i` along u and `j`
+/// along v, `i` running fastest.
+#[must_use]
+pub fn csv(sensor: &SensorReport) -> String {
+    let mut text = String::new();
+    if sensor.grid.is_some() {
+        text.push_str("i,j,");
+    }
+    text.push_str(COLUMNS);
+    text.push('\n');
+    for (index, point) in sensor.points.iter().enumerate() {
+        if let Some(grid) = &sensor.grid {
+            let columns = grid.counts[0] as usize;
+            write!(text, "{},{},", index % columns, index / columns).expect("strings grow");
+        }
+        let place = point
+            .position_m
+            .to_array()
+            .into_iter()
+            .chain(point.normal.to_array());
+        let light = [
+            point.illuminance_lx.value,
+            point.illuminance_lx.half_width,
+            point.direct_lx,
+        ];
+        let fields: Vec<String> = place
+            .map(exact)
+            .chain(light.into_iter().map(|x| x.map(exact).unwrap_or_default()))
+            .collect();
+        text.push_str(&fields.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn grids_have_indices_and_every_number_reads_back() {
+        let report = example::office();
+        let sensor = &report.sensors[0];
+        let text = csv(sensor);
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some(format!("i,j,{COLUMNS}").as_str()));
+        let rows: Vec<Vec<f64>> = lines
+            .map(|l| l.split(',').map(|f| f.parse().expect("a number")).collect())
+            .collect();
+        assert_eq!(rows.len(), sensor.points.len());
+        assert_eq!(rows[25][..2], [1.0, 1.0]);
+        for (row, point) in rows.iter().zip(&sensor.points) {
+            assert_eq!(row[2..5], point.position_m.to_array());
+            assert_eq!(Some(row[8]), point.illuminance_lx.value);
+            assert_eq!(Some(row[9]), point.illuminance_lx.half_width);
+            assert_eq!(Some(row[10]), point.direct_lx);
+        }
+        assert!(text.ends_with('\n') && !text.contains('\r'));
+    }
+
+    #[test]
+    fn single_points_have_no_indices_and_missing_numbers_are_empty() {
+        let report = example::without_intervals();
+        let text = csv(&report.sensors[0]);
+        assert_eq!(
+            text,
+            format!("{COLUMNS}\n0.0,0.0,0.5,0.0,0.0,1.0,100.0,,80.0\n")
+        );
+    }
+}

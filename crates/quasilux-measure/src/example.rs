@@ -1,0 +1,197 @@
+//! Small made-up results that the tests of this crate share.
+
+use crate::{Report, RunFacts};
+use glam::DVec3;
+use quasilux_scene::{Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
+use quasilux_transport::{
+    Estimates, Estimator, FluxBalance, MeanDimension, SensorEstimates, Settings,
+};
+
+/// A grid in the xy plane.
+pub(crate) fn grid(edges_m: [f64; 2], counts: [u32; 2]) -> Grid {
+    Grid {
+        origin: DVec3::new(0.5, 0.5, 0.8),
+        u: DVec3::X * edges_m[0],
+        v: DVec3::Y * edges_m[1],
+        counts,
+        normal: DVec3::Z,
+        quantity: Quantity::Centre,
+    }
+}
+
+/// A report of one grid whose values are `lx` of the position in the unit square; replicates
+/// scatter by the relative `noise`.
+pub(crate) fn report_of(
+    name: &str,
+    grid: Grid,
+    noise: f64,
+    lx: impl Fn(f64, f64) -> f64,
+) -> Report {
+    let columns = grid.counts[0] as usize;
+    let mean: Vec<f64> = (0..grid.cells())
+        .map(|cell| {
+            let x = ((cell % columns) as f64 + 0.5) / f64::from(grid.counts[0]);
+            let y = ((cell / columns) as f64 + 0.5) / f64::from(grid.counts[1]);
+            lx(x, y)
+        })
+        .collect();
+    let sensor = Sensor {
+        name: name.into(),
+        shape: SensorShape::Grid(grid),
+    };
+    report(
+        vec![(sensor, replicates(&mean, noise))],
+        &Settings::default(),
+    )
+}
+
+/// A 24 x 20 workplane under six luminaires, and one probe.
+pub(crate) fn office() -> Report {
+    let grid = grid([5.0, 4.0], [24, 20]);
+    let desk = report_of("workplane", grid, 0.01, batwing);
+    let values: Vec<f64> = desk.sensors[0]
+        .points
+        .iter()
+        .filter_map(|p| p.illuminance_lx.value)
+        .collect();
+    let plane = Sensor {
+        name: "workplane".into(),
+        shape: SensorShape::Grid(grid),
+    };
+    let probe = Sensor {
+        name: "probe at the door, 1.2 m".into(),
+        shape: SensorShape::Points(vec![SensorPoint {
+            position: DVec3::ONE,
+            normal: DVec3::X,
+        }]),
+    };
+    report(
+        vec![
+            (plane, replicates(&values, 0.01)),
+            (probe, replicates(&[93.7], 0.04)),
+        ],
+        &Settings::default(),
+    )
+}
+
+/// Six soft spots with a dip below each, brighter in the middle of the room.
+pub(crate) fn batwing(x: f64, y: f64) -> f64 {
+    let mut lx = 140.0;
+    for lamp in 0..6 {
+        let dx = (x - (0.5 + f64::from(lamp % 3)) / 3.0) * 5.0;
+        let dy = (y - (0.5 + f64::from(lamp / 3)) / 2.0) * 4.0;
+        let squared = dx * dx + dy * dy;
+        lx += 420.0 * (1.0 + 0.9 * squared) / ((1.0 + squared) * (1.0 + squared))
+            - 60.0 * libm::exp(-6.0 * squared);
+    }
+    lx
+}
+
+/// A sensor "desk" of single points, all replicates equal.
+pub(crate) fn noiseless(values: &[f64]) -> Report {
+    let point = SensorPoint {
+        position: DVec3::ZERO,
+        normal: DVec3::Z,
+    };
+    let shape = SensorShape::Points(vec![point; values.len()]);
+    let mut report = report(
+        vec![(
+            Sensor {
+                name: "desk".into(),
+                shape,
+            },
+            vec![values.to_vec(); 4],
+        )],
+        &Settings::default(),
+    );
+    report.warnings.retain(|w| w != WARNING);
+    report
+}
+
+/// One point, one replicate.
+pub(crate) fn without_intervals() -> Report {
+    let point = SensorPoint {
+        position: DVec3::new(0.0, 0.0, 0.5),
+        normal: DVec3::Z,
+    };
+    let sensor = Sensor {
+        name: "desk".into(),
+        shape: SensorShape::Points(vec![point]),
+    };
+    let settings = Settings {
+        replicates: 1,
+        ..Settings::default()
+    };
+    report(vec![(sensor, vec![vec![100.0]])], &settings)
+}
+
+/// A result of the estimator whose map leaves a bias.
+pub(crate) fn biased() -> Report {
+    let settings = Settings {
+        estimator: Estimator::BidirectionalMap,
+        ..Settings::default()
+    };
+    let (scene, mut estimates) = scene_and_estimates(Vec::new());
+    estimates.biased = true;
+    Report::new(&scene, &settings, &estimates, RunFacts::default())
+}
+
+const WARNING: &str = "a \"quoted\" warning";
+
+fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report {
+    let (scene, estimates) = scene_and_estimates(sensors);
+    let facts = RunFacts {
+        version: "0.1.0".into(),
+        seconds: 9.8125,
+        threads: 2,
+        warnings: vec![WARNING.into()],
+    };
+    Report::new(&scene, settings, &estimates, facts)
+}
+
+fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimates) {
+    let figures = sensors.iter().map(|(_, rows)| SensorEstimates {
+        replicate_lx: rows.clone(),
+        direct_lx: rows[0].iter().map(|lx| 0.8 * lx).collect(),
+    });
+    let estimates = Estimates {
+        sensors: figures.collect(),
+        samples: 65_536,
+        rays: 187_654_321,
+        flux: FluxBalance {
+            emitted_lm: 21_600.0,
+            absorbed_lm: 21_600.0,
+            lost_lm: 0.0,
+            cut_lm: 0.0,
+        },
+        mean_dimension: MeanDimension {
+            photon: Some(13.25),
+            path: None,
+        },
+        invalid_contributions: 0,
+        confidence: 0.95,
+        miss_probability: 0.025,
+        tolerance_reached: true,
+        biased: false,
+        warnings: Vec::new(),
+    };
+    let scene = Scene {
+        sensors: sensors.into_iter().map(|(sensor, _)| sensor).collect(),
+        ..Scene::default()
+    };
+    (scene, estimates)
+}
+
+/// Sixteen replicates of given means: replicate r and point p are off by a fixed pattern whose sum
+/// over r is zero.
+fn replicates(mean: &[f64], noise: f64) -> Vec<Vec<f64>> {
+    (0..16_usize)
+        .map(|r| {
+            let off = |p: usize| ((r * 7 + p * 5) % 16) as f64 / 7.5 - 1.0;
+            mean.iter()
+                .enumerate()
+                .map(|(p, lx)| lx * (1.0 + noise * off(p)))
+                .collect()
+        })
+        .collect()
+}

@@ -1,0 +1,353 @@
+//! The result document, format "quasilux-result/1": the form that other programs rely on.
+//!
+//! The order of keys is fixed and numbers are the shortest that read back exactly, so two runs of
+//! one project write the same bytes but for `seconds` and `threads`. Unknown figures are `null`.
+//! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
+//! sensor its `counts` along u and v; and in `run` the rest of what makes a run repeatable
+//! (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`) and `flux_cut_lm`, the flux
+//! that `max_bounces` cut.
+
+mod layout;
+
+use crate::{Figure, PointReport, Report, Run, SensorReport, Summary};
+use layout::Layout;
+use serde::{Serialize, Serializer};
+
+/// Name and version of the document's format.
+pub const FORMAT: &str = "quasilux-result/1";
+
+/// The result document, one line a sensor point, ending in a line feed.
+#[must_use]
+pub fn json(report: &Report) -> String {
+    let mut bytes = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Layout::default());
+    Document::of(report)
+        .serialize(&mut serializer)
+        .expect("memory takes every finite number");
+    bytes.push(b'\n');
+    String::from_utf8(bytes).expect("JSON is UTF-8")
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format: &'static str,
+    biased: bool,
+    sensors: Vec<SensorEntry<'a>>,
+    run: RunEntry<'a>,
+    warnings: &'a [String],
+}
+
+#[derive(Serialize)]
+struct SensorEntry<'a> {
+    name: &'a str,
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    counts: Option<[u32; 2]>,
+    points: Vec<PointEntry>,
+    summary: SummaryEntry,
+}
+
+#[derive(Serialize)]
+struct PointEntry {
+    position: [f64; 3],
+    normal: [f64; 3],
+    illuminance_lx: Option<f64>,
+    half_width_lx: Option<f64>,
+    direct_lx: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct SummaryEntry {
+    average_lx: FigureEntry,
+    minimum_lx: FigureEntry,
+    maximum_lx: FigureEntry,
+    uniformity: FigureEntry,
+}
+
+#[derive(Serialize)]
+struct FigureEntry {
+    value: Option<f64>,
+    half_width: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct RunEntry<'a> {
+    version: &'a str,
+    estimator: &'static str,
+    sequence: &'a str,
+    randomization: &'a str,
+    seed: u64,
+    replicates: u32,
+    samples: u64,
+    rays: u64,
+    #[serde(serialize_with = "finite_or_null")]
+    seconds: f64,
+    threads: usize,
+    confidence: f64,
+    #[serde(serialize_with = "finite_or_null")]
+    rel_tol: f64,
+    tolerance_reached: bool,
+    max_bounces: Option<u32>,
+    map_element_m: Option<f64>,
+    mean_dimension: MeanDimensionEntry,
+    #[serde(serialize_with = "finite_or_null")]
+    flux_emitted_lm: f64,
+    #[serde(serialize_with = "finite_or_null")]
+    flux_absorbed_lm: f64,
+    #[serde(serialize_with = "finite_or_null")]
+    flux_lost_lm: f64,
+    #[serde(serialize_with = "finite_or_null")]
+    flux_cut_lm: f64,
+    invalid_contributions: u64,
+}
+
+#[derive(Serialize)]
+struct MeanDimensionEntry {
+    photon: Option<f64>,
+    path: Option<f64>,
+}
+
+impl<'a> Document<'a> {
+    fn of(report: &'a Report) -> Self {
+        Self {
+            format: FORMAT,
+            biased: report.biased,
+            sensors: report.sensors.iter().map(SensorEntry::of).collect(),
+            run: RunEntry::of(&report.run),
+            warnings: &report.warnings,
+        }
+    }
+}
+
+impl<'a> SensorEntry<'a> {
+    fn of(sensor: &'a SensorReport) -> Self {
+        Self {
+            name: &sensor.name,
+            kind: if sensor.grid.is_some() {
+                "grid"
+            } else {
+                "points"
+            },
+            counts: sensor.grid.map(|grid| grid.counts),
+            points: sensor.points.iter().map(PointEntry::of).collect(),
+            summary: SummaryEntry::of(&sensor.summary),
+        }
+    }
+}
+
+impl PointEntry {
+    fn of(point: &PointReport) -> Self {
+        Self {
+            position: point.position_m.to_array(),
+            normal: point.normal.to_array(),
+            illuminance_lx: point.illuminance_lx.value,
+            half_width_lx: point.illuminance_lx.half_width,
+            direct_lx: point.direct_lx,
+        }
+    }
+}
+
+impl SummaryEntry {
+    fn of(summary: &Summary) -> Self {
+        let entry = |f: Figure| FigureEntry {
+            value: f.value,
+            half_width: f.half_width,
+        };
+        Self {
+            average_lx: entry(summary.average_lx),
+            minimum_lx: entry(summary.minimum_lx),
+            maximum_lx: entry(summary.maximum_lx),
+            uniformity: entry(summary.uniformity),
+        }
+    }
+}
+
+impl<'a> RunEntry<'a> {
+    fn of(run: &'a Run) -> Self {
+        Self {
+            version: &run.version,
+            estimator: run.settings.estimator.name(),
+            sequence: run.settings.sequence.name(),
+            randomization: run.settings.randomization.name(),
+            seed: run.settings.seed,
+            replicates: run.replicates,
+            samples: run.samples,
+            rays: run.rays,
+            seconds: run.seconds,
+            threads: run.threads,
+            confidence: run.confidence,
+            rel_tol: run.settings.rel_tol,
+            tolerance_reached: run.tolerance_reached,
+            max_bounces: run.settings.max_bounces,
+            map_element_m: run.settings.map_element_m,
+            mean_dimension: MeanDimensionEntry {
+                photon: run.mean_dimension.photon,
+                path: run.mean_dimension.path,
+            },
+            flux_emitted_lm: run.flux.emitted_lm,
+            flux_absorbed_lm: run.flux.absorbed_lm,
+            flux_lost_lm: run.flux.lost_lm,
+            flux_cut_lm: run.flux.cut_lm,
+            invalid_contributions: run.invalid_contributions,
+        }
+    }
+}
+
+fn finite_or_null<S: Serializer>(x: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    x.is_finite().then_some(*x).serialize(serializer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+    use serde_json::Value;
+
+    /// The keys of the first occurrence of each object, in the order in which they are written.
+    fn assert_order(text: &str, keys: &[&str]) {
+        let mut from = 0;
+        for key in keys {
+            let key = format!("\"{key}\":");
+            let at = text[from..]
+                .find(&key)
+                .unwrap_or_else(|| panic!("{key} after {from}"));
+            from += at + key.len();
+        }
+    }
+
+    #[test]
+    fn keys_and_their_order() {
+        let text = json(&example::office());
+        assert_order(&text, &["format", "biased", "sensors", "run", "warnings"]);
+        assert_order(&text, &["name", "kind", "counts", "points", "summary"]);
+        let point = [
+            "position",
+            "normal",
+            "illuminance_lx",
+            "half_width_lx",
+            "direct_lx",
+        ];
+        assert_order(&text, &point);
+        assert_order(
+            &text,
+            &["average_lx", "minimum_lx", "maximum_lx", "uniformity"],
+        );
+        let run = &text[text.find("\"run\"").expect("a run")..];
+        assert_order(
+            run,
+            &[
+                "version",
+                "estimator",
+                "sequence",
+                "replicates",
+                "samples",
+                "rays",
+            ],
+        );
+        assert_order(
+            run,
+            &[
+                "rays",
+                "seconds",
+                "threads",
+                "confidence",
+                "tolerance_reached",
+            ],
+        );
+        assert_order(
+            run,
+            &["tolerance_reached", "mean_dimension", "photon", "path"],
+        );
+        assert_order(
+            run,
+            &[
+                "path",
+                "flux_emitted_lm",
+                "flux_absorbed_lm",
+                "flux_lost_lm",
+            ],
+        );
+        assert_order(
+            run,
+            &["flux_lost_lm", "flux_cut_lm", "invalid_contributions"],
+        );
+    }
+
+    #[test]
+    fn every_number_reads_back_exactly() {
+        let report = example::office();
+        let document: Value = serde_json::from_str(&json(&report)).expect("valid JSON");
+        assert_eq!(document["format"], FORMAT);
+        let sensor = &document["sensors"][0];
+        assert_eq!(sensor["kind"], "grid");
+        for (entry, point) in sensor["points"]
+            .as_array()
+            .expect("points")
+            .iter()
+            .zip(&report.sensors[0].points)
+        {
+            assert_eq!(entry["illuminance_lx"].as_f64(), point.illuminance_lx.value);
+            assert_eq!(
+                entry["half_width_lx"].as_f64(),
+                point.illuminance_lx.half_width
+            );
+            assert_eq!(entry["position"][1].as_f64(), Some(point.position_m.y));
+        }
+        let average = &sensor["summary"]["average_lx"];
+        assert_eq!(
+            average["value"].as_f64(),
+            report.sensors[0].summary.average_lx.value
+        );
+        assert_eq!(document["run"]["replicates"], 16);
+        assert_eq!(document["run"]["mean_dimension"]["path"], Value::Null);
+        assert_eq!(document["run"]["max_bounces"], Value::Null);
+        assert_eq!(
+            document["warnings"],
+            serde_json::json!(["a \"quoted\" warning"])
+        );
+    }
+
+    #[test]
+    fn one_line_a_point() {
+        let report = example::office();
+        let text = json(&report);
+        let lines = text
+            .lines()
+            .filter(|l| l.trim_start().starts_with("{\"position\": ["))
+            .count();
+        assert_eq!(
+            lines,
+            report.sensors[0].points.len() + report.sensors[1].points.len()
+        );
+        assert!(text.ends_with("}\n"));
+    }
+
+    #[test]
+    fn nothing_infinite_is_written() {
+        let mut report = example::noiseless(&[f64::NAN, f64::INFINITY, 1.0]);
+        report.run.seconds = f64::NAN;
+        let document: Value = serde_json::from_str(&json(&report)).expect("valid JSON");
+        let sensor = &document["sensors"][0];
+        assert_eq!(sensor["points"][0]["illuminance_lx"], Value::Null);
+        assert_eq!(sensor["points"][1]["illuminance_lx"], Value::Null);
+        assert_eq!(sensor["points"][2]["illuminance_lx"], 1.0);
+        assert_eq!(sensor["summary"]["average_lx"]["value"], Value::Null);
+        assert_eq!(document["run"]["seconds"], Value::Null);
+        assert!(
+            document["warnings"][0]
+                .as_str()
+                .is_some_and(|w| w.contains("desk"))
+        );
+    }
+
+    #[test]
+    fn without_replicates_half_widths_are_null() {
+        let document: Value =
+            serde_json::from_str(&json(&example::without_intervals())).expect("valid JSON");
+        let sensor = &document["sensors"][0];
+        assert_eq!(sensor["kind"], "points");
+        assert_eq!(sensor["points"][0]["half_width_lx"], Value::Null);
+        assert_eq!(sensor["summary"]["average_lx"]["half_width"], Value::Null);
+        assert!(sensor.get("counts").is_none());
+    }
+}

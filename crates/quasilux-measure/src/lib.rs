@@ -1,0 +1,23 @@
+//! What is reported: figures with intervals, as a table, a document, a spreadsheet and a picture.
+//!
+//! A [`Report`] is built once from the scene, the settings and the estimates; the four forms only
+//! read it. Nothing here can fail, and nothing reads the clock or writes a file.
+//!
+//! Read on at [`report`] for the figures, [`json`] for the document that other programs rely on,
+//! [`csv`] and [`table`] for people with spreadsheets and terminals, and [`picture`] for the
+//! false-colour picture of a grid. [`number`] decides how many digits a figure deserves.
+
+#[cfg(test)]
+pub(crate) mod example;
+
+pub mod csv;
+pub mod json;
+pub mod number;
+pub mod picture;
+pub mod report;
+pub mod table;
+pub mod ticks;
+
+pub use picture::false_colour_png;
+pub use report::{Figure, PointReport, Report, Run, RunFacts, SensorReport, Summary};
+pub use table::Style;

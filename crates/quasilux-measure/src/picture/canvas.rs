@@ -1,0 +1,148 @@
+//! A small canvas: rectangles, and lines with smooth edges. Pixel (0, 0) is at the top left, and its
+//! centre is at (0.5, 0.5).
+
+use super::colour_map::{Colour, mix};
+use glam::DVec2;
+
+/// An sRGB picture being drawn.
+pub(crate) struct Canvas {
+    width: usize,
+    height: usize,
+    pixels: Vec<Colour>,
+}
+
+/// A straight line from one point to another, in pixels.
+pub(crate) type Segment = [DVec2; 2];
+
+impl Canvas {
+    /// A white canvas.
+    pub(crate) fn new(width: usize, height: usize) -> Self {
+        Self {
+            width,
+            height,
+            pixels: vec![[255; 3]; width * height],
+        }
+    }
+
+    /// Sets a pixel; outside the canvas nothing happens.
+    pub(crate) fn set(&mut self, x: usize, y: usize, colour: Colour) {
+        if x < self.width && y < self.height {
+            self.pixels[y * self.width + x] = colour;
+        }
+    }
+
+    /// Fills the pixels from `x` to `x + w` and from `y` to `y + h`, the ends excluded.
+    pub(crate) fn fill(&mut self, [x, y]: [usize; 2], [w, h]: [usize; 2], colour: Colour) {
+        for row in y..y + h {
+            for column in x..x + w {
+                self.set(column, row, colour);
+            }
+        }
+    }
+
+    /// Draws lines of a width with round ends. Where they cross each other nothing is drawn twice,
+    /// so their joints do not show.
+    pub(crate) fn stroke(&mut self, segments: &[Segment], width: f64, colour: Colour) {
+        let radius = 0.5 * width;
+        let reach = radius + 1.0;
+        let Some(([x0, y0], [w, h])) = self.box_around(segments, reach) else {
+            return;
+        };
+        let mut coverage = vec![0.0_f64; w * h];
+        for segment in segments {
+            let Some(([left, top], [columns, rows])) =
+                self.box_around(std::slice::from_ref(segment), reach)
+            else {
+                continue;
+            };
+            for y in top..top + rows {
+                for x in left..left + columns {
+                    let centre = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+                    let inside = radius + 0.5 - distance(centre, segment);
+                    let here = &mut coverage[(y - y0) * w + (x - x0)];
+                    *here = here.max(inside.min(width).clamp(0.0, 1.0));
+                }
+            }
+        }
+        for (i, &share) in coverage
+            .iter()
+            .enumerate()
+            .filter(|(_, share)| **share > 0.0)
+        {
+            let pixel = &mut self.pixels[(y0 + i / w) * self.width + x0 + i % w];
+            *pixel = mix(*pixel, colour, share);
+        }
+    }
+
+    /// The picture as a PNG file.
+    pub(crate) fn to_png(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+        let mut writer = encoder.write_header().expect("memory takes a header");
+        writer
+            .write_image_data(self.pixels.as_flattened())
+            .expect("memory takes a picture");
+        writer.finish().expect("memory takes an end");
+        bytes
+    }
+
+    /// The pixels within `reach` of the segments: corner and size, `None` where there are none.
+    fn box_around(&self, segments: &[Segment], reach: f64) -> Option<([usize; 2], [usize; 2])> {
+        let points = || segments.iter().flatten();
+        let low = points().copied().reduce(DVec2::min)? - reach;
+        let high = points().copied().reduce(DVec2::max)? + reach;
+        let size = [self.width, self.height];
+        let from = [low.x, low.y].map(|x| x.floor().max(0.0) as usize);
+        let to = [high.x, high.y].map(|x| x.ceil().max(0.0) as usize);
+        let to = [to[0].min(size[0]), to[1].min(size[1])];
+        (from[0] < to[0] && from[1] < to[1]).then(|| (from, [to[0] - from[0], to[1] - from[1]]))
+    }
+}
+
+/// Distance from a point to a segment.
+fn distance(p: DVec2, [a, b]: &Segment) -> f64 {
+    let along = *b - *a;
+    let squared = along.length_squared();
+    let t = if squared > 0.0 {
+        ((p - *a).dot(along) / squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    p.distance(*a + along * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_covers_its_area() {
+        let mut canvas = Canvas::new(40, 30);
+        canvas.stroke(
+            &[[DVec2::new(5.0, 7.3), DVec2::new(31.0, 19.6)]],
+            3.0,
+            [0; 3],
+        );
+        let ink: f64 = canvas
+            .pixels
+            .iter()
+            .map(|p| 1.0 - f64::from(p[0]) / 255.0)
+            .sum();
+        let length = DVec2::new(26.0, 12.3).length();
+        let expected = 3.0 * length + std::f64::consts::PI * 1.5 * 1.5;
+        assert!((ink / expected - 1.0).abs() < 0.02, "{ink} for {expected}");
+    }
+
+    #[test]
+    fn what_is_outside_is_not_drawn() {
+        let mut canvas = Canvas::new(4, 4);
+        let far = DVec2::splat(1e9);
+        canvas.stroke(&[[far, far * 2.0], [-far, -far]], 2.0, [0; 3]);
+        canvas.stroke(&[], 2.0, [0; 3]);
+        canvas.fill([3, 3], [9, 9], [1; 3]);
+        assert_eq!(canvas.pixels.iter().filter(|p| **p != [255; 3]).count(), 1);
+    }
+}

@@ -1,0 +1,153 @@
+//! Where a contour line carries its number: along its straightest stretch, in a gap of the line.
+
+use super::canvas::Segment;
+use super::contour::Line;
+use glam::DVec2;
+
+/// Lines shorter than this many labels carry none.
+const LEAST_LABELS: f64 = 2.5;
+/// Distance between the places that are tried, in pixels.
+const STRIDE_PX: f64 = 4.0;
+
+/// A free place on a line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LabelPlace {
+    /// Centre of the label in pixels.
+    pub(crate) centre: DVec2,
+    /// Reading direction, never from right to left.
+    pub(crate) direction: DVec2,
+    /// Half its length, and thus the radius that it keeps free.
+    pub(crate) radius_px: f64,
+    /// The gap in the line, as lengths from its beginning.
+    gap_px: [f64; 2],
+}
+
+/// The straightest place for a label of a length on a line: within `size`, and clear of `taken`.
+pub(crate) fn place(
+    line: &Line,
+    length_px: f64,
+    size: DVec2,
+    taken: &[LabelPlace],
+) -> Option<LabelPlace> {
+    let lengths = lengths_along(line);
+    let total = *lengths.last()?;
+    if total < LEAST_LABELS * length_px {
+        return None;
+    }
+    let radius_px = 0.5 * length_px;
+    let steps = ((total - length_px) / STRIDE_PX) as usize;
+    let candidates = (0..=steps).filter_map(|k| {
+        let from = k as f64 * STRIDE_PX;
+        let ends = [from, from + length_px].map(|s| point_at(line, &lengths, s));
+        let along = ends[1] - ends[0];
+        let centre = (ends[0] + ends[1]) / 2.0;
+        let inside =
+            centre.cmpgt(DVec2::splat(radius_px)).all() && centre.cmplt(size - radius_px).all();
+        let free = taken
+            .iter()
+            .all(|t| t.centre.distance(centre) > t.radius_px + radius_px);
+        (inside && free && along.length() > 0.9 * length_px).then(|| {
+            let leftward = along.x < 0.0 || (along.x == 0.0 && along.y > 0.0);
+            let direction = along.normalize() * if leftward { -1.0 } else { 1.0 };
+            let place = LabelPlace {
+                centre,
+                direction,
+                radius_px,
+                gap_px: [from, from + length_px],
+            };
+            (place, along.length())
+        })
+    });
+    candidates
+        .reduce(|best, next| if next.1 > best.1 + 1e-6 { next } else { best })
+        .map(|(place, _)| place)
+}
+
+/// The straight pieces of a line, without the gap of its label.
+pub(crate) fn pieces(line: &Line, label: Option<LabelPlace>) -> Vec<Segment> {
+    let Some(LabelPlace {
+        gap_px: [from, to], ..
+    }) = label
+    else {
+        return line.windows(2).map(|w| [w[0], w[1]]).collect();
+    };
+    let lengths = lengths_along(line);
+    let total = lengths.last().copied().unwrap_or(0.0);
+    let mut kept = Vec::new();
+    for [low, high] in [[0.0, from], [to, total]] {
+        for (w, s) in line.windows(2).zip(lengths.windows(2)) {
+            let (a, b) = (s[0].max(low), s[1].min(high));
+            if a < b {
+                let at = |x: f64| w[0].lerp(w[1], (x - s[0]) / (s[1] - s[0]));
+                kept.push([at(a), at(b)]);
+            }
+        }
+    }
+    kept
+}
+
+/// Length of the line up to each of its points.
+fn lengths_along(line: &Line) -> Vec<f64> {
+    let mut total = 0.0;
+    let steps = line.windows(2).map(|w| {
+        total += w[0].distance(w[1]);
+        total
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
+fn point_at(line: &Line, lengths: &[f64], s: f64) -> DVec2 {
+    let i = lengths.partition_point(|l| *l < s).clamp(1, line.len() - 1);
+    let piece = lengths[i] - lengths[i - 1];
+    let t = if piece > 0.0 {
+        ((s - lengths[i - 1]) / piece).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    line[i - 1].lerp(line[i], t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polyline(points: &[[f64; 2]]) -> Line {
+        points.iter().map(|p| DVec2::from_array(*p)).collect()
+    }
+
+    #[test]
+    fn the_straight_stretch_wins_and_the_gap_is_as_long_as_the_label() {
+        let zigzag = [
+            [10.0, 50.0],
+            [20.0, 60.0],
+            [30.0, 50.0],
+            [40.0, 60.0],
+            [160.0, 60.0],
+        ];
+        let line = polyline(&zigzag);
+        let place = place(&line, 30.0, DVec2::splat(200.0), &[]).expect("room for a label");
+        assert!(place.centre.x >= 55.0 && place.centre.y == 60.0);
+        assert!(place.direction.distance(DVec2::X) < 1e-12);
+        let total: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
+        let drawn: f64 = pieces(&line, Some(place))
+            .iter()
+            .map(|[a, b]| a.distance(*b))
+            .sum();
+        assert!((total - drawn - 30.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn labels_keep_clear_of_each_other_and_of_the_border() {
+        let line = polyline(&[[0.0, 50.0], [100.0, 50.0]]);
+        let size = DVec2::splat(100.0);
+        let mut taken = Vec::new();
+        while let Some(next) = place(&line, 20.0, size, &taken) {
+            assert!((10.0..=90.0).contains(&next.centre.x));
+            taken.push(next);
+        }
+        assert!((3..=4).contains(&taken.len()));
+        let border = polyline(&[[0.0, 2.0], [100.0, 2.0]]);
+        assert!(place(&border, 20.0, size, &[]).is_none());
+        assert!(place(&polyline(&[[40.0, 50.0], [60.0, 50.0]]), 20.0, size, &[]).is_none());
+    }
+}

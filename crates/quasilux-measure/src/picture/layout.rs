@@ -1,0 +1,124 @@
+//! Where everything lies in a picture. All lengths in pixels.
+
+use super::text::width_px;
+
+/// Height of the title's capitals.
+pub(crate) const TITLE_PX: f64 = 20.0;
+/// Height of the capitals of the figures under it.
+pub(crate) const SUMMARY_PX: f64 = 11.0;
+/// Height of the capitals of numbers on axes and legend.
+pub(crate) const SMALL_PX: f64 = 9.0;
+
+/// Longer side of the grid.
+const PLOT_LONG: f64 = 900.0;
+/// The shorter side is at least this, also where true proportion would make it invisible.
+const PLOT_SHORT_LEAST: f64 = 24.0;
+/// Everything is at least this wide, so that the figures fit.
+const CONTENT_LEAST: usize = 520;
+const LEFT: usize = 72;
+const RIGHT: usize = 56;
+const TOP: usize = 30;
+const SUMMARY_GAP: &str = "     ";
+const SUMMARY_LINE: usize = 22;
+const BELOW_PLOT: usize = 62;
+const LEGEND_HEIGHT: usize = 20;
+const BELOW_LEGEND: usize = 36;
+const FOOTER_LINE: usize = 18;
+const BOTTOM: usize = 14;
+
+/// Corners are top left; a size is width and height.
+pub(crate) struct Layout {
+    pub(crate) size: [usize; 2],
+    pub(crate) plot_corner: [usize; 2],
+    pub(crate) plot_size: [usize; 2],
+    pub(crate) legend_corner: [usize; 2],
+    pub(crate) legend_size: [usize; 2],
+    pub(crate) summary_lines: Vec<String>,
+    content_width: usize,
+}
+
+impl Layout {
+    /// The layout for a rectangle with these edges; `summary` is broken into lines between its
+    /// pieces.
+    pub(crate) fn of(u_m: f64, v_m: f64, summary: &[String]) -> Self {
+        let px_per_m = PLOT_LONG / u_m.max(v_m);
+        let plot_size =
+            [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
+        let content_width = plot_size[0].max(CONTENT_LEAST);
+        let summary_lines = wrapped(summary, content_width as f64);
+        let plot_top = TOP + TITLE_PX as usize + 18 + SUMMARY_LINE * summary_lines.len() + 10;
+        let plot_corner = [LEFT + (content_width - plot_size[0]) / 2, plot_top];
+        let legend_top = plot_top + plot_size[1] + BELOW_PLOT;
+        Self {
+            size: [
+                LEFT + content_width + RIGHT,
+                legend_top + LEGEND_HEIGHT + BELOW_LEGEND + 2 * FOOTER_LINE + BOTTOM,
+            ],
+            plot_corner,
+            plot_size,
+            legend_corner: [LEFT, legend_top],
+            legend_size: [content_width, LEGEND_HEIGHT],
+            summary_lines,
+            content_width,
+        }
+    }
+
+    pub(crate) fn content_left(&self) -> f64 {
+        LEFT as f64
+    }
+
+    pub(crate) fn content_width(&self) -> f64 {
+        self.content_width as f64
+    }
+
+    /// Base line of the title. All base lines lie on pixel centres, so that horizontal strokes are
+    /// sharp.
+    pub(crate) fn title_base(&self) -> f64 {
+        TOP as f64 + TITLE_PX + 0.5
+    }
+
+    pub(crate) fn summary_base(&self, line: usize) -> f64 {
+        self.title_base() + 18.0 + SUMMARY_PX + (SUMMARY_LINE * line) as f64
+    }
+
+    pub(crate) fn footer_base(&self, line: usize) -> f64 {
+        let legend_bottom = self.legend_corner[1] + self.legend_size[1];
+        (legend_bottom + BELOW_LEGEND + FOOTER_LINE * (line + 1)) as f64 - 2.5
+    }
+}
+
+/// Joins pieces of text into lines of at most a width.
+fn wrapped(pieces: &[String], most_px: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for piece in pieces {
+        if let Some(last) = lines.last_mut() {
+            let longer = format!("{last}{SUMMARY_GAP}{piece}");
+            if width_px(&longer, SUMMARY_PX) <= most_px {
+                *last = longer;
+                continue;
+            }
+        }
+        lines.push(piece.clone());
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn true_proportion() {
+        assert_eq!(Layout::of(6.0, 5.0, &[]).plot_size, [900, 750]);
+        assert_eq!(Layout::of(0.05, 0.06, &[]).plot_size, [750, 900]);
+        assert_eq!(Layout::of(50.0, 2.0, &[]).plot_size, [900, 36]);
+    }
+
+    #[test]
+    fn summary_wraps_between_its_pieces() {
+        let pieces = ["average 500 lx", "minimum 200 lx"].map(str::to_owned);
+        assert_eq!(Layout::of(1.0, 1.0, &pieces).summary_lines.len(), 1);
+        let many = [pieces.clone(), pieces.clone(), pieces.clone(), pieces].concat();
+        assert_eq!(Layout::of(1.0, 50.0, &many).summary_lines.len(), 3);
+    }
+}

@@ -1,0 +1,316 @@
+//! The result of a run, built once; all forms of output are read from it.
+//!
+//! A number that leaves the program carries its interval, the replicates behind it and the settings
+//! that made it. Nothing in a [`Report`] is infinite or not a number: such a figure is `None`, and a
+//! warning says so.
+
+use glam::DVec3;
+use quasilux_scene::{Grid, Scene, SensorShape};
+use quasilux_transport::{Estimates, FluxBalance, Interval, MeanDimension, Settings};
+
+/// What the program that ran the simulation knows and the simulation does not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunFacts {
+    /// Version of the program.
+    pub version: String,
+    /// Duration of the run in s.
+    pub seconds: f64,
+    /// Threads that worked on it.
+    pub threads: usize,
+    /// Warnings of the loaders.
+    pub warnings: Vec<String>,
+}
+
+/// A run and its results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// One entry a sensor, in the order of the scene.
+    pub sensors: Vec<SensorReport>,
+    /// How the results were made.
+    pub run: Run,
+    /// Whether values may be biased beyond what their intervals say; a warning says why.
+    pub biased: bool,
+    /// What a reader of the results must know: from loading, from the simulation, from reporting.
+    pub warnings: Vec<String>,
+}
+
+/// The results of one sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorReport {
+    /// The sensor's name.
+    pub name: String,
+    /// The rectangle and its cells, where the sensor is a grid.
+    pub grid: Option<Grid>,
+    /// The points, u fastest in a grid.
+    pub points: Vec<PointReport>,
+    /// Figures of all points together.
+    pub summary: Summary,
+}
+
+/// The results at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointReport {
+    /// World position in m.
+    pub position_m: DVec3,
+    /// Unit normal.
+    pub normal: DVec3,
+    /// Illuminance in lx.
+    pub illuminance_lx: Figure,
+    /// The part of it that comes straight from the lights, in lx.
+    pub direct_lx: Option<f64>,
+}
+
+/// A finite value and half the width of its confidence interval, as far as they are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Figure {
+    /// The estimate; `None` where it is undefined.
+    pub value: Option<f64>,
+    /// Half the width of the interval; `None` without replicates.
+    pub half_width: Option<f64>,
+}
+
+/// Figures of all points of a sensor, their intervals from the replicates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Mean of the points in lx; the cells of a grid are equal in area.
+    pub average_lx: Figure,
+    /// Smallest value in lx.
+    pub minimum_lx: Figure,
+    /// Largest value in lx.
+    pub maximum_lx: Figure,
+    /// Minimum over average.
+    pub uniformity: Figure,
+}
+
+/// How the results were made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Version of the program.
+    pub version: String,
+    /// What was asked for.
+    pub settings: Settings,
+    /// Independent replicates behind each interval; 1 where nothing is randomised.
+    pub replicates: u32,
+    /// Indices used by each replicate: photons, and paths for each sensor point.
+    pub samples: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Duration of the run in s.
+    pub seconds: f64,
+    /// Threads that worked on it.
+    pub threads: usize,
+    /// Confidence level of all intervals.
+    pub confidence: f64,
+    /// Whether every sensor point reached the wanted tolerance.
+    pub tolerance_reached: bool,
+    /// Mean number of coordinates that one photon and one path used.
+    pub mean_dimension: MeanDimension,
+    /// Where the photons' flux went.
+    pub flux: FluxBalance,
+    /// Contributions that were not finite, negative or out of range; they are not in the results.
+    pub invalid_contributions: u64,
+}
+
+impl Report {
+    /// Gathers the results of a simulation.
+    ///
+    /// # Panics
+    /// If `estimates` do not belong to `scene`.
+    #[must_use]
+    pub fn new(scene: &Scene, settings: &Settings, estimates: &Estimates, facts: RunFacts) -> Self {
+        assert_eq!(
+            scene.sensors.len(),
+            estimates.sensors.len(),
+            "estimates of another scene"
+        );
+        let sensors: Vec<SensorReport> = (0..scene.sensors.len())
+            .map(|s| SensorReport::new(scene, estimates, s))
+            .collect();
+        let mut warnings = facts.warnings;
+        warnings.extend_from_slice(&estimates.warnings);
+        if estimates.biased && !warnings.iter().any(|w| w.contains("bias")) {
+            warnings.push(format!(
+                "values of the estimator \"{}\" may be biased beyond what their intervals say",
+                settings.estimator.name()
+            ));
+        }
+        warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
+        Self {
+            sensors,
+            run: Run {
+                version: facts.version,
+                settings: settings.clone(),
+                replicates: settings.effective_replicates(),
+                samples: estimates.samples,
+                rays: estimates.rays,
+                seconds: facts.seconds,
+                threads: facts.threads,
+                confidence: estimates.confidence,
+                tolerance_reached: estimates.tolerance_reached,
+                mean_dimension: estimates.mean_dimension,
+                flux: estimates.flux,
+                invalid_contributions: estimates.invalid_contributions,
+            },
+            biased: estimates.biased,
+            warnings,
+        }
+    }
+}
+
+impl SensorReport {
+    fn new(scene: &Scene, estimates: &Estimates, index: usize) -> Self {
+        let sensor = &scene.sensors[index];
+        let intervals = estimates.point_intervals(index);
+        let direct_lx = &estimates.sensors[index].direct_lx;
+        let points = sensor
+            .points()
+            .into_iter()
+            .enumerate()
+            .map(|(i, point)| PointReport {
+                position_m: point.position,
+                normal: point.normal,
+                illuminance_lx: intervals.get(i).map(|&x| x.into()).unwrap_or_default(),
+                direct_lx: direct_lx.get(i).and_then(|&x| finite(x)),
+            })
+            .collect();
+        let figure = |statistic: fn(&[f64]) -> f64| estimates.interval_of(index, statistic).into();
+        Self {
+            name: sensor.name.clone(),
+            grid: match &sensor.shape {
+                SensorShape::Grid(grid) => Some(*grid),
+                SensorShape::Points(_) => None,
+            },
+            points,
+            summary: Summary {
+                average_lx: figure(average),
+                minimum_lx: figure(minimum),
+                maximum_lx: figure(maximum),
+                uniformity: figure(|values| minimum(values) / average(values)),
+            },
+        }
+    }
+
+    /// A warning that names the figures without a value, if there are any.
+    fn missing_figures(&self) -> Option<String> {
+        let summary = [
+            ("average", self.summary.average_lx),
+            ("minimum", self.summary.minimum_lx),
+            ("maximum", self.summary.maximum_lx),
+            ("uniformity", self.summary.uniformity),
+        ];
+        let mut missing: Vec<String> = summary
+            .iter()
+            .filter(|(_, figure)| figure.value.is_none())
+            .map(|(name, _)| (*name).to_owned())
+            .collect();
+        let points = self
+            .points
+            .iter()
+            .filter(|p| p.illuminance_lx.value.is_none() || p.direct_lx.is_none())
+            .count();
+        if points > 0 {
+            missing.push(format!("{points} of {} points", self.points.len()));
+        }
+        if missing.is_empty() {
+            return None;
+        }
+        Some(format!(
+            "sensor \"{}\": no finite value for {}",
+            self.name,
+            missing.join(", ")
+        ))
+    }
+}
+
+impl From<Interval> for Figure {
+    /// Keeps what is finite.
+    fn from(interval: Interval) -> Self {
+        let value = finite(interval.value);
+        Self {
+            value,
+            half_width: value.and(interval.half_width).and_then(finite),
+        }
+    }
+}
+
+fn finite(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
+}
+
+fn average(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The smallest value; not a number if any of them is not.
+fn minimum(values: &[f64]) -> f64 {
+    extreme(values, f64::min)
+}
+
+/// The largest value; not a number if any of them is not.
+fn maximum(values: &[f64]) -> f64 {
+    extreme(values, f64::max)
+}
+
+/// Folds with `pick`, which by itself would drop what is not a number in silence.
+fn extreme(values: &[f64], pick: fn(f64, f64) -> f64) -> f64 {
+    if values.iter().any(|x| x.is_nan()) {
+        return f64::NAN;
+    }
+    values.iter().copied().reduce(pick).unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn summary_of_noiseless_replicates_is_exact() {
+        let report = example::noiseless(&[100.0, 400.0, 150.0, 150.0]);
+        let summary = report.sensors[0].summary;
+        let exactly = |value| Figure {
+            value: Some(value),
+            half_width: Some(0.0),
+        };
+        assert_eq!(summary.average_lx, exactly(200.0));
+        assert_eq!(summary.minimum_lx, exactly(100.0));
+        assert_eq!(summary.maximum_lx, exactly(400.0));
+        assert_eq!(summary.uniformity, exactly(0.5));
+        assert!(report.warnings.is_empty());
+    }
+
+    #[test]
+    fn undefined_figures_are_none_and_named() {
+        let dark = example::noiseless(&[0.0, 0.0]);
+        assert_eq!(dark.sensors[0].summary.uniformity, Figure::default());
+        assert_eq!(
+            dark.warnings,
+            ["sensor \"desk\": no finite value for uniformity"]
+        );
+        let broken = example::noiseless(&[f64::NAN, 1.0]);
+        assert_eq!(
+            broken.sensors[0].points[0].illuminance_lx,
+            Figure::default()
+        );
+        assert_eq!(
+            broken.warnings,
+            [
+                "sensor \"desk\": no finite value for average, minimum, maximum, uniformity, 1 of 2 points"
+            ]
+        );
+    }
+
+    #[test]
+    fn bias_is_never_without_a_warning() {
+        let report = example::biased();
+        assert!(report.biased);
+        assert_eq!(
+            report
+                .warnings
+                .iter()
+                .filter(|w| w.contains("bias"))
+                .count(),
+            1
+        );
+    }
+}

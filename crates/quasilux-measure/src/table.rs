@@ -1,0 +1,278 @@
+//! The table on the terminal: one line a sensor, each figure with its interval.
+
+use crate::number::{FigureText, brief, count, figure_text};
+use crate::{Figure, Report, SensorReport};
+use std::fmt::Write;
+
+/// Whether the table may use colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Style {
+    /// Text alone, for files and terminals without colours.
+    #[default]
+    Plain,
+    /// ANSI escape sequences for emphasis (ECMA-48, clause 8.3.117).
+    Colour,
+}
+
+#[derive(Clone, Copy)]
+enum Emphasis {
+    Strong,
+    Faint,
+    Good,
+    Caution,
+}
+
+/// Columns between two figures.
+const GAP: &str = "   ";
+
+/// Average, minimum, maximum and uniformity of each sensor, how they were made, and the warnings.
+#[must_use]
+pub fn table(report: &Report, style: Style) -> String {
+    let mut columns = [
+        Column::left("sensor", report, |s| printable(&s.name)),
+        Column::left("points", report, points),
+        Column::figures("average", " lx", report, |s| s.summary.average_lx),
+        Column::figures("minimum", " lx", report, |s| s.summary.minimum_lx),
+        Column::figures("maximum", " lx", report, |s| s.summary.maximum_lx),
+        Column::figures("uniformity", "", report, |s| s.summary.uniformity),
+    ];
+    columns.iter_mut().for_each(Column::align);
+    let lines = (0..=report.sensors.len()).map(|row| {
+        let cells: Vec<&str> = columns.iter().map(|c| c.cells[row].as_str()).collect();
+        cells.join(GAP).trim_end().to_owned()
+    });
+    let mut text = String::new();
+    for (row, line) in lines.enumerate() {
+        text += &if row == 0 {
+            style.paint(Emphasis::Strong, &line)
+        } else {
+            line
+        };
+        text.push('\n');
+    }
+    let faint = style.paint(Emphasis::Faint, &format!("{}; ", run_facts(report)));
+    let (emphasis, verdict) = verdict(report);
+    writeln!(text, "\n{faint}{}", style.paint(emphasis, &verdict)).expect("strings grow");
+    for warning in &report.warnings {
+        let mark = style.paint(Emphasis::Caution, "warning:");
+        writeln!(text, "{mark} {}", printable(warning)).expect("strings grow");
+    }
+    text
+}
+
+impl Style {
+    fn paint(self, emphasis: Emphasis, text: &str) -> String {
+        let code = match emphasis {
+            Emphasis::Strong => "1",
+            Emphasis::Faint => "2",
+            Emphasis::Good => "32",
+            Emphasis::Caution => "33",
+        };
+        match self {
+            Self::Plain => text.to_owned(),
+            Self::Colour => format!("\x1b[{code}m{text}\x1b[0m"),
+        }
+    }
+}
+
+/// The cells of one column, its header first.
+struct Column {
+    cells: Vec<String>,
+}
+
+impl Column {
+    fn left(header: &str, report: &Report, cell: impl Fn(&SensorReport) -> String) -> Self {
+        let cells = std::iter::once(header.to_owned()).chain(report.sensors.iter().map(cell));
+        Self {
+            cells: cells.collect(),
+        }
+    }
+
+    /// A column of figures, their plus-minus signs one below the other.
+    fn figures(
+        header: &str,
+        unit: &str,
+        report: &Report,
+        figure: impl Fn(&SensorReport) -> Figure,
+    ) -> Self {
+        let texts: Vec<FigureText> = report
+            .sensors
+            .iter()
+            .map(|s| figure_text(figure(s)))
+            .collect();
+        let value_width = texts.iter().map(|t| width(&t.value)).max().unwrap_or(0);
+        let half_width_width = texts
+            .iter()
+            .flat_map(|t| &t.half_width)
+            .map(|h| width(h))
+            .max()
+            .unwrap_or(0);
+        let cells = texts.iter().map(|t| {
+            let half_width = t.half_width.as_ref().map_or_else(
+                || {
+                    " ".repeat(if half_width_width > 0 {
+                        3 + half_width_width
+                    } else {
+                        0
+                    })
+                },
+                |h| format!(" ± {h:<half_width_width$}"),
+            );
+            format!("{:>value_width$}{half_width}{unit}", t.value)
+        });
+        Self {
+            cells: std::iter::once(header.to_owned()).chain(cells).collect(),
+        }
+    }
+
+    /// Pads all cells on the right to the width of the widest.
+    fn align(&mut self) {
+        let widest = self.cells.iter().map(|c| width(c)).max().unwrap_or(0);
+        for cell in &mut self.cells {
+            let padding = widest - width(cell);
+            cell.extend(std::iter::repeat_n(' ', padding));
+        }
+    }
+}
+
+fn points(sensor: &SensorReport) -> String {
+    match &sensor.grid {
+        Some(grid) => format!("{} x {}", grid.counts[0], grid.counts[1]),
+        None => sensor.points.len().to_string(),
+    }
+}
+
+fn run_facts(report: &Report) -> String {
+    let run = &report.run;
+    let plural = |n: u64, one: &str| format!("{} {one}{}", count(n), if n == 1 { "" } else { "s" });
+    let replicates = u64::from(run.replicates);
+    format!(
+        "{} % confidence, {} of {}, {}, {} s on {}",
+        brief(100.0 * run.confidence, 4),
+        plural(replicates, "replicate"),
+        plural(run.samples, "sample"),
+        plural(run.rays, "ray"),
+        brief(run.seconds, 3),
+        plural(run.threads as u64, "thread"),
+    )
+}
+
+fn verdict(report: &Report) -> (Emphasis, String) {
+    let wanted = report.run.settings.rel_tol;
+    let percent = brief(100.0 * wanted, 4);
+    if wanted <= 0.0 {
+        (Emphasis::Faint, "no tolerance was asked for".into())
+    } else if report.run.tolerance_reached {
+        (
+            Emphasis::Good,
+            format!("tolerance of {percent} % reached at every point"),
+        )
+    } else {
+        (
+            Emphasis::Caution,
+            format!("tolerance of {percent} % not reached"),
+        )
+    }
+}
+
+/// Text without control characters: names come from files, and the terminal obeys what it is sent.
+fn printable(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect()
+}
+
+/// Columns that a text takes on a terminal: combining marks none, East Asian wide characters two
+/// (Unicode Standard Annex 11, by blocks).
+fn width(text: &str) -> usize {
+    text.chars()
+        .map(|c| match u32::from(c) {
+            0x0300..=0x036f | 0x200b..=0x200f | 0xfe00..=0xfe0f => 0,
+            0x1100..=0x115f
+            | 0x2e80..=0xa4cf
+            | 0xac00..=0xd7a3
+            | 0xf900..=0xfaff
+            | 0xfe30..=0xfe6f
+            | 0xff00..=0xff60
+            | 0xffe0..=0xffe6
+            | 0x1f300..=0x1faff
+            | 0x20000..=0x3fffd => 2,
+            _ => 1,
+        })
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    /// Terminal columns at which `needle` begins in a line.
+    fn positions(line: &str, needle: &str) -> Vec<usize> {
+        line.match_indices(needle)
+            .map(|(at, _)| width(&line[..at]))
+            .collect()
+    }
+
+    #[test]
+    fn columns_align_for_any_name() {
+        let mut report = example::office();
+        for name in [
+            "x",
+            "a very long name of a sensor that goes on",
+            "работа",
+            "机の上",
+            "u\u{308}",
+        ] {
+            report.sensors[1].name = name.into();
+            let text = table(&report, Style::Plain);
+            let lines: Vec<&str> = text.lines().collect();
+            let first = positions(lines[1], "±");
+            assert_eq!(first.len(), 4, "{text}");
+            assert_eq!(first, positions(lines[2], "±"), "{text}");
+            assert_eq!(
+                positions(lines[1], "lx"),
+                positions(lines[2], "lx"),
+                "{text}"
+            );
+            assert!(lines.iter().all(|l| l.trim_end() == *l));
+        }
+    }
+
+    #[test]
+    fn colours_add_escape_sequences_and_nothing_else() {
+        let report = example::office();
+        let mut coloured = table(&report, Style::Colour);
+        assert!(coloured.contains('\x1b'));
+        for code in ["0", "1", "2", "32", "33"] {
+            coloured = coloured.replace(&format!("\x1b[{code}m"), "");
+        }
+        assert_eq!(coloured, table(&report, Style::Plain));
+    }
+
+    #[test]
+    fn names_cannot_steer_the_terminal() {
+        let mut report = example::noiseless(&[1.0]);
+        report.sensors[0].name = "\x1b[2J\n".into();
+        assert!(!table(&report, Style::Plain).contains('\x1b'));
+    }
+
+    #[test]
+    fn says_how_the_figures_were_made() {
+        let mut report = example::office();
+        let last = "95 % confidence, 16 replicates of 65 536 samples, 187 654 321 rays, \
+                    9.81 s on 2 threads; tolerance of 1 % reached at every point";
+        assert!(table(&report, Style::Plain).contains(last));
+        assert!(table(&report, Style::Plain).ends_with("warning: a \"quoted\" warning\n"));
+        report.run.tolerance_reached = false;
+        assert!(table(&report, Style::Plain).contains("1 % not reached"));
+        report.run.settings.rel_tol = 0.0;
+        assert!(table(&report, Style::Plain).contains("no tolerance was asked for"));
+    }
+
+    #[test]
+    fn a_sensor_without_intervals_has_values_alone() {
+        let text = table(&example::without_intervals(), Style::Plain);
+        assert!(text.contains("100.0 lx") && !text.contains('±'), "{text}");
+    }
+}

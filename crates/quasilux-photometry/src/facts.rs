@@ -1,0 +1,100 @@
+//! What a photometric file says about its luminaire beside the intensities.
+
+/// The edition of ANSI/IES LM-63 that a file claims to follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum IesStandard {
+    /// LM-63-1986: no identifying line; free label lines before `TILT=`.
+    Lm63Of1986,
+    /// LM-63-1991: first line `IESNA91`.
+    Lm63Of1991,
+    /// LM-63-1995: first line `IESNA:LM-63-1995`.
+    Lm63Of1995,
+    /// LM-63-2002: first line `IESNA:LM-63-2002`.
+    Lm63Of2002,
+    /// LM-63-2019: first line `IES:LM-63-2019`.
+    Lm63Of2019,
+}
+
+/// One `[NAME] value` line of a header, with its `[MORE]` lines joined by line feeds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keyword {
+    /// The name between the brackets, in capitals; empty for a label line without a keyword.
+    pub name: String,
+    /// The text behind the brackets, trimmed.
+    pub value: String,
+    /// The line of the file, counted from 1.
+    pub line: usize,
+}
+
+/// The luminous opening as the file gives it, in metres. The *signs* carry the shape
+/// (a negative width is a diameter, and so on): they are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LuminousOpening {
+    /// Across the C90-C270 plane, along the local y axis.
+    pub width_m: f64,
+    /// Along the C0-C180 plane, along the local x axis.
+    pub length_m: f64,
+    /// Along the local z axis.
+    pub height_m: f64,
+}
+
+/// What the file says about the lamp's output in tilted luminaires.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tilt {
+    /// `TILT=NONE`: the output does not depend on the tilt.
+    None,
+    /// `TILT=INCLUDE`: factors by tilt angle, in the file itself.
+    Include {
+        /// Lamp-to-luminaire geometry, 1 to 3.
+        lamp_geometry: u8,
+        /// Tilt angles in radians.
+        angles_rad: Vec<f64>,
+        /// Output relative to the untilted lamp, one for each angle.
+        factors: Vec<f64>,
+    },
+    /// `TILT=NAME`: factors in another file, which is not read.
+    File(String),
+}
+
+/// The facts of a file's header that the intensities do not show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LuminaireFacts {
+    /// The edition that the file claims.
+    pub standard: IesStandard,
+    /// Keywords and labels in the order of the file.
+    pub keywords: Vec<Keyword>,
+    /// The tilt block.
+    pub tilt: Tilt,
+    /// Number of lamps.
+    pub lamp_count: f64,
+    /// Luminous flux of one lamp; `None` for absolute photometry.
+    pub lumens_per_lamp: Option<f64>,
+    /// The ballast factor.
+    pub ballast_factor: f64,
+    /// The field behind the ballast factor, as written: ballast-lamp photometric factor (1986,
+    /// 1991), reserved (1995, 2002), or file generation type (2019).
+    pub ballast_lamp_field: f64,
+    /// Electrical input power in watts, as written.
+    pub input_watts: f64,
+    /// Product of all factors that the file's candela values were multiplied by.
+    pub candela_factor: f64,
+    /// The luminous opening.
+    pub opening: LuminousOpening,
+}
+
+impl LuminaireFacts {
+    /// Lamp lumens times number of lamps; `None` for absolute photometry, and where either is not
+    /// positive.
+    pub fn rated_flux_lm(&self) -> Option<f64> {
+        let rated_flux_lm = self.lumens_per_lamp? * self.lamp_count;
+        (rated_flux_lm > 0.0 && rated_flux_lm.is_finite()).then_some(rated_flux_lm)
+    }
+
+    /// The value of the first keyword of that name (in capitals, without brackets).
+    pub fn keyword(&self, name: &str) -> Option<&str> {
+        self.keywords
+            .iter()
+            .find(|keyword| keyword.name == name)
+            .map(|k| k.value.as_str())
+    }
+}

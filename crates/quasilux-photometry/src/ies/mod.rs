@@ -1,0 +1,331 @@
+//! Reader of ANSI/IES LM-63 files (1986, 1991, 1995, 2002, 2019), photometric type C.
+//!
+//! A file is a header up to the line `TILT=`, then numbers in records, and nothing else:
+//!
+//! | record | values |
+//! |---|---|
+//! | with `TILT=INCLUDE` | lamp geometry; number of pairs; tilt angles; factors |
+//! | 1a | lamps, lumens per lamp (-1: absolute), candela multiplier, |
+//! | 1b | numbers of vertical and of horizontal angles, photometric type, |
+//! | 1c | units (1 feet, 2 metres), width, length, height |
+//! | 2 | ballast factor, ballast-lamp photometric factor, input watts |
+//! | 3, 4 | vertical angles, horizontal angles, in degrees |
+//! | 5 ... | candela values of all vertical angles, for each horizontal angle |
+//!
+//! Intensity = candela x multiplier x ballast factor x ballast-lamp factor. The last was a factor
+//! in LM-63-1986 and 1991, is reserved (1) in 1995 and 2002, and became the file generation type in
+//! 2019, which is never multiplied by. Lamp lumens scale nothing: they serve the flux check.
+//!
+//! What is tolerated beyond the standard is listed, rule by rule, in [`Deviation`].
+
+mod candela;
+mod header;
+mod numbers;
+mod planes;
+mod text;
+
+use crate::report::{Position, Warnings, quoted};
+use crate::{
+    Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, Photometry, Read, ReadError,
+    SphericalTable, Tilt,
+};
+use candela::Planes;
+use header::{Header, TiltLine, read_header};
+use numbers::{Number, Numbers};
+use std::f64::consts::PI;
+
+/// Metres in a foot (international foot, exact).
+const METRES_PER_FOOT: f64 = 0.3048;
+
+/// Integrated and rated flux may differ by this part without a warning.
+const FLUX_TOLERANCE: f64 = 0.01;
+
+/// Reads an LM-63 file. Total: any bytes give a luminaire or an error with its place, and memory is
+/// bounded by a multiple of the file's length.
+pub fn read_ies(bytes: &[u8]) -> Result<Read, ReadError> {
+    let mut warnings = Warnings::default();
+    let text = text::decode(bytes, &mut warnings);
+    let lines: Vec<&str> = text::lines(&text).collect();
+    let header = read_header(&lines, &mut warnings)?;
+    let mut numbers = Numbers::new(&lines, header.next_line);
+    let photometry = read_numbers(header, &mut numbers, &mut warnings)?;
+    Ok(Read {
+        photometry,
+        warnings: warnings.into_vec(),
+    })
+}
+
+/// Record 1.
+struct Counts {
+    lamp_count: f64,
+    lumens_per_lamp: Number,
+    multiplier: Number,
+    verticals: usize,
+    horizontals: usize,
+    opening: LuminousOpening,
+}
+
+fn read_numbers(
+    header: Header<'_>,
+    numbers: &mut Numbers<'_>,
+    warnings: &mut Warnings,
+) -> Result<Photometry, ReadError> {
+    let tilt = read_tilt(&header.tilt, header.next_line, numbers, warnings)?;
+    let counts = read_counts(numbers, warnings)?;
+    numbers.start_record("the ballast factor", warnings);
+    let ballast = numbers.next("the ballast factor", warnings)?;
+    let reserved = numbers.next("the ballast-lamp photometric factor", warnings)?;
+    let input_watts = numbers.next("the input watts", warnings)?.value;
+    let factor = positive(&counts.multiplier, "a candela multiplier above 0")?
+        * positive(&ballast, "a ballast factor above 0 (1 if unknown)")?
+        * ballast_lamp_factor(&reserved, header.standard, warnings)?;
+
+    numbers.start_record("the vertical angles", warnings);
+    let vertical = numbers.list(counts.verticals, "vertical angle", warnings)?;
+    let theta_rad = planes::gamma_rad(&vertical, warnings)?;
+    numbers.start_record("the horizontal angles", warnings);
+    let horizontal = numbers.list(counts.horizontals, "horizontal angle", warnings)?;
+    let (phi_rad, symmetry) = planes::c_rad(&horizontal, warnings)?;
+    let planes = Planes {
+        verticals: counts.verticals,
+        horizontals: counts.horizontals,
+        factor,
+    };
+    let values = planes.read(numbers, warnings)?;
+    planes.check_closing(
+        &values,
+        symmetry,
+        horizontal[horizontal.len() - 1].at,
+        warnings,
+    );
+    if let Some((text, at)) = numbers.rest(warnings)
+        && !text.trim_matches(['[', ']']).eq_ignore_ascii_case("END")
+    {
+        warnings.push(
+            Deviation::TrailingText,
+            at,
+            quoted(text),
+            "the end of the file",
+        );
+    }
+
+    let lumens = counts.lumens_per_lamp;
+    let table = SphericalTable::new(Grid {
+        theta_rad,
+        phi_rad,
+        symmetry,
+        values,
+    })
+    .map_err(|error| ReadError::new(lumens.at, error, "a photometric table"))?;
+    if lumens.value < 0.0 && lumens.value != -1.0 {
+        let expected = "-1 for absolute photometry (read as such)";
+        warnings.push(Deviation::NegativeLumens, lumens.at, lumens.value, expected);
+    }
+    let facts = LuminaireFacts {
+        standard: header.standard,
+        keywords: header.keywords,
+        tilt,
+        lamp_count: counts.lamp_count,
+        lumens_per_lamp: (lumens.value >= 0.0).then_some(lumens.value),
+        ballast_factor: ballast.value,
+        ballast_lamp_field: reserved.value,
+        input_watts,
+        candela_factor: factor,
+        opening: counts.opening,
+    };
+    check_flux(&table, &facts, lumens.at, warnings);
+    Ok(Photometry::new(table, facts))
+}
+
+fn read_tilt(
+    line: &TiltLine<'_>,
+    line_number: usize,
+    numbers: &mut Numbers<'_>,
+    warnings: &mut Warnings,
+) -> Result<Tilt, ReadError> {
+    match line {
+        TiltLine::None => Ok(Tilt::None),
+        TiltLine::File(name) => {
+            let at = Position {
+                line: line_number,
+                column: 1,
+            };
+            let expected =
+                "TILT=NONE or TILT=INCLUDE (the file is not read, no tilt factor is applied)";
+            warnings.push(
+                Deviation::TiltFile,
+                at,
+                format_args!("a tilt file {}", quoted(name)),
+                expected,
+            );
+            Ok(Tilt::File((*name).to_owned()))
+        }
+        TiltLine::Include => {
+            let (lamp_geometry, at) =
+                numbers.count("the lamp-to-luminaire geometry", 1, warnings)?;
+            if lamp_geometry > 3 {
+                return Err(ReadError::new(
+                    at,
+                    lamp_geometry,
+                    "a lamp-to-luminaire geometry of 1, 2 or 3",
+                ));
+            }
+            let (pairs, _) = numbers.count("the number of tilt angles", 1, warnings)?;
+            let angles = numbers.list(pairs, "tilt angle", warnings)?;
+            let factors = numbers.list(pairs, "tilt factor", warnings)?;
+            if let Some(other) = factors.iter().find(|factor| factor.value != 1.0) {
+                let expected =
+                    "1 (tilt factors are not applied: the luminaire is taken as measured)";
+                warnings.push(
+                    Deviation::TiltFactors,
+                    other.at,
+                    format_args!("a tilt factor of {}", other.value),
+                    expected,
+                );
+            }
+            Ok(Tilt::Include {
+                lamp_geometry: lamp_geometry as u8,
+                angles_rad: angles
+                    .iter()
+                    .map(|angle| angle.value / 180.0 * PI)
+                    .collect(),
+                factors: factors.iter().map(|factor| factor.value).collect(),
+            })
+        }
+    }
+}
+
+fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Counts, ReadError> {
+    numbers.start_record("the number of lamps", warnings);
+    let lamp_count = numbers.next("the number of lamps", warnings)?.value;
+    let lumens_per_lamp = numbers.next("the lumens per lamp", warnings)?;
+    let multiplier = numbers.next("the candela multiplier", warnings)?;
+    let (verticals, vertical_at) = numbers.count("the number of vertical angles", 2, warnings)?;
+    let (horizontals, at) = numbers.count("the number of horizontal angles", 1, warnings)?;
+    let (photometric_type, type_at) = numbers.count("the photometric type", 1, warnings)?;
+    let (units, units_at) = numbers.count("the units type", 1, warnings)?;
+    let metres_per_unit = match units {
+        1 => METRES_PER_FOOT,
+        2 => 1.0,
+        _ => {
+            return Err(ReadError::new(
+                units_at,
+                units,
+                "a units type of 1 (feet) or 2 (metres)",
+            ));
+        }
+    };
+    let name = match photometric_type {
+        1 => None,
+        2 => Some("B"),
+        3 => Some("A"),
+        _ => {
+            let expected = "a photometric type of 1 (C), 2 (B) or 3 (A)";
+            return Err(ReadError::new(type_at, photometric_type, expected));
+        }
+    };
+    if let Some(name) = name {
+        let found = format_args!("photometric type {name} ({photometric_type})").to_string();
+        let expected = "type C (1): types A and B are not read yet, convert the file to type C";
+        return Err(ReadError::new(type_at, found, expected));
+    }
+    numbers.check_room(verticals, vertical_at, "vertical angles")?;
+    numbers.check_room(horizontals, at, "horizontal angles")?;
+    numbers.check_room(verticals.saturating_mul(horizontals), at, "candela")?;
+    let mut dimension = |what| Ok(numbers.next(what, warnings)?.value * metres_per_unit);
+    let opening = LuminousOpening {
+        width_m: dimension("the luminous width")?,
+        length_m: dimension("the luminous length")?,
+        height_m: dimension("the luminous height")?,
+    };
+    Ok(Counts {
+        lamp_count,
+        lumens_per_lamp,
+        multiplier,
+        verticals,
+        horizontals,
+        opening,
+    })
+}
+
+fn positive(number: &Number, expected: &str) -> Result<f64, ReadError> {
+    if number.value > 0.0 {
+        Ok(number.value)
+    } else {
+        Err(ReadError::new(number.at, number.value, expected))
+    }
+}
+
+/// The factor that the field behind the ballast factor stands for.
+fn ballast_lamp_factor(
+    field: &Number,
+    standard: IesStandard,
+    warnings: &mut Warnings,
+) -> Result<f64, ReadError> {
+    if standard >= IesStandard::Lm63Of2019 {
+        return Ok(1.0);
+    }
+    if field.value == 0.0 {
+        let expected = "1 in the field behind the ballast factor (read as 1)";
+        warnings.push(
+            Deviation::ZeroBallastLampFactor,
+            field.at,
+            field.value,
+            expected,
+        );
+        return Ok(1.0);
+    }
+    if field.value != 1.0 && standard >= IesStandard::Lm63Of1995 {
+        let expected = "1 in the reserved field behind the ballast factor (applied as a factor)";
+        warnings.push(
+            Deviation::BallastLampFactor,
+            field.at,
+            field.value,
+            expected,
+        );
+    }
+    positive(
+        field,
+        "a ballast-lamp photometric factor above 0 (1 if unknown)",
+    )
+}
+
+fn check_flux(
+    table: &SphericalTable,
+    facts: &LuminaireFacts,
+    at: Position,
+    warnings: &mut Warnings,
+) {
+    let flux_lm = table.integral();
+    if flux_lm <= 0.0 {
+        warnings.push(
+            Deviation::NoLight,
+            at,
+            "an integrated flux of 0 lm",
+            "some light",
+        );
+        return;
+    }
+    let Some(rated_flux_lm) = facts.rated_flux_lm() else {
+        return;
+    };
+    let lamps_lm = rated_flux_lm * facts.ballast_factor;
+    let ratio = flux_lm / lamps_lm;
+    if (ratio - 1.0).abs() > FLUX_TOLERANCE {
+        let found = format_args!(
+            "an integrated flux of {flux_lm:.1} lm ({:.1} % of the lamps')",
+            100.0 * ratio
+        )
+        .to_string();
+        let expected = if ratio < 1.0 {
+            format!(
+                "{lamps_lm:.1} lm, the lamps' flux, less the luminaire's losses (candela values count)"
+            )
+        } else {
+            format!(
+                "{lamps_lm:.1} lm, the lamps' flux (check multiplier and lumens; candela values count)"
+            )
+        };
+        warnings.push(Deviation::FluxDiffers, at, found, expected);
+    }
+}

@@ -1,0 +1,256 @@
+//! The numbers behind the header: a stream of tokens with their places.
+
+use crate::report::{Position, Warnings, quoted};
+use crate::{Deviation, ReadError};
+
+/// Reads numbers one by one across lines.
+pub(super) struct Numbers<'t> {
+    lines: &'t [&'t str],
+    cursor: Cursor,
+    /// The line of the number read last.
+    last_line: Option<usize>,
+}
+
+/// A number and its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Number {
+    pub(super) value: f64,
+    pub(super) at: Position,
+}
+
+/// A place to read on from.
+#[derive(Clone, Copy)]
+struct Cursor {
+    /// Index of the line.
+    line: usize,
+    /// Bytes, and characters, of the line before this place: both, so that no line is counted
+    /// twice.
+    byte: usize,
+    characters: usize,
+}
+
+struct Token<'t> {
+    text: &'t str,
+    at: Position,
+}
+
+impl<'t> Numbers<'t> {
+    /// Starts at the line with index `line`.
+    pub(super) fn new(lines: &'t [&'t str], line: usize) -> Self {
+        let cursor = Cursor {
+            line,
+            byte: 0,
+            characters: 0,
+        };
+        Self {
+            lines,
+            cursor,
+            last_line: None,
+        }
+    }
+
+    /// The next number; `what` names it in an error.
+    pub(super) fn next(
+        &mut self,
+        what: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Number, ReadError> {
+        let Some(token) = self.token(warnings) else {
+            return Err(ReadError::new(self.end(), "the end of the file", what));
+        };
+        let at = token.at;
+        let wrong = || ReadError::new(at, quoted(token.text), format_args!("{what} (a number)"));
+        // Of what Rust reads as a number, words such as "inf" and "nan" are not meant.
+        let plausible = token
+            .text
+            .bytes()
+            .all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+        let value: f64 = if plausible {
+            token.text.parse().map_err(|_| wrong())?
+        } else {
+            return Err(wrong());
+        };
+        if !value.is_finite() {
+            return Err(ReadError::new(
+                at,
+                quoted(token.text),
+                format_args!("{what}, a finite number"),
+            ));
+        }
+        self.last_line = Some(token.at.line);
+        Ok(Number { value, at })
+    }
+
+    /// The next number, which is a count of at least `least`.
+    pub(super) fn count(
+        &mut self,
+        what: &str,
+        least: usize,
+        warnings: &mut Warnings,
+    ) -> Result<(usize, Position), ReadError> {
+        let Number { value, at } = self.next(what, warnings)?;
+        // Far above what any file holds, far below where an f64 skips integers.
+        let whole = value.fract() == 0.0 && value >= least as f64 && value <= 1e15;
+        if !whole {
+            let expected = format_args!("{what}: an integer, {least} or more").to_string();
+            return Err(ReadError::new(at, value, expected));
+        }
+        let as_written = self.lines[at.line - 1].chars().skip(at.column - 1);
+        if as_written
+            .take_while(|c| !is_separator(*c))
+            .any(|c| c == '.')
+        {
+            warnings.push(
+                Deviation::CountWithPoint,
+                at,
+                value,
+                format_args!("{what} without a decimal point"),
+            );
+        }
+        Ok((value as usize, at))
+    }
+
+    /// `count` numbers in a row, none of them above what the rest of the file has room for.
+    pub(super) fn list(
+        &mut self,
+        count: usize,
+        what: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<Number>, ReadError> {
+        self.check_room(count, self.here(), what)?;
+        let mut list = Vec::with_capacity(count);
+        for index in 0..count {
+            let number = self.next(what, warnings).map_err(|error| {
+                let expected = format!("{} {} of {count}", error.expected(), index + 1);
+                ReadError::new(
+                    Position {
+                        line: error.line(),
+                        column: error.column(),
+                    },
+                    error.found(),
+                    expected,
+                )
+            })?;
+            list.push(number);
+        }
+        Ok(list)
+    }
+
+    /// An error unless `count` numbers fit into the rest of the file: each takes a digit and a
+    /// separator.
+    pub(super) fn check_room(
+        &self,
+        count: usize,
+        at: Position,
+        what: &str,
+    ) -> Result<(), ReadError> {
+        let room: usize = self
+            .lines
+            .iter()
+            .skip(self.cursor.line)
+            .map(|line| line.len() + 1)
+            .sum();
+        if count <= room / 2 + 1 {
+            return Ok(());
+        }
+        let found = format!("a file that ends before {count} values of {what} fit");
+        Err(ReadError::new(
+            at,
+            found,
+            "a complete file, or smaller numbers of angles",
+        ))
+    }
+
+    /// Notes a record that starts on the line of the number before it.
+    pub(super) fn start_record(&mut self, what: &str, warnings: &mut Warnings) {
+        let cursor = self.cursor;
+        if let Some(token) = self.token(warnings) {
+            if self.last_line == Some(token.at.line) {
+                let expected = format_args!("{what} to begin on a new line").to_string();
+                warnings.push(
+                    Deviation::RecordStart,
+                    token.at,
+                    quoted(token.text),
+                    expected,
+                );
+            }
+            self.cursor = cursor;
+        }
+    }
+
+    /// The next token of any kind, for what stands behind the last number.
+    pub(super) fn rest(&mut self, warnings: &mut Warnings) -> Option<(&'t str, Position)> {
+        let token = self.token(warnings)?;
+        Some((token.text, token.at))
+    }
+
+    fn token(&mut self, warnings: &mut Warnings) -> Option<Token<'t>> {
+        while let Some(&line) = self.lines.get(self.cursor.line) {
+            let rest = &line[self.cursor.byte..];
+            let skipped = rest.find(|c| !is_separator(c)).unwrap_or(rest.len());
+            if let Some(semicolon) = rest[..skipped].find(';') {
+                let mut before = self.cursor;
+                before.advance(&rest[..semicolon]);
+                let expected = "blanks or a comma between numbers";
+                warnings.push(
+                    Deviation::Semicolon,
+                    before.position(),
+                    "a semicolon",
+                    expected,
+                );
+            }
+            if skipped < rest.len() {
+                let rest = &rest[skipped..];
+                let text = &rest[..rest.find(is_separator).unwrap_or(rest.len())];
+                self.cursor.advance(&line[self.cursor.byte..][..skipped]);
+                let at = self.cursor.position();
+                self.cursor.advance(text);
+                return Some(Token { text, at });
+            }
+            self.cursor = Cursor {
+                line: self.cursor.line + 1,
+                byte: 0,
+                characters: 0,
+            };
+        }
+        None
+    }
+
+    /// The place to go on from.
+    fn here(&self) -> Position {
+        if self.cursor.line < self.lines.len() {
+            self.cursor.position()
+        } else {
+            self.end()
+        }
+    }
+
+    /// Behind the last character of the file.
+    fn end(&self) -> Position {
+        let column = self.lines.last().map_or(1, |line| line.chars().count() + 1);
+        Position {
+            line: self.lines.len().max(1),
+            column,
+        }
+    }
+}
+
+impl Cursor {
+    fn advance(&mut self, text: &str) {
+        self.byte += text.len();
+        self.characters += text.chars().count();
+    }
+
+    fn position(&self) -> Position {
+        Position {
+            line: self.line + 1,
+            column: self.characters + 1,
+        }
+    }
+}
+
+/// Blanks, commas, semicolons, and the control characters that old systems leave at the end of a
+/// file.
+fn is_separator(c: char) -> bool {
+    c.is_whitespace() || c.is_control() || matches!(c, ',' | ';')
+}

@@ -1,0 +1,139 @@
+//! The angles of a type C file: checks, and what symmetry the planes mean.
+
+use super::numbers::Number;
+use crate::report::Warnings;
+use crate::{Deviation, ReadError, Symmetry};
+use std::f64::consts::PI;
+
+/// Written angles may miss a border by this much, in degrees.
+const ROUNDING_DEG: f64 = 1e-3;
+
+/// Polar angles gamma in radians: ascending within 0 to 180 degrees.
+pub(super) fn gamma_rad(angles: &[Number], warnings: &mut Warnings) -> Result<Vec<f64>, ReadError> {
+    check_ascending(angles, "vertical")?;
+    let degrees: Vec<f64> = angles
+        .iter()
+        .map(|angle| snapped(angle.value, 90.0))
+        .collect();
+    for (angle, degrees) in angles.iter().zip(&degrees) {
+        if !(0.0..=180.0).contains(degrees) {
+            let expected = "vertical angles between 0 and 180 degrees, as type C has them";
+            return Err(ReadError::new(angle.at, degrees, expected));
+        }
+    }
+    let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
+    if !matches!(first, 0.0 | 90.0) || !matches!(last, 90.0 | 180.0) {
+        let found = format_args!("vertical angles from {first} to {last}").to_string();
+        let expected = "0 to 90, 90 to 180 or 0 to 180 degrees (outside, the intensity is zero)";
+        warnings.push(Deviation::VerticalRange, angles[0].at, found, expected);
+    }
+    Ok(degrees.into_iter().map(radians).collect())
+}
+
+/// Azimuths C in radians, and the symmetry that their span stands for.
+pub(super) fn c_rad(
+    angles: &[Number],
+    warnings: &mut Warnings,
+) -> Result<(Vec<f64>, Symmetry), ReadError> {
+    check_ascending(angles, "horizontal")?;
+    let degrees: Vec<f64> = angles
+        .iter()
+        .map(|angle| snapped(angle.value, 90.0))
+        .collect();
+    let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
+    let at = angles[0].at;
+    if let Some(far) = angles.iter().find(|angle| angle.value.abs() > 720.0) {
+        return Err(ReadError::new(
+            far.at,
+            far.value,
+            "horizontal angles from 0 to 360 degrees",
+        ));
+    }
+    let widest_gap = degrees
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .fold(0.0, f64::max);
+    let span = last - first;
+
+    let symmetry = if degrees.len() == 1 {
+        if first != 0.0 {
+            let expected = "a single plane at 0 (read as rotationally symmetric)";
+            warnings.push(
+                Deviation::SinglePlane,
+                at,
+                format_args!("a single plane at {first}"),
+                expected,
+            );
+        }
+        Symmetry::Rotational
+    } else if (span - 90.0).abs() < ROUNDING_DEG {
+        Symmetry::Quadrant
+    } else if (span - 180.0).abs() < ROUNDING_DEG {
+        Symmetry::Bilateral
+    } else if (span - 360.0).abs() < ROUNDING_DEG {
+        Symmetry::None
+    } else if span > 180.0 && span < 360.0 && 360.0 - span <= 1.5 * widest_gap {
+        let found = format_args!("planes that end at {last}").to_string();
+        let expected = "a closing plane at 360 (taken to equal the first one)";
+        warnings.push(
+            Deviation::MissingClosingPlane,
+            angles[angles.len() - 1].at,
+            found,
+            expected,
+        );
+        Symmetry::Open
+    } else {
+        let found = format_args!("horizontal planes from {first} to {last}").to_string();
+        let expected =
+            "a single plane, or planes from 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees";
+        return Err(ReadError::new(at, found, expected));
+    };
+    let usual = first == 0.0 || (first == 90.0 && symmetry == Symmetry::Bilateral);
+    // Mirrored halves and quarters need a first plane that is one of the luminaire's axes.
+    if matches!(symmetry, Symmetry::Quadrant | Symmetry::Bilateral) && first % 90.0 != 0.0 {
+        let found = format_args!("horizontal planes from {first} to {last}").to_string();
+        return Err(ReadError::new(
+            at,
+            found,
+            "planes that begin at 0 or 90 degrees",
+        ));
+    }
+    if !usual && symmetry != Symmetry::Rotational {
+        let found = format_args!("planes from {first} to {last}").to_string();
+        let expected = "planes from 0 to 90, 0 to 180, 90 to 270 or 0 to 360 (read by their span)";
+        warnings.push(Deviation::FirstPlane, at, found, expected);
+    }
+    Ok((degrees.into_iter().map(radians).collect(), symmetry))
+}
+
+fn check_ascending(angles: &[Number], what: &str) -> Result<(), ReadError> {
+    match angles
+        .windows(2)
+        .find(|pair| pair[1].value <= pair[0].value)
+    {
+        Some(pair) => {
+            let found = format!("{} after {}", pair[1].value, pair[0].value);
+            Err(ReadError::new(
+                pair[1].at,
+                found,
+                format_args!("{what} angles in ascending order"),
+            ))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The angle, or the multiple of `step` that it misses by rounding only.
+fn snapped(degrees: f64, step: f64) -> f64 {
+    let near = (degrees / step).round() * step;
+    if (degrees - near).abs() < ROUNDING_DEG {
+        near
+    } else {
+        degrees
+    }
+}
+
+/// Exact at multiples of 90 degrees.
+fn radians(degrees: f64) -> f64 {
+    degrees / 180.0 * PI
+}

@@ -1,0 +1,34 @@
+//! Measured photometry: luminaire files, spherical tables, exact sampling.
+//!
+//! A file is read ([`read_ies`]) into a [`Photometry`]: intensities over directions, with the facts
+//! of the header. Behind it stands a [`SphericalTable`], bilinear on a grid of spherical angles,
+//! with its integral in closed form and an inverse transform that turns two uniform coordinates
+//! into a direction, continuously and without rejection.
+//!
+//! The luminaire frame has gamma = 0 (nadir) along -z, C0 along +x and C90 along +y.
+//!
+//! ```
+//! use glam::DVec3;
+//! let file = b"IESNA:LM-63-2002\n[TEST] example\nTILT=NONE\n\
+//!     1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n100 100\n";
+//! let read = quasilux_photometry::read_ies(file)?;
+//! let flux_lm = read.photometry.flux_lm();
+//! assert!((flux_lm - 400.0 * std::f64::consts::PI).abs() < 1e-9);
+//! assert_eq!(read.photometry.intensity_cd(DVec3::NEG_Z), 100.0);
+//! # Ok::<(), quasilux_photometry::ReadError>(())
+//! ```
+//!
+//! What a reader tolerates beyond the standard is listed in [`Deviation`]; each case is reported as
+//! a [`Warning`].
+
+mod facts;
+mod ies;
+mod photometry;
+mod report;
+mod table;
+
+pub use facts::{IesStandard, Keyword, LuminaireFacts, LuminousOpening, Tilt};
+pub use ies::read_ies;
+pub use photometry::Photometry;
+pub use report::{Deviation, Read, ReadError, Warning};
+pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};

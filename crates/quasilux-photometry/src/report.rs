@@ -1,0 +1,237 @@
+//! What a reader has to say: errors that stop it, and oddities that it lived with.
+
+use crate::Photometry;
+use std::fmt;
+
+/// A file that was read, with what was odd about it.
+#[derive(Clone, Debug)]
+pub struct Read {
+    /// The luminaire.
+    pub photometry: Photometry,
+    /// Deviations from the standard that were tolerated; each rule at most once, at its first
+    /// place.
+    pub warnings: Vec<Warning>,
+}
+
+/// Why a file cannot be read, and where. Shown as `line:column: found ...; expected ...`,
+/// for callers to put the file's name in front.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{line}:{column}: found {found}; expected {expected}")]
+pub struct ReadError {
+    line: usize,
+    column: usize,
+    found: String,
+    expected: String,
+}
+
+/// A tolerated deviation, and where it is. Shown as `line:column: found ...; expected ...`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    deviation: Deviation,
+    position: Position,
+    count: usize,
+    found: String,
+    expected: String,
+}
+
+/// A rule by which a reader tolerates what the standard does not allow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Deviation {
+    /// The text is not ASCII or UTF-8. UTF-16 is read by its byte order mark, anything else as
+    /// Latin-1.
+    Encoding,
+    /// A byte order mark stands before the first line. It is skipped.
+    ByteOrderMark,
+    /// Empty lines stand before the identifying line. They are skipped.
+    LeadingBlankLine,
+    /// The identifying line has blanks or spelling of its own. The edition is taken from its
+    /// number.
+    IdentifyingLine,
+    /// The identifying line names no known edition. The file is read as LM-63-2002.
+    UnknownStandard,
+    /// A header line has no keyword, in an edition that asks for one. It is kept as a label.
+    LabelWithoutKeyword,
+    /// The `TILT=` line is in small letters or has blanks inside. It is read all the same.
+    TiltSpelling,
+    /// `TILT=INCLUDE` gives factors other than 1. They are kept as facts and the luminaire is taken
+    /// in the position it was measured in: no factor is applied.
+    TiltFactors,
+    /// `TILT=` names a file. That file is not read, no factor is applied.
+    TiltFile,
+    /// Semicolons separate numbers. They count as blanks.
+    Semicolon,
+    /// A record starts on the line where the one before it ends. Line ends inside the numbers have
+    /// no meaning.
+    RecordStart,
+    /// A count is written with a decimal point. It is read as the integer it is.
+    CountWithPoint,
+    /// The lumens of a lamp are negative, but not -1. The photometry counts as absolute.
+    NegativeLumens,
+    /// The reserved field behind the ballast factor is zero. It counts as 1.
+    ZeroBallastLampFactor,
+    /// The reserved field behind the ballast factor is not 1, in an edition where it must be. It is
+    /// applied as a factor.
+    BallastLampFactor,
+    /// The vertical angles do not start at 0 or 90 or do not end at 90 or 180. Outside them the
+    /// intensity is zero.
+    VerticalRange,
+    /// The only horizontal plane is not at 0. The distribution is rotationally symmetric all the
+    /// same.
+    SinglePlane,
+    /// The horizontal planes span a quarter, half or full turn from an unusual first plane. The
+    /// symmetry is that of the span.
+    FirstPlane,
+    /// The closing plane at 360 is missing. It is taken to equal the first one.
+    MissingClosingPlane,
+    /// The planes at 0 and at 360 differ. Both are kept: the intensity jumps there.
+    ClosingPlaneDiffers,
+    /// Candela values are negative. They count as zero.
+    NegativeCandela,
+    /// Text follows the last candela value, other than the word END. It is ignored.
+    TrailingText,
+    /// All candela values are zero: the luminaire gives no light.
+    NoLight,
+    /// The integrated flux differs from that of the lamps (with the ballast factor) by more than 1
+    /// %. Below it, this is the normal loss of a luminaire; the candela values count.
+    FluxDiffers,
+}
+
+/// A place in a text, line and column counted from 1, columns in characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Position {
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+}
+
+/// Collects warnings: one for each rule, counting its further cases.
+#[derive(Debug, Default)]
+pub(crate) struct Warnings(Vec<Warning>);
+
+impl ReadError {
+    pub(crate) fn new(at: Position, found: impl fmt::Display, expected: impl fmt::Display) -> Self {
+        Self {
+            line: at.line,
+            column: at.column,
+            found: found.to_string(),
+            expected: expected.to_string(),
+        }
+    }
+
+    /// The line, counted from 1.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// The column in characters, counted from 1.
+    pub fn column(&self) -> usize {
+        self.column
+    }
+
+    /// What stands there.
+    pub fn found(&self) -> &str {
+        &self.found
+    }
+
+    /// What should stand there, or what would mend it.
+    pub fn expected(&self) -> &str {
+        &self.expected
+    }
+}
+
+impl Warning {
+    /// The rule that was applied.
+    pub fn deviation(&self) -> Deviation {
+        self.deviation
+    }
+
+    /// The line of the first case, counted from 1.
+    pub fn line(&self) -> usize {
+        self.position.line
+    }
+
+    /// The column of the first case in characters, counted from 1.
+    pub fn column(&self) -> usize {
+        self.position.column
+    }
+
+    /// How many times the rule was applied.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// What stands at the first place.
+    pub fn found(&self) -> &str {
+        &self.found
+    }
+
+    /// What was expected, and what was made of it.
+    pub fn expected(&self) -> &str {
+        &self.expected
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            position,
+            count,
+            found,
+            expected,
+            ..
+        } = self;
+        write!(
+            f,
+            "{}:{}: found {found}; expected {expected}",
+            position.line, position.column
+        )?;
+        if *count > 1 {
+            write!(f, " (and {} more)", count - 1)
+        } else {
+            Ok(())
+        }
+    }
+}
+
+impl Warnings {
+    pub(crate) fn push(
+        &mut self,
+        deviation: Deviation,
+        position: Position,
+        found: impl fmt::Display,
+        expected: impl fmt::Display,
+    ) {
+        match self
+            .0
+            .iter_mut()
+            .find(|warning| warning.deviation == deviation)
+        {
+            Some(warning) => warning.count += 1,
+            None => self.0.push(Warning {
+                deviation,
+                position,
+                count: 1,
+                found: found.to_string(),
+                expected: expected.to_string(),
+            }),
+        }
+    }
+
+    pub(crate) fn into_vec(self) -> Vec<Warning> {
+        self.0
+    }
+}
+
+/// A piece of the file in quotation marks, cut to a length that fits a message.
+pub(crate) fn quoted(text: &str) -> String {
+    const LONGEST: usize = 40;
+    let mut shown: String = text
+        .chars()
+        .take(LONGEST)
+        .flat_map(char::escape_debug)
+        .collect();
+    if text.chars().nth(LONGEST).is_some() {
+        shown.push_str("...");
+    }
+    format!("\"{shown}\"")
+}

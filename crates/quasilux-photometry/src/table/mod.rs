@@ -1,0 +1,175 @@
+//! A non-negative function on the sphere: bilinear on a grid of spherical angles.
+//!
+//! In the frame of the table theta is measured from +z and phi from +x towards +y. Inside a cell
+//! the value is bilinear in (theta, phi), both in radians; outside the polar range of the grid it
+//! is zero. The integral over solid angle and the inverse transform are exact: see
+//! [`SphericalTable::sample`].
+
+mod axis;
+mod band;
+mod linear;
+#[cfg(test)]
+mod per_cell;
+mod sample;
+mod unfold;
+
+use axis::{Axis, Place};
+use band::Band;
+use glam::DVec3;
+pub use sample::DirectionSample;
+use std::f64::consts::TAU;
+pub use unfold::{Grid, Symmetry, TableError};
+
+/// A bilinear function on a spherical grid, with its exact integral and inverse transform.
+///
+/// Symmetries are unfolded on construction: the stored grid always closes around the azimuth.
+#[derive(Clone, Debug)]
+pub struct SphericalTable {
+    symmetry: Symmetry,
+    theta: Axis,
+    /// Offsets from `phi_start_rad`, from 0 to a full turn.
+    phi: Axis,
+    phi_start_rad: f64,
+    /// Row by row, one row for each polar angle.
+    values: Vec<f64>,
+    /// The integral of each row over the azimuth, up to each knot.
+    row_integrals: Vec<f64>,
+    bands: Vec<Band>,
+    /// The integral over solid angle of all bands before each one, and of all of them.
+    integral_before: Vec<f64>,
+}
+
+/// Spherical angles of a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angles {
+    /// From the pole +z, in [0, pi].
+    pub theta_rad: f64,
+    /// From +x towards +y, in (-pi, pi].
+    pub phi_rad: f64,
+}
+
+impl Angles {
+    /// The angles of a direction of any length; accurate at both poles.
+    pub fn of(direction: DVec3) -> Self {
+        let horizontal = (direction.x * direction.x + direction.y * direction.y).sqrt();
+        Self {
+            theta_rad: libm::atan2(horizontal, direction.z),
+            phi_rad: libm::atan2(direction.y, direction.x),
+        }
+    }
+
+    /// The unit direction.
+    pub fn direction(self) -> DVec3 {
+        let (sin_theta, cos_theta) = libm::sincos(self.theta_rad);
+        let (sin_phi, cos_phi) = libm::sincos(self.phi_rad);
+        DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta)
+    }
+}
+
+impl SphericalTable {
+    /// A table from a grid as measured: see [`Symmetry`] for what the azimuths mean.
+    pub fn new(grid: Grid) -> Result<Self, TableError> {
+        let symmetry = grid.symmetry;
+        let full = grid.unfold()?;
+        let (theta, phi) = (Axis::new(full.theta_rad), Axis::new(full.phi_rad));
+        let columns = phi.knots().len();
+
+        let mut row_integrals = Vec::with_capacity(full.values.len());
+        for row in full.values.chunks_exact(columns) {
+            let mut sum = 0.0;
+            row_integrals.push(sum);
+            for (pair, knots) in row.windows(2).zip(phi.knots().windows(2)) {
+                sum += 0.5 * (pair[0] + pair[1]) * (knots[1] - knots[0]);
+                row_integrals.push(sum);
+            }
+        }
+
+        let row_total = |row: usize| row_integrals[row * columns + columns - 1];
+        let bands: Vec<Band> = theta
+            .knots()
+            .windows(2)
+            .enumerate()
+            .map(|(row, ends)| Band::new(ends[0], ends[1], row_total(row), row_total(row + 1)))
+            .collect();
+        let mut integral_before = vec![0.0];
+        for band in &bands {
+            integral_before.push(integral_before[integral_before.len() - 1] + band.integral());
+        }
+
+        Ok(Self {
+            symmetry,
+            theta,
+            phi,
+            phi_start_rad: full.phi_start_rad,
+            values: full.values,
+            row_integrals,
+            bands,
+            integral_before,
+        })
+    }
+
+    /// The value towards a direction.
+    pub fn value(&self, direction: DVec3) -> f64 {
+        self.value_at(Angles::of(direction))
+    }
+
+    /// The value at spherical angles; the azimuth may be any number of turns off.
+    pub fn value_at(&self, angles: Angles) -> f64 {
+        if !(self.theta.first()..=self.theta.last()).contains(&angles.theta_rad) {
+            return 0.0;
+        }
+        let row = self.theta.place(angles.theta_rad);
+        let column = self.phi.place(self.phi_offset(angles.phi_rad));
+        let (at_start, at_end) = self.cell_edges(row, column.cell);
+        lerp(at_start, at_end, column.fraction)
+    }
+
+    /// Integral of the value over solid angle.
+    pub fn integral(&self) -> f64 {
+        self.integral_before[self.bands.len()]
+    }
+
+    /// The symmetry that the table was measured with.
+    pub fn symmetry(&self) -> Symmetry {
+        self.symmetry
+    }
+
+    /// The polar angles of the grid, ascending.
+    pub fn theta_rad(&self) -> &[f64] {
+        self.theta.knots()
+    }
+
+    /// The azimuths of the unfolded grid, ascending over one full turn.
+    pub fn phi_rad(&self) -> impl Iterator<Item = f64> {
+        self.phi
+            .knots()
+            .iter()
+            .map(|offset| self.phi_start_rad + offset)
+    }
+
+    /// The values at both azimuths of a cell, at a place between two parallels.
+    fn cell_edges(&self, row: Place, column: usize) -> (f64, f64) {
+        let columns = self.phi.knots().len();
+        let above = row.cell * columns + column;
+        let below = above + columns;
+        (
+            lerp(self.values[above], self.values[below], row.fraction),
+            lerp(self.values[above + 1], self.values[below + 1], row.fraction),
+        )
+    }
+
+    /// The azimuth as an offset from the first knot, in [0, one turn].
+    fn phi_offset(&self, phi_rad: f64) -> f64 {
+        let offset = phi_rad - self.phi_start_rad;
+        if (0.0..=TAU).contains(&offset) {
+            offset
+        } else {
+            offset - (offset / TAU).floor() * TAU
+        }
+    }
+}
+
+/// Exact at both ends, and monotone in `a` and `b`.
+fn lerp(a: f64, b: f64, t: f64) -> f64 {
+    (1.0 - t) * a + t * b
+}

@@ -1,0 +1,193 @@
+//! From a grid as measured to one that closes around the azimuth.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Angles that should be equal may differ by this much, in radians.
+const ANGLE_TOLERANCE_RAD: f64 = 1e-9;
+
+/// Greater values would overflow in sums and products.
+const LARGEST_VALUE: f64 = 1e100;
+
+/// What the azimuths of a grid cover, and how the rest follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symmetry {
+    /// One azimuth: the value does not depend on it.
+    Rotational,
+    /// A quarter turn, mirrored in its first and in its last plane.
+    Quadrant,
+    /// Half a turn, mirrored in the plane of its first and last azimuth.
+    Bilateral,
+    /// A full turn, the closing plane included.
+    None,
+    /// A full turn without its closing plane, which equals the first one.
+    Open,
+}
+
+/// Values on a grid of spherical angles, as measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Polar angles, strictly ascending within [0, pi]; at least two.
+    pub theta_rad: Vec<f64>,
+    /// Azimuths, strictly ascending; `symmetry` says what they must span.
+    pub phi_rad: Vec<f64>,
+    /// What the azimuths cover.
+    pub symmetry: Symmetry,
+    /// Non-negative values, row by row: all azimuths at the first polar angle, then the next.
+    pub values: Vec<f64>,
+}
+
+/// Why a grid is not one.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// Fewer than two polar angles.
+    #[error("a spherical table needs at least two polar angles, found {0}")]
+    TooFewPolarAngles(usize),
+    /// A polar angle outside [0, pi] or not above its predecessor.
+    #[error("polar angle {0} is not above the one before it, or not between 0 and 180 degrees")]
+    PolarAngle(usize),
+    /// An azimuth that is not above its predecessor.
+    #[error("azimuth {0} is not above the one before it")]
+    Azimuth(usize),
+    /// The azimuths do not span what the symmetry asks for.
+    #[error("the azimuths span {span_deg} degrees, which does not fit the symmetry {symmetry:?}")]
+    Span {
+        /// Last less first azimuth.
+        span_deg: f64,
+        /// The symmetry asked for.
+        symmetry: Symmetry,
+    },
+    /// The number of values is not the product of the numbers of angles.
+    #[error("{expected} values expected, found {found}")]
+    ValueCount {
+        /// Polar angles times azimuths.
+        expected: usize,
+        /// Values given.
+        found: usize,
+    },
+    /// A negative, infinite, undefined or huge value.
+    #[error("value {0} is not between 0 and 1e100")]
+    Value(usize),
+}
+
+/// A grid that closes: azimuths as offsets from the first one, from 0 to a full turn.
+pub(super) struct FullGrid {
+    pub(super) theta_rad: Vec<f64>,
+    pub(super) phi_start_rad: f64,
+    pub(super) phi_rad: Vec<f64>,
+    pub(super) values: Vec<f64>,
+}
+
+impl Grid {
+    pub(super) fn unfold(self) -> Result<FullGrid, TableError> {
+        self.check()?;
+        let columns = self.phi_rad.len();
+        let start = self.phi_rad[0];
+        // Which column of the measured grid stands at each offset of the full one.
+        let measured: Vec<(f64, usize)> = self
+            .phi_rad
+            .iter()
+            .enumerate()
+            .map(|(column, phi)| (phi - start, column))
+            .collect();
+        let full = match self.symmetry {
+            Symmetry::Rotational => vec![(0.0, 0), (TAU, 0)],
+            Symmetry::Quadrant => mirrored(&mirrored(&measured, FRAC_PI_2), PI),
+            Symmetry::Bilateral => mirrored(&measured, PI),
+            Symmetry::None => closed(measured, columns - 1),
+            Symmetry::Open => {
+                let mut open = measured;
+                open.push((TAU, 0));
+                open
+            }
+        };
+        let values = self
+            .values
+            .chunks_exact(columns)
+            .flat_map(|row| full.iter().map(|&(_, column)| row[column]))
+            .collect();
+        Ok(FullGrid {
+            theta_rad: self.theta_rad,
+            phi_start_rad: start,
+            phi_rad: full.iter().map(|&(offset, _)| offset).collect(),
+            values,
+        })
+    }
+
+    fn check(&self) -> Result<(), TableError> {
+        let (rows, columns) = (self.theta_rad.len(), self.phi_rad.len());
+        if rows < 2 {
+            return Err(TableError::TooFewPolarAngles(rows));
+        }
+        if let Some(index) = first_not_ascending(&self.theta_rad, 0.0, PI) {
+            return Err(TableError::PolarAngle(index));
+        }
+        if let Some(index) = first_not_ascending(&self.phi_rad, -4.0 * TAU, 4.0 * TAU) {
+            return Err(TableError::Azimuth(index));
+        }
+        let span = match self.phi_rad[..] {
+            [first, .., last] => last - first,
+            _ => 0.0,
+        };
+        let near = |angle: f64| columns > 1 && (span - angle).abs() < ANGLE_TOLERANCE_RAD;
+        let fits = match self.symmetry {
+            Symmetry::Rotational => columns == 1,
+            Symmetry::Quadrant => near(FRAC_PI_2),
+            Symmetry::Bilateral => near(PI),
+            Symmetry::None => near(TAU),
+            Symmetry::Open => columns > 1 && span < TAU - ANGLE_TOLERANCE_RAD,
+        };
+        if !fits {
+            return Err(TableError::Span {
+                span_deg: span / PI * 180.0,
+                symmetry: self.symmetry,
+            });
+        }
+        let expected = rows.saturating_mul(columns);
+        if self.values.len() != expected {
+            return Err(TableError::ValueCount {
+                expected,
+                found: self.values.len(),
+            });
+        }
+        match self
+            .values
+            .iter()
+            .position(|value| !(0.0..=LARGEST_VALUE).contains(value))
+        {
+            Some(index) => Err(TableError::Value(index)),
+            None => Ok(()),
+        }
+    }
+}
+
+fn first_not_ascending(angles: &[f64], least: f64, greatest: f64) -> Option<usize> {
+    if angles
+        .first()
+        .is_none_or(|first| !(least..=greatest).contains(first))
+    {
+        return Some(0);
+    }
+    let outside = |pair: &[f64]| !(pair[1] > pair[0] && pair[1] <= greatest);
+    angles.windows(2).position(outside).map(|index| index + 1)
+}
+
+/// Columns from offset 0 to `end`, followed by their mirror images from `end` to `2 end`.
+fn mirrored(columns: &[(f64, usize)], end: f64) -> Vec<(f64, usize)> {
+    let (last, before) = (columns[columns.len() - 1].1, &columns[..columns.len() - 1]);
+    let images = before
+        .iter()
+        .rev()
+        .map(|&(offset, column)| (2.0 * end - offset, column));
+    before
+        .iter()
+        .copied()
+        .chain([(end, last)])
+        .chain(images)
+        .collect()
+}
+
+/// The same columns with the last one at exactly one turn.
+fn closed(mut columns: Vec<(f64, usize)>, last: usize) -> Vec<(f64, usize)> {
+    columns[last].0 = TAU;
+    columns
+}

@@ -1,0 +1,8 @@
+//! Tests of the crate from outside: files, closed forms, sampling.
+
+mod closed_forms;
+mod corpus;
+mod mutation;
+mod reader;
+mod sampling;
+mod tables;

@@ -1,0 +1,227 @@
+//! The reader's rules: factors, editions, tolerated deviations, refusals with their places.
+
+use glam::DVec3;
+use quasilux_photometry::{Deviation, IesStandard, Read, Symmetry, Tilt, read_ies};
+
+/// Header, records 1 and 2, and a table of two vertical angles in one plane.
+fn file(first_line: &str, record_1: &str, record_2: &str) -> String {
+    format!("{first_line}\nTILT=NONE\n{record_1}\n{record_2}\n0 180\n0\n100 100\n")
+}
+
+fn read(text: &str) -> Read {
+    read_ies(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn deviations(read: &Read) -> Vec<Deviation> {
+    read.warnings
+        .iter()
+        .map(|warning| warning.deviation())
+        .collect()
+}
+
+#[test]
+fn factors_follow_the_edition() {
+    let nadir_cd = |first_line, record_2| {
+        let read = read(&file(first_line, "1 -1 2 2 1 1 2 0 0 0", record_2));
+        read.photometry.intensity_cd(DVec3::NEG_Z)
+    };
+    assert_eq!(nadir_cd("a label", "0.5 0.9 10"), 90.0);
+    assert_eq!(nadir_cd("IESNA91", "0.5 0.9 10"), 90.0);
+    assert_eq!(nadir_cd("IESNA:LM-63-1995", "0.5 0.9 10"), 90.0);
+    assert_eq!(nadir_cd("IESNA:LM-63-2002", "0.5 0 10"), 100.0);
+    assert_eq!(nadir_cd("IES:LM-63-2019", "0.5 1.10000 10"), 100.0);
+}
+
+#[test]
+fn header_facts_are_kept() {
+    let text = "IESNA:LM-63-2002\n[MANUFAC] A\n[OTHER] one\n[MORE] two\nTILT=NONE\n\
+        2 1200 1 2 1 1 1 -1 0 2\n1 1 36.5\n0 180\n0\n100 100\n";
+    let read = read(text);
+    let facts = read.photometry.facts();
+    assert_eq!(facts.standard, IesStandard::Lm63Of2002);
+    assert_eq!(facts.keyword("MANUFAC"), Some("A"));
+    assert_eq!(facts.keyword("OTHER"), Some("one\ntwo"));
+    assert_eq!(facts.input_watts, 36.5);
+    assert_eq!(facts.opening.width_m, -0.3048);
+    assert_eq!(facts.opening.length_m, 0.0);
+    assert_eq!(facts.opening.height_m, 0.6096);
+    assert_eq!(facts.tilt, Tilt::None);
+    assert_eq!(read.photometry.rated_flux_lm(), Some(2400.0));
+    assert_eq!(deviations(&read), [Deviation::FluxDiffers]);
+}
+
+#[test]
+fn absolute_photometry_has_no_rated_flux() {
+    let read = read(&file("IESNA91", "4 -1 1 2 1 1 2 0 0 0", "1 1 10"));
+    assert_eq!(read.photometry.rated_flux_lm(), None);
+    assert!(read.warnings.is_empty());
+}
+
+#[test]
+fn symmetries_follow_the_span_of_the_planes() {
+    let text = |planes: &str| {
+        let count = planes.split(' ').count();
+        let rows = "100 50 0\n".repeat(count);
+        format!("IESNA91\nTILT=NONE\n1 -1 1 3 {count} 1 2 0 0 0\n1 1 1\n0 45 90\n{planes}\n{rows}")
+    };
+    let cases = [
+        ("0", Symmetry::Rotational, None),
+        ("0 90", Symmetry::Quadrant, None),
+        ("0 90 180", Symmetry::Bilateral, None),
+        ("90 180 270", Symmetry::Bilateral, None),
+        ("0 180 360", Symmetry::None, None),
+        (
+            "0 90 180 270",
+            Symmetry::Open,
+            Some(Deviation::MissingClosingPlane),
+        ),
+        ("-90 0 90", Symmetry::Bilateral, Some(Deviation::FirstPlane)),
+        ("-180 0 180", Symmetry::None, Some(Deviation::FirstPlane)),
+        ("45", Symmetry::Rotational, Some(Deviation::SinglePlane)),
+    ];
+    for (planes, symmetry, deviation) in cases {
+        let read = read(&text(planes));
+        assert_eq!(read.photometry.table().symmetry(), symmetry, "{planes}");
+        assert_eq!(deviations(&read).first().copied(), deviation, "{planes}");
+    }
+}
+
+/// Planes 90 to 270 hold the half with negative x, and are mirrored to positive x.
+#[test]
+fn half_planes_are_mirrored_where_they_belong() {
+    let text =
+        "IESNA91\nTILT=NONE\n1 -1 1 2 3 1 2 0 0 0\n1 1 1\n0 180\n90 180 270\n1 1\n2 2\n3 3\n";
+    let photometry = read(text).photometry;
+    assert_eq!(photometry.intensity_cd(DVec3::Y), 1.0);
+    assert_eq!(photometry.intensity_cd(DVec3::NEG_X), 2.0);
+    assert_eq!(photometry.intensity_cd(DVec3::X), 2.0);
+    assert!((photometry.intensity_cd(DVec3::NEG_Y) - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn each_deviation_is_tolerated_and_named() {
+    let good = file("IESNA:LM-63-2002", "1 -1 1 2 1 1 2 0 0 0", "1 1 10");
+    let cases: &[(Deviation, &str, &str)] = &[
+        (Deviation::ByteOrderMark, "IESNA", "\u{FEFF}IESNA"),
+        (Deviation::LeadingBlankLine, "IESNA", "\n\nIESNA"),
+        (Deviation::IdentifyingLine, "IESNA:", " IESNA: "),
+        (Deviation::UnknownStandard, "2002", "2031"),
+        (Deviation::LabelWithoutKeyword, "TILT", "no keyword\nTILT"),
+        (Deviation::TiltSpelling, "TILT=NONE", "Tilt = none"),
+        (Deviation::TiltFactors, "NONE", "INCLUDE\n1 2 0 90 1 0.8"),
+        (Deviation::TiltFile, "NONE", "lamp.tlt"),
+        (Deviation::Semicolon, "1 1 10", "1;1;10"),
+        (Deviation::RecordStart, "0 0 0\n", "0 0 0 "),
+        (Deviation::CountWithPoint, "1 2 1 1 2", "1 2.0 1 1 2"),
+        (Deviation::NegativeLumens, "1 -1 1", "1 -2 1"),
+        (Deviation::ZeroBallastLampFactor, "1 1 10", "1 0 10"),
+        (Deviation::BallastLampFactor, "1 1 10", "1 1.1 10"),
+        (Deviation::VerticalRange, "0 180", "0 170"),
+        (Deviation::SinglePlane, "\n0\n", "\n30\n"),
+        (Deviation::NegativeCandela, "100 100", "100 -0.1"),
+        (
+            Deviation::TrailingText,
+            "100 100\n",
+            "100 100\nthe end of it\n",
+        ),
+        (Deviation::NoLight, "100 100", "0 0"),
+        (Deviation::FluxDiffers, "1 -1 1", "1 1000 1"),
+    ];
+    assert!(read(&good).warnings.is_empty());
+    for (deviation, from, to) in cases {
+        assert!(good.contains(from), "{from}");
+        let read = read(&good.replacen(from, to, 1));
+        assert_eq!(deviations(&read), [*deviation], "{to:?}");
+    }
+    let latin_1 = good.replace("TILT", "[LAMP] 30x\nTILT").into_bytes();
+    let latin_1: Vec<u8> = latin_1
+        .iter()
+        .map(|&b| if b == b'x' { 0xB0 } else { b })
+        .collect();
+    let read = read_ies(&latin_1).unwrap();
+    assert_eq!(deviations(&read), [Deviation::Encoding]);
+    assert_eq!(read.photometry.facts().keyword("LAMP"), Some("30\u{B0}"));
+}
+
+#[test]
+fn separators_and_line_ends_do_not_matter() {
+    let good = file("IESNA:LM-63-2002", "1 -1 1 2 1 1 2 0 0 0", "1 1 10");
+    let same = [
+        good.replace('\n', "\r\n"),
+        good.replace('\n', "\r"),
+        good.replace("1 -1 1 2 1", "1, -1,1\n2\t1,"),
+        good.trim_end().to_owned(),
+        format!("{good}END\n"),
+        format!("{good}\u{1A}"),
+        good.replace("100 100", "1.0E2\n+100."),
+    ];
+    for text in same {
+        let read = read(&text);
+        assert!(read.warnings.is_empty(), "{text:?}: {:?}", read.warnings);
+        assert_eq!(read.photometry.intensity_cd(DVec3::X), 100.0);
+    }
+}
+
+#[test]
+fn refusals_say_where_and_what() {
+    let good = file("IESNA:LM-63-2002", "1 -1 1 2 1 1 2 0 0 0", "1 1 10");
+    let cases: &[(&str, &str, usize, usize, &str)] = &[
+        ("TILT=NONE", "", 7, 8, "TILT=NONE"),
+        ("TILT=NONE", "TILT=", 2, 1, "nothing behind"),
+        ("1 -1 1 2 1 1", "1 -1 1 2 1 3", 3, 12, "type A"),
+        ("1 -1 1 2 1 1", "1 -1 1 2 1 7", 3, 12, "photometric type of"),
+        ("1 1 2 0 0 0", "1 1 3 0 0 0", 3, 14, "units type"),
+        ("1 2 1 1 2", "1 999999999 1 1 2", 3, 8, "complete file"),
+        ("1 2 1 1 2", "1 2 1e14 1 2", 3, 10, "complete file"),
+        ("1 2 1 1 2", "1 1 1 1 2", 3, 8, "2 or more"),
+        ("1 2 1 1 2", "1 2 1.5 1 2", 3, 10, "an integer"),
+        ("1 -1 1", "1 -1 0", 3, 6, "multiplier above 0"),
+        ("1 1 10", "0 1 10", 4, 1, "ballast factor above 0"),
+        ("1 1 10", "1 1 nan", 4, 5, "a number"),
+        ("1 1 10", "1 1 1e999", 4, 5, "finite"),
+        ("0 180", "0 0", 5, 3, "ascending"),
+        ("0 180", "0 190", 5, 3, "between 0 and 180"),
+        (
+            "100 100",
+            "100",
+            7,
+            4,
+            "candela value 2 of 2 in plane 1 of 1",
+        ),
+        ("100 100", "100 1oo", 7, 5, "\"1oo\""),
+    ];
+    for (from, to, line, column, message) in cases {
+        let error = read_ies(good.replacen(from, to, 1).as_bytes()).unwrap_err();
+        assert_eq!(
+            (error.line(), error.column()),
+            (*line, *column),
+            "{to:?}: {error}"
+        );
+        assert!(error.to_string().contains(message), "{to:?}: {error}");
+    }
+    assert_eq!(read_ies(b"").unwrap_err().line(), 1);
+    assert!(read_ies(b"\xFF\xFE").is_err());
+    assert!(read_ies(&[0xFF; 1000]).is_err());
+}
+
+/// Work is linear in the length of a line: with columns counted from its start each time, this
+/// would not end.
+#[test]
+fn a_file_may_be_one_long_line() {
+    let (verticals, planes) = (400, 1000);
+    let angles = |count: usize, last: f64| -> String {
+        (0..count)
+            .map(|i| format!("{} ", last * i as f64 / (count - 1) as f64))
+            .collect()
+    };
+    let candela = "100 ".repeat(verticals * planes);
+    let text = format!(
+        "IESNA91\nTILT=NONE\n1 -1 1 {verticals} {planes} 1 2 0 0 0 1 1 1 {}{}{candela}",
+        angles(verticals, 180.0),
+        angles(planes, 360.0),
+    );
+    let read = read(&text);
+    assert!((read.photometry.flux_lm() / (400.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12);
+    assert_eq!(deviations(&read), [Deviation::RecordStart]);
+    assert_eq!(read.warnings[0].count(), planes + 3);
+}

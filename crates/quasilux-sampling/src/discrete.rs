@@ -1,0 +1,147 @@
+//! A fixed discrete distribution, sampled by inversion.
+//!
+//! A cumulative table with a guide table before it (H.-C. Chen and Y. Asau, "On generating random
+//! variates from an empirical distribution", AIIE Trans. 6, 1974): expected time O(1). Not the
+//! alias method: that map is not monotone, so it tears neighbouring coordinates apart and a
+//! low-discrepancy sequence loses its evenness in it; nor does it give back a rest.
+
+use crate::choice::{Choice, is_weight, rest_in};
+
+/// A distribution over the indices of a list of weights.
+///
+/// ```
+/// use quasilux_sampling::Discrete;
+/// let distribution = Discrete::new(&[1.0, 0.0, 3.0]).unwrap();
+/// let choice = distribution.choose(0.625);
+/// assert_eq!((choice.index, choice.probability, choice.rest), (2, 0.75, 0.5));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Discrete {
+    /// `cumulative[i]` is the probability of the entries 0 ..= i; the last is 1.
+    cumulative: Vec<f64>,
+    /// `guide[b]` is the first entry whose cumulative probability lies in bucket b or later.
+    guide: Vec<u32>,
+    total: f64,
+}
+
+impl Discrete {
+    /// The distribution proportional to `weights`.
+    ///
+    /// `None` when there is no positive finite total, when a weight is negative or NaN, or for more
+    /// than 2^32 - 1 entries.
+    #[must_use]
+    pub fn new(weights: &[f64]) -> Option<Self> {
+        if weights.len() >= u32::MAX as usize || !weights.iter().copied().all(is_weight) {
+            return None;
+        }
+        let mut cumulative = prefix_sums(weights)?;
+        let total = cumulative.last().copied().filter(|total| *total > 0.0)?;
+        for sum in &mut cumulative {
+            *sum /= total;
+        }
+        let guide = guide_table(&cumulative);
+        Some(Self {
+            cumulative,
+            guide,
+            total,
+        })
+    }
+
+    /// The entry at which the cumulative probability passes u: non-decreasing in u, and never one
+    /// of weight 0. A u outside [0, 1) counts as the nearer bound, NaN as 0.
+    #[inline]
+    #[must_use]
+    pub fn choose(&self, u: f64) -> Choice {
+        let u = u.max(0.0);
+        let bucket = bucket(u, self.guide.len() - 1).min(self.guide.len() - 2);
+        let (first, last) = (self.guide[bucket] as usize, self.guide[bucket + 1] as usize);
+        let index = first + self.cumulative[first..last].partition_point(|sum| *sum <= u);
+        let (low, high) = self.bounds(index);
+        Choice {
+            index,
+            probability: high - low,
+            rest: rest_in(u, low, high),
+        }
+    }
+
+    /// The coordinate that [`choose`](Self::choose) maps to this entry with this rest.
+    #[must_use]
+    pub fn invert(&self, index: usize, rest: f64) -> f64 {
+        let (low, high) = self.bounds(index);
+        low + rest * (high - low)
+    }
+
+    /// The probability with which an entry is chosen: its weight over the total, to within 2^-52 of
+    /// the whole.
+    #[inline]
+    #[must_use]
+    pub fn probability(&self, index: usize) -> f64 {
+        let (low, high) = self.bounds(index);
+        high - low
+    }
+
+    /// The sum of the weights.
+    #[must_use]
+    pub const fn total(&self) -> f64 {
+        self.total
+    }
+
+    /// The number of entries, those of weight 0 included.
+    #[must_use]
+    #[expect(
+        clippy::len_without_is_empty,
+        reason = "a distribution has at least one entry"
+    )]
+    pub const fn len(&self) -> usize {
+        self.cumulative.len()
+    }
+
+    #[inline]
+    fn bounds(&self, index: usize) -> (f64, f64) {
+        let low = if index == 0 {
+            0.0
+        } else {
+            self.cumulative[index - 1]
+        };
+        (low, self.cumulative[index])
+    }
+}
+
+/// Non-decreasing sums with the rounding errors carried along (A. Neumaier, 1974); `None` on
+/// overflow.
+fn prefix_sums(weights: &[f64]) -> Option<Vec<f64>> {
+    let (mut sum, mut carry, mut last) = (0.0_f64, 0.0, 0.0_f64);
+    let next = |weight: &f64| {
+        let next = sum + weight;
+        carry += if sum >= *weight {
+            (sum - next) + weight
+        } else {
+            (weight - next) + sum
+        };
+        sum = next;
+        last = last.max(sum + carry);
+        last
+    };
+    let sums = weights.iter().map(next).collect();
+    sum.is_finite().then_some(sums)
+}
+
+/// One bucket an entry. `bucket` does not decrease, so an entry before `guide[b]` has a cumulative
+/// probability below any u of bucket b, whatever the rounding.
+fn guide_table(cumulative: &[f64]) -> Vec<u32> {
+    let buckets = cumulative.len();
+    let mut guide = Vec::with_capacity(buckets + 1);
+    let mut entry = 0;
+    for b in 0..=buckets {
+        while bucket(cumulative[entry], buckets) < b {
+            entry += 1;
+        }
+        guide.push(entry as u32);
+    }
+    guide
+}
+
+#[inline]
+fn bucket(u: f64, buckets: usize) -> usize {
+    (u * buckets as f64) as usize
+}

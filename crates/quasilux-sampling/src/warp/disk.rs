@@ -1,0 +1,55 @@
+//! The unit disk by concentric squares.
+//!
+//! P. Shirley and K. Chiu, "A low distortion map between disk and square" (J. Graphics Tools 2,
+//! 1997): squares about the centre become circles, areas keep their ratios.
+
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
+
+use super::unit;
+
+/// A point of the unit disk, uniform in area.
+#[must_use]
+pub fn sample_disk(u: [f64; 2]) -> [f64; 2] {
+    let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
+    let (r, phi_rad) = if a == 0.0 && b == 0.0 {
+        return [0.0, 0.0];
+    } else if a.abs() > b.abs() {
+        (a, FRAC_PI_4 * (b / a))
+    } else {
+        (b, FRAC_PI_2 - FRAC_PI_4 * (a / b))
+    };
+    let (sin, cos) = libm::sincos(phi_rad);
+    [r * cos, r * sin]
+}
+
+/// Density of [`sample_disk`] with respect to area (per square radius).
+#[must_use]
+pub fn pdf_disk(point: [f64; 2]) -> f64 {
+    if point[0] * point[0] + point[1] * point[1] <= 1.0 {
+        FRAC_1_PI
+    } else {
+        0.0
+    }
+}
+
+/// The coordinates that [`sample_disk`] maps to `point`, for area.
+#[must_use]
+pub fn invert_disk(point: [f64; 2]) -> [f64; 2] {
+    let [x, y] = point;
+    let r = (x * x + y * y).sqrt();
+    let phi_rad = libm::atan2(y, x);
+    let (a, b) = if x.abs() > y.abs() {
+        let centre_rad = if x > 0.0 { 0.0 } else { PI.copysign(y) };
+        (
+            r.copysign(x),
+            (phi_rad - centre_rad) * 2.0 * FRAC_2_PI * r.copysign(x),
+        )
+    } else {
+        let centre_rad = FRAC_PI_2.copysign(y);
+        (
+            (centre_rad - phi_rad) * 2.0 * FRAC_2_PI * r.copysign(y),
+            r.copysign(y),
+        )
+    };
+    [unit(0.5 * (a + 1.0)), unit(0.5 * (b + 1.0))]
+}

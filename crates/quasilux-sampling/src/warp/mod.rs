@@ -1,0 +1,24 @@
+//! Maps from the unit square, each as sample, pdf and invert.
+//!
+//! Directions are unit vectors in a local frame with z up. All maps are continuous, and send an
+//! even point set to an even one.
+
+mod disk;
+mod hemisphere;
+mod sphere;
+mod triangle;
+
+pub use disk::{invert_disk, pdf_disk, sample_disk};
+pub use hemisphere::{
+    invert_cosine_hemisphere, invert_uniform_hemisphere, pdf_cosine_hemisphere,
+    pdf_uniform_hemisphere, sample_cosine_hemisphere, sample_uniform_hemisphere,
+};
+pub use sphere::{invert_uniform_sphere, pdf_uniform_sphere, sample_uniform_sphere};
+pub use triangle::{invert_triangle, pdf_triangle, sample_triangle};
+
+use crate::ONE_BELOW;
+
+/// The nearest coordinate.
+fn unit(x: f64) -> f64 {
+    x.clamp(0.0, ONE_BELOW)
+}

@@ -1,0 +1,154 @@
+//! The Sobol' sequence: equal to scipy's, a net before and after randomisation, defined everywhere.
+
+use quasilux_sampling::{Randomization, Sequence};
+
+use crate::support::{cell, sobol};
+
+const GOLDEN: &str = include_str!("golden/sobol_scipy.txt");
+const RANDOMIZATIONS: [Randomization; 3] = [
+    Randomization::None,
+    Randomization::Shift,
+    Randomization::Owen,
+];
+
+/// Coordinate of point i of scipy, which walks in Gray-code order, in units of 1/4096.
+fn scipy_order(i: u64, dimension: u32) -> u64 {
+    let scaled = sobol(Randomization::None, 0).coordinate(i ^ (i >> 1), dimension) * 4096.0;
+    assert_eq!(scaled, scaled.floor());
+    scaled as u64
+}
+
+#[test]
+fn equals_scipy_for_4096_points_in_50_dimensions() {
+    let (mut points, mut hashes) = (0, 0);
+    for line in GOLDEN.lines().filter(|line| !line.starts_with('#')) {
+        let (head, numbers) = line.split_once(": ").expect("a colon");
+        let (kind, number) = head.split_once(' ').expect("a kind and a number");
+        let number: u32 = number.parse().expect("a number");
+        let numbers: Vec<u64> = numbers
+            .split(' ')
+            .map(|field| field.parse().expect("an integer"))
+            .collect();
+        if kind == "point" {
+            let ours: Vec<u64> = (0..50).map(|d| scipy_order(u64::from(number), d)).collect();
+            assert_eq!(ours, numbers, "point {number}");
+            points += 1;
+        } else {
+            let fnv = |hash: u64, word: u64| (hash ^ word).wrapping_mul(1_099_511_628_211);
+            let hash = (0..4096)
+                .map(|i| scipy_order(i, number))
+                .fold(14_695_981_039_346_656_037, fnv);
+            assert_eq!(hash, numbers[0], "dimension {number}");
+            hashes += 1;
+        }
+    }
+    assert_eq!((points, hashes), (38, 50));
+}
+
+/// Each elementary interval of 2^-a by 2^-(m-a) holds one point of each aligned block of 2^m: (0,
+/// m, 2)-nets.
+#[test]
+fn first_two_dimensions_are_exact_nets() {
+    for randomization in RANDOMIZATIONS {
+        let points = sobol(randomization, 11);
+        for m in 0..=16_u32 {
+            for block in [0, 5] {
+                let offset = block << m;
+                let block: Vec<[f64; 2]> = (offset..offset + (1 << m))
+                    .map(|index| [points.coordinate(index, 0), points.coordinate(index, 1)])
+                    .collect();
+                for a in 0..=m {
+                    assert_one_in_each(&block, 1 << a, 1 << (m - a));
+                }
+            }
+        }
+    }
+}
+
+fn assert_one_in_each(block: &[[f64; 2]], columns: usize, rows: usize) {
+    let mut seen = vec![false; columns * rows];
+    for [x, y] in block {
+        let place = &mut seen[cell(*x, columns) * rows + cell(*y, rows)];
+        assert!(!*place, "two points in one of {columns} x {rows} intervals");
+        *place = true;
+    }
+}
+
+/// Past 2^40 points, in all dimensions and past the last: aligned blocks of 2^10 put one point in
+/// each of 2^10 parts.
+#[test]
+fn every_dimension_is_stratified_far_out() {
+    for randomization in RANDOMIZATIONS {
+        let points = sobol(randomization, 3);
+        for dimension in (0..3000).chain([u32::MAX]) {
+            let offset = (1 << 40) + (u64::from(dimension) << 10);
+            let mut seen = [false; 1024];
+            for index in offset..offset + 1024 {
+                seen[cell(points.coordinate(index, dimension), 1024)] = true;
+            }
+            assert!(
+                seen.iter().all(|seen| *seen),
+                "dimension {dimension}, {randomization:?}"
+            );
+        }
+    }
+}
+
+/// Dimension j and its copies j + 1024 k share digits; shuffled and scrambled, their pairs must
+/// fill the square. In 16 x 16 cells a diagonal would leave 240 empty; independent pairs put 64 +-
+/// 8 in each.
+#[test]
+fn padding_is_independent() {
+    for randomization in RANDOMIZATIONS {
+        let points = sobol(randomization, 4);
+        for (first, second) in [
+            (0, 1024),
+            (1, 1025),
+            (7, 2055),
+            (1030, 2054),
+            (0, 1025),
+            (1024, 3072),
+        ] {
+            let mut counts = [0_u64; 256];
+            for index in 0..1 << 14 {
+                let x = cell(points.coordinate(index, first), 16);
+                counts[16 * x + cell(points.coordinate(index, second), 16)] += 1;
+            }
+            let (least, most) = (counts.iter().min().unwrap(), counts.iter().max().unwrap());
+            assert!(
+                *least > 16 && *most < 128,
+                "dimensions {first}, {second}, {randomization:?}: {least} to {most} instead of 64"
+            );
+        }
+    }
+}
+
+#[test]
+fn extreme_arguments_have_coordinates() {
+    for sequence in Sequence::NAMES.map(|(_, sequence)| sequence) {
+        for randomization in RANDOMIZATIONS {
+            let points = quasilux_sampling::PointSet::new(sequence, randomization, u64::MAX);
+            for index in [0, 1, 1 << 52, 1 << 63, u64::MAX] {
+                for dimension in [0, 1023, 1024, 1 << 31, u32::MAX] {
+                    cell(points.coordinate(index, dimension), 1);
+                }
+            }
+        }
+    }
+    assert!((0..1024).all(|d| sobol(Randomization::None, 9).coordinate(0, d) == 0.0));
+}
+
+#[test]
+fn names_are_the_names() {
+    assert!(
+        Sequence::NAMES
+            .iter()
+            .all(|(name, sequence)| *name == sequence.name())
+    );
+    assert!(
+        Randomization::NAMES
+            .iter()
+            .all(|(name, kind)| *name == kind.name())
+    );
+    assert_eq!(Randomization::NAMES.map(|(_, kind)| kind), RANDOMIZATIONS);
+}

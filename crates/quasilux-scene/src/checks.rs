@@ -1,0 +1,170 @@
+//! Checks that need the whole scene: a sensor inside a wall sees nothing, and hides a mistake.
+//!
+//! "Wall" is any solid that holds the sensor and no light: a closed room around its lights is
+//! none.
+
+use crate::light::AreaLight;
+use crate::project::{Project, SensorEntry};
+use crate::solids::{Solid, solids_of};
+use crate::{Light, LoadError, Mesh, Scene, SensorPoint, SensorShape, Warning};
+use glam::DVec3;
+
+/// Triangles that may be tested in all before the search for sensors in walls is given up: some
+/// seconds at most.
+const MAX_TRIANGLE_TESTS: u64 = 200_000_000;
+
+/// A sensor point on a surface is judged by the place this share of the scene's size in front.
+const HAIR: f64 = 1e-6;
+
+/// Refuses `points` sensors with a point inside a wall, and grids that are altogether inside;
+/// warns of grids with some cells inside.
+pub(crate) fn sensors_in_walls(
+    scene: &Scene,
+    project: &Project,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), LoadError> {
+    let Some([low, high]) = scene.mesh.bounds() else {
+        return Ok(());
+    };
+    let mut walls = Walls {
+        scene,
+        hair_m: HAIR * (high - low).length(),
+        solids: solids_of(&scene.mesh)
+            .into_iter()
+            .map(|solid| (solid, None))
+            .collect(),
+        tests_left: MAX_TRIANGLE_TESTS,
+    };
+    for entry in &project.sensors {
+        check_sensor(entry, &mut walls, project, warnings)?;
+    }
+    Ok(())
+}
+
+fn check_sensor(
+    entry: &SensorEntry,
+    walls: &mut Walls<'_>,
+    project: &Project,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), LoadError> {
+    let name = &entry.sensor.name;
+    let points = entry.sensor.points();
+    let inside: Vec<Option<String>> = points.iter().map(|point| walls.around(point)).collect();
+    let Some((first, object)) = inside
+        .iter()
+        .enumerate()
+        .find_map(|(i, object)| Some((i, object.as_ref()?)))
+    else {
+        return Ok(());
+    };
+    let expected = "expected a place that light can reach";
+    let wall = format!("inside the closed object \"{object}\", which holds no light");
+    if let SensorShape::Points(_) = entry.sensor.shape {
+        let place = entry
+            .point_places
+            .get(first)
+            .copied()
+            .unwrap_or(entry.place);
+        let message = format!(
+            "point {} of sensor \"{name}\" lies {wall}; {expected}",
+            first + 1
+        );
+        return Err(project.error(place, message));
+    }
+    let count = inside.iter().flatten().count();
+    if count == points.len() {
+        return Err(project.error(
+            entry.place,
+            format!("sensor \"{name}\" lies {wall}; {expected}"),
+        ));
+    }
+    let message = format!(
+        "{count} of {} points of sensor \"{name}\" lie {wall}",
+        points.len()
+    );
+    warnings.push(Warning::new(&project.file, Some(entry.place), message));
+    Ok(())
+}
+
+/// The solids of a scene, of which some are walls.
+struct Walls<'a> {
+    scene: &'a Scene,
+    hair_m: f64,
+    /// Each solid, and whether it holds a light once that has been asked.
+    solids: Vec<(Solid, Option<bool>)>,
+    tests_left: u64,
+}
+
+impl Walls<'_> {
+    /// The name of a wall that the point is inside of.
+    fn around(&mut self, point: &SensorPoint) -> Option<String> {
+        let position = point.position + point.normal * self.hair_m;
+        for (solid, is_lit) in &mut self.solids {
+            if *is_lit == Some(true) || !solid.may_contain(position) {
+                continue;
+            }
+            let mesh = &self.scene.mesh;
+            let mut contains = |position: DVec3| {
+                self.tests_left = self.tests_left.checked_sub(solid.triangles.len() as u64)?;
+                Some(solid.contains(mesh, position))
+            };
+            if !contains(position)? {
+                continue;
+            }
+            if is_lit.is_none() {
+                *is_lit = Some(holds_light(self.scene, solid, &mut contains)?);
+            }
+            if *is_lit == Some(false) {
+                let object = mesh.object_of[solid.triangles[0] as usize];
+                return Some(mesh.objects[object as usize].clone());
+            }
+        }
+        None
+    }
+}
+
+/// Whether a light is inside the solid or part of it; `None` when the tests are used up.
+fn holds_light(
+    scene: &Scene,
+    solid: &Solid,
+    contains: &mut impl FnMut(DVec3) -> Option<bool>,
+) -> Option<bool> {
+    let mut contains = |position: DVec3| {
+        if solid.may_contain(position) {
+            contains(position)
+        } else {
+            Some(false)
+        }
+    };
+    for light in &scene.lights {
+        let lit = match light {
+            Light::Point(light) => contains(light.position)?,
+            Light::Luminaire(light) => contains(light.position)?,
+            Light::Area(light) => {
+                emits(light, solid) || {
+                    let mut any = false;
+                    for &triangle in &light.triangles {
+                        any = any || contains(centroid(&scene.mesh, triangle))?;
+                    }
+                    any
+                }
+            }
+        };
+        if lit {
+            return Some(true);
+        }
+    }
+    Some(false)
+}
+
+/// Whether a triangle of the solid belongs to the light; both lists ascend.
+fn emits(light: &AreaLight, solid: &Solid) -> bool {
+    solid
+        .triangles
+        .iter()
+        .any(|triangle| light.triangles.binary_search(triangle).is_ok())
+}
+
+fn centroid(mesh: &Mesh, triangle: u32) -> DVec3 {
+    mesh.corners(triangle).into_iter().sum::<DVec3>() / 3.0
+}

@@ -1,0 +1,130 @@
+//! Geometry files: OBJ and glTF bytes to one mesh with shared vertices.
+//!
+//! Each reader hands its triangles to one [`MeshBuilder`], which turns them up, merges vertices at
+//! exactly the same position, and counts the degenerate triangles that it drops.
+
+mod builder;
+mod data_uri;
+mod gltf;
+mod gltf_accessor;
+mod gltf_primitive;
+mod mtl;
+mod obj;
+mod obj_lines;
+mod polygon;
+
+use crate::project::{Project, UpAxis};
+use crate::{Files, LoadError, Mesh, Placed, Rgb, Warning};
+use builder::MeshBuilder;
+
+/// The name that triangles without a material get.
+pub(crate) const DEFAULT_MATERIAL: &str = "default";
+
+/// The geometry of all files of a project.
+#[derive(Debug, Default)]
+pub(crate) struct Geometry {
+    pub(crate) mesh: Mesh,
+    /// The materials that `Mesh::material_of` refers to.
+    pub(crate) materials: Vec<FileMaterial>,
+}
+
+/// What geometry files say about a material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct FileMaterial {
+    pub(crate) name: String,
+    /// Diffuse reflectance; `None` where no file defines the material.
+    pub(crate) reflectance: Option<Rgb>,
+    /// Whether a file says that it emits light.
+    pub(crate) emits: bool,
+    /// The first file that uses it.
+    pub(crate) file: String,
+}
+
+/// Reads all geometry files of a project.
+pub(crate) fn read(
+    project: &Project,
+    files: &dyn Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<Geometry, LoadError> {
+    let mut builder = MeshBuilder::new(project.up.unwrap_or(UpAxis::Z));
+    for file in &project.geometry {
+        let extension = file
+            .value
+            .rsplit_once('.')
+            .map(|(_, end)| end.to_ascii_lowercase());
+        let is_obj = match extension.as_deref() {
+            Some("obj") => true,
+            Some("gltf" | "glb") => false,
+            _ => {
+                let message = format!(
+                    "\"{}\" is no geometry file; expected a name that ends in .obj, .gltf or .glb",
+                    file.value
+                );
+                return Err(project.error(file.place, message));
+            }
+        };
+        let bytes = read_file(project, file, files)?;
+        builder.start_file(&file.value);
+        if is_obj {
+            obj::read(&bytes, files, &mut builder, warnings)?;
+        } else {
+            if project.up.is_none() {
+                let message = "glTF has y up, and [scene] does not say up = \"y\": taken as z up";
+                warnings.push(Warning::new(&file.value, None, message));
+            }
+            gltf::read(&bytes, files, &mut builder, warnings)?;
+        }
+        builder.finish_file(warnings)?;
+    }
+    Ok(builder.geometry)
+}
+
+/// Reads a file that the project file names.
+pub(crate) fn read_file(
+    project: &Project,
+    name: &Placed<String>,
+    files: &dyn Files,
+) -> Result<Vec<u8>, LoadError> {
+    files.read(&name.value).map_err(|error| {
+        let reason = reason(&error);
+        project.error(
+            name.place,
+            format!(
+                "cannot read \"{}\": {reason}; expected a readable file",
+                name.value
+            ),
+        )
+    })
+}
+
+/// Why a file cannot be read, in the words of no particular system.
+pub(crate) fn reason(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "no such file".to_owned(),
+        _ => error.to_string().replace('\n', "; "),
+    }
+}
+
+/// The path of a file that `of` names relative to itself.
+fn beside(of: &str, name: &str) -> String {
+    let name = name.replace('\\', "/");
+    match of.rsplit_once('/') {
+        Some((folder, _)) if !name.starts_with('/') => format!("{folder}/{name}"),
+        _ => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_beside_a_file() {
+        assert_eq!(beside("room.obj", "room.mtl"), "room.mtl");
+        assert_eq!(
+            beside("geo/room.obj", "maps\\room.mtl"),
+            "geo/maps/room.mtl"
+        );
+        assert_eq!(beside("geo/room.obj", "/room.mtl"), "/room.mtl");
+    }
+}

@@ -1,0 +1,119 @@
+//! Diffuse reflectances of Wavefront MTL files.
+//!
+//! Of each material its name, `Kd` (diffuse reflectance, kept within 0 to 1) and `Ke` (whether it
+//! emits) are read. Textures and highlights are not: a texture is warned of.
+
+use crate::{Place, Rgb, Warning};
+
+/// What MTL files say of a material without `Kd`: the reflectance of the format's default grey.
+const DEFAULT_REFLECTANCE: f64 = 0.8;
+
+/// A material of an MTL file.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MtlMaterial {
+    pub(super) name: String,
+    pub(super) reflectance: Rgb,
+    pub(super) emits: bool,
+}
+
+/// Reads an MTL file; lines that make no sense are warned of and left out.
+pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec<MtlMaterial> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut materials: Vec<MtlMaterial> = Vec::new();
+    let mut textures = 0_u64;
+    for (line, number) in text.lines().zip(1..) {
+        let line = line.trim();
+        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let mut warn = |message: String| {
+            let place = Some(Place {
+                line: number,
+                column: 1,
+            });
+            warnings.push(Warning::new(file, place, message));
+        };
+        if keyword == "newmtl" {
+            let reflectance = Rgb::grey(DEFAULT_REFLECTANCE);
+            let name = rest.trim().to_owned();
+            materials.push(MtlMaterial {
+                name,
+                reflectance,
+                emits: false,
+            });
+            continue;
+        }
+        let Some(material) = materials.last_mut() else {
+            continue;
+        };
+        match keyword {
+            "Kd" => match colour(rest) {
+                Some(kd) => {
+                    let clipped = Rgb(kd.0.map(|c| c.clamp(0.0, 1.0)));
+                    if clipped != kd {
+                        warn(format!(
+                            "Kd of \"{}\" is outside 0 to 1: clipped",
+                            material.name
+                        ));
+                    }
+                    material.reflectance = clipped;
+                }
+                None => warn(format!(
+                    "Kd of \"{}\" is not one or three numbers: {DEFAULT_REFLECTANCE} is used",
+                    material.name
+                )),
+            },
+            "Ke" => material.emits = colour(rest).is_some_and(|ke| ke.max_channel() > 0.0),
+            "map_Kd" => textures += 1,
+            _ => {}
+        }
+    }
+    if textures > 0 {
+        let message = format!("{textures} textures are not read: their Kd is used alone");
+        warnings.push(Warning::new(file, None, message));
+    }
+    materials
+}
+
+/// One or three finite numbers.
+fn colour(words: &str) -> Option<Rgb> {
+    let words = words.split('#').next().unwrap_or_default();
+    let numbers: Vec<f64> = words
+        .split_whitespace()
+        .map(str::parse)
+        .collect::<Result<_, _>>()
+        .ok()?;
+    let colour = match numbers.as_slice() {
+        [grey] => Rgb::grey(*grey),
+        [r, g, b] => Rgb([*r, *g, *b]),
+        _ => return None,
+    };
+    colour.0.iter().all(|c| c.is_finite()).then_some(colour)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reflectances_and_oddities() {
+        let text = "Kd 1 1 1\nnewmtl white wall\n Kd 0.8 0.7 1.5\nKs 1 1 1\nnewmtl lamp\n\
+                    Kd 0.25\nKe 3 3 3\nmap_Kd a.png\nnewmtl odd\nKd x\n\u{0}";
+        let mut warnings = Vec::new();
+        let materials = read("a.mtl", text.as_bytes(), &mut warnings);
+        let of = |i: usize| {
+            (
+                materials[i].name.as_str(),
+                materials[i].reflectance,
+                materials[i].emits,
+            )
+        };
+        assert_eq!(materials.len(), 3);
+        assert_eq!(of(0), ("white wall", Rgb([0.8, 0.7, 1.0]), false));
+        assert_eq!(of(1), ("lamp", Rgb::grey(0.25), true));
+        assert_eq!(of(2), ("odd", Rgb::grey(DEFAULT_REFLECTANCE), false));
+        let warnings: Vec<String> = warnings.iter().map(Warning::to_string).collect();
+        assert_eq!(warnings.len(), 3, "{warnings:?}");
+        assert!(warnings[0].starts_with("a.mtl:3:1: Kd of \"white wall\" is outside"));
+        assert!(warnings[1].starts_with("a.mtl:10:1: "));
+        assert!(warnings[2].contains("1 textures"));
+    }
+}

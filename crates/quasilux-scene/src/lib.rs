@@ -1,0 +1,31 @@
+//! What exists: triangles, materials, placed luminaires, sensors; their loaders and checks.
+//!
+//! A [`Scene`] is built once, checked once and never changed. Everything that can go wrong with a
+//! user's files goes wrong here, with the place in the file; light transport cannot fail.
+//!
+//! Read on at [`scene`] for the model, at [`project`] for the project file, and at [`mod@load`] for
+//! the way from bytes to a [`Scene`].
+
+pub mod bsdf;
+mod checks;
+pub mod error;
+mod geometry;
+pub mod light;
+pub mod load;
+pub mod mesh;
+mod nearest;
+pub mod project;
+pub mod rgb;
+pub mod scene;
+pub mod sensor;
+mod solids;
+
+pub use bsdf::Bsdf;
+pub use error::{LoadError, Place, Placed, Warning};
+pub use light::Light;
+pub use load::{Files, Loaded, load};
+pub use mesh::Mesh;
+pub use project::SimulationSection;
+pub use rgb::Rgb;
+pub use scene::{Material, Scene};
+pub use sensor::{Grid, Quantity, Sensor, SensorPoint, SensorShape};

@@ -1,0 +1,115 @@
+//! The material of each name: what the project file says, then what geometry files say.
+
+use crate::bsdf::Diffuse;
+use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, Geometry};
+use crate::project::{LightEntry, MaterialEntry, Project};
+use crate::{Bsdf, LoadError, Material, Rgb, Warning};
+
+/// Reflectance of what nobody defines.
+const DEFAULT_REFLECTANCE: f64 = 0.5;
+
+/// The materials of the geometry, in its order.
+pub(super) fn resolve(
+    project: &Project,
+    geometry: &Geometry,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Material>, LoadError> {
+    let names = || {
+        geometry
+            .materials
+            .iter()
+            .map(|material| material.name.as_str())
+    };
+    for entry in &project.materials {
+        let name = &entry.name;
+        if name.value != DEFAULT_MATERIAL && !names().any(|known| known == name.value) {
+            let message = format!(
+                "no geometry uses the material \"{}\"; expected one of {}",
+                name.value,
+                listed(names())
+            );
+            return Err(project
+                .error(name.place, message)
+                .offer(&name.value, names()));
+        }
+    }
+    let default = entry_of(project, DEFAULT_MATERIAL);
+    let mut triangles = vec![0_u64; geometry.materials.len()];
+    geometry
+        .mesh
+        .material_of
+        .iter()
+        .for_each(|&material| triangles[material as usize] += 1);
+    let materials = geometry
+        .materials
+        .iter()
+        .zip(triangles)
+        .map(|(material, count)| {
+            let bsdf = match (entry_of(project, &material.name), material.reflectance) {
+                (Some(entry), _) => entry.bsdf,
+                (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
+                (None, None) => {
+                    let bsdf = default.map_or_else(grey, |entry| entry.bsdf);
+                    if count > 0 {
+                        warnings.push(undefined(material, count, &bsdf));
+                    }
+                    bsdf
+                }
+            };
+            warn_of_emission(project, material, warnings);
+            Material {
+                name: material.name.clone(),
+                bsdf,
+            }
+        });
+    Ok(materials.collect())
+}
+
+/// Names for a message, a few at most.
+pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    const MOST: usize = 12;
+    let names: Vec<&str> = names.collect();
+    let more = if names.len() > MOST { ", ..." } else { "" };
+    format!("{}{more}", names[..names.len().min(MOST)].join(", "))
+}
+
+fn entry_of<'a>(project: &'a Project, name: &str) -> Option<&'a MaterialEntry> {
+    project
+        .materials
+        .iter()
+        .find(|entry| entry.name.value == name)
+}
+
+fn grey() -> Bsdf {
+    Bsdf::Diffuse(Diffuse {
+        reflectance: Rgb::grey(DEFAULT_REFLECTANCE),
+    })
+}
+
+fn undefined(material: &FileMaterial, count: u64, bsdf: &Bsdf) -> Warning {
+    let used = format!("reflectance {} is used", bsdf.reflectance().luminance());
+    let message = if material.name == DEFAULT_MATERIAL {
+        format!("{count} triangles have no material: {used}")
+    } else {
+        format!(
+            "the material \"{}\" of {count} triangles is not defined: {used}",
+            material.name
+        )
+    };
+    Warning::new(&material.file, None, message)
+}
+
+/// Emission in a geometry file has no photometric unit: the project file must give it.
+fn warn_of_emission(project: &Project, material: &FileMaterial, warnings: &mut Vec<Warning>) {
+    let declared = project.lights.iter().any(|light| {
+        matches!(light, LightEntry::Area { material: name, .. } if name.value == material.name)
+    });
+    if material.emits && !declared {
+        let message = format!(
+            "the material \"{}\" emits in the geometry file, but no [[lights]] of kind \"area\" \
+             names it: dark",
+            material.name
+        );
+        warnings.push(Warning::new(&material.file, None, message));
+    }
+}

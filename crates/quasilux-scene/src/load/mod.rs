@@ -1,0 +1,62 @@
+//! From the bytes of a project to a checked [`Scene`].
+
+mod lights;
+mod materials;
+
+use crate::project::{Project, SimulationSection};
+use crate::{LoadError, Scene, Warning, checks, geometry};
+
+/// How loaders reach files: the command line implements it over the file system, tests over maps.
+pub trait Files {
+    /// The bytes of a file. `path` is relative to the project file's folder, with forward
+    /// slashes, as the project file writes it or a geometry file implies it.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    fn read(&self, path: &str) -> std::io::Result<Vec<u8>>;
+}
+
+/// A loaded project.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// What the project file asks of the engine.
+    pub simulation: SimulationSection,
+    /// Oddities that were lived with.
+    pub warnings: Vec<Warning>,
+}
+
+/// Loads a project: `project_name` is what messages call the project file, `files` reaches the
+/// files that it names.
+///
+/// # Errors
+/// When a file cannot be read, parsed or made sense of; see [`LoadError`].
+pub fn load(
+    project_name: &str,
+    project_bytes: &[u8],
+    files: &dyn Files,
+) -> Result<Loaded, LoadError> {
+    let project = Project::parse(project_name, project_bytes)?;
+    let mut warnings = Vec::new();
+    let geometry = geometry::read(&project, files, &mut warnings)?;
+    let materials = materials::resolve(&project, &geometry, &mut warnings)?;
+    let lights = lights::place(&project, &geometry, files, &mut warnings)?;
+    let sensors = project
+        .sensors
+        .iter()
+        .map(|entry| entry.sensor.clone())
+        .collect();
+    let scene = Scene {
+        mesh: geometry.mesh,
+        materials,
+        lights,
+        sensors,
+    };
+    checks::sensors_in_walls(&scene, &project, &mut warnings)?;
+    Ok(Loaded {
+        scene,
+        simulation: project.simulation,
+        warnings,
+    })
+}

@@ -1,0 +1,92 @@
+//! `[[lights]]`: isotropic points and emitting materials.
+
+use super::document::Section;
+use crate::light::PointLight;
+use crate::{LoadError, Place, Placed};
+
+const AREA_KEYS: [&str; 4] = ["kind", "material", "luminance_cd_m2", "flux_lm"];
+
+/// Largest intensity, luminance or flux that a project file may give; far from overflow.
+const MAX_LIGHT: f64 = 1e60;
+
+/// One light.
+#[derive(Clone, Debug)]
+pub(crate) enum LightEntry {
+    Point {
+        place: Place,
+        light: PointLight,
+    },
+    Area {
+        material: Placed<String>,
+        emission: Emission,
+    },
+}
+
+/// How the project file gives the light of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Emission {
+    /// Luminance of each front side in cd/m^2.
+    LuminanceCdM2(f64),
+    /// Flux of all triangles together in lm.
+    FluxLm(f64),
+}
+
+impl LightEntry {
+    pub(crate) fn place(&self) -> Place {
+        match self {
+            Self::Point { place, .. } => *place,
+            Self::Area { material, .. } => material.place,
+        }
+    }
+}
+
+pub(super) fn read(root: &Section<'_>) -> Result<Vec<LightEntry>, LoadError> {
+    root.tables("lights")?.iter().map(light).collect()
+}
+
+fn light(section: &Section<'_>) -> Result<LightEntry, LoadError> {
+    let kind = section.require("kind", "\"point\" or \"area\"")?;
+    let planned = [
+        "directional",
+        "distant",
+        "environment",
+        "sky",
+        "spot",
+        "sun",
+    ];
+    match kind.name(&["point", "area"], &planned)? {
+        "point" => point(section),
+        _ => area(section),
+    }
+}
+
+fn point(section: &Section<'_>) -> Result<LightEntry, LoadError> {
+    section.only(&["kind", "position", "intensity_cd"], &[])?;
+    let position = "a position [x, y, z] in m";
+    let position = section.require("position", position)?.vector(position)?;
+    let intensity = "a luminous intensity in cd, at least 0";
+    let intensity_cd = section
+        .require("intensity_cd", intensity)?
+        .number(intensity, |x| (0.0..=MAX_LIGHT).contains(&x))?;
+    Ok(LightEntry::Point {
+        place: section.place(),
+        light: PointLight {
+            position,
+            intensity_cd,
+        },
+    })
+}
+
+fn area(section: &Section<'_>) -> Result<LightEntry, LoadError> {
+    section.only(&AREA_KEYS, &[])?;
+    let name = "the name of a material in the geometry";
+    let material = section.require("material", name)?;
+    let material = material.placed(material.string(name)?.to_owned());
+    let amount = section.exactly_one(&["luminance_cd_m2", "flux_lm"])?;
+    let number = |what: &str| amount.number(what, |x| (0.0..=MAX_LIGHT).contains(&x));
+    let emission = match amount.key {
+        "flux_lm" => Emission::FluxLm(number("a luminous flux in lm, at least 0")?),
+        _ => Emission::LuminanceCdM2(number("a luminance in cd/m^2, at least 0")?),
+    };
+    Ok(LightEntry::Area { material, emission })
+}

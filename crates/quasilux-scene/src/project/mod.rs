@@ -1,0 +1,151 @@
+//! The project file: TOML bytes to typed sections, everything checked that needs no other file.
+//!
+//! One file a section; [`SimulationSection`] is the one the command line reads further. Unknown
+//! keys, wrong types and values out of range are refused with their place and the nearest valid
+//! key.
+
+mod document;
+mod grid;
+mod lights;
+mod luminaires;
+mod materials;
+mod sensors;
+mod simulation;
+
+pub use simulation::SimulationSection;
+
+pub(crate) use lights::{Emission, LightEntry};
+pub(crate) use luminaires::LuminaireEntry;
+pub(crate) use materials::MaterialEntry;
+pub(crate) use sensors::SensorEntry;
+
+use crate::{LoadError, Place, Placed};
+use document::{Section, Source};
+use toml::de::DeTable;
+
+/// The axis that points up in the geometry files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum UpAxis {
+    Y,
+    Z,
+}
+
+/// A project file, read and checked on its own.
+#[derive(Clone, Debug)]
+pub(crate) struct Project {
+    pub(crate) file: String,
+    /// Names of the geometry files, at least one.
+    pub(crate) geometry: Vec<Placed<String>>,
+    /// `None` where the file does not say: z.
+    pub(crate) up: Option<UpAxis>,
+    pub(crate) materials: Vec<MaterialEntry>,
+    pub(crate) luminaires: Vec<LuminaireEntry>,
+    pub(crate) lights: Vec<LightEntry>,
+    /// At least one.
+    pub(crate) sensors: Vec<SensorEntry>,
+    pub(crate) simulation: SimulationSection,
+}
+
+const SECTIONS: [&str; 6] = [
+    "scene",
+    "materials",
+    "luminaires",
+    "lights",
+    "sensors",
+    "simulation",
+];
+
+impl Project {
+    pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Self, LoadError> {
+        let text = text_of(file, bytes)?;
+        let source = Source::new(file, text);
+        let table = DeTable::parse(text).map_err(|error| {
+            let message = error.message().replace('\n', "; ");
+            let offset = error.span().map_or(0, |span| span.start);
+            source.error(offset, format!("not valid TOML: {message}"))
+        })?;
+        let root = source.root(table.get_ref());
+        root.only(&SECTIONS, &["cameras"])
+            .map_err(|error| plural_cameras(&root, error))?;
+
+        let (geometry, up) = scene_section(&root)?;
+        let luminaires = luminaires::read(&root)?;
+        let lights = lights::read(&root)?;
+        if luminaires.is_empty() && lights.is_empty() {
+            return Err(root.error("no lights; expected at least one [[luminaires]] or [[lights]]"));
+        }
+        Ok(Self {
+            file: file.to_owned(),
+            geometry,
+            up,
+            materials: materials::read(&root)?,
+            luminaires,
+            lights,
+            sensors: sensors::read(&root)?,
+            simulation: simulation::read(file, &root)?,
+        })
+    }
+}
+
+impl Project {
+    pub(crate) fn error(&self, place: Place, message: impl Into<String>) -> LoadError {
+        LoadError::new(&self.file, Some(place), message)
+    }
+}
+
+fn plural_cameras(root: &Section<'_>, error: LoadError) -> LoadError {
+    let cameras = root
+        .entries()
+        .into_iter()
+        .find(|(key, _)| key.value == "cameras");
+    match cameras {
+        Some((key, _)) if Some(key.place) == error.place() => {
+            LoadError::new(error.file(), error.place(), "cameras are not built yet")
+        }
+        _ => error,
+    }
+}
+
+/// The text without a byte order mark; what is not UTF-8 is refused at its place.
+fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, LoadError> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    std::str::from_utf8(bytes).map_err(|error| {
+        let valid = std::str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or_default();
+        Source::new(file, valid).error(valid.len(), "not UTF-8 text; expected a TOML project file")
+    })
+}
+
+fn scene_section(root: &Section<'_>) -> Result<(Vec<Placed<String>>, Option<UpAxis>), LoadError> {
+    let expected = "[\"room.obj\"]: OBJ, glTF or GLB files, relative to the project file";
+    let section = root.table("scene")?.ok_or_else(|| {
+        root.error(format!(
+            "no [scene] section; expected [scene] with geometry = {expected}"
+        ))
+    })?;
+    section.only(&["geometry", "up"], &[])?;
+    let list = section.require("geometry", expected)?;
+    let files = list.array(expected)?;
+    if files.is_empty() {
+        return Err(list.unexpected(expected));
+    }
+    let mut geometry: Vec<Placed<String>> = Vec::new();
+    for file in files {
+        let name = file.string("the name of an OBJ, glTF or GLB file")?;
+        if geometry.iter().any(|earlier| earlier.value == name) {
+            return Err(file.error(format!(
+                "\"{name}\" is listed twice; expected each file once"
+            )));
+        }
+        geometry.push(file.placed(name.to_owned()));
+    }
+    let up = match section
+        .get("up")
+        .map(|up| up.name(&["y", "z"], &[]))
+        .transpose()?
+    {
+        None => None,
+        Some("y") => Some(UpAxis::Y),
+        Some(_) => Some(UpAxis::Z),
+    };
+    Ok((geometry, up))
+}

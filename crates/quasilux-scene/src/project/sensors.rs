@@ -1,0 +1,213 @@
+//! `[[sensors]]`: grids and single points.
+
+use super::document::{Section, Value};
+use super::grid::{cells_along, en12464_cell_m};
+use crate::{Grid, LoadError, Place, Quantity, Sensor, SensorPoint, SensorShape};
+use glam::DVec3;
+
+const GRID_KEYS: [&str; 10] = [
+    "name", "kind", "origin", "u", "v", "spacing", "counts", "rule", "normal", "quantity",
+];
+const POINTS_KEYS: [&str; 4] = ["name", "kind", "points", "normals"];
+
+/// Most cells that all grids of a project may have together.
+const MAX_CELLS: f64 = 1e7;
+
+/// Longest name of a sensor in bytes: it becomes a file name.
+const MAX_NAME_BYTES: usize = 100;
+
+/// One sensor, and where its parts are.
+#[derive(Clone, Debug)]
+pub(crate) struct SensorEntry {
+    pub(crate) place: Place,
+    /// The place of each point of a `points` sensor; empty for a grid.
+    pub(crate) point_places: Vec<Place>,
+    pub(crate) sensor: Sensor,
+}
+
+pub(super) fn read(root: &Section<'_>) -> Result<Vec<SensorEntry>, LoadError> {
+    let mut entries: Vec<SensorEntry> = Vec::new();
+    let mut cells = 0.0;
+    for section in root.tables("sensors")? {
+        let kind = section.require("kind", "\"grid\" or \"points\"")?;
+        let kind = kind.name(&["grid", "points"], &["cylindrical", "mesh", "surface"])?;
+        section.only(
+            if kind == "grid" {
+                &GRID_KEYS
+            } else {
+                &POINTS_KEYS
+            },
+            &[],
+        )?;
+        let name = name(&section, &entries)?;
+        let place = section.place();
+        entries.push(if kind == "grid" {
+            let shape = SensorShape::Grid(grid(&section, &mut cells)?);
+            SensorEntry {
+                place,
+                point_places: Vec::new(),
+                sensor: Sensor { name, shape },
+            }
+        } else {
+            let (points, point_places) = points(&section)?;
+            let shape = SensorShape::Points(points);
+            SensorEntry {
+                place,
+                point_places,
+                sensor: Sensor { name, shape },
+            }
+        });
+    }
+    if entries.is_empty() {
+        return Err(root.error("no sensors; expected at least one [[sensors]]"));
+    }
+    Ok(entries)
+}
+
+/// A name that is unique, and a file name on every system.
+fn name(section: &Section<'_>, earlier: &[SensorEntry]) -> Result<String, LoadError> {
+    let expected = "a name for the sensor and its result files";
+    let value = section.require("name", expected)?;
+    let name = value.string(expected)?;
+    let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
+    let reserved = ["con", "prn", "aux", "nul"]
+        .iter()
+        .any(|word| name.eq_ignore_ascii_case(word));
+    let edges = name.starts_with(['.', ' ', '-']) || name.ends_with(['.', ' ']);
+    if name.is_empty()
+        || name.len() > MAX_NAME_BYTES
+        || name.contains(forbidden)
+        || edges
+        || reserved
+    {
+        return Err(value.unexpected(
+            "a name that can be a file name: up to 100 bytes without / \\ : * ? \" < > |",
+        ));
+    }
+    let same = |entry: &&SensorEntry| entry.sensor.name.to_lowercase() == name.to_lowercase();
+    if let Some(first) = earlier.iter().find(same) {
+        let (other, line) = (&first.sensor.name, first.place.line);
+        return Err(value.error(format!(
+            "two sensors are named \"{other}\", the first on line {line}; expected unique names, \
+             whatever their case"
+        )));
+    }
+    Ok(name.to_owned())
+}
+
+fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {
+    let vector = |key, expected: &str| section.require(key, expected)?.vector(expected);
+    let origin = vector("origin", "a position [x, y, z] in m")?;
+    let u = vector("u", "an edge [x, y, z] in m")?;
+    let v = vector("v", "an edge [x, y, z] in m")?;
+    let across = u.cross(v);
+    if across.length() <= 1e-12 * u.length() * v.length() {
+        let message = "the sensor has no area; expected edges u and v that span a rectangle";
+        return Err(section.require("v", "an edge")?.error(message));
+    }
+    if u.dot(v).abs() > 0.01 * u.length() * v.length() {
+        let message = "\"v\" is not square to \"u\"; expected the edges of a rectangle";
+        return Err(section.require("v", "an edge")?.error(message));
+    }
+    let plane_normal = across.normalize();
+    let quantity = match section.get("quantity") {
+        Some(quantity) if quantity.name(&["centre", "center", "mean"], &[])? == "mean" => {
+            Quantity::Mean
+        }
+        _ => Quantity::Centre,
+    };
+    Ok(Grid {
+        origin,
+        u,
+        v,
+        counts: counts(section, [u.length(), v.length()], cells)?,
+        normal: section
+            .get("normal")
+            .map_or(Ok(plane_normal), |n| normal(n, plane_normal))?,
+        quantity,
+    })
+}
+
+fn counts(
+    section: &Section<'_>,
+    edges_m: [f64; 2],
+    cells: &mut f64,
+) -> Result<[u32; 2], LoadError> {
+    let value = section.exactly_one(&["spacing", "counts", "rule"])?;
+    let counts: [f64; 2] = match value.key {
+        "spacing" => {
+            let spacing_m = value.number("a length in m above 0", |x| x > 0.0)?;
+            edges_m.map(|edge_m| cells_along(edge_m, spacing_m))
+        }
+        "counts" => {
+            let expected = "[nu, nv]: numbers of cells, at least 1 each";
+            let numbers = value.array(expected)?;
+            let [nu, nv] = numbers.as_slice() else {
+                return Err(value.unexpected(expected));
+            };
+            let count = |n: &Value<'_>| n.integer(expected, 1..=u64::from(u32::MAX));
+            [count(nu)? as f64, count(nv)? as f64]
+        }
+        _ => {
+            value.name(&["en12464"], &[])?;
+            let cell_m = en12464_cell_m(edges_m);
+            edges_m.map(|edge_m| cells_along(edge_m, cell_m))
+        }
+    };
+    *cells += counts[0] * counts[1];
+    if *cells > MAX_CELLS {
+        return Err(value.error(format!(
+            "the grids have {:.3e} cells so far; expected at most {MAX_CELLS:e} in all",
+            *cells
+        )));
+    }
+    Ok(counts.map(|n| n as u32))
+}
+
+fn normal(value: Value<'_>, plane_normal: DVec3) -> Result<DVec3, LoadError> {
+    let normal = direction(value)?;
+    if normal.dot(plane_normal).abs() < 1e-6 {
+        let message = "\"normal\" lies in the plane of u and v; expected a direction out of it";
+        return Err(value.error(message));
+    }
+    Ok(normal)
+}
+
+fn direction(value: Value<'_>) -> Result<DVec3, LoadError> {
+    let expected = "a direction [x, y, z] with a length";
+    value
+        .vector(expected)?
+        .try_normalize()
+        .ok_or_else(|| value.unexpected(expected))
+}
+
+fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Place>), LoadError> {
+    let expected = "positions [[x, y, z], ...] in m";
+    let list = section.require("points", expected)?;
+    let positions = list.array(expected)?;
+    if positions.is_empty() {
+        return Err(list.unexpected("at least one position [x, y, z] in m"));
+    }
+    let expected = "directions [[x, y, z], ...], one for each point";
+    let list = section.require("normals", expected)?;
+    let normals = list.array(expected)?;
+    if normals.len() != positions.len() {
+        let (points, given) = (positions.len(), normals.len());
+        return Err(list.error(format!(
+            "{points} points but {given} normals; expected {expected}"
+        )));
+    }
+    let place = |value: &Value<'_>| value.place();
+    let places = positions.iter().map(place).collect();
+    let points = positions
+        .into_iter()
+        .zip(normals)
+        .map(|(position, normal)| {
+            let position = position.vector("a position [x, y, z] in m")?;
+            Ok(SensorPoint {
+                position,
+                normal: direction(normal)?,
+            })
+        });
+    Ok((points.collect::<Result<_, LoadError>>()?, places))
+}

@@ -1,0 +1,130 @@
+//! `[simulation]`: what the project file asks of the engine.
+//!
+//! Values keep their places: the crates above know which estimators and sequences exist, and
+//! refuse a name with the line that gives it.
+
+use super::document::{Section, Value};
+use crate::{LoadError, Placed};
+
+const KEYS: [&str; 9] = [
+    "estimator",
+    "sequence",
+    "randomization",
+    "rel_tol",
+    "confidence",
+    "replicates",
+    "seed",
+    "max_bounces",
+    "map_element_m",
+];
+
+/// Most replicates that a project file may ask for.
+const MAX_REPLICATES: u64 = 65_536;
+
+/// The `[simulation]` table; what the file does not give is `None`. Numbers are in range, names
+/// are unchecked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SimulationSection {
+    file: String,
+    /// Name of the estimator.
+    pub estimator: Option<Placed<String>>,
+    /// Name of the sequence.
+    pub sequence: Option<Placed<String>>,
+    /// Name of the randomisation.
+    pub randomization: Option<Placed<String>>,
+    /// Wanted half-width over value, in (0, 1].
+    pub rel_tol: Option<Placed<f64>>,
+    /// Confidence level in (0, 1).
+    pub confidence: Option<Placed<f64>>,
+    /// Number of independent randomisations, at least 1.
+    pub replicates: Option<Placed<u32>>,
+    /// Seed of all randomisations.
+    pub seed: Option<Placed<u64>>,
+    /// Bounces after which light is cut; the inner `None` is `"unlimited"`.
+    pub max_bounces: Option<Placed<Option<u32>>>,
+    /// Longest edge of an illumination map element in m, above 0.
+    pub map_element_m: Option<Placed<f64>>,
+}
+
+impl SimulationSection {
+    /// The error that `message` describes, at the place of `at`.
+    #[must_use]
+    pub fn error_at<T>(&self, at: &Placed<T>, message: impl Into<String>) -> LoadError {
+        LoadError::new(&self.file, Some(at.place), message)
+    }
+
+    /// The error that refuses the name at `at`, which is not one of `known`: `what` says what it
+    /// names, such as "estimator". Offers the nearest known name.
+    #[must_use]
+    pub fn unknown_name(&self, at: &Placed<String>, what: &str, known: &[&str]) -> LoadError {
+        let list = known.join(", ");
+        self.error_at(
+            at,
+            format!("unknown {what} \"{}\"; expected one of {list}", at.value),
+        )
+        .offer(&at.value, known.iter().copied())
+    }
+}
+
+pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, LoadError> {
+    let file = file.to_owned();
+    let Some(section) = root.table("simulation")? else {
+        return Ok(SimulationSection {
+            file,
+            ..SimulationSection::default()
+        });
+    };
+    section.only(&KEYS, &[])?;
+    let name = |key| {
+        placed(&section, key, |value| {
+            Ok(value.string("a name")?.to_owned())
+        })
+    };
+    let number = |key, expected: &str, accept: fn(f64) -> bool| {
+        placed(&section, key, |value| value.number(expected, accept))
+    };
+    Ok(SimulationSection {
+        file,
+        estimator: name("estimator")?,
+        sequence: name("sequence")?,
+        randomization: name("randomization")?,
+        rel_tol: number("rel_tol", "a share above 0, at most 1, such as 0.01", |x| {
+            x > 0.0 && x <= 1.0
+        })?,
+        confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
+            x > 0.0 && x < 1.0
+        })?,
+        replicates: placed(&section, "replicates", |value| {
+            let expected = format!("an integer from 1 to {MAX_REPLICATES}");
+            value
+                .integer(&expected, 1..=MAX_REPLICATES)
+                .map(|n| n as u32)
+        })?,
+        seed: placed(&section, "seed", |value| {
+            value.integer("an integer from 0 to 18446744073709551615", 0..=u64::MAX)
+        })?,
+        max_bounces: placed(&section, "max_bounces", |value| bounces(&value))?,
+        map_element_m: number("map_element_m", "a length in m above 0", |x| x > 0.0)?,
+    })
+}
+
+fn bounces(value: &Value<'_>) -> Result<Option<u32>, LoadError> {
+    if value.is_string() {
+        return value.name(&["unlimited"], &[]).map(|_| None);
+    }
+    let expected = "\"unlimited\" or a number of bounces";
+    value
+        .integer(expected, 0..=u64::from(u32::MAX))
+        .map(|n| Some(n as u32))
+}
+
+fn placed<'a, T>(
+    section: &Section<'a>,
+    key: &'a str,
+    read: impl Fn(Value<'a>) -> Result<T, LoadError>,
+) -> Result<Option<Placed<T>>, LoadError> {
+    section
+        .get(key)
+        .map(|value| Ok(value.placed(read(value)?)))
+        .transpose()
+}

@@ -1,0 +1,39 @@
+//! The scene: built once, checked once, then immutable.
+
+use crate::{Bsdf, Light, Mesh, Sensor};
+
+/// Everything that exists in a room.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The triangles.
+    pub mesh: Mesh,
+    /// The materials that triangles refer to.
+    pub materials: Vec<Material>,
+    /// The lights; at least one with a positive flux.
+    pub lights: Vec<Light>,
+    /// The sensors; names are unique.
+    pub sensors: Vec<Sensor>,
+}
+
+/// A named surface material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// The name in the geometry file and the project file.
+    pub name: String,
+    /// How it scatters light, on both sides.
+    pub bsdf: Bsdf,
+}
+
+impl Scene {
+    /// The material of a triangle.
+    #[must_use]
+    pub fn material(&self, triangle: u32) -> &Material {
+        &self.materials[self.mesh.material_of[triangle as usize] as usize]
+    }
+
+    /// Total emitted flux of all lights in lm.
+    #[must_use]
+    pub fn flux_lm(&self) -> f64 {
+        self.lights.iter().map(Light::flux_lm).sum()
+    }
+}

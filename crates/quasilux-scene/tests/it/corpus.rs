@@ -1,0 +1,72 @@
+//! Geometry of other programs, where a collection of it is at hand.
+
+use crate::support::PROJECT;
+use quasilux_scene::Files;
+use std::path::{Path, PathBuf};
+
+/// Files below one folder.
+struct Folder(PathBuf);
+
+impl Files for Folder {
+    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+        std::fs::read(self.0.join(path))
+    }
+}
+
+fn geometry_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        if path.is_dir() {
+            geometry_below(&path, found);
+        } else if path.to_str().is_some_and(|name| {
+            [".obj", ".gltf", ".glb"]
+                .iter()
+                .any(|end| name.to_lowercase().ends_with(end))
+        }) {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn all_scenes_load_or_are_refused_in_one_line() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/scenes");
+    let mut paths = Vec::new();
+    geometry_below(&folder, &mut paths);
+    paths.sort();
+    if paths.is_empty() {
+        println!(
+            "no collection of scenes at {}: nothing to load",
+            folder.display()
+        );
+    }
+    for path in paths {
+        let name = path
+            .file_name()
+            .and_then(|name| name.to_str())
+            .unwrap_or_default();
+        let files = Folder(path.parent().unwrap_or(&folder).to_owned());
+        let project = PROJECT
+            .replace("[\"room.obj\"]", &format!("[{name:?}]\nup = \"y\""))
+            .replace("origin = [0, 0, 0.8]", "origin = [0, 0, 1e6]");
+        match quasilux_scene::load("a.toml", project.as_bytes(), &files) {
+            Ok(loaded) => {
+                let mesh = &loaded.scene.mesh;
+                assert!(!mesh.triangles.is_empty());
+                assert!((0..mesh.triangles.len() as u32).all(|t| mesh.area_m2(t) > 0.0));
+                println!("{}: {} triangles", path.display(), mesh.triangles.len());
+                loaded
+                    .warnings
+                    .iter()
+                    .for_each(|warning| println!("    {warning}"));
+            }
+            Err(error) => {
+                let text = error.to_string();
+                println!("{}: refused: {text}", path.display());
+                assert!(text.starts_with(name) && !text.contains('\n'), "{text}");
+            }
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Projects loaded from maps of files: what is right, what is refused, and where.
+
+mod bad_input;
+mod corpus;
+mod gltf;
+mod mutations;
+mod obj;
+mod project;
+mod support;
+mod walls;

@@ -1,0 +1,99 @@
+//! Sensors inside closed objects.
+
+use crate::support::{MapFiles, PROJECT, load_text, warnings_of};
+use std::fmt::Write;
+
+/// A closed box as OBJ; `first` is the number of its first vertex.
+fn box_obj(name: &str, low: [f64; 3], high: [f64; 3], first: usize) -> String {
+    let mut obj = format!("o {name}\nusemtl wood\n");
+    for i in 0..8 {
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 1 {
+                high[axis]
+            } else {
+                low[axis]
+            }
+        };
+        let _ = writeln!(obj, "v {} {} {}", pick(0), pick(1), pick(2));
+    }
+    for quad in [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ] {
+        let [a, b, c, d] = quad.map(|v| v + first);
+        let _ = writeln!(obj, "f {a} {b} {c} {d}");
+    }
+    obj
+}
+
+/// A closed room with the light in it, and a cupboard that covers x below 0.4 m.
+fn files() -> MapFiles {
+    let obj = "mtllib room.mtl\n".to_owned()
+        + &box_obj("room", [-1.0; 3], [3.0; 3], 1)
+        + &box_obj("cupboard", [-0.5, -0.5, -0.5], [0.4, 1.5, 1.5], 9);
+    MapFiles::room().with("room.obj", obj)
+}
+
+fn probe(points: &str) -> String {
+    let normals = vec!["[0, 0, 1]"; points.matches('[').count()].join(", ");
+    let grid = PROJECT.find("[[sensors]]").unwrap_or(0);
+    format!(
+        "{}[[sensors]]\nname = \"probe\"\nkind = \"points\"\npoints = [\n  {}\n]\nnormals = [{normals}]\n",
+        &PROJECT[..grid],
+        points.replace("], ", "],\n  "),
+    )
+}
+
+#[test]
+fn a_point_in_a_cupboard_is_refused_at_its_line() {
+    let error = load_text(&probe("[0.9, 0.5, 0.5], [0.2, 0.3, 0.4]"), &files()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "room.toml:14:3: point 2 of sensor \"probe\" lies inside the closed object \"cupboard\", \
+         which holds no light; expected a place that light can reach"
+    );
+}
+
+#[test]
+fn points_on_and_beside_the_cupboard_are_accepted() {
+    // On its top, on the floor of the room, beside it, and outside of everything.
+    let project = probe("[0.2, 0.3, 1.5], [2, 2, -1], [0.41, 0.3, 0.4], [0, 0, 9]");
+    assert!(load_text(&project, &files()).unwrap().warnings.is_empty());
+}
+
+#[test]
+fn a_cupboard_with_a_light_is_no_wall() {
+    let project = probe("[0.2, 0.3, 0.4]").replace("[0.5, 0.5, 2.0]", "[0.1, 0.1, 0.1]");
+    assert!(load_text(&project, &files()).is_ok());
+    let point = "kind = \"point\"\nposition = [0.5, 0.5, 2.0]\nintensity_cd = 100";
+    let furnace = probe("[0.2, 0.3, 0.4]").replace(
+        point,
+        "kind = \"area\"\nmaterial = \"wood\"\nluminance_cd_m2 = 1",
+    );
+    assert!(load_text(&furnace, &files()).is_ok());
+}
+
+#[test]
+fn grids_may_be_partly_inside() {
+    // Cell centres at x = 0.125, 0.375 (inside), 0.625, 0.875.
+    let warnings = warnings_of(&load_text(PROJECT, &files()).unwrap());
+    assert_eq!(
+        warnings,
+        [
+            "room.toml:9:1: 8 of 16 points of sensor \"plane\" lie inside the closed object \
+          \"cupboard\", which holds no light"
+        ]
+    );
+    let narrow = PROJECT.replace("u = [1, 0, 0]", "u = [0.3, 0, 0]");
+    let error = load_text(&narrow, &files()).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("room.toml:9:1: sensor \"plane\" lies inside"),
+        "{error}"
+    );
+}

@@ -1,0 +1,121 @@
+//! Whether settings make sense for a scene, and what a reader of the results must know.
+
+use crate::settings::{Estimator, Settings};
+use crate::world::{Scattering, World};
+use quasilux_scene::{Bsdf, Light, Quantity, Scene, SensorShape};
+
+/// Settings that cannot work for this scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CheckError {
+    /// Photon counting reads sensor points from the map of the surface they lie on.
+    #[error(
+        "sensor \"{sensor}\", point {point}: the estimator \"photon\" can only read points that lie \
+         on a diffuse surface, with the normal on its side; use a grid, or another estimator"
+    )]
+    PointOffSurface {
+        /// Name of the sensor.
+        sensor: String,
+        /// Number of the point, from 0.
+        point: usize,
+    },
+    /// Photon counting needs the flux through a grid's own plane.
+    #[error(
+        "sensor \"{sensor}\": the estimator \"photon\" needs a grid whose normal is square to it"
+    )]
+    TiltedNormal {
+        /// Name of the sensor.
+        sensor: String,
+    },
+    /// There is no light at all.
+    #[error("the lights of the scene emit nothing")]
+    Dark,
+}
+
+/// Checks that a simulation with these settings means something in this scene.
+///
+/// # Errors
+/// See [`CheckError`].
+pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
+    let flux_lm = scene.flux_lm();
+    if !(flux_lm > 0.0 && flux_lm.is_finite()) {
+        return Err(CheckError::Dark);
+    }
+    if settings.estimator != Estimator::Photon {
+        return Ok(());
+    }
+    let world = World::<f64>::new(scene);
+    for sensor in &scene.sensors {
+        let name = || sensor.name.clone();
+        match &sensor.shape {
+            SensorShape::Points(points) => {
+                let is_off = |p: &quasilux_scene::SensorPoint| {
+                    !world.facet_under(p.position, p.normal).is_some_and(|at| {
+                        matches!(world.facet(&at).scattering, Scattering::Diffuse(_))
+                    })
+                };
+                if let Some(point) = points.iter().position(is_off) {
+                    return Err(CheckError::PointOffSurface { sensor: name(), point });
+                }
+            }
+            SensorShape::Grid(grid) => {
+                let cos = grid.normal.dot(grid.u.cross(grid.v).normalize());
+                if cos.abs() < 1.0 - 1e-9 {
+                    return Err(CheckError::TiltedNormal { sensor: name() });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether values may be biased beyond what their intervals say.
+pub(crate) fn is_biased(scene: &Scene, settings: &Settings) -> bool {
+    !caveats_of_values(scene, settings).is_empty()
+}
+
+/// All that a reader of the results must know.
+pub(crate) fn caveats(scene: &Scene, settings: &Settings) -> Vec<String> {
+    let mut caveats = caveats_of_values(scene, settings);
+    if settings.effective_replicates() < 2 {
+        caveats.push(
+            "one replicate gives no interval, and no tolerance can be reached".to_owned(),
+        );
+    }
+    caveats
+}
+
+/// What biases the values.
+fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
+    let mut caveats = Vec::new();
+    match settings.estimator {
+        Estimator::Photon => {
+            let reads_points = |shape: &SensorShape| match shape {
+                SensorShape::Points(_) => true,
+                SensorShape::Grid(grid) => grid.quantity == Quantity::Centre,
+            };
+            if scene.sensors.iter().any(|sensor| reads_points(&sensor.shape)) {
+                caveats.push(
+                    "the estimator \"photon\" gives means over cells and map elements, which are \
+                     biased as values at points; ask grids for quantity = \"mean\""
+                        .to_owned(),
+                );
+            }
+        }
+        Estimator::BidirectionalMap => caveats.push(
+            "the estimator \"bidirectional-map\" reads means over map elements; the intervals leave \
+             out this bias"
+                .to_owned(),
+        ),
+        Estimator::Path | Estimator::Bidirectional => {}
+    }
+    let has_pointlike = scene.lights.iter().any(|light| !matches!(light, Light::Area(_)));
+    let has_mirror = scene.materials.iter().any(|m| matches!(m.bsdf, Bsdf::Mirror(_)));
+    if has_pointlike && has_mirror && settings.estimator != Estimator::Photon {
+        caveats.push(
+            "light of point-like sources that mirrors send straight to a diffuse surface or a \
+             sensor is not counted by paths yet; the estimator \"photon\" counts it"
+                .to_owned(),
+        );
+    }
+    caveats
+}

@@ -1,0 +1,257 @@
+//! The estimator that counts: photons that pass through grids or land on map elements.
+//!
+//! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
+//! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
+
+use crate::estimates::{Estimates, MeanDimension, SensorEstimates};
+use crate::map::MapLayout;
+use crate::photon::{PhotonCounts, PhotonReceiver};
+use crate::photons::trace_photons;
+use crate::settings::Settings;
+use crate::simulate::Estimation;
+use crate::spectrum::Spectrum;
+use crate::stage::{Stage, Stream};
+use crate::targets::by_sensor;
+use crate::watch::Watch;
+use crate::world::{Interaction, World};
+use glam::DVec3;
+use quasilux_scene::sensor::Grid;
+use quasilux_scene::{Scene, SensorShape};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Indices per replicate of the first checkpoint.
+const FIRST_SAMPLES: u64 = 1 << 12;
+/// Marks elements that no sensor reads.
+const UNREAD: u32 = u32::MAX;
+
+/// Photons counted by all sensors, in all replicates.
+pub(crate) struct Counting<'a, S> {
+    stage: &'a Stage<'a, S>,
+    scene: &'a Scene,
+    receivers: Receivers,
+    /// One row of counters a replicate.
+    counters: Vec<Counters>,
+    samples: u64,
+    photons: PhotonCounts,
+}
+
+/// What counts photons, the same for all replicates.
+struct Receivers {
+    grids: Vec<GridReceiver>,
+    layout: MapLayout,
+    /// The counter that an element feeds, or [`UNREAD`].
+    counter_of_element: Vec<u32>,
+    /// For each target, in order: the counter it reads and the area behind it in m^2.
+    targets: Vec<(u32, f64)>,
+    counters: usize,
+}
+
+/// A grid as photons see it.
+struct GridReceiver {
+    grid: Grid,
+    /// A point of the plane, a hair in front of the grid.
+    origin: DVec3,
+    /// The plane's unit normal, on the grid's front side.
+    normal: DVec3,
+    /// Reciprocal edges: scalar products with them are 0 to 1 across the grid.
+    dual: [DVec3; 2],
+    first_counter: usize,
+}
+
+/// Photons counted in one replicate: all, and those straight from a light.
+struct Counters {
+    all: Vec<AtomicU64>,
+    direct: Vec<AtomicU64>,
+}
+
+struct SensorReceiver<'a> {
+    receivers: &'a Receivers,
+    counters: &'a Counters,
+}
+
+impl<'a, S: Spectrum> Counting<'a, S> {
+    pub(crate) fn new(stage: &'a Stage<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
+        let receivers = Receivers::new(&stage.world, scene, settings.map_element_m);
+        let replicates = settings.effective_replicates();
+        let counters = (0..replicates).map(|_| Counters::new(receivers.counters)).collect();
+        Self { stage, scene, receivers, counters, samples: 0, photons: PhotonCounts::default() }
+    }
+}
+
+impl<S: Spectrum> Estimation for Counting<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let (receivers, counters) = (&self.receivers, &self.counters);
+        let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
+        let replicates = 0..counters.len() as u32;
+        let indices = self.samples..samples;
+        let stream = Stream::Photons;
+        match trace_photons(self.stage, stream, replicates, indices, receiver, watch) {
+            None => false,
+            Some(counts) => {
+                self.photons += counts;
+                self.samples = samples;
+                true
+            }
+        }
+    }
+
+    fn estimates(&self) -> Estimates {
+        let photon_lm = self.stage.lights.flux_lm / self.samples as f64;
+        let read = |counts: &[AtomicU64]| -> Vec<f64> {
+            let targets = self.receivers.targets.iter();
+            targets
+                .map(|&(counter, area_m2)| {
+                    let photons = counts[counter as usize].load(Ordering::Relaxed);
+                    photons as f64 * photon_lm / area_m2
+                })
+                .collect()
+        };
+        let rows: Vec<Vec<Vec<f64>>> =
+            self.counters.iter().map(|own| by_sensor(self.scene, &read(&own.all))).collect();
+        let mut direct_lx = vec![0.0; self.receivers.targets.len()];
+        for own in &self.counters {
+            for (sum, value) in direct_lx.iter_mut().zip(read(&own.direct)) {
+                *sum += value / self.counters.len() as f64;
+            }
+        }
+        let sensors = by_sensor(self.scene, &direct_lx)
+            .into_iter()
+            .enumerate()
+            .map(|(sensor, direct_lx)| SensorEstimates {
+                replicate_lx: rows.iter().map(|row| row[sensor].clone()).collect(),
+                direct_lx,
+            })
+            .collect();
+        Estimates {
+            sensors,
+            samples: self.samples,
+            rays: self.photons.rays,
+            flux: self.photons.balance(self.stage.lights.flux_lm),
+            mean_dimension: MeanDimension { photon: self.photons.mean_dimension(), path: None },
+            warnings: self.photons.warnings(),
+            ..Estimates::default()
+        }
+    }
+
+    fn first_checkpoint(&self) -> u64 {
+        FIRST_SAMPLES
+    }
+}
+
+impl Receivers {
+    fn new<S: Spectrum>(world: &World<S>, scene: &Scene, element_m: Option<f64>) -> Self {
+        let layout = MapLayout::new(world, element_m);
+        let mut receivers = Self {
+            grids: Vec::new(),
+            counter_of_element: vec![UNREAD; layout.len()],
+            layout,
+            targets: Vec::new(),
+            counters: 0,
+        };
+        for sensor in &scene.sensors {
+            match &sensor.shape {
+                SensorShape::Grid(grid) => receivers.add_grid(world, grid),
+                SensorShape::Points(points) => {
+                    for point in points {
+                        receivers.add_point(world.facet_under(point.position, point.normal));
+                    }
+                }
+            }
+        }
+        receivers
+    }
+
+    fn add_grid<S: Spectrum>(&mut self, world: &World<S>, grid: &Grid) {
+        let plane = grid.u.cross(grid.v);
+        let cell_area_m2 = plane.length() / grid.cells() as f64;
+        let plane = plane.normalize() * grid.normal.dot(plane).signum();
+        let dual = |edge: DVec3, other: DVec3| {
+            let across = other.cross(plane);
+            across / edge.dot(across)
+        };
+        self.grids.push(GridReceiver {
+            grid: *grid,
+            origin: world.vantage_of_sensor(grid.origin, plane).position(),
+            normal: plane,
+            dual: [dual(grid.u, grid.v), dual(grid.v, grid.u)],
+            first_counter: self.counters,
+        });
+        let first = self.counters as u32;
+        self.targets.extend((0..grid.cells() as u32).map(|cell| (first + cell, cell_area_m2)));
+        self.counters += grid.cells();
+    }
+
+    /// A point off all surfaces reads a counter that nothing feeds; [`crate::check`] refuses it.
+    fn add_point(&mut self, at: Option<Interaction>) {
+        let fresh = self.counters as u32;
+        let (counter, area_m2) = match at {
+            None => (fresh, 1.0),
+            Some(at) => {
+                let counter = &mut self.counter_of_element[self.layout.element(&at)];
+                if *counter == UNREAD {
+                    *counter = fresh;
+                }
+                (*counter, self.layout.element_area_m2(&at))
+            }
+        };
+        self.targets.push((counter, area_m2));
+        self.counters = self.counters.max(counter as usize + 1);
+    }
+}
+
+impl GridReceiver {
+    /// The counter of the cell that a flight passes through from the front, if any.
+    fn counter(&self, from: DVec3, direction: DVec3, length_m: f64) -> Option<usize> {
+        let approach = self.normal.dot(direction);
+        if approach >= 0.0 {
+            return None;
+        }
+        let t = self.normal.dot(self.origin - from) / approach;
+        if !(t > 0.0 && t < length_m) {
+            return None;
+        }
+        let place = from + direction * t - self.origin;
+        let [columns, rows] = self.grid.counts;
+        let column = part(self.dual[0].dot(place), columns)?;
+        let row = part(self.dual[1].dot(place), rows)?;
+        Some(self.first_counter + row * columns as usize + column)
+    }
+}
+
+/// Which of `count` equal parts of [0, 1) holds `share`, if any.
+fn part(share: f64, count: u32) -> Option<usize> {
+    let inside = (0.0..1.0).contains(&share);
+    inside.then(|| ((share * f64::from(count)) as u32).min(count - 1) as usize)
+}
+
+impl Counters {
+    fn new(counters: usize) -> Self {
+        let zeros = || (0..counters).map(|_| AtomicU64::new(0)).collect();
+        Self { all: zeros(), direct: zeros() }
+    }
+
+    fn count(&self, counter: usize, bounces: u32) {
+        self.all[counter].fetch_add(1, Ordering::Relaxed);
+        if bounces == 0 {
+            self.direct[counter].fetch_add(1, Ordering::Relaxed);
+        }
+    }
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
+    fn flight(&mut self, from: DVec3, direction: DVec3, length_m: f64, bounces: u32) {
+        for grid in &self.receivers.grids {
+            if let Some(counter) = grid.counter(from, direction, length_m) {
+                self.counters.count(counter, bounces);
+            }
+        }
+    }
+
+    fn landing(&mut self, at: &Interaction, _weight: S, bounces: u32) {
+        let element = self.receivers.layout.element(at);
+        let counter = self.receivers.counter_of_element[element];
+        if counter != UNREAD {
+            self.counters.count(counter as usize, bounces);
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! What a simulation knows at a checkpoint: figures of each replicate, nothing summarised yet.
+
+use crate::Interval;
+use crate::interval::jackknife;
+
+/// The state of a simulation at a checkpoint that all replicates have completed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Estimates {
+    /// One entry a sensor, in the order of the scene.
+    pub sensors: Vec<SensorEstimates>,
+    /// Indices used so far by each replicate: photons, and paths for each sensor point.
+    pub samples: u64,
+    /// Rays traced so far, all kinds and replicates together.
+    pub rays: u64,
+    /// Where the photons' flux went.
+    pub flux: FluxBalance,
+    /// Mean number of coordinates that one photon and one path used.
+    pub mean_dimension: MeanDimension,
+    /// Contributions that were not finite, negative, or out of the tally's range; not in the sums.
+    pub invalid_contributions: u64,
+    /// Nominal confidence level of the intervals.
+    pub confidence: f64,
+    /// Two-sided miss probability that this checkpoint may spend, at most `1 - confidence`: looking
+    /// several times shares one budget.
+    pub miss_probability: f64,
+    /// Whether every sensor point reached the wanted tolerance.
+    pub tolerance_reached: bool,
+    /// Whether values may be biased beyond what their intervals say.
+    pub biased: bool,
+    /// What a reader of the results must know.
+    pub warnings: Vec<String>,
+}
+
+/// The figures of one sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorEstimates {
+    /// Illuminance in lx: one row a replicate, one column a sensor point.
+    pub replicate_lx: Vec<Vec<f64>>,
+    /// The part of it that comes straight from the lights, mean over the replicates, in lx.
+    pub direct_lx: Vec<f64>,
+}
+
+/// Where the flux of the photons went, all in lm. Emitted is the sum of the other three.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FluxBalance {
+    /// Emitted by all lights.
+    pub emitted_lm: f64,
+    /// Absorbed by surfaces, tallied at each absorption.
+    pub absorbed_lm: f64,
+    /// Left the scene.
+    pub lost_lm: f64,
+    /// Cut by `max_bounces`.
+    pub cut_lm: f64,
+}
+
+/// Mean number of coordinates used, the constructive dimension; `None` where nothing was traced.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeanDimension {
+    /// Of a photon.
+    pub photon: Option<f64>,
+    /// Of a path from a sensor.
+    pub path: Option<f64>,
+}
+
+impl Estimates {
+    /// The interval of a figure of one sensor: `statistic` maps the sensor's values in lx to it.
+    ///
+    /// The figure's bias under noise (a noisy minimum is too low) is removed to first order by the
+    /// jackknife over replicates.
+    #[must_use]
+    pub fn interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
+        jackknife(&self.sensors[sensor].replicate_lx, self.miss_probability, statistic)
+    }
+
+    /// The intervals of all points of one sensor, in lx.
+    #[must_use]
+    pub fn point_intervals(&self, sensor: usize) -> Vec<Interval> {
+        let rows = &self.sensors[sensor].replicate_lx;
+        let points = rows.first().map_or(0, Vec::len);
+        let t = crate::interval::t_quantile_for(rows.len(), self.miss_probability);
+        (0..points)
+            .map(|p| Interval::of_mean(rows.iter().map(|row| row[p]), t))
+            .collect()
+    }
+}

@@ -1,0 +1,359 @@
+//! The estimators that gather: paths from every sensor point, alone or ending on a map.
+
+use crate::estimates::{Estimates, MeanDimension, SensorEstimates};
+use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally};
+use crate::path::{Gathered, MapEnd, PathWork, Rest, trace_path};
+use crate::photon::PhotonCounts;
+use crate::photons::trace_photons;
+use crate::settings::{Estimator, Settings};
+use crate::simulate::Estimation;
+use crate::spectrum::Spectrum;
+use crate::stage::{Stage, Stream};
+use crate::tally::{Quantum, Sum};
+use crate::targets::{Target, by_sensor, targets};
+use crate::watch::Watch;
+use quasilux_sampling::SampleCursor;
+use quasilux_scene::Scene;
+use rayon::prelude::*;
+use std::ops::{AddAssign, Range};
+
+/// Paths of one piece of work.
+const BLOCK: u64 = 256;
+/// Pieces of work between two words to the observer.
+const BLOCKS_PER_ROUND: u64 = 512;
+/// The first checkpoint takes at most this many indices, and about this many paths in all.
+const FIRST_SAMPLES: u64 = 64;
+const FIRST_PATHS: u64 = 1 << 22;
+/// Share of the paths that correct the map.
+const CORRECTED_SHARE: f64 = 0.25;
+/// Photons that only balance the flux, where the estimator needs none.
+const BALANCE_PHOTONS: u64 = 1 << 14;
+
+/// Paths from all sensor points, in all replicates.
+pub(crate) struct Gathering<'a, S> {
+    stage: &'a Stage<'a, S>,
+    scene: &'a Scene,
+    targets: Vec<Target>,
+    /// Direct light of point-like lights in lx, for targets that are points.
+    exact_direct_lx: Vec<f64>,
+    end: End<S>,
+    replicates: u32,
+    quantum: Quantum,
+    /// Of target t in replicate r at `t * replicates + r`.
+    sums: Vec<PathSums>,
+    samples: u64,
+    work: WorkCounts,
+    photons: PhotonCounts,
+}
+
+/// What the paths end on.
+enum End<S> {
+    Nothing,
+    /// One map, frozen before the first path, whose error is corrected.
+    Plan { layout: MapLayout, map: IlluminationMap<S> },
+    /// A map for each replicate that grows with it.
+    Own { layout: MapLayout, tallies: Vec<MapTally<S>>, maps: Vec<IlluminationMap<S>> },
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct PathSums {
+    direct: Sum,
+    indirect: Sum,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct WorkCounts {
+    paths: u64,
+    rays: u64,
+    coordinates: u64,
+}
+
+/// One piece of work: some paths of one target in one replicate.
+struct Block {
+    target: usize,
+    replicate: u32,
+    indices: Range<u64>,
+}
+
+impl<'a, S: Spectrum> Gathering<'a, S> {
+    pub(crate) fn new(
+        stage: &'a Stage<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Self {
+        let targets = targets(scene);
+        let replicates = settings.effective_replicates();
+        let mut work = WorkCounts::default();
+        let exact_direct_lx = exact_direct(stage, &targets, &mut work.rays);
+        let (end, photons) = End::prepare(stage, settings, replicates, watch);
+        Self {
+            stage,
+            scene,
+            exact_direct_lx,
+            end,
+            replicates,
+            quantum: Quantum::for_reference(stage.lights.flux_lm),
+            sums: vec![PathSums::default(); targets.len() * replicates as usize],
+            targets,
+            samples: 0,
+            work,
+            photons,
+        }
+    }
+
+    /// Piece of work number `block` of the paths `indices` of all targets and replicates.
+    fn block(&self, block: u64, indices: &Range<u64>) -> Block {
+        let blocks_each = (indices.end - indices.start).div_ceil(BLOCK);
+        let which = block / blocks_each;
+        let first = indices.start + block % blocks_each * BLOCK;
+        Block {
+            target: (which / u64::from(self.replicates)) as usize,
+            replicate: (which % u64::from(self.replicates)) as u32,
+            indices: first..(first + BLOCK).min(indices.end),
+        }
+    }
+
+    fn trace_block(&self, block: &Block) -> (PathSums, WorkCounts) {
+        let points = self.stage.points(block.replicate, Stream::Paths(block.target as u64));
+        let rest = self.end.rest(block.replicate);
+        let mut sums = PathSums::default();
+        let mut work = PathWork::default();
+        let mut coordinates = 0;
+        for index in block.indices.clone() {
+            let mut cursor = SampleCursor::new(&points, index);
+            let found = self.trace_one(self.targets[block.target], &rest, &mut cursor, &mut work);
+            sums.add(found, self.quantum);
+            coordinates += u64::from(cursor.used());
+        }
+        let paths = block.indices.end - block.indices.start;
+        (sums, WorkCounts { paths, rays: work.rays, coordinates })
+    }
+
+    fn trace_one(
+        &self,
+        target: Target,
+        rest: &Rest<'_, S>,
+        cursor: &mut SampleCursor<'_>,
+        work: &mut PathWork,
+    ) -> Gathered {
+        let stage = self.stage;
+        match target {
+            Target::Point { position, normal } => {
+                let from = stage.world.vantage_of_sensor(position, normal);
+                trace_path(stage, from, normal, rest, cursor, work)
+            }
+            Target::Cell { grid, cell } => {
+                let position = grid.point_in_cell(cell, cursor.next_2d());
+                let from = stage.world.vantage_of_sensor(position, grid.normal);
+                let mut found = trace_path(stage, from, grid.normal, rest, cursor, work);
+                let pointlikes = &stage.lights.pointlikes;
+                found.direct_lx += pointlikes.all(&stage.world, from, grid.normal, &mut work.rays);
+                found
+            }
+        }
+    }
+}
+
+impl<S: Spectrum> Estimation for Gathering<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let mut indices = self.samples..samples;
+        match self.end.grow(self.stage, indices.clone(), watch) {
+            Growth::Stopped => return false,
+            Growth::None => {}
+            Growth::NewMaps(photons) => {
+                // The maps have changed, and what was read from them with them.
+                self.photons += photons;
+                self.sums.fill(PathSums::default());
+                indices.start = 0;
+            }
+        }
+        let blocks_each = (indices.end - indices.start).div_ceil(BLOCK);
+        let blocks = blocks_each * self.sums.len() as u64;
+        let mut done = 0;
+        while done < blocks {
+            let round = done..(done + BLOCKS_PER_ROUND).min(blocks);
+            let found: Vec<(PathSums, WorkCounts)> = round
+                .clone()
+                .into_par_iter()
+                .map(|block| self.trace_block(&self.block(block, &indices)))
+                .collect();
+            let before = self.work;
+            for (block, (sums, work)) in round.clone().zip(found) {
+                self.sums[(block / blocks_each) as usize] += sums;
+                self.work += work;
+            }
+            done = round.end;
+            let (paths, rays) = (self.work.paths - before.paths, self.work.rays - before.rays);
+            if !watch.tick(0, paths, rays, done as f64 / blocks as f64) {
+                return false;
+            }
+        }
+        self.samples = samples;
+        true
+    }
+
+    fn estimates(&self) -> Estimates {
+        let n = self.samples as f64;
+        let replicates = self.replicates as usize;
+        let mean = |sum: Sum| self.quantum.value(sum) / n;
+        let rows = |r: usize| -> Vec<f64> {
+            let own = self.sums.iter().skip(r).step_by(replicates);
+            own.zip(&self.exact_direct_lx)
+                .map(|(sums, exact_lx)| exact_lx + (mean(sums.direct) + mean(sums.indirect)))
+                .collect()
+        };
+        let direct_lx: Vec<f64> = self
+            .sums
+            .chunks_exact(replicates)
+            .zip(&self.exact_direct_lx)
+            .map(|(own, exact_lx)| {
+                exact_lx + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
+            })
+            .collect();
+        let rows: Vec<Vec<Vec<f64>>> =
+            (0..replicates).map(|r| by_sensor(self.scene, &rows(r))).collect();
+        let sensors = by_sensor(self.scene, &direct_lx)
+            .into_iter()
+            .enumerate()
+            .map(|(sensor, direct_lx)| SensorEstimates {
+                replicate_lx: rows.iter().map(|row| row[sensor].clone()).collect(),
+                direct_lx,
+            })
+            .collect();
+        let mean_dimension = MeanDimension {
+            photon: self.photons.mean_dimension(),
+            path: Some(self.work.coordinates as f64 / self.work.paths as f64),
+        };
+        Estimates {
+            sensors,
+            samples: self.samples,
+            rays: self.work.rays + self.photons.rays,
+            flux: self.photons.balance(self.stage.lights.flux_lm),
+            mean_dimension,
+            invalid_contributions: self.sums.iter().map(PathSums::invalid).sum(),
+            warnings: self.photons.warnings(),
+            ..Estimates::default()
+        }
+    }
+
+    fn first_checkpoint(&self) -> u64 {
+        let affordable = FIRST_PATHS / (self.sums.len() as u64).max(1);
+        let powers = (affordable + 1).next_power_of_two() / 2;
+        powers.clamp(1, FIRST_SAMPLES)
+    }
+}
+
+/// What happened to the maps before more paths are traced.
+enum Growth {
+    None,
+    NewMaps(PhotonCounts),
+    Stopped,
+}
+
+impl<S: Spectrum> End<S> {
+    /// Traces the photons that come before all paths.
+    fn prepare(
+        stage: &Stage<'_, S>,
+        settings: &Settings,
+        replicates: u32,
+        watch: &mut Watch<'_>,
+    ) -> (Self, PhotonCounts) {
+        // Before the first checkpoint the observer stops nothing, so there are always counts.
+        let mut plan = |photons: u64, receiver: Option<MapReceiver<'_, S>>| {
+            let stream = Stream::PlanPhotons;
+            trace_photons(stage, stream, 0..1, 0..photons, |_| receiver, watch).unwrap_or_default()
+        };
+        if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
+            return (Self::Nothing, plan(BALANCE_PHOTONS, None));
+        }
+        let layout = MapLayout::new(&stage.world, settings.map_element_m);
+        if settings.estimator == Estimator::BidirectionalMap {
+            let tallies = (0..replicates).map(|_| MapTally::new(&layout)).collect();
+            return (Self::Own { layout, tallies, maps: Vec::new() }, PhotonCounts::default());
+        }
+        let photons = (2 * layout.len() as u64).next_power_of_two().clamp(1 << 14, 1 << 19);
+        let tally = MapTally::new(&layout);
+        let counts = plan(photons, Some(MapReceiver::new(stage, &layout, &tally)));
+        let map = tally.read(&layout, stage.lights.flux_lm / photons as f64);
+        (Self::Plan { layout, map }, counts)
+    }
+
+    /// Adds the photons `indices` to maps that grow.
+    fn grow(
+        &mut self,
+        stage: &Stage<'_, S>,
+        indices: Range<u64>,
+        watch: &mut Watch<'_>,
+    ) -> Growth {
+        let Self::Own { layout, tallies, maps } = self else { return Growth::None };
+        let samples = indices.end;
+        let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
+        let replicates = 0..tallies.len() as u32;
+        let traced = trace_photons(stage, Stream::Photons, replicates, indices, receiver, watch);
+        let Some(counts) = traced else { return Growth::Stopped };
+        let flux_lm = stage.lights.flux_lm / samples as f64;
+        *maps = tallies.iter().map(|tally| tally.read(layout, flux_lm)).collect();
+        Growth::NewMaps(counts)
+    }
+
+    /// Where the paths of one replicate end.
+    fn rest(&self, replicate: u32) -> Rest<'_, S> {
+        match self {
+            Self::Nothing => Rest::Path,
+            Self::Plan { layout, map } => {
+                Rest::Map(MapEnd { layout, map, corrected_share: Some(CORRECTED_SHARE) })
+            }
+            Self::Own { layout, maps, .. } => {
+                let map = &maps[replicate as usize];
+                Rest::Map(MapEnd { layout, map, corrected_share: None })
+            }
+        }
+    }
+}
+
+/// Direct light of the point-like lights at each target that is a point, in lx: all of them tested.
+fn exact_direct<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    rays: &mut u64,
+) -> Vec<f64> {
+    let found: Vec<(f64, u64)> = targets
+        .par_iter()
+        .map(|target| {
+            let mut rays = 0;
+            let Target::Point { position, normal } = *target else { return (0.0, 0) };
+            let from = stage.world.vantage_of_sensor(position, normal);
+            let direct_lx = stage.lights.pointlikes.all(&stage.world, from, normal, &mut rays);
+            (direct_lx, rays)
+        })
+        .collect();
+    *rays += found.iter().map(|(_, rays)| rays).sum::<u64>();
+    found.into_iter().map(|(direct_lx, _)| direct_lx).collect()
+}
+
+impl PathSums {
+    fn add(&mut self, found: Gathered, quantum: Quantum) {
+        self.direct.add(found.direct_lx, quantum);
+        self.indirect.add_signed(found.indirect_lx, quantum);
+    }
+
+    fn invalid(&self) -> u64 {
+        self.direct.invalid + self.indirect.invalid
+    }
+}
+
+impl AddAssign for PathSums {
+    fn add_assign(&mut self, other: Self) {
+        self.direct += other.direct;
+        self.indirect += other.indirect;
+    }
+}
+
+impl AddAssign for WorkCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.paths += other.paths;
+        self.rays += other.rays;
+        self.coordinates += other.coordinates;
+    }
+}

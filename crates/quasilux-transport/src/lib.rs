@@ -1,0 +1,36 @@
+//! How light moves: photons, paths, illumination maps, replicates.
+//!
+//! [`simulate`] takes a checked scene and [`Settings`] and returns [`Estimates`]: figures of
+//! independent replicates, from which intervals follow. It cannot fail, and reads neither the clock
+//! nor files: progress and cancellation go through one [`Observer`].
+//!
+//! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
+//! light is followed, at `map` for where they meet.
+
+mod check;
+mod counting;
+pub mod estimates;
+mod gathering;
+pub mod interval;
+mod lights;
+mod map;
+pub mod observer;
+mod path;
+mod photon;
+mod photons;
+mod schedule;
+pub mod settings;
+mod simulate;
+mod spectrum;
+mod stage;
+mod tally;
+mod targets;
+mod watch;
+mod world;
+
+pub use check::{CheckError, check};
+pub use estimates::{Estimates, FluxBalance, MeanDimension, SensorEstimates};
+pub use interval::Interval;
+pub use observer::{Control, Observer, Progress};
+pub use settings::{Estimator, Settings};
+pub use simulate::simulate;

@@ -1,0 +1,106 @@
+//! Emitting facets seen from a surface, by two strategies that share their weight.
+//!
+//! Light that reaches a surface straight from an area light is estimated both by a point on the
+//! light, uniform over its area within equal luminance, and by a cosine-distributed direction that
+//! happens to meet a light; each is weighted by the balance heuristic (Veach 1997, section 9.2.2).
+//! Densities are compared in solid angle, sr^-1.
+
+use crate::spectrum::Spectrum;
+use crate::world::{Interaction, Vantage, World};
+use glam::DVec3;
+use quasilux_sampling::Discrete;
+use quasilux_sampling::warp::sample_triangle;
+use quasilux_scene::{Light, Scene};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// All emitting facets, to be chosen in proportion to luminance times area.
+pub(crate) struct Emitters {
+    facets: Vec<u32>,
+    by_flux: Discrete,
+}
+
+/// A point on an emitting facet.
+pub(crate) struct Place {
+    pub(crate) facet: u32,
+    pub(crate) position: DVec3,
+}
+
+impl Emitters {
+    /// `None` where no facet emits.
+    pub(crate) fn new<S: Spectrum>(scene: &Scene, world: &World<S>) -> Option<Self> {
+        let is_area = |light: &Light| matches!(light, Light::Area(_));
+        if !scene.lights.iter().any(is_area) {
+            return None;
+        }
+        let facets: Vec<u32> = (0..world.facets.len() as u32)
+            .filter(|&f| world.facets[f as usize].emitted_cd_m2 > 0.0)
+            .collect();
+        let weights: Vec<f64> = facets
+            .iter()
+            .map(|&f| &world.facets[f as usize])
+            .map(|facet| facet.emitted_cd_m2 * facet.area_m2())
+            .collect();
+        Some(Self { facets, by_flux: Discrete::new(&weights)? })
+    }
+
+    /// Their flux in lm: pi times luminance times area.
+    pub(crate) fn flux_lm(&self) -> f64 {
+        PI * self.by_flux.total()
+    }
+
+    /// A point uniform over area within equal luminance; density in m^-2.
+    pub(crate) fn place<S: Spectrum>(&self, world: &World<S>, u: [f64; 2]) -> Place {
+        let choice = self.by_flux.choose(u[0]);
+        let facet = self.facets[choice.index];
+        let weights = sample_triangle([choice.rest, u[1]]);
+        Place { facet, position: world.facets[facet as usize].point(weights) }
+    }
+
+    /// Illuminance in lx on the side `n` from one point on the lights, weighted against directions.
+    pub(crate) fn one<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        from: Vantage,
+        n: DVec3,
+        u: [f64; 2],
+        rays: &mut u64,
+    ) -> f64 {
+        let target = self.place(world, u);
+        let facet = &world.facets[target.facet as usize];
+        let toward = target.position - from.position();
+        let distance_m = toward.length();
+        let direction = toward / distance_m;
+        let cos = n.dot(direction);
+        let cos_light = -facet.front_normal.dot(direction);
+        if cos <= 0.0 || cos_light <= 0.0 {
+            return 0.0;
+        }
+        *rays += 1;
+        if !world.is_visible(from, direction, distance_m, target.facet) {
+            return 0.0;
+        }
+        // L cos / (pdf of the light's point + pdf of the direction), the weight multiplied out.
+        let pdf_light = self.pdf_sr(facet.emitted_cd_m2, distance_m, cos_light);
+        facet.emitted_cd_m2 * cos / (pdf_light + cos * FRAC_1_PI)
+    }
+
+    /// The weight of light found by a cosine-distributed direction whose cosine was `cos`.
+    pub(crate) fn weight_of_direction<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        at: &Interaction,
+        direction: DVec3,
+        cos: f64,
+    ) -> f64 {
+        let cos_light = -at.n.dot(direction);
+        let pdf_direction = cos * FRAC_1_PI;
+        let pdf_light = self.pdf_sr(world.emitted_cd_m2(at), at.distance_m, cos_light);
+        pdf_direction / (pdf_direction + pdf_light)
+    }
+
+    /// Density in sr^-1 with which [`Self::one`] finds a point on a facet of this luminance:
+    /// uniform density over equal luminance, in m^-2, turned into solid angle.
+    fn pdf_sr(&self, emitted_cd_m2: f64, distance_m: f64, cos_light: f64) -> f64 {
+        emitted_cd_m2 / self.by_flux.total() * distance_m * distance_m / cos_light
+    }
+}

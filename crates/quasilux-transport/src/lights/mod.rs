@@ -1,0 +1,80 @@
+//! The lights of a scene as transport uses them: photons leave them, surfaces see them.
+
+mod emitters;
+mod pointlike;
+
+pub(crate) use emitters::Emitters;
+pub(crate) use pointlike::PointLikes;
+
+use crate::spectrum::Spectrum;
+use crate::world::{Vantage, World, to_world};
+use glam::DVec3;
+use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
+use quasilux_sampling::{Discrete, SampleCursor};
+use quasilux_scene::{Light, Scene};
+
+/// All lights of a scene.
+pub(crate) struct Lights<'a> {
+    pub(crate) pointlikes: PointLikes<'a>,
+    pub(crate) emitters: Option<Emitters>,
+    /// Over the point-like lights, and past them all emitting facets together.
+    by_flux: Option<Discrete>,
+    /// Sum of their fluxes in lm.
+    pub(crate) flux_lm: f64,
+}
+
+/// A photon at the moment it leaves its light.
+pub(crate) struct Emission {
+    pub(crate) from: Vantage,
+    /// Unit direction.
+    pub(crate) direction: DVec3,
+}
+
+impl<'a> Lights<'a> {
+    pub(crate) fn new<S: Spectrum>(scene: &'a Scene, world: &World<S>) -> Self {
+        let pointlikes = PointLikes::new(scene);
+        let emitters = Emitters::new(scene, world);
+        let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
+        let fluxes: Vec<f64> = pointlikes.fluxes_lm().chain([emitters_lm]).collect();
+        Self {
+            pointlikes,
+            emitters,
+            by_flux: Discrete::new(&fluxes),
+            flux_lm: fluxes.iter().sum(),
+        }
+    }
+
+    /// One photon of equal flux: the light in proportion to its flux, place and direction from the
+    /// light's own distribution. `None` only where nothing emits.
+    ///
+    /// The first two coordinates choose the light and its direction by superposition; a photon of
+    /// an area light takes two more.
+    pub(crate) fn emit<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        cursor: &mut SampleCursor<'_>,
+    ) -> Option<Emission> {
+        let [u0, u1] = cursor.next_2d();
+        let choice = self.by_flux.as_ref()?.choose(u0);
+        let u = [choice.rest, u1];
+        if let Some(light) = self.pointlikes.get(choice.index) {
+            let (position, direction) = match light {
+                Light::Point(light) => {
+                    (light.position, DVec3::from_array(sample_uniform_sphere(u)))
+                }
+                Light::Luminaire(light) => {
+                    let sample = light.photometry.sample(u)?;
+                    (light.position, light.world_from_luminaire * sample.direction)
+                }
+                Light::Area(_) => return None,
+            };
+            return Some(Emission { from: world.vantage_of_light(position, direction), direction });
+        }
+        let place = self.emitters.as_ref()?.place(world, u);
+        let n = world.facets[place.facet as usize].front_normal;
+        Some(Emission {
+            from: world.vantage_on_front(place.facet, place.position),
+            direction: to_world(n, sample_cosine_hemisphere(cursor.next_2d())),
+        })
+    }
+}

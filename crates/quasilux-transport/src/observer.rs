@@ -1,0 +1,45 @@
+//! How a running simulation talks to the outside, and how the outside stops it.
+
+use crate::Estimates;
+
+/// Whether a simulation goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// Go on.
+    Continue,
+    /// Stop; the last completed checkpoint is the result.
+    Stop,
+}
+
+/// What a running simulation says between checkpoints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Photons traced so far.
+    pub photons: u64,
+    /// Paths traced so far, all sensor points together.
+    pub paths: u64,
+    /// Rays traced so far.
+    pub rays: u64,
+    /// Indices per replicate of the last completed checkpoint, 0 before the first.
+    pub samples: u64,
+    /// Largest half-width over value among all sensor points at the last checkpoint.
+    pub largest_relative_half_width: Option<f64>,
+    /// Share in [0, 1] of the expected work that is done, `None` while nothing is known.
+    pub done: Option<f64>,
+}
+
+/// The one way out of a running simulation: progress, checkpoints, cancellation.
+pub trait Observer {
+    /// Called many times a second.
+    fn progress(&mut self, _progress: &Progress) -> Control {
+        Control::Continue
+    }
+
+    /// Called at each checkpoint that all replicates have completed.
+    fn checkpoint(&mut self, _estimates: &Estimates) -> Control {
+        Control::Continue
+    }
+}
+
+/// Watches nothing, stops nothing.
+impl Observer for () {}

@@ -1,0 +1,93 @@
+//! What a simulation is asked to do.
+
+use quasilux_sampling::{Randomization, Sequence};
+
+/// How illuminance is estimated: a closed set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Estimator {
+    /// Photons from the lights are counted by the sensors.
+    Photon,
+    /// Paths from the sensors with next-event estimation.
+    Path,
+    /// Paths from the sensors that end on an illumination map, corrected so that the map's
+    /// elements cause no bias.
+    Bidirectional,
+    /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
+    /// elements leave a bias.
+    BidirectionalMap,
+}
+
+impl Estimator {
+    /// All estimators that are built, with their names in project files and on the command line.
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("photon", Self::Photon),
+        ("path", Self::Path),
+        ("bidirectional", Self::Bidirectional),
+        ("bidirectional-map", Self::BidirectionalMap),
+    ];
+
+    /// The name in project files, on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Photon => "photon",
+            Self::Path => "path",
+            Self::Bidirectional => "bidirectional",
+            Self::BidirectionalMap => "bidirectional-map",
+        }
+    }
+}
+
+/// What a simulation is asked to do. No field refers to threads or time: the result is a function
+/// of the scene and this.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// How illuminance is estimated.
+    pub estimator: Estimator,
+    /// The point set behind all coordinates.
+    pub sequence: Sequence,
+    /// How replicates are made independent.
+    pub randomization: Randomization,
+    /// Wanted half-width of the interval over the value, for each sensor point; 0 asks for no stop.
+    pub rel_tol: f64,
+    /// Confidence level of all intervals, in (0, 1).
+    pub confidence: f64,
+    /// Number of independent randomisations; 1 leaves results without intervals.
+    pub replicates: u32,
+    /// Seed of all randomisations.
+    pub seed: u64,
+    /// Bounces after which light is cut: `Some(0)` leaves the direct light, `None` cuts nothing.
+    pub max_bounces: Option<u32>,
+    /// Limit on the number of indices per replicate: photons, and paths for each sensor point.
+    pub max_samples: Option<u64>,
+    /// Longest edge of an illumination map element in m; `None` derives it from the scene's size.
+    pub map_element_m: Option<f64>,
+}
+
+impl Settings {
+    /// The number of replicates that differ: one where nothing is randomised.
+    #[must_use]
+    pub fn effective_replicates(&self) -> u32 {
+        match self.randomization {
+            Randomization::None if self.sequence != Sequence::Random => 1,
+            _ => self.replicates.max(1),
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            estimator: Estimator::Bidirectional,
+            sequence: Sequence::Sobol,
+            randomization: Randomization::Owen,
+            rel_tol: 0.01,
+            confidence: 0.95,
+            replicates: 16,
+            seed: 1,
+            max_bounces: None,
+            max_samples: None,
+            map_element_m: None,
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! One channel for grey scenes, three for coloured ones: transport is written once for both.
+
+use quasilux_scene::Rgb;
+use std::ops::{Add, AddAssign, Mul};
+
+/// Light or reflectance in as many channels as the scene needs.
+pub(crate) trait Spectrum:
+    Copy + Send + Sync + Add<Output = Self> + AddAssign + Mul<Output = Self> + Mul<f64, Output = Self>
+{
+    /// Number of channels.
+    const CHANNELS: usize;
+    /// The value of a triple; grey scenes hold only grey ones.
+    fn from_rgb(rgb: Rgb) -> Self;
+    /// The value in each channel.
+    fn from_channels(value: impl FnMut(usize) -> f64) -> Self;
+    /// One channel.
+    fn channel(self, channel: usize) -> f64;
+    /// The luminance, in the unit of the channels.
+    fn luminance(self) -> f64;
+    /// One in each channel: all lights are white.
+    fn white() -> Self {
+        Self::from_channels(|_| 1.0)
+    }
+}
+
+impl Spectrum for f64 {
+    const CHANNELS: usize = 1;
+    fn from_rgb(rgb: Rgb) -> Self {
+        rgb.luminance()
+    }
+    fn from_channels(mut value: impl FnMut(usize) -> f64) -> Self {
+        value(0)
+    }
+    fn channel(self, _channel: usize) -> f64 {
+        self
+    }
+    fn luminance(self) -> f64 {
+        self
+    }
+}
+
+impl Spectrum for Rgb {
+    const CHANNELS: usize = 3;
+    fn from_rgb(rgb: Rgb) -> Self {
+        rgb
+    }
+    fn from_channels(value: impl FnMut(usize) -> f64) -> Self {
+        Self(std::array::from_fn(value))
+    }
+    fn channel(self, channel: usize) -> f64 {
+        self.0[channel]
+    }
+    fn luminance(self) -> f64 {
+        Self::luminance(self)
+    }
+}

@@ -1,0 +1,46 @@
+//! Everything that stays the same while light moves.
+
+use crate::lights::Lights;
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::world::World;
+use quasilux_sampling::{PointSet, stream_key};
+use quasilux_scene::Scene;
+
+/// A scene made ready for one simulation.
+pub(crate) struct Stage<'a, S> {
+    pub(crate) world: World<S>,
+    pub(crate) lights: Lights<'a>,
+    pub(crate) max_bounces: Option<u32>,
+    settings: &'a Settings,
+}
+
+/// What a stream of coordinates is for. Streams never share coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Stream {
+    /// Photons that enter the estimate.
+    Photons,
+    /// Photons of a plan, left out of the estimate.
+    PlanPhotons,
+    /// Paths from one sensor point, numbered through all sensors.
+    Paths(u64),
+}
+
+impl<'a, S: Spectrum> Stage<'a, S> {
+    pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
+        let world = World::new(scene);
+        let lights = Lights::new(scene, &world);
+        Self { world, lights, max_bounces: settings.max_bounces, settings }
+    }
+
+    /// The randomised point set of one stream in one replicate.
+    pub(crate) fn points(&self, replicate: u32, stream: Stream) -> PointSet {
+        let id = match stream {
+            Stream::Photons => 0,
+            Stream::PlanPhotons => 1,
+            Stream::Paths(point) => 2 + point,
+        };
+        let Settings { sequence, randomization, seed, .. } = *self.settings;
+        PointSet::new(sequence, randomization, stream_key(seed, replicate, id))
+    }
+}

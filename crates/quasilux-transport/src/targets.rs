@@ -1,0 +1,45 @@
+//! The sensor points of all sensors in one list.
+
+use glam::DVec3;
+use quasilux_scene::sensor::Grid;
+use quasilux_scene::{Quantity, Scene, SensorShape};
+
+/// One value that a sensor asks for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Target {
+    /// The illuminance at a point.
+    Point { position: DVec3, normal: DVec3 },
+    /// The mean illuminance over a grid's cell.
+    Cell { grid: Grid, cell: usize },
+}
+
+/// All targets, sensor by sensor.
+pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
+    let mut targets = Vec::new();
+    for sensor in &scene.sensors {
+        match &sensor.shape {
+            SensorShape::Grid(grid) if grid.quantity == Quantity::Mean => {
+                targets.extend((0..grid.cells()).map(|cell| Target::Cell { grid: *grid, cell }));
+            }
+            _ => targets.extend(sensor.points().into_iter().map(|point| Target::Point {
+                position: point.position,
+                normal: point.normal,
+            })),
+        }
+    }
+    targets
+}
+
+/// Cuts a list over all targets into one list a sensor.
+pub(crate) fn by_sensor<T: Clone>(scene: &Scene, all: &[T]) -> Vec<Vec<T>> {
+    let mut rest = all;
+    scene
+        .sensors
+        .iter()
+        .map(|sensor| {
+            let (own, others) = rest.split_at(sensor.len());
+            rest = others;
+            own.to_vec()
+        })
+        .collect()
+}

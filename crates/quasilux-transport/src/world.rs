@@ -1,0 +1,243 @@
+//! The scene as rays see it: facets, the hierarchy over them, and where rays may start.
+
+use crate::spectrum::Spectrum;
+use glam::DVec3;
+use quasilux_bvh::{Hit, Ray, TriangleBvh};
+use quasilux_scene::bsdf::Mirror;
+use quasilux_scene::{Bsdf, Light, Scene};
+
+/// Hits are drawn this share of the way to their facet's centroid, so that none lies on an edge
+/// and a neighbour's plane cannot be on the wrong side of it.
+const INWARD: f64 = 1.0 / (1_u64 << 34) as f64;
+/// Rays start this share of the scene's size in front of their facet.
+const OFFSET: f64 = 1.0 / (1_u64 << 45) as f64;
+/// Sensor points stand this share of the scene's size in front of where they were put: a hair.
+const HAIR: f64 = 1.0 / (1_u64 << 30) as f64;
+/// Shadow rays end this share of their length before the light, which may lie on a surface.
+const SHORTENING: f64 = 1e-9;
+
+/// How a facet scatters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Scattering<S> {
+    /// Lambertian, with this reflectance.
+    Diffuse(S),
+    /// Perfect mirror, with this reflectance.
+    Mirror(S),
+}
+
+impl<S: Copy> Scattering<S> {
+    pub(crate) fn reflectance(self) -> S {
+        let (Self::Diffuse(reflectance) | Self::Mirror(reflectance)) = self;
+        reflectance
+    }
+}
+
+/// A triangle with all that transport needs to know of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Facet<S> {
+    corners: [DVec3; 3],
+    /// Unit normal of the front side.
+    pub(crate) front_normal: DVec3,
+    pub(crate) scattering: Scattering<S>,
+    /// Luminance of the front side in cd/m^2, 0 for most.
+    pub(crate) emitted_cd_m2: f64,
+}
+
+/// A place on a facet, seen from one side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interaction {
+    pub(crate) facet: u32,
+    pub(crate) barycentric: [f64; 3],
+    pub(crate) position: DVec3,
+    /// Unit geometric normal on the side that was hit.
+    pub(crate) n: DVec3,
+    /// Whether the front side was hit.
+    pub(crate) front: bool,
+    /// Distance of the ray that found it, in m.
+    pub(crate) distance_m: f64,
+}
+
+/// Where rays leave from: a surface, or a free point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vantage {
+    position: DVec3,
+    /// The facet that rays from here never hit; `u32::MAX` for none.
+    facet: u32,
+}
+
+/// The scene as rays see it.
+pub(crate) struct World<S> {
+    pub(crate) facets: Vec<Facet<S>>,
+    bvh: TriangleBvh,
+    size_m: f64,
+}
+
+impl<S: Spectrum> World<S> {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let mesh = &scene.mesh;
+        let mut facets: Vec<Facet<S>> = (0..mesh.triangles.len() as u32)
+            .map(|triangle| Facet {
+                corners: mesh.corners(triangle),
+                front_normal: mesh.front_normal(triangle),
+                scattering: match &scene.material(triangle).bsdf {
+                    Bsdf::Diffuse(diffuse) => Scattering::Diffuse(S::from_rgb(diffuse.reflectance)),
+                    Bsdf::Mirror(mirror) => Scattering::Mirror(S::from_rgb(mirror.reflectance)),
+                },
+                emitted_cd_m2: 0.0,
+            })
+            .collect();
+        for light in &scene.lights {
+            if let Light::Area(area) = light {
+                for &triangle in &area.triangles {
+                    facets[triangle as usize].emitted_cd_m2 += area.luminance_cd_m2;
+                }
+            }
+        }
+        let bvh = TriangleBvh::build(facets.iter().map(|facet| facet.corners).collect());
+        let size_m = mesh.bounds().map_or(1.0, |[low, high]| {
+            low.abs().max(high.abs()).max_element().max((high - low).length())
+        });
+        Self { facets, bvh, size_m }
+    }
+
+    /// The largest extent or coordinate, in m.
+    pub(crate) fn size_m(&self) -> f64 {
+        self.size_m
+    }
+
+    pub(crate) fn facet(&self, at: &Interaction) -> &Facet<S> {
+        &self.facets[at.facet as usize]
+    }
+
+    /// Luminance in cd/m^2 that the place emits toward the side it was hit from.
+    pub(crate) fn emitted_cd_m2(&self, at: &Interaction) -> f64 {
+        if at.front { self.facet(at).emitted_cd_m2 } else { 0.0 }
+    }
+
+    /// The first facet that a ray from `from` along the unit vector `direction` meets.
+    pub(crate) fn trace(&self, from: Vantage, direction: DVec3) -> Option<Interaction> {
+        let ray = Ray::new(from.position, direction);
+        let hit = self.bvh.closest_hit(&ray, from.excluded())?;
+        Some(self.interaction(&hit, direction))
+    }
+
+    /// Whether nothing stands between `from` and the point at `distance_m` along `direction`.
+    /// `target` is the facet the point lies on, `u32::MAX` for none.
+    pub(crate) fn is_visible(
+        &self,
+        from: Vantage,
+        direction: DVec3,
+        distance_m: f64,
+        target: u32,
+    ) -> bool {
+        let ray = Ray::new(from.position, direction).up_to(distance_m * (1.0 - SHORTENING));
+        !self.bvh.is_occluded(&ray, &[from.facet, target])
+    }
+
+    fn interaction(&self, hit: &Hit, direction: DVec3) -> Interaction {
+        let facet = &self.facets[hit.triangle as usize];
+        let front = facet.front_normal.dot(direction) < 0.0;
+        let barycentric = hit.barycentric.map(|b| b + (1.0 / 3.0 - b) * INWARD);
+        Interaction {
+            facet: hit.triangle,
+            barycentric,
+            position: facet.point(barycentric),
+            n: if front { facet.front_normal } else { -facet.front_normal },
+            front,
+            distance_m: hit.distance,
+        }
+    }
+
+    /// Where rays leave from that go on from a hit on the side it was hit from.
+    pub(crate) fn vantage(&self, at: &Interaction) -> Vantage {
+        Vantage { position: at.position + at.n * (OFFSET * self.size_m), facet: at.facet }
+    }
+
+    /// Where rays leave from a facet's front side.
+    pub(crate) fn vantage_on_front(&self, facet: u32, position: DVec3) -> Vantage {
+        let n = self.facets[facet as usize].front_normal;
+        Vantage { position: position + n * (OFFSET * self.size_m), facet }
+    }
+
+    /// Where rays leave from a sensor point: a hair in front of it.
+    pub(crate) fn vantage_of_sensor(&self, position: DVec3, normal: DVec3) -> Vantage {
+        Vantage { position: position + normal * (HAIR * self.size_m), facet: u32::MAX }
+    }
+
+    /// Where rays leave from a point-like light along `direction`: it may lie on a surface.
+    pub(crate) fn vantage_of_light(&self, position: DVec3, direction: DVec3) -> Vantage {
+        Vantage { position: position + direction * (HAIR * self.size_m), facet: u32::MAX }
+    }
+
+    /// The facet nearest to a point that a sensor with this normal can lie on, within a hair;
+    /// among several the one that faces the normal most.
+    pub(crate) fn facet_under(&self, position: DVec3, normal: DVec3) -> Option<Interaction> {
+        let reach = 4.0 * HAIR * self.size_m;
+        let from = Vantage { position: position + normal * reach, facet: u32::MAX };
+        let ray = Ray::new(from.position, -normal).up_to(2.0 * reach);
+        let hit = self.bvh.closest_hit(&ray, &[])?;
+        Some(self.interaction(&hit, -normal))
+    }
+}
+
+impl<S> Facet<S> {
+    /// The point with these barycentric weights.
+    pub(crate) fn point(&self, [a, b, c]: [f64; 3]) -> DVec3 {
+        self.corners[0] * a + self.corners[1] * b + self.corners[2] * c
+    }
+
+    /// The area in m^2.
+    pub(crate) fn area_m2(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        0.5 * (b - a).cross(c - a).length()
+    }
+
+    /// The longest edge in m.
+    pub(crate) fn longest_edge_m(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        (b - a).length().max((c - b).length()).max((a - c).length())
+    }
+}
+
+impl Vantage {
+    /// The starting point in m.
+    pub(crate) fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    fn excluded(&self) -> &[u32] {
+        std::slice::from_ref(&self.facet)
+    }
+}
+
+/// The mirror direction of a ray that arrives along `direction` at a side with normal `n`.
+pub(crate) fn mirrored(direction: DVec3, n: DVec3) -> DVec3 {
+    Mirror::reflect(-direction, n)
+}
+
+/// A direction given in the frame whose z axis is the unit vector `n`, in world coordinates.
+///
+/// The frame is continuous in `n` but for one pole (Duff et al. 2017, "Building an Orthonormal
+/// Basis, Revisited", JCGT 6(1)).
+pub(crate) fn to_world(n: DVec3, [x, y, z]: [f64; 3]) -> DVec3 {
+    let sign = 1.0_f64.copysign(n.z);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    let tangent = DVec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    let bitangent = DVec3::new(b, sign + n.y * n.y * a, -n.y);
+    tangent * x + bitangent * y + n * z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_orthonormal() {
+        for n in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::new(0.6, -0.64, 0.48)] {
+            let [x, y, z] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]].map(|e| to_world(n, e));
+            assert!((x.cross(y) - z).length() < 1e-15 && (z - n).length() < 1e-15);
+            assert!((x.length() - 1.0).abs() < 1e-15 && x.dot(y).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Simulations against closed forms.
+
+mod balance;
+mod cube;
+mod furnace;
+mod scenes;

@@ -1,0 +1,156 @@
+//! What can be said on the command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// How many lux, and how sure: a lighting simulator.
+#[derive(Debug, Parser)]
+#[command(version, about, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Simulate a project until every sensor point is known to the wanted tolerance
+    Run(RunArguments),
+    /// Run the cases of validation/ against their closed forms; exit code 1 when one fails
+    Validate(ValidateArguments),
+    /// Repeat one of the experiments of the paper
+    Experiment(ExperimentArguments),
+    /// Print or draw points of a sequence (not built yet)
+    Points(NotBuilt),
+    /// Summarise, draw or convert luminaire files (not built yet)
+    Photometry(NotBuilt),
+    /// Summarise or draw measured surfaces (not built yet)
+    Bsdf(NotBuilt),
+    /// Freeze map, importance and allocation of a project (not built yet)
+    Plan(NotBuilt),
+    /// Compute a part of a project's samples (not built yet)
+    Shard(NotBuilt),
+    /// Put parts together (not built yet)
+    Merge(NotBuilt),
+    /// Continue from a checkpoint (not built yet)
+    Resume(NotBuilt),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// The project file
+    pub(crate) project: PathBuf,
+    /// Folder for the results [default: out/NAME, NAME being the project file's]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) simulation: SimulationArguments,
+    /// Print the result document on stdout and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Options that go before what the project file says.
+#[derive(Debug, Default, Args)]
+pub(crate) struct SimulationArguments {
+    /// Wanted half-width of the interval over the value, like 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(crate) rel_tol: Option<f64>,
+    /// Stop after this time, like 60s, 5m or 1.5h, at the last completed checkpoint
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time: Option<Duration>,
+    /// Stop after this many indices per replicate: photons, and paths for each sensor point
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 48))]
+    pub(crate) samples: Option<u64>,
+    /// photon, path, bidirectional or bidirectional-map
+    #[arg(long, value_name = "NAME")]
+    pub(crate) estimator: Option<String>,
+    /// sobol or random
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sequence: Option<String>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Seed of all randomisations
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ValidateArguments {
+    /// Folder of the cases
+    #[arg(default_value = "validation")]
+    pub(crate) folder: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExperimentArguments {
+    /// Name of the experiment
+    pub(crate) name: String,
+    /// Folder for tables and pictures [default: out/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NotBuilt {
+    #[arg(hide = true, trailing_var_arg = true, allow_hyphen_values = true)]
+    _ignored: Vec<String>,
+}
+
+/// A share in (0, 1], as a number or with a percent sign.
+fn share(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let share = match text.strip_suffix('%') {
+        Some(percent) => number(percent).map(|percent| percent / 100.0),
+        None => number(text),
+    };
+    share
+        .filter(|share| *share > 0.0 && *share <= 1.0)
+        .ok_or_else(|| "expected a share above 0 and up to 1, like 1% or 0.01".to_owned())
+}
+
+/// A positive time in seconds, minutes or hours; seconds where no unit is given.
+fn duration(text: &str) -> Result<Duration, String> {
+    let (number, unit_s) = match text.char_indices().last() {
+        Some((end, 's')) => (&text[..end], 1.0),
+        Some((end, 'm')) => (&text[..end], 60.0),
+        Some((end, 'h')) => (&text[..end], 3600.0),
+        _ => (text, 1.0),
+    };
+    let seconds = number.trim().parse::<f64>().ok().map(|number| number * unit_s);
+    seconds
+        .filter(|seconds| *seconds > 0.0)
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a time above 0, like 60s, 5m or 1.5h".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn shares_and_times_are_read() {
+        assert_eq!(share("1%"), Ok(0.01));
+        assert_eq!(share("0.5 %"), Ok(0.005));
+        assert_eq!(share("0.02"), Ok(0.02));
+        for bad in ["0", "-1%", "101%", "x", "", "%", "nan", "inf"] {
+            assert!(share(bad).is_err(), "{bad}");
+        }
+        assert_eq!(duration("90"), Ok(Duration::from_secs(90)));
+        assert_eq!(duration("1.5h"), Ok(Duration::from_secs(5400)));
+        assert_eq!(duration("2m"), Ok(Duration::from_secs(120)));
+        for bad in ["0s", "-1", "s", "", "1d", "nan", "1e300", "inf", "ü"] {
+            assert!(duration(bad).is_err(), "{bad}");
+        }
+    }
+}

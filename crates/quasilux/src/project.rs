@@ -1,0 +1,88 @@
+//! A project on disk: its files, and the settings that follow from it and the command line.
+
+use crate::arguments::SimulationArguments;
+use crate::exit::Refusal;
+use crate::names;
+use quasilux_sampling::{Randomization, Sequence};
+use quasilux_scene::{Files, Loaded, SimulationSection, load};
+use quasilux_transport::{Estimator, Settings};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Larger files are refused before they are read.
+const MOST_BYTES: u64 = 8 << 30;
+
+/// Files relative to the project file's folder.
+struct Folder(PathBuf);
+
+impl Files for Folder {
+    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+        read_bounded(&self.0.join(path))
+    }
+}
+
+/// Loads a project; messages name its files as the user does.
+pub(crate) fn open(path: &Path) -> Result<Loaded, Refusal> {
+    let name = path.display().to_string();
+    let bytes =
+        read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+    let folder = Folder(path.parent().unwrap_or(Path::new("")).to_owned());
+    Ok(load(&name, &bytes, &folder)?)
+}
+
+fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
+    let file = std::fs::File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(std::io::ErrorKind::IsADirectory.into());
+    }
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(std::io::ErrorKind::FileTooLarge.into());
+    }
+    Ok(bytes)
+}
+
+/// What the simulation is asked to do: the command line before the project file before defaults.
+pub(crate) fn settings(
+    section: &SimulationSection,
+    arguments: &SimulationArguments,
+) -> Result<Settings, Refusal> {
+    let mut settings = Settings::default();
+    if let Some(name) = &section.estimator {
+        settings.estimator = names::in_project(section, "estimator", name, &Estimator::NAMES)?;
+    }
+    if let Some(name) = &section.sequence {
+        settings.sequence = names::in_project(section, "sequence", name, &Sequence::NAMES)?;
+    }
+    if let Some(name) = &section.randomization {
+        let known = &Randomization::NAMES;
+        settings.randomization = names::in_project(section, "randomization", name, known)?;
+    }
+    if let Some(name) = &arguments.estimator {
+        settings.estimator = names::on_command_line("estimator", name, &Estimator::NAMES)?;
+    }
+    if let Some(name) = &arguments.sequence {
+        settings.sequence = names::on_command_line("sequence", name, &Sequence::NAMES)?;
+    }
+    let placed = |at: &Option<quasilux_scene::Placed<f64>>| at.as_ref().map(|at| at.value);
+    let defaults = Settings::default();
+    settings.rel_tol =
+        arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
+    settings.confidence = placed(&section.confidence).unwrap_or(defaults.confidence);
+    settings.map_element_m = placed(&section.map_element_m);
+    settings.replicates =
+        section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
+    settings.seed =
+        arguments.seed.or(section.seed.as_ref().map(|at| at.value)).unwrap_or(defaults.seed);
+    settings.max_bounces = section.max_bounces.as_ref().and_then(|at| at.value);
+    settings.max_samples = arguments.samples;
+    if settings.effective_replicates() < 2 && arguments.samples.is_none() && arguments.time.is_none()
+    {
+        return Err(Refusal::new(
+            "one replicate gives no interval, so no tolerance can end the run: give --samples or \
+             --time, or ask for more replicates and a randomization",
+        ));
+    }
+    Ok(settings)
+}

@@ -1,0 +1,96 @@
+//! Watches a run: shows how far it is, and ends it when time is up or the user says so.
+
+use crate::interrupt;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use quasilux_measure::number::count;
+use quasilux_transport::{Control, Estimates, Observer, Progress};
+use std::time::{Duration, Instant};
+
+/// Steps of the progress bar.
+const STEPS: u64 = 1000;
+
+/// The observer of the command line.
+pub(crate) struct Watcher {
+    bar: ProgressBar,
+    start: Instant,
+    deadline: Option<Instant>,
+    /// Why the run was told to stop, if it was.
+    pub(crate) stopped: Option<Stopped>,
+}
+
+/// Why a run was told to stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stopped {
+    /// Its time was up.
+    Time,
+    /// The user interrupted it.
+    Interrupt,
+}
+
+impl Watcher {
+    /// Starts the clock. The bar goes to stderr, and only where that is a terminal.
+    pub(crate) fn new(time: Option<Duration>, quiet: bool) -> Self {
+        let start = Instant::now();
+        let target =
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(8) };
+        let style = ProgressStyle::with_template("{bar:24} {msg}")
+            .expect("the template is well formed")
+            .progress_chars("=> ");
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target).with_style(style);
+        // A deadline too far away to be told is none.
+        let deadline = time.and_then(|time| start.checked_add(time));
+        Self { bar, start, deadline, stopped: None }
+    }
+
+    /// Takes the bar away and says how long the run took.
+    pub(crate) fn finish(&self) -> Duration {
+        self.bar.finish_and_clear();
+        self.start.elapsed()
+    }
+
+    fn control(&mut self) -> Control {
+        if interrupt::requested() {
+            self.stopped = Some(Stopped::Interrupt);
+        } else if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            self.stopped = Some(Stopped::Time);
+        }
+        if self.stopped.is_some() { Control::Stop } else { Control::Continue }
+    }
+}
+
+impl Observer for Watcher {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        let elapsed_s = self.start.elapsed().as_secs_f64();
+        let done = self.deadline.map_or(progress.done, |deadline| {
+            let whole_s = (deadline - self.start).as_secs_f64();
+            Some(progress.done.unwrap_or(0.0).max((elapsed_s / whole_s).min(1.0)))
+        });
+        self.bar.set_position((done.unwrap_or(0.0) * STEPS as f64) as u64);
+        self.bar.set_message(message(progress, done, elapsed_s));
+        self.control()
+    }
+
+    fn checkpoint(&mut self, _estimates: &Estimates) -> Control {
+        self.control()
+    }
+}
+
+/// Photons, paths, rays a second, the largest relative half-width, and the time left.
+fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
+    let rays_per_s = progress.rays as f64 / elapsed_s.max(1e-3);
+    let width = progress
+        .largest_relative_half_width
+        .map_or_else(|| "±?".to_owned(), |width| format!("±{:.2} %", 100.0 * width));
+    let left = match done {
+        Some(done) if done > 0.01 => {
+            format!("{:.0} s left", elapsed_s * (1.0 - done) / done)
+        }
+        _ => "? s left".to_owned(),
+    };
+    format!(
+        "{} photons, {} paths, {:.2} M rays/s, {width}, {left}",
+        count(progress.photons),
+        count(progress.paths),
+        rays_per_s * 1e-6,
+    )
+}

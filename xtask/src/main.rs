@@ -1,0 +1,56 @@
+//! The project's own commands: `cargo xtask help` lists them.
+//!
+//! [`steps`] is the test command, [`examples`] its last step, [`office`] the generator behind
+//! `examples/office/`. The rules that no compiler checks are in `tests/architecture/`.
+
+mod examples;
+mod expectation;
+mod office;
+mod steps;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// A failure, told to the person at the terminal.
+type Failure = String;
+
+const HELP: &str = "\
+The project's own commands.
+
+cargo xtask test           everything that CI checks, in this order
+cargo xtask test fmt       formatting
+cargo xtask test clippy    lints, warnings denied
+cargo xtask test tests     all tests of the workspace
+cargo xtask test docs      documentation, warnings denied
+cargo xtask test examples  every example runs and gives the numbers it promises
+cargo xtask office         write examples/office/ from its generator
+cargo xtask help           this text
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words[..] {
+        ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        ["test"] => steps::run_all(),
+        ["test", name] => steps::run_one(name),
+        ["office"] => office::write(&workspace_root()),
+        _ => Err(format!("no such command: {:?}\n\n{HELP}", words.join(" "))),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("xtask: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The folder of the workspace's `Cargo.toml`.
+fn workspace_root() -> PathBuf {
+    let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
+    xtask.parent().unwrap_or(xtask).to_path_buf()
+}

@@ -1,0 +1,127 @@
+//! The steps of the test command, in the order in which they are cheapest to fail.
+
+use crate::{Failure, examples, workspace_root};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// One step: its name on the command line, and what it does.
+struct Step {
+    name: &'static str,
+    run: fn() -> Result<(), Failure>,
+}
+
+const STEPS: [Step; 5] = [
+    Step {
+        name: "fmt",
+        run: || cargo(&["fmt", "--all", "--check"], &[]),
+    },
+    Step {
+        name: "clippy",
+        run: || {
+            cargo(
+                &[
+                    "clippy",
+                    "--workspace",
+                    "--all-targets",
+                    "--",
+                    "-D",
+                    "warnings",
+                ],
+                &[],
+            )
+        },
+    },
+    Step {
+        name: "tests",
+        run: || cargo(&["test", "--workspace"], &[]),
+    },
+    Step {
+        name: "docs",
+        run: || {
+            cargo(
+                &["doc", "--workspace", "--no-deps"],
+                &[("RUSTDOCFLAGS", "-D warnings")],
+            )
+        },
+    },
+    Step {
+        name: "examples",
+        run: || examples::run_all(&workspace_root()),
+    },
+];
+
+/// Runs all steps and stops at the first that fails.
+pub(crate) fn run_all() -> Result<(), Failure> {
+    let mut total = Duration::ZERO;
+    for step in &STEPS {
+        total += run(step)?;
+    }
+    println!("xtask: all steps passed in {:.0} s", total.as_secs_f64());
+    Ok(())
+}
+
+/// Runs the step of that name.
+pub(crate) fn run_one(name: &str) -> Result<(), Failure> {
+    let Some(step) = STEPS.iter().find(|step| step.name == name) else {
+        let names: Vec<&str> = STEPS.iter().map(|step| step.name).collect();
+        return Err(format!(
+            "no step {name:?}; the steps are {}",
+            names.join(", ")
+        ));
+    };
+    run(step).map(|_| ())
+}
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the clock only tells how long a step took"
+)]
+fn run(step: &Step) -> Result<Duration, Failure> {
+    println!("xtask: {} ...", step.name);
+    let start = Instant::now();
+    (step.run)().map_err(|failure| {
+        format!(
+            "step {0} failed: {failure}\nrun it alone: cargo xtask test {0}",
+            step.name
+        )
+    })?;
+    let took = start.elapsed();
+    println!("xtask: {} passed in {:.0} s", step.name, took.as_secs_f64());
+    Ok(took)
+}
+
+/// Runs cargo in the workspace with further environment variables.
+fn cargo(arguments: &[&str], variables: &[(&str, &str)]) -> Result<(), Failure> {
+    let line = format!("cargo {}", arguments.join(" "));
+    let status = Command::new("cargo")
+        .args(arguments)
+        .envs(variables.iter().copied())
+        .current_dir(workspace_root())
+        .status()
+        .map_err(|error| format!("`{line}` does not start: {error}"))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("`{line}` ended with {status}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_step_is_refused_with_the_names_of_all() {
+        let failure = run_one("teste").unwrap_err();
+        assert!(
+            STEPS.iter().all(|step| failure.contains(step.name)),
+            "{failure}"
+        );
+    }
+
+    #[test]
+    fn a_failing_command_is_a_failure() {
+        let failure = cargo(&["no-such-subcommand"], &[]).unwrap_err();
+        assert!(failure.contains("cargo no-such-subcommand"), "{failure}");
+    }
+}

@@ -1,0 +1,121 @@
+//! The rules of the house that no compiler checks.
+//!
+//! [`arrows`] reads the manifests, [`absences`] the sources. Each rule is a function from text to
+//! violations, with a test of its own that proves it rejects a made-up one.
+
+mod absences;
+mod arrows;
+mod source;
+
+use source::RustFile;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Files that may be longer than [`absences::LONGEST_FILE`], each with the reason.
+const LONG_FILES: [(&str, &str); 0] = [];
+
+/// What a rule found, as told to the reader of a failed test.
+type Violation = String;
+
+fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap()
+        .to_path_buf()
+}
+
+/// Names of the crates, which are the names of their folders, with their manifests.
+fn manifests() -> Vec<(String, toml::Table)> {
+    let mut manifests: Vec<_> = fs::read_dir(workspace().join("crates"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.is_dir())
+        .map(|path| {
+            let text = fs::read_to_string(path.join("Cargo.toml")).unwrap();
+            (
+                path.file_name().unwrap().to_str().unwrap().to_owned(),
+                text.parse().unwrap(),
+            )
+        })
+        .collect();
+    manifests.sort_by(|a, b| a.0.cmp(&b.0));
+    assert!(
+        manifests.len() >= 8,
+        "only {} crates found",
+        manifests.len()
+    );
+    manifests
+}
+
+/// All Rust files of the workspace, with paths relative to it.
+fn rust_files() -> Vec<RustFile> {
+    let root = workspace();
+    let mut files = Vec::new();
+    let mut folders: Vec<PathBuf> = ["crates", "xtask", "benches"]
+        .iter()
+        .map(|name| root.join(name))
+        .collect();
+    while let Some(folder) = folders.pop() {
+        let Ok(entries) = fs::read_dir(&folder) else {
+            continue;
+        };
+        for path in entries.map(|entry| entry.unwrap().path()) {
+            if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let parts: Vec<_> = path.strip_prefix(&root).unwrap().iter().collect();
+                let name: Vec<_> = parts.iter().map(|part| part.to_str().unwrap()).collect();
+                files.push(RustFile::new(
+                    &name.join("/"),
+                    &fs::read_to_string(&path).unwrap(),
+                ));
+            }
+        }
+    }
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    assert!(files.len() >= 20, "only {} Rust files found", files.len());
+    files
+}
+
+fn assert_none(violations: &[Violation]) {
+    assert!(violations.is_empty(), "\n{}\n", violations.join("\n"));
+}
+
+#[test]
+fn crate_arrows_are_those_of_the_table() {
+    let manifests = manifests();
+    assert_none(&arrows::violations(&manifests));
+}
+
+#[test]
+fn the_page_shows_the_table_that_is_tested() {
+    let page = fs::read_to_string(workspace().join("ARCHITECTURE.md")).unwrap();
+    assert_none(&arrows::page_violations(&page));
+}
+
+#[test]
+fn no_crate_and_no_module_is_a_drawer() {
+    let crates = manifests().into_iter().map(|(name, _)| name);
+    let paths = rust_files().into_iter().map(|file| file.path);
+    assert_none(&absences::drawers(crates.chain(paths)));
+}
+
+#[test]
+fn below_the_command_line_nothing_reads_the_outside() {
+    assert_none(&absences::outside_reads(&rust_files()));
+}
+
+#[test]
+fn files_are_short() {
+    assert_none(&absences::long_files(&rust_files(), &LONG_FILES));
+}
+
+#[test]
+fn unsafe_code_stays_in_the_ray_kernel() {
+    assert_none(&absences::unsafe_code(&rust_files()));
+}
+
+#[test]
+fn no_test_sleeps() {
+    assert_none(&absences::ignored_tests(&rust_files()));
+}
