@@ -24,8 +24,10 @@ const BLOCKS_PER_ROUND: u64 = 512;
 /// The first checkpoint takes at most this many indices, and about this many paths in all.
 const FIRST_SAMPLES: u64 = 64;
 const FIRST_PATHS: u64 = 1 << 22;
-/// Share of the paths that correct the map.
-const CORRECTED_SHARE: f64 = 0.25;
+/// Share of the paths that correct the map. With few the error of the correction prevails (on the
+/// diffuse cube a share of 0.1 takes 18 times as long to the same error as plain paths, 0.6 three
+/// times); with all of them these are plain paths.
+const CORRECTED_SHARE: f64 = 0.6;
 /// Photons that only balance the flux, where the estimator needs none.
 const BALANCE_PHOTONS: u64 = 1 << 14;
 

@@ -78,7 +78,7 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            estimator: Estimator::Bidirectional,
+            estimator: Estimator::Path,
             sequence: Sequence::Sobol,
             randomization: Randomization::Owen,
             rel_tol: 0.01,

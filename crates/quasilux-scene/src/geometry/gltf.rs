@@ -10,8 +10,9 @@ use super::gltf_primitive::{self, Target};
 use super::{beside, data_uri, reason};
 use crate::{Files, LoadError, Place, Rgb, Warning};
 use ::gltf::buffer::Source;
+use ::gltf::json::validation::Checked;
 use ::gltf::scene::Transform;
-use ::gltf::{Document, Gltf, Node};
+use ::gltf::{Document, Gltf, Node, Semantic};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use std::collections::HashMap;
 
@@ -114,6 +115,7 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
         )));
     }
     json.extensions_required.clear();
+    check_position_indices(&json).map_err(error)?;
     let document = Document::from_json(json).map_err(|e| match e {
         ::gltf::Error::Validation(faults) => match faults.first() {
             Some((path, fault)) => error(format!("not a valid glTF file: {path}: {fault}")),
@@ -122,6 +124,26 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
         other => error(format!("not a valid glTF file: {other}")),
     })?;
     Ok((document, blob))
+}
+
+/// Checks that accessors of positions exist: the validation of `gltf` looks them up unchecked.
+fn check_position_indices(json: &::gltf::json::Root) -> Result<(), String> {
+    let key = Checked::Valid(Semantic::Positions);
+    for (index, mesh) in json.meshes.iter().enumerate() {
+        let positions = mesh
+            .primitives
+            .iter()
+            .filter_map(|p| p.attributes.get(&key));
+        for accessor in positions.map(|accessor| accessor.value()) {
+            if accessor >= json.accessors.len() {
+                let count = json.accessors.len();
+                return Err(format!(
+                    "mesh {index} refers to accessor {accessor}, but the file has {count}"
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Checks lengths of the 12-byte header and of the first chunk [4.4] against the bytes that exist.

@@ -186,6 +186,11 @@ fn what_lies_or_is_not_built_is_refused() {
             "\"byteOffset\": 18446744073709551615, \"count\": 4",
             "accessor 0 says",
         ),
+        (
+            "\"POSITION\": 0",
+            "\"POSITION\": 2",
+            "mesh 0 refers to accessor 2, but the file has 2",
+        ),
         ("5126", "5123", "expected three 32-bit floats"),
         ("5123", "5126", "expected unsigned integers"),
         (
@@ -211,7 +216,11 @@ fn what_lies_or_is_not_built_is_refused() {
             "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 1, \"componentType\": 5123}, \"values\": {\"bufferView\": 1}}",
             "is sparse",
         ),
-        ("\"bufferView\": 1,", "", "no buffer view"),
+        (
+            "\"bufferView\": 1,",
+            "",
+            "accessors[1].bufferView: Missing data",
+        ),
         (
             "square%20mesh.bin",
             "none.bin",
