@@ -6,5 +6,6 @@ mod gltf;
 mod mutations;
 mod obj;
 mod project;
+mod project_cases;
 mod support;
 mod walls;

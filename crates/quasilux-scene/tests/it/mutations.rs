@@ -7,7 +7,7 @@ use crate::gltf::{SQUARE, square_bytes, square_glb};
 use crate::support::{MapFiles, PROJECT, ROOM_MTL, ROOM_OBJ, Stream, load_geometry};
 use quasilux_scene::load;
 
-const MUTATIONS: usize = 400_000;
+const MUTATIONS: usize = 20_000;
 
 /// Words that readers find hard.
 const WORDS: [&str; 24] = [
@@ -64,7 +64,7 @@ fn mutated(bytes: &[u8], stream: &mut Stream) -> Vec<u8> {
 
 /// Loads all mutations; the text of each refusal must be one line. Returns how many loaded.
 fn survive(original: &[u8], seed: u64, load: impl Fn(Vec<u8>) -> Result<(), String>) -> usize {
-    let mut stream = Stream(seed + 100);
+    let mut stream = Stream(seed);
     let outcomes = (0..MUTATIONS).map(|_| load(mutated(original, &mut stream)));
     let mut loaded = 0;
     for outcome in outcomes {
