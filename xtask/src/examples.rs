@@ -36,24 +36,16 @@ pub(crate) fn run_all(root: &Path) -> Result<(), Failure> {
 }
 
 fn example_folders(root: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let folders: Vec<_> = entries(&root.join("examples"))?
-        .into_iter()
-        .filter(|path| path.is_dir())
-        .collect();
-    if folders.is_empty() {
-        Err("examples/ is empty".into())
-    } else {
-        Ok(folders)
-    }
+    let folders: Vec<_> =
+        entries(&root.join("examples"))?.into_iter().filter(|path| path.is_dir()).collect();
+    if folders.is_empty() { Err("examples/ is empty".into()) } else { Ok(folders) }
 }
 
 impl Example {
     fn read(folder: &Path) -> Result<Self, Failure> {
         let expected = read(&folder.join("expected.toml")).and_then(|text| Expected::parse(&text));
-        let projects: Vec<_> = entries(folder)?
-            .into_iter()
-            .filter(|path| is_project(path))
-            .collect();
+        let projects: Vec<_> =
+            entries(folder)?.into_iter().filter(|path| is_project(path)).collect();
         if projects.is_empty() {
             return Err(format!("{} has no project file", folder.display()));
         }
@@ -77,10 +69,7 @@ impl Example {
         }
         for expectation in &self.expected.expect {
             if !self.readme.contains(&expectation.value.to_string()) {
-                return Err(format!(
-                    "{place} does not give the number {}",
-                    expectation.value
-                ));
+                return Err(format!("{place} does not give the number {}", expectation.value));
             }
         }
         Ok(())
@@ -97,9 +86,7 @@ impl Example {
             let result = serde_json::from_str(&text)
                 .map_err(|error| format!("{name}: result.json is not JSON: {error}"))?;
             for expectation in &self.expected.expect {
-                expectation
-                    .check(&result)
-                    .map_err(|failure| format!("{name}: {failure}"))?;
+                expectation.check(&result).map_err(|failure| format!("{name}: {failure}"))?;
             }
         }
         Ok(())
@@ -114,27 +101,18 @@ fn run_project(root: &Path, project: &str, out: &Path) -> Result<(), Failure> {
         .current_dir(root)
         .status()
         .map_err(|error| format!("cargo does not start: {error}"))?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(format!("`quasilux run` ended with {status}"))
-    }
+    if status.success() { Ok(()) } else { Err(format!("`quasilux run` ended with {status}")) }
 }
 
 fn is_project(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension == "toml")
+    path.extension().is_some_and(|extension| extension == "toml")
         && path.file_name().is_some_and(|name| name != "expected.toml")
 }
 
 /// A path below the root, with slashes on every platform.
 fn relative(path: &Path, root: &Path) -> String {
     let parts: Vec<_> = path.strip_prefix(root).unwrap_or(path).iter().collect();
-    parts
-        .iter()
-        .map(|part| part.to_string_lossy())
-        .collect::<Vec<_>>()
-        .join("/")
+    parts.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/")
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
@@ -144,9 +122,7 @@ fn read(path: &Path) -> Result<String, Failure> {
 /// The entries of a folder, sorted by name.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let listing = fs::read_dir(folder).and_then(|entries| {
-        entries
-            .map(|entry| entry.map(|entry| entry.path()))
-            .collect::<Result<Vec<_>, _>>()
+        entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>()
     });
     let mut paths = listing.map_err(|error| format!("{}: {error}", folder.display()))?;
     paths.sort();

@@ -75,9 +75,7 @@ impl Expectation {
 
     fn reported(&self, result: &Value) -> Option<Vec<Reported>> {
         let sensors = result["sensors"].as_array()?;
-        let sensor = sensors
-            .iter()
-            .find(|sensor| sensor["name"] == self.sensor.as_str())?;
+        let sensor = sensors.iter().find(|sensor| sensor["name"] == self.sensor.as_str())?;
         let points = sensor["points"].as_array()?;
         let at = |point: &Value| self.reported_at(point);
         match (self.figure.as_str(), self.point) {
@@ -97,16 +95,11 @@ impl Expectation {
             "illuminance_lx" => point["half_width_lx"].as_f64()?,
             _ => 0.0,
         };
-        Some(Reported {
-            value: point[self.figure.as_str()].as_f64()?,
-            half_width,
-        })
+        Some(Reported { value: point[self.figure.as_str()].as_f64()?, half_width })
     }
 
     fn label(&self) -> String {
-        let point = self
-            .point
-            .map_or(String::new(), |index| format!(" of point {index}"));
+        let point = self.point.map_or(String::new(), |index| format!(" of point {index}"));
         format!("sensor {:?}, {}{point}", self.sensor, self.figure)
     }
 }
@@ -129,59 +122,35 @@ mod tests {
 
     fn expect(figure: &str, point: Option<usize>, value: f64) -> Expectation {
         let (sensor, why) = ("desk".to_owned(), "made up".to_owned());
-        Expectation {
-            sensor,
-            figure: figure.into(),
-            point,
-            value,
-            tolerance_rel: 0.002,
-            why,
-        }
+        Expectation { sensor, figure: figure.into(), point, value, tolerance_rel: 0.002, why }
     }
 
     #[test]
     fn the_interval_widened_by_the_tolerance_is_accepted_and_no_more() {
         assert_eq!(expect("average_lx", None, 507.0).check(&result()), Ok(()));
         assert!(expect("average_lx", None, 507.1).check(&result()).is_err());
-        assert_eq!(
-            expect("illuminance_lx", Some(0), 502.9).check(&result()),
-            Ok(())
-        );
-        assert!(
-            expect("illuminance_lx", Some(0), 503.1)
-                .check(&result())
-                .is_err()
-        );
+        assert_eq!(expect("illuminance_lx", Some(0), 502.9).check(&result()), Ok(()));
+        assert!(expect("illuminance_lx", Some(0), 503.1).check(&result()).is_err());
     }
 
     #[test]
     fn without_an_index_every_point_counts() {
         assert_eq!(expect("direct_lx", None, 300.0).check(&result()), Ok(()));
-        assert!(
-            expect("illuminance_lx", None, 500.0)
-                .check(&result())
-                .is_err()
-        );
+        assert!(expect("illuminance_lx", None, 500.0).check(&result()).is_err());
     }
 
     #[test]
     fn what_is_missing_or_not_a_number_fails() {
-        for (figure, point) in [
-            ("median_lx", None),
-            ("average_lx", Some(0)),
-            ("direct_lx", Some(2)),
-        ] {
+        for (figure, point) in
+            [("median_lx", None), ("average_lx", Some(0)), ("direct_lx", Some(2))]
+        {
             assert!(expect(figure, point, 300.0).check(&result()).is_err());
         }
         let null = json!({"sensors": [{"name": "desk", "points": [],
             "summary": {"average_lx": {"value": 507.0, "half_width": null}}}]});
         assert!(expect("average_lx", None, 507.0).check(&null).is_err());
         assert!(expect("direct_lx", None, 300.0).check(&null).is_err());
-        assert!(
-            expect("average_lx", None, f64::NAN)
-                .check(&result())
-                .is_err()
-        );
+        assert!(expect("average_lx", None, f64::NAN).check(&result()).is_err());
     }
 
     #[test]

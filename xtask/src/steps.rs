@@ -11,43 +11,17 @@ struct Step {
 }
 
 const STEPS: [Step; 5] = [
-    Step {
-        name: "fmt",
-        run: || cargo(&["fmt", "--all", "--check"], &[]),
-    },
+    Step { name: "fmt", run: || cargo(&["fmt", "--all", "--check"], &[]) },
     Step {
         name: "clippy",
-        run: || {
-            cargo(
-                &[
-                    "clippy",
-                    "--workspace",
-                    "--all-targets",
-                    "--",
-                    "-D",
-                    "warnings",
-                ],
-                &[],
-            )
-        },
+        run: || cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[]),
     },
-    Step {
-        name: "tests",
-        run: || cargo(&["test", "--workspace"], &[]),
-    },
+    Step { name: "tests", run: || cargo(&["test", "--workspace"], &[]) },
     Step {
         name: "docs",
-        run: || {
-            cargo(
-                &["doc", "--workspace", "--no-deps"],
-                &[("RUSTDOCFLAGS", "-D warnings")],
-            )
-        },
+        run: || cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")]),
     },
-    Step {
-        name: "examples",
-        run: || examples::run_all(&workspace_root()),
-    },
+    Step { name: "examples", run: || examples::run_all(&workspace_root()) },
 ];
 
 /// Runs all steps and stops at the first that fails.
@@ -64,26 +38,17 @@ pub(crate) fn run_all() -> Result<(), Failure> {
 pub(crate) fn run_one(name: &str) -> Result<(), Failure> {
     let Some(step) = STEPS.iter().find(|step| step.name == name) else {
         let names: Vec<&str> = STEPS.iter().map(|step| step.name).collect();
-        return Err(format!(
-            "no step {name:?}; the steps are {}",
-            names.join(", ")
-        ));
+        return Err(format!("no step {name:?}; the steps are {}", names.join(", ")));
     };
     run(step).map(|_| ())
 }
 
-#[expect(
-    clippy::disallowed_methods,
-    reason = "the clock only tells how long a step took"
-)]
+#[expect(clippy::disallowed_methods, reason = "the clock only tells how long a step took")]
 fn run(step: &Step) -> Result<Duration, Failure> {
     println!("xtask: {} ...", step.name);
     let start = Instant::now();
     (step.run)().map_err(|failure| {
-        format!(
-            "step {0} failed: {failure}\nrun it alone: cargo xtask test {0}",
-            step.name
-        )
+        format!("step {0} failed: {failure}\nrun it alone: cargo xtask test {0}", step.name)
     })?;
     let took = start.elapsed();
     println!("xtask: {} passed in {:.0} s", step.name, took.as_secs_f64());
@@ -99,11 +64,7 @@ fn cargo(arguments: &[&str], variables: &[(&str, &str)]) -> Result<(), Failure> 
         .current_dir(workspace_root())
         .status()
         .map_err(|error| format!("`{line}` does not start: {error}"))?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(format!("`{line}` ended with {status}"))
-    }
+    if status.success() { Ok(()) } else { Err(format!("`{line}` ended with {status}")) }
 }
 
 #[cfg(test)]
@@ -113,10 +74,7 @@ mod tests {
     #[test]
     fn an_unknown_step_is_refused_with_the_names_of_all() {
         let failure = run_one("teste").unwrap_err();
-        assert!(
-            STEPS.iter().all(|step| failure.contains(step.name)),
-            "{failure}"
-        );
+        assert!(STEPS.iter().all(|step| failure.contains(step.name)), "{failure}");
     }
 
     #[test]

@@ -24,16 +24,8 @@ pub fn csv(sensor: &SensorReport) -> String {
             let columns = grid.counts[0] as usize;
             write!(text, "{},{},", index % columns, index / columns).expect("strings grow");
         }
-        let place = point
-            .position_m
-            .to_array()
-            .into_iter()
-            .chain(point.normal.to_array());
-        let light = [
-            point.illuminance_lx.value,
-            point.illuminance_lx.half_width,
-            point.direct_lx,
-        ];
+        let place = point.position_m.to_array().into_iter().chain(point.normal.to_array());
+        let light = [point.illuminance_lx.value, point.illuminance_lx.half_width, point.direct_lx];
         let fields: Vec<String> = place
             .map(exact)
             .chain(light.into_iter().map(|x| x.map(exact).unwrap_or_default()))
@@ -56,9 +48,8 @@ mod tests {
         let text = csv(sensor);
         let mut lines = text.lines();
         assert_eq!(lines.next(), Some(format!("i,j,{COLUMNS}").as_str()));
-        let rows: Vec<Vec<f64>> = lines
-            .map(|l| l.split(',').map(|f| f.parse().expect("a number")).collect())
-            .collect();
+        let rows: Vec<Vec<f64>> =
+            lines.map(|l| l.split(',').map(|f| f.parse().expect("a number")).collect()).collect();
         assert_eq!(rows.len(), sensor.points.len());
         assert_eq!(rows[25][..2], [1.0, 1.0]);
         for (row, point) in rows.iter().zip(&sensor.points) {
@@ -74,9 +65,6 @@ mod tests {
     fn single_points_have_no_indices_and_missing_numbers_are_empty() {
         let report = example::without_intervals();
         let text = csv(&report.sensors[0]);
-        assert_eq!(
-            text,
-            format!("{COLUMNS}\n0.0,0.0,0.5,0.0,0.0,1.0,100.0,,80.0\n")
-        );
+        assert_eq!(text, format!("{COLUMNS}\n0.0,0.0,0.5,0.0,0.0,1.0,100.0,,80.0\n"));
     }
 }

@@ -35,41 +35,23 @@ pub(crate) fn report_of(
             lx(x, y)
         })
         .collect();
-    let sensor = Sensor {
-        name: name.into(),
-        shape: SensorShape::Grid(grid),
-    };
-    report(
-        vec![(sensor, replicates(&mean, noise))],
-        &Settings::default(),
-    )
+    let sensor = Sensor { name: name.into(), shape: SensorShape::Grid(grid) };
+    report(vec![(sensor, replicates(&mean, noise))], &Settings::default())
 }
 
 /// A 24 x 20 workplane under six luminaires, and one probe.
 pub(crate) fn office() -> Report {
     let grid = grid([5.0, 4.0], [24, 20]);
     let desk = report_of("workplane", grid, 0.01, batwing);
-    let values: Vec<f64> = desk.sensors[0]
-        .points
-        .iter()
-        .filter_map(|p| p.illuminance_lx.value)
-        .collect();
-    let plane = Sensor {
-        name: "workplane".into(),
-        shape: SensorShape::Grid(grid),
-    };
+    let values: Vec<f64> =
+        desk.sensors[0].points.iter().filter_map(|p| p.illuminance_lx.value).collect();
+    let plane = Sensor { name: "workplane".into(), shape: SensorShape::Grid(grid) };
     let probe = Sensor {
         name: "probe at the door, 1.2 m".into(),
-        shape: SensorShape::Points(vec![SensorPoint {
-            position: DVec3::ONE,
-            normal: DVec3::X,
-        }]),
+        shape: SensorShape::Points(vec![SensorPoint { position: DVec3::ONE, normal: DVec3::X }]),
     };
     report(
-        vec![
-            (plane, replicates(&values, 0.01)),
-            (probe, replicates(&[93.7], 0.04)),
-        ],
+        vec![(plane, replicates(&values, 0.01)), (probe, replicates(&[93.7], 0.04))],
         &Settings::default(),
     )
 }
@@ -89,19 +71,10 @@ pub(crate) fn batwing(x: f64, y: f64) -> f64 {
 
 /// A sensor "desk" of single points, all replicates equal.
 pub(crate) fn noiseless(values: &[f64]) -> Report {
-    let point = SensorPoint {
-        position: DVec3::ZERO,
-        normal: DVec3::Z,
-    };
+    let point = SensorPoint { position: DVec3::ZERO, normal: DVec3::Z };
     let shape = SensorShape::Points(vec![point; values.len()]);
     let mut report = report(
-        vec![(
-            Sensor {
-                name: "desk".into(),
-                shape,
-            },
-            vec![values.to_vec(); 4],
-        )],
+        vec![(Sensor { name: "desk".into(), shape }, vec![values.to_vec(); 4])],
         &Settings::default(),
     );
     report.warnings.retain(|w| w != WARNING);
@@ -110,27 +83,15 @@ pub(crate) fn noiseless(values: &[f64]) -> Report {
 
 /// One point, one replicate.
 pub(crate) fn without_intervals() -> Report {
-    let point = SensorPoint {
-        position: DVec3::new(0.0, 0.0, 0.5),
-        normal: DVec3::Z,
-    };
-    let sensor = Sensor {
-        name: "desk".into(),
-        shape: SensorShape::Points(vec![point]),
-    };
-    let settings = Settings {
-        replicates: 1,
-        ..Settings::default()
-    };
+    let point = SensorPoint { position: DVec3::new(0.0, 0.0, 0.5), normal: DVec3::Z };
+    let sensor = Sensor { name: "desk".into(), shape: SensorShape::Points(vec![point]) };
+    let settings = Settings { replicates: 1, ..Settings::default() };
     report(vec![(sensor, vec![vec![100.0]])], &settings)
 }
 
 /// A result of the estimator whose map leaves a bias.
 pub(crate) fn biased() -> Report {
-    let settings = Settings {
-        estimator: Estimator::BidirectionalMap,
-        ..Settings::default()
-    };
+    let settings = Settings { estimator: Estimator::BidirectionalMap, ..Settings::default() };
     let (scene, mut estimates) = scene_and_estimates(Vec::new());
     estimates.biased = true;
     Report::new(&scene, &settings, &estimates, RunFacts::default())
@@ -164,10 +125,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
             lost_lm: 0.0,
             cut_lm: 0.0,
         },
-        mean_dimension: MeanDimension {
-            photon: Some(13.25),
-            path: None,
-        },
+        mean_dimension: MeanDimension { photon: Some(13.25), path: None },
         invalid_contributions: 0,
         confidence: 0.95,
         miss_probability: 0.025,
@@ -188,10 +146,7 @@ fn replicates(mean: &[f64], noise: f64) -> Vec<Vec<f64>> {
     (0..16_usize)
         .map(|r| {
             let off = |p: usize| ((r * 7 + p * 5) % 16) as f64 / 7.5 - 1.0;
-            mean.iter()
-                .enumerate()
-                .map(|(p, lx)| lx * (1.0 + noise * off(p)))
-                .collect()
+            mean.iter().enumerate().map(|(p, lx)| lx * (1.0 + noise * off(p))).collect()
         })
         .collect()
 }

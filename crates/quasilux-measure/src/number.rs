@@ -41,25 +41,16 @@ impl FigureText {
 #[must_use]
 pub fn figure_text(figure: Figure) -> FigureText {
     let Some(value) = figure.value else {
-        return FigureText {
-            value: "-".into(),
-            half_width: None,
-        };
+        return FigureText { value: "-".into(), half_width: None };
     };
     let finest = decimal_exponent(value).map_or(0, |e| e - MOST_DIGITS + 1);
     let Some(half_width) = figure.half_width else {
         let place = decimal_exponent(value).map_or(0, |e| e - DIGITS_WITHOUT_INTERVAL + 1);
-        return FigureText {
-            value: to_place(value, place),
-            half_width: None,
-        };
+        return FigureText { value: to_place(value, place), half_width: None };
     };
     let Some(wanted) = last_place(half_width) else {
         let place = decimal_exponent(value).map_or(0, |e| e - DIGITS_WITHOUT_INTERVAL + 1);
-        return FigureText {
-            value: to_place(value, place),
-            half_width: Some("0".into()),
-        };
+        return FigureText { value: to_place(value, place), half_width: Some("0".into()) };
     };
     if value != 0.0 && wanted < finest {
         let unit = libm::exp10(f64::from(finest));
@@ -69,10 +60,7 @@ pub fn figure_text(figure: Figure) -> FigureText {
             half_width: Some(to_place(half_width, finest)),
         };
     }
-    FigureText {
-        value: to_place(value, wanted),
-        half_width: Some(to_place(half_width, wanted)),
-    }
+    FigureText { value: to_place(value, wanted), half_width: Some(to_place(half_width, wanted)) }
 }
 
 /// The shortest text that reads back as exactly this number.
@@ -110,11 +98,7 @@ pub fn count(n: u64) -> String {
 fn last_place(half_width: f64) -> Option<i32> {
     let exponent = decimal_exponent(half_width)?;
     let leading = half_width / libm::exp10(f64::from(exponent));
-    Some(if leading < 3.545 {
-        exponent - 1
-    } else {
-        exponent
-    })
+    Some(if leading < 3.545 { exponent - 1 } else { exponent })
 }
 
 /// The exponent of a number in scientific notation; `None` for zero and what is not finite.
@@ -123,8 +107,7 @@ pub(crate) fn decimal_exponent(x: f64) -> Option<i32> {
         return None;
     }
     let text = format!("{x:e}");
-    text.split_once('e')
-        .and_then(|(_, exponent)| exponent.parse().ok())
+    text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok())
 }
 
 /// Rounds to a multiple of 10^`place` and writes no digit below it.
@@ -140,11 +123,7 @@ pub(crate) fn to_place(x: f64, place: i32) -> String {
         format!("{:.0}", (x / unit).round() * unit)
     };
     let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
-    if is_zero {
-        text.trim_start_matches('-').to_owned()
-    } else {
-        text
-    }
+    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -152,11 +131,7 @@ mod tests {
     use super::*;
 
     fn text(value: f64, half_width: f64) -> String {
-        figure_text(Figure {
-            value: Some(value),
-            half_width: Some(half_width),
-        })
-        .joined()
+        figure_text(Figure { value: Some(value), half_width: Some(half_width) }).joined()
     }
 
     #[test]
@@ -188,15 +163,9 @@ mod tests {
 
     #[test]
     fn figures_without_interval_or_value() {
-        let alone = figure_text(Figure {
-            value: Some(498.0412),
-            half_width: None,
-        });
+        let alone = figure_text(Figure { value: Some(498.0412), half_width: None });
         assert_eq!(alone.joined(), "498.0");
-        let none = figure_text(Figure {
-            value: None,
-            half_width: None,
-        });
+        let none = figure_text(Figure { value: None, half_width: None });
         assert_eq!(none.joined(), "-");
     }
 

@@ -118,14 +118,9 @@ impl Report {
     /// If `estimates` do not belong to `scene`.
     #[must_use]
     pub fn new(scene: &Scene, settings: &Settings, estimates: &Estimates, facts: RunFacts) -> Self {
-        assert_eq!(
-            scene.sensors.len(),
-            estimates.sensors.len(),
-            "estimates of another scene"
-        );
-        let sensors: Vec<SensorReport> = (0..scene.sensors.len())
-            .map(|s| SensorReport::new(scene, estimates, s))
-            .collect();
+        assert_eq!(scene.sensors.len(), estimates.sensors.len(), "estimates of another scene");
+        let sensors: Vec<SensorReport> =
+            (0..scene.sensors.len()).map(|s| SensorReport::new(scene, estimates, s)).collect();
         let mut warnings = facts.warnings;
         warnings.extend_from_slice(&estimates.warnings);
         if estimates.biased && !warnings.iter().any(|w| w.contains("bias")) {
@@ -214,11 +209,7 @@ impl SensorReport {
         if missing.is_empty() {
             return None;
         }
-        Some(format!(
-            "sensor \"{}\": no finite value for {}",
-            self.name,
-            missing.join(", ")
-        ))
+        Some(format!("sensor \"{}\": no finite value for {}", self.name, missing.join(", ")))
     }
 }
 
@@ -226,10 +217,7 @@ impl From<Interval> for Figure {
     /// Keeps what is finite.
     fn from(interval: Interval) -> Self {
         let value = finite(interval.value);
-        Self {
-            value,
-            half_width: value.and(interval.half_width).and_then(finite),
-        }
+        Self { value, half_width: value.and(interval.half_width).and_then(finite) }
     }
 }
 
@@ -268,10 +256,7 @@ mod tests {
     fn summary_of_noiseless_replicates_is_exact() {
         let report = example::noiseless(&[100.0, 400.0, 150.0, 150.0]);
         let summary = report.sensors[0].summary;
-        let exactly = |value| Figure {
-            value: Some(value),
-            half_width: Some(0.0),
-        };
+        let exactly = |value| Figure { value: Some(value), half_width: Some(0.0) };
         assert_eq!(summary.average_lx, exactly(200.0));
         assert_eq!(summary.minimum_lx, exactly(100.0));
         assert_eq!(summary.maximum_lx, exactly(400.0));
@@ -283,15 +268,9 @@ mod tests {
     fn undefined_figures_are_none_and_named() {
         let dark = example::noiseless(&[0.0, 0.0]);
         assert_eq!(dark.sensors[0].summary.uniformity, Figure::default());
-        assert_eq!(
-            dark.warnings,
-            ["sensor \"desk\": no finite value for uniformity"]
-        );
+        assert_eq!(dark.warnings, ["sensor \"desk\": no finite value for uniformity"]);
         let broken = example::noiseless(&[f64::NAN, 1.0]);
-        assert_eq!(
-            broken.sensors[0].points[0].illuminance_lx,
-            Figure::default()
-        );
+        assert_eq!(broken.sensors[0].points[0].illuminance_lx, Figure::default());
         assert_eq!(
             broken.warnings,
             [
@@ -304,13 +283,6 @@ mod tests {
     fn bias_is_never_without_a_warning() {
         let report = example::biased();
         assert!(report.biased);
-        assert_eq!(
-            report
-                .warnings
-                .iter()
-                .filter(|w| w.contains("bias"))
-                .count(),
-            1
-        );
+        assert_eq!(report.warnings.iter().filter(|w| w.contains("bias")).count(), 1);
     }
 }

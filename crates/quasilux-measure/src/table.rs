@@ -43,11 +43,7 @@ pub fn table(report: &Report, style: Style) -> String {
     });
     let mut text = String::new();
     for (row, line) in lines.enumerate() {
-        text += &if row == 0 {
-            style.paint(Emphasis::Strong, &line)
-        } else {
-            line
-        };
+        text += &if row == 0 { style.paint(Emphasis::Strong, &line) } else { line };
         text.push('\n');
     }
     let faint = style.paint(Emphasis::Faint, &format!("{}; ", run_facts(report)));
@@ -83,9 +79,7 @@ struct Column {
 impl Column {
     fn left(header: &str, report: &Report, cell: impl Fn(&SensorReport) -> String) -> Self {
         let cells = std::iter::once(header.to_owned()).chain(report.sensors.iter().map(cell));
-        Self {
-            cells: cells.collect(),
-        }
+        Self { cells: cells.collect() }
     }
 
     /// A column of figures, their plus-minus signs one below the other.
@@ -95,34 +89,19 @@ impl Column {
         report: &Report,
         figure: impl Fn(&SensorReport) -> Figure,
     ) -> Self {
-        let texts: Vec<FigureText> = report
-            .sensors
-            .iter()
-            .map(|s| figure_text(figure(s)))
-            .collect();
+        let texts: Vec<FigureText> =
+            report.sensors.iter().map(|s| figure_text(figure(s))).collect();
         let value_width = texts.iter().map(|t| width(&t.value)).max().unwrap_or(0);
-        let half_width_width = texts
-            .iter()
-            .flat_map(|t| &t.half_width)
-            .map(|h| width(h))
-            .max()
-            .unwrap_or(0);
+        let half_width_width =
+            texts.iter().flat_map(|t| &t.half_width).map(|h| width(h)).max().unwrap_or(0);
         let cells = texts.iter().map(|t| {
             let half_width = t.half_width.as_ref().map_or_else(
-                || {
-                    " ".repeat(if half_width_width > 0 {
-                        3 + half_width_width
-                    } else {
-                        0
-                    })
-                },
+                || " ".repeat(if half_width_width > 0 { 3 + half_width_width } else { 0 }),
                 |h| format!(" ± {h:<half_width_width$}"),
             );
             format!("{:>value_width$}{half_width}{unit}", t.value)
         });
-        Self {
-            cells: std::iter::once(header.to_owned()).chain(cells).collect(),
-        }
+        Self { cells: std::iter::once(header.to_owned()).chain(cells).collect() }
     }
 
     /// Pads all cells on the right to the width of the widest.
@@ -163,23 +142,15 @@ fn verdict(report: &Report) -> (Emphasis, String) {
     if wanted <= 0.0 {
         (Emphasis::Faint, "no tolerance was asked for".into())
     } else if report.run.tolerance_reached {
-        (
-            Emphasis::Good,
-            format!("tolerance of {percent} % reached at every point"),
-        )
+        (Emphasis::Good, format!("tolerance of {percent} % reached at every point"))
     } else {
-        (
-            Emphasis::Caution,
-            format!("tolerance of {percent} % not reached"),
-        )
+        (Emphasis::Caution, format!("tolerance of {percent} % not reached"))
     }
 }
 
 /// Text without control characters: names come from files, and the terminal obeys what it is sent.
 fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect()
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
 /// Columns that a text takes on a terminal: combining marks none, East Asian wide characters two
@@ -209,32 +180,22 @@ mod tests {
 
     /// Terminal columns at which `needle` begins in a line.
     fn positions(line: &str, needle: &str) -> Vec<usize> {
-        line.match_indices(needle)
-            .map(|(at, _)| width(&line[..at]))
-            .collect()
+        line.match_indices(needle).map(|(at, _)| width(&line[..at])).collect()
     }
 
     #[test]
     fn columns_align_for_any_name() {
         let mut report = example::office();
-        for name in [
-            "x",
-            "a very long name of a sensor that goes on",
-            "работа",
-            "机の上",
-            "u\u{308}",
-        ] {
+        for name in
+            ["x", "a very long name of a sensor that goes on", "работа", "机の上", "u\u{308}"]
+        {
             report.sensors[1].name = name.into();
             let text = table(&report, Style::Plain);
             let lines: Vec<&str> = text.lines().collect();
             let first = positions(lines[1], "±");
             assert_eq!(first.len(), 4, "{text}");
             assert_eq!(first, positions(lines[2], "±"), "{text}");
-            assert_eq!(
-                positions(lines[1], "lx"),
-                positions(lines[2], "lx"),
-                "{text}"
-            );
+            assert_eq!(positions(lines[1], "lx"), positions(lines[2], "lx"), "{text}");
             assert!(lines.iter().all(|l| l.trim_end() == *l));
         }
     }

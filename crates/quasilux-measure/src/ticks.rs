@@ -23,11 +23,7 @@ impl Ticks {
         let wanted = (range / most.max(2) as f64).max(least_step);
         let exponent = decimal_exponent(wanted).filter(|_| fits && wanted > 0.0);
         let Some(mut place) = exponent else {
-            return Self {
-                step: 0.0,
-                values: Vec::new(),
-                place: 0,
-            };
+            return Self { step: 0.0, values: Vec::new(), place: 0 };
         };
         let mut digit = 1;
         loop {
@@ -35,14 +31,8 @@ impl Ticks {
             let enough = step_of(digit, place) >= least_step * (1.0 - 1e-12);
             if enough && last - first < most.max(2) as f64 {
                 let count = (last - first + 1.0).max(0.0) as usize;
-                let values = (0..count)
-                    .map(|i| multiple(first + i as f64, digit, place))
-                    .collect();
-                return Self {
-                    step: step_of(digit, place),
-                    values,
-                    place,
-                };
+                let values = (0..count).map(|i| multiple(first + i as f64, digit, place)).collect();
+                return Self { step: step_of(digit, place), values, place };
             }
             (digit, place) = coarser(digit, place);
         }
@@ -71,11 +61,7 @@ fn step_of(digit: i32, place: i32) -> f64 {
 /// `n` steps; divided by a whole power of ten where it is a fraction, so that 3 x 0.1 is 0.3.
 fn multiple(n: f64, digit: i32, place: i32) -> f64 {
     let power = libm::exp10(f64::from(place.abs()));
-    if place < 0 {
-        n * f64::from(digit) / power
-    } else {
-        n * f64::from(digit) * power
-    }
+    if place < 0 { n * f64::from(digit) / power } else { n * f64::from(digit) * power }
 }
 
 /// The first and the last multiple of the step in the range, with a hair of tolerance at its ends.
@@ -107,10 +93,7 @@ mod tests {
             let range = libm::exp10(f64::from(i) * 0.05 - 10.0);
             for low in [0.0, -0.3 * range, 17.3 * range] {
                 let ticks = Ticks::within(low, low + range, 9, 0.0);
-                assert!(
-                    (3..=9).contains(&ticks.values.len()),
-                    "{low} {range} {ticks:?}"
-                );
+                assert!((3..=9).contains(&ticks.values.len()), "{low} {range} {ticks:?}");
                 let mantissa = ticks.step / libm::exp10(f64::from(ticks.place));
                 assert!([1.0, 2.0, 5.0].iter().any(|d| (mantissa - d).abs() < 1e-9));
                 assert!(ticks.values.windows(2).all(|w| w[0] < w[1]));
@@ -121,12 +104,7 @@ mod tests {
     #[test]
     fn least_step_holds_and_empty_ranges_have_no_ticks() {
         assert_eq!(Ticks::within(0.0, 10.0, 10, 4.0).step, 5.0);
-        for (low, high) in [
-            (1.0, 1.0),
-            (2.0, 1.0),
-            (0.0, f64::INFINITY),
-            (f64::NAN, 1.0),
-        ] {
+        for (low, high) in [(1.0, 1.0), (2.0, 1.0), (0.0, f64::INFINITY), (f64::NAN, 1.0)] {
             assert!(Ticks::within(low, high, 8, 0.0).values.is_empty());
         }
     }

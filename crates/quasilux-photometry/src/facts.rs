@@ -92,9 +92,6 @@ impl LuminaireFacts {
 
     /// The value of the first keyword of that name (in capitals, without brackets).
     pub fn keyword(&self, name: &str) -> Option<&str> {
-        self.keywords
-            .iter()
-            .find(|keyword| keyword.name == name)
-            .map(|k| k.value.as_str())
+        self.keywords.iter().find(|keyword| keyword.name == name).map(|k| k.value.as_str())
     }
 }

@@ -32,10 +32,7 @@ impl Photometry {
     /// the flux is zero.
     pub fn sample(&self, u: [f64; 2]) -> Option<DirectionSample> {
         let DirectionSample { direction, pdf_sr } = self.table.sample(u)?;
-        Some(DirectionSample {
-            direction: across_horizon(direction),
-            pdf_sr,
-        })
+        Some(DirectionSample { direction: across_horizon(direction), pdf_sr })
     }
 
     /// Solid angle, sr^-1: the density of [`Self::sample`].

@@ -173,23 +173,9 @@ impl Warning {
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            position,
-            count,
-            found,
-            expected,
-            ..
-        } = self;
-        write!(
-            f,
-            "{}:{}: found {found}; expected {expected}",
-            position.line, position.column
-        )?;
-        if *count > 1 {
-            write!(f, " (and {} more)", count - 1)
-        } else {
-            Ok(())
-        }
+        let Self { position, count, found, expected, .. } = self;
+        write!(f, "{}:{}: found {found}; expected {expected}", position.line, position.column)?;
+        if *count > 1 { write!(f, " (and {} more)", count - 1) } else { Ok(()) }
     }
 }
 
@@ -201,11 +187,7 @@ impl Warnings {
         found: impl fmt::Display,
         expected: impl fmt::Display,
     ) {
-        match self
-            .0
-            .iter_mut()
-            .find(|warning| warning.deviation == deviation)
-        {
+        match self.0.iter_mut().find(|warning| warning.deviation == deviation) {
             Some(warning) => warning.count += 1,
             None => self.0.push(Warning {
                 deviation,
@@ -225,11 +207,7 @@ impl Warnings {
 /// A piece of the file in quotation marks, cut to a length that fits a message.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
-    let mut shown: String = text
-        .chars()
-        .take(LONGEST)
-        .flat_map(char::escape_debug)
-        .collect();
+    let mut shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     if text.chars().nth(LONGEST).is_some() {
         shown.push_str("...");
     }

@@ -40,20 +40,11 @@ pub struct BoolChoice {
 #[must_use]
 pub fn choose_bool(u: f64, p_true: f64) -> BoolChoice {
     if u < p_true {
-        BoolChoice {
-            value: true,
-            rest: rest_in(u, 0.0, p_true.min(1.0)),
-        }
+        BoolChoice { value: true, rest: rest_in(u, 0.0, p_true.min(1.0)) }
     } else if p_true > 0.0 {
-        BoolChoice {
-            value: false,
-            rest: rest_in(u, p_true.min(ONE_BELOW), 1.0),
-        }
+        BoolChoice { value: false, rest: rest_in(u, p_true.min(ONE_BELOW), 1.0) }
     } else {
-        BoolChoice {
-            value: false,
-            rest: u,
-        }
+        BoolChoice { value: false, rest: u }
     }
 }
 
@@ -89,11 +80,7 @@ pub fn choose_weights(u: f64, weights: impl Iterator<Item = f64> + Clone) -> Opt
         // A weight below the rounding of the sum has no share of the coordinate.
         if next > sum {
             let probability = weight / total;
-            chosen = Some(Choice {
-                index,
-                probability,
-                rest: rest_in(target, sum, next),
-            });
+            chosen = Some(Choice { index, probability, rest: rest_in(target, sum, next) });
         }
         if target < next {
             break;

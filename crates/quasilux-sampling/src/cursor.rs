@@ -27,12 +27,7 @@ impl<'a> SampleCursor<'a> {
     #[inline]
     #[must_use]
     pub const fn new(points: &'a PointSet, index: u64) -> Self {
-        Self {
-            points,
-            index,
-            dimension: 0,
-            used: 0,
-        }
+        Self { points, index, dimension: 0, used: 0 }
     }
 
     /// The next coordinate.

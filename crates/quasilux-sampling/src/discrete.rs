@@ -40,11 +40,7 @@ impl Discrete {
             *sum /= total;
         }
         let guide = guide_table(&cumulative);
-        Some(Self {
-            cumulative,
-            guide,
-            total,
-        })
+        Some(Self { cumulative, guide, total })
     }
 
     /// The entry at which the cumulative probability passes u: non-decreasing in u, and never one
@@ -57,11 +53,7 @@ impl Discrete {
         let (first, last) = (self.guide[bucket] as usize, self.guide[bucket + 1] as usize);
         let index = first + self.cumulative[first..last].partition_point(|sum| *sum <= u);
         let (low, high) = self.bounds(index);
-        Choice {
-            index,
-            probability: high - low,
-            rest: rest_in(u, low, high),
-        }
+        Choice { index, probability: high - low, rest: rest_in(u, low, high) }
     }
 
     /// The coordinate that [`choose`](Self::choose) maps to this entry with this rest.
@@ -88,21 +80,14 @@ impl Discrete {
 
     /// The number of entries, those of weight 0 included.
     #[must_use]
-    #[expect(
-        clippy::len_without_is_empty,
-        reason = "a distribution has at least one entry"
-    )]
+    #[expect(clippy::len_without_is_empty, reason = "a distribution has at least one entry")]
     pub const fn len(&self) -> usize {
         self.cumulative.len()
     }
 
     #[inline]
     fn bounds(&self, index: usize) -> (f64, f64) {
-        let low = if index == 0 {
-            0.0
-        } else {
-            self.cumulative[index - 1]
-        };
+        let low = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
         (low, self.cumulative[index])
     }
 }
@@ -113,11 +98,7 @@ fn prefix_sums(weights: &[f64]) -> Option<Vec<f64>> {
     let (mut sum, mut carry, mut last) = (0.0_f64, 0.0, 0.0_f64);
     let next = |weight: &f64| {
         let next = sum + weight;
-        carry += if sum >= *weight {
-            (sum - next) + weight
-        } else {
-            (weight - next) + sum
-        };
+        carry += if sum >= *weight { (sum - next) + weight } else { (weight - next) + sum };
         sum = next;
         last = last.max(sum + carry);
         last

@@ -35,11 +35,7 @@ impl PointSet {
             Sequence::Sobol => Generator::Sobol(SobolMatrices::get()),
             Sequence::Random => Generator::Random,
         };
-        Self {
-            generator,
-            randomization,
-            key,
-        }
+        Self { generator, randomization, key }
     }
 
     /// The sequence.
@@ -94,11 +90,7 @@ impl PointSet {
             Randomization::Shift | Randomization::Owen => self.key,
         };
         let shuffled = shuffle_index(index, dimension_key(mix(!key), copy));
-        owen(
-            matrices.digits(shuffled, dimension % SobolMatrices::DIMENSIONS),
-            key,
-            dimension,
-        )
+        owen(matrices.digits(shuffled, dimension % SobolMatrices::DIMENSIONS), key, dimension)
     }
 }
 

@@ -29,10 +29,7 @@ pub(crate) fn sensors_in_walls(
     let mut walls = Walls {
         scene,
         hair_m: HAIR * (high - low).length(),
-        solids: solids_of(&scene.mesh)
-            .into_iter()
-            .map(|solid| (solid, None))
-            .collect(),
+        solids: solids_of(&scene.mesh).into_iter().map(|solid| (solid, None)).collect(),
         tests_left: MAX_TRIANGLE_TESTS,
     };
     for entry in &project.sensors {
@@ -50,38 +47,25 @@ fn check_sensor(
     let name = &entry.sensor.name;
     let points = entry.sensor.points();
     let inside: Vec<Option<String>> = points.iter().map(|point| walls.around(point)).collect();
-    let Some((first, object)) = inside
-        .iter()
-        .enumerate()
-        .find_map(|(i, object)| Some((i, object.as_ref()?)))
+    let Some((first, object)) =
+        inside.iter().enumerate().find_map(|(i, object)| Some((i, object.as_ref()?)))
     else {
         return Ok(());
     };
     let expected = "expected a place that light can reach";
     let wall = format!("inside the closed object \"{object}\", which holds no light");
     if let SensorShape::Points(_) = entry.sensor.shape {
-        let place = entry
-            .point_places
-            .get(first)
-            .copied()
-            .unwrap_or(entry.place);
-        let message = format!(
-            "point {} of sensor \"{name}\" lies {wall}; {expected}",
-            first + 1
-        );
+        let place = entry.point_places.get(first).copied().unwrap_or(entry.place);
+        let message = format!("point {} of sensor \"{name}\" lies {wall}; {expected}", first + 1);
         return Err(project.error(place, message));
     }
     let count = inside.iter().flatten().count();
     if count == points.len() {
-        return Err(project.error(
-            entry.place,
-            format!("sensor \"{name}\" lies {wall}; {expected}"),
-        ));
+        return Err(
+            project.error(entry.place, format!("sensor \"{name}\" lies {wall}; {expected}"))
+        );
     }
-    let message = format!(
-        "{count} of {} points of sensor \"{name}\" lie {wall}",
-        points.len()
-    );
+    let message = format!("{count} of {} points of sensor \"{name}\" lie {wall}", points.len());
     warnings.push(Warning::new(&project.file, Some(entry.place), message));
     Ok(())
 }
@@ -130,11 +114,7 @@ fn holds_light(
     contains: &mut impl FnMut(DVec3) -> Option<bool>,
 ) -> Option<bool> {
     let mut contains = |position: DVec3| {
-        if solid.may_contain(position) {
-            contains(position)
-        } else {
-            Some(false)
-        }
+        if solid.may_contain(position) { contains(position) } else { Some(false) }
     };
     for light in &scene.lights {
         let lit = match light {
@@ -159,10 +139,7 @@ fn holds_light(
 
 /// Whether a triangle of the solid belongs to the light; both lists ascend.
 fn emits(light: &AreaLight, solid: &Solid) -> bool {
-    solid
-        .triangles
-        .iter()
-        .any(|triangle| light.triangles.binary_search(triangle).is_ok())
+    solid.triangles.iter().any(|triangle| light.triangles.binary_search(triangle).is_ok())
 }
 
 fn centroid(mesh: &Mesh, triangle: u32) -> DVec3 {

@@ -46,12 +46,7 @@ pub struct Warning {
 
 impl LoadError {
     pub(crate) fn new(file: &str, place: Option<Place>, message: impl Into<String>) -> Self {
-        Self {
-            file: file.to_owned(),
-            place,
-            message: message.into(),
-            suggestion: None,
-        }
+        Self { file: file.to_owned(), place, message: message.into(), suggestion: None }
     }
 
     /// Offers the candidate nearest to `name`, if one is near.
@@ -91,11 +86,7 @@ impl LoadError {
 
 impl Warning {
     pub(crate) fn new(file: &str, place: Option<Place>, message: impl Into<String>) -> Self {
-        Self {
-            file: file.to_owned(),
-            place,
-            message: message.into(),
-        }
+        Self { file: file.to_owned(), place, message: message.into() }
     }
 }
 
@@ -139,10 +130,7 @@ mod tests {
         let error = LoadError::new("a.toml", place, "unknown key \"sped\"");
         assert_eq!(error.to_string(), "a.toml:3:7: unknown key \"sped\"");
         let error = error.offer("sped", ["seed", "counts"]);
-        assert_eq!(
-            error.to_string(),
-            "a.toml:3:7: unknown key \"sped\"; did you mean \"seed\"?"
-        );
+        assert_eq!(error.to_string(), "a.toml:3:7: unknown key \"sped\"; did you mean \"seed\"?");
         let error = LoadError::new("b.glb", None, "no triangles");
         assert_eq!(error.to_string(), "b.glb: no triangles");
     }

@@ -48,9 +48,7 @@ impl Mesh {
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let first = *self.positions.first()?;
         Some(
-            self.positions
-                .iter()
-                .fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]),
+            self.positions.iter().fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]),
         )
     }
 }

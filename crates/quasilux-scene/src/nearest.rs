@@ -27,12 +27,7 @@ pub(crate) fn nearest<'a>(
 }
 
 fn distance(a: &str, b: &str) -> Option<usize> {
-    let letters = |s: &str| {
-        s.chars()
-            .flat_map(char::to_lowercase)
-            .take(MAX_CHARS + 1)
-            .collect()
-    };
+    let letters = |s: &str| s.chars().flat_map(char::to_lowercase).take(MAX_CHARS + 1).collect();
     let (a, b): (Vec<char>, Vec<char>) = (letters(a), letters(b));
     if a.len() > MAX_CHARS || b.len() > MAX_CHARS {
         return None;
@@ -60,12 +55,7 @@ mod tests {
 
     #[test]
     fn distances_by_hand() {
-        let cases = [
-            ("", "", 0),
-            ("abc", "", 3),
-            ("kitten", "sitting", 3),
-            ("ab", "ba", 1),
-        ];
+        let cases = [("", "", 0), ("abc", "", 3), ("kitten", "sitting", 3), ("ab", "ba", 1)];
         for (a, b, expected) in cases {
             assert_eq!(distance(a, b), Some(expected), "{a} {b}");
             assert_eq!(distance(b, a), Some(expected), "{b} {a}");

@@ -60,10 +60,7 @@ impl Grid {
     /// Edges of one cell in m.
     #[must_use]
     pub fn cell_edges(&self) -> [DVec3; 2] {
-        [
-            self.u / f64::from(self.counts[0]),
-            self.v / f64::from(self.counts[1]),
-        ]
+        [self.u / f64::from(self.counts[0]), self.v / f64::from(self.counts[1])]
     }
 
     /// The point at `uv` in [0, 1)^2 of cell number `cell` (u fastest).
@@ -85,10 +82,7 @@ impl Grid {
 impl Sensor {
     /// The number of values that the sensor asks for: points, or cells of a grid.
     #[must_use]
-    #[allow(
-        clippy::len_without_is_empty,
-        reason = "a checked scene has no empty sensor"
-    )]
+    #[allow(clippy::len_without_is_empty, reason = "a checked scene has no empty sensor")]
     pub fn len(&self) -> usize {
         match &self.shape {
             SensorShape::Points(points) => points.len(),

@@ -92,11 +92,7 @@ impl Solid {
         let corners = triangles.iter().flat_map(|&t| mesh.corners(t));
         let everything = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = corners.fold(everything, |(low, high), p| (low.min(p), high.max(p)));
-        Self {
-            triangles,
-            low,
-            high,
-        }
+        Self { triangles, low, high }
     }
 
     /// Whether the point is in the box around the solid.
@@ -153,23 +149,12 @@ pub(crate) mod tests {
         let first = mesh.positions.len() as u32;
         for i in 0..8 {
             let pick = |bit: usize, axis: usize| {
-                if i >> bit & 1 == 1 {
-                    high[axis]
-                } else {
-                    low[axis]
-                }
+                if i >> bit & 1 == 1 { high[axis] } else { low[axis] }
             };
-            mesh.positions
-                .push(DVec3::new(pick(0, 0), pick(1, 1), pick(2, 2)));
+            mesh.positions.push(DVec3::new(pick(0, 0), pick(1, 1), pick(2, 2)));
         }
-        let quads = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
+        let quads =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         for [a, b, c, d] in quads.map(|quad: [u32; 4]| quad.map(|v| first + v)) {
             mesh.triangles.extend([[a, b, c], [a, c, d]]);
             mesh.material_of.extend([0, 0]);

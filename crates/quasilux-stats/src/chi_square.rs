@@ -19,10 +19,7 @@ const SMALLEST_EXPECTED: f64 = 5.0;
 /// The expected counts add up to the number of samples. Cells with less than five expected samples
 /// are pooled; what was observed where (almost) nothing is expected, gives 0.
 pub fn chi_square_test(cells: &[CellCount]) -> f64 {
-    let mut pool = CellCount {
-        observed: 0,
-        expected: 0.0,
-    };
+    let mut pool = CellCount { observed: 0, expected: 0.0 };
     let mut statistic = 0.0;
     let mut terms = 0usize;
     let term = |cell: &CellCount| {
@@ -59,14 +56,8 @@ mod tests {
     fn probabilities_are_those_of_the_tables() {
         // With one degree of freedom: erfc(sqrt(statistic / 2)).
         let cells = [
-            CellCount {
-                observed: 60,
-                expected: 50.0,
-            },
-            CellCount {
-                observed: 40,
-                expected: 50.0,
-            },
+            CellCount { observed: 60, expected: 50.0 },
+            CellCount { observed: 40, expected: 50.0 },
         ];
         assert!((chi_square_test(&cells) - libm::erfc(2.0_f64.sqrt())).abs() < 1e-12);
         // Quantiles at 0.05 with three and with one degree of freedom.
@@ -83,22 +74,10 @@ mod tests {
 
     #[test]
     fn small_cells_are_pooled() {
-        let small = std::iter::repeat_n(
-            CellCount {
-                observed: 0,
-                expected: 0.1,
-            },
-            100,
-        );
+        let small = std::iter::repeat_n(CellCount { observed: 0, expected: 0.1 }, 100);
         let large = [
-            CellCount {
-                observed: 105,
-                expected: 100.0,
-            },
-            CellCount {
-                observed: 95,
-                expected: 90.0,
-            },
+            CellCount { observed: 105, expected: 100.0 },
+            CellCount { observed: 95, expected: 90.0 },
         ];
         let cells: Vec<CellCount> = small.chain(large).collect();
         let statistic = 10.0 + 25.0 / 100.0 + 25.0 / 90.0;

@@ -22,10 +22,7 @@ pub fn student_t_cdf(t: f64, degrees_of_freedom: f64) -> f64 {
 
 /// The two-sided quantile: |t| exceeds it with probability `1 - confidence`.
 pub fn student_t_quantile(confidence: f64, degrees_of_freedom: f64) -> f64 {
-    assert!(
-        confidence > 0.0 && confidence < 1.0,
-        "student_t_quantile({confidence})"
-    );
+    assert!(confidence > 0.0 && confidence < 1.0, "student_t_quantile({confidence})");
     let tail = 0.5 * (1.0 - confidence);
     // The lower tail keeps its digits, where the upper one would be a difference from 1.
     -bisect(-1e12, 0.0, |t| student_t_cdf(t, degrees_of_freedom) < tail)
@@ -70,11 +67,9 @@ mod tests {
 
     #[test]
     fn normal_quantiles_are_those_of_the_tables() {
-        for (p, z) in [
-            (0.5, 0.0),
-            (0.975, 1.959_963_984_540_054),
-            (0.001, -3.090_232_306_167_813_5),
-        ] {
+        for (p, z) in
+            [(0.5, 0.0), (0.975, 1.959_963_984_540_054), (0.001, -3.090_232_306_167_813_5)]
+        {
             assert!((normal_quantile(p) - z).abs() < 1e-12, "{p}");
         }
     }
@@ -92,10 +87,7 @@ mod tests {
         ];
         for (confidence, degrees_of_freedom, t) in table {
             let quantile = student_t_quantile(confidence, degrees_of_freedom);
-            assert!(
-                (quantile - t).abs() < 5.1e-4,
-                "{confidence} {degrees_of_freedom} {quantile}"
-            );
+            assert!((quantile - t).abs() < 5.1e-4, "{confidence} {degrees_of_freedom} {quantile}");
         }
     }
 

@@ -15,11 +15,7 @@ pub fn jacobian_determinant(f: impl Fn([f64; 2]) -> [f64; 2], u: [f64; 2], step:
 pub fn sphere_jacobian(f: impl Fn([f64; 2]) -> [f64; 3], u: [f64; 2], step: f64) -> f64 {
     let along = |axis| difference(|u| f(u).to_vec(), u, axis, step);
     let (a, b) = (along(0), along(1));
-    let cross = [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ];
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     cross.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
@@ -29,11 +25,7 @@ fn difference(f: impl Fn([f64; 2]) -> Vec<f64>, u: [f64; 2], axis: usize, step: 
         moved[axis] += offset;
         f(moved)
     };
-    at(step)
-        .iter()
-        .zip(at(-step))
-        .map(|(high, low)| (high - low) / (2.0 * step))
-        .collect()
+    at(step).iter().zip(at(-step)).map(|(high, low)| (high - low) / (2.0 * step)).collect()
 }
 
 #[cfg(test)]

@@ -7,14 +7,8 @@ pub fn least_squares_slope(points: &[[f64; 2]]) -> f64 {
     let n = points.len() as f64;
     let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / n;
     let (mean_x, mean_y) = (mean(0), mean(1));
-    let covariance: f64 = points
-        .iter()
-        .map(|[x, y]| (x - mean_x) * (y - mean_y))
-        .sum();
-    let variance: f64 = points
-        .iter()
-        .map(|[x, _]| (x - mean_x) * (x - mean_x))
-        .sum();
+    let covariance: f64 = points.iter().map(|[x, y]| (x - mean_x) * (y - mean_y)).sum();
+    let variance: f64 = points.iter().map(|[x, _]| (x - mean_x) * (x - mean_x)).sum();
     covariance / variance
 }
 

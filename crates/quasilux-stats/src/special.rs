@@ -36,10 +36,7 @@ pub fn gamma_q(a: f64, x: f64) -> f64 {
 
 /// The regularised incomplete beta function I_x(a, b), for a, b > 0 and 0 <= x <= 1.
 pub fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
-    assert!(
-        a > 0.0 && b > 0.0 && (0.0..=1.0).contains(&x),
-        "incomplete_beta({a}, {b}, {x})"
-    );
+    assert!(a > 0.0 && b > 0.0 && (0.0..=1.0).contains(&x), "incomplete_beta({a}, {b}, {x})");
     if x == 0.0 || x == 1.0 {
         return x;
     }
@@ -87,14 +84,8 @@ mod tests {
         for x in [0.01, 0.5, 1.0, 3.0, 20.0] {
             let exponential = libm::exp(-x);
             assert!((gamma_q(1.0, x) / exponential - 1.0).abs() < 1e-12, "{x}");
-            assert!(
-                (gamma_q(2.0, x) / (exponential * (1.0 + x)) - 1.0).abs() < 1e-12,
-                "{x}"
-            );
-            assert!(
-                (gamma_q(0.5, x) / libm::erfc(x.sqrt()) - 1.0).abs() < 1e-12,
-                "{x}"
-            );
+            assert!((gamma_q(2.0, x) / (exponential * (1.0 + x)) - 1.0).abs() < 1e-12, "{x}");
+            assert!((gamma_q(0.5, x) / libm::erfc(x.sqrt()) - 1.0).abs() < 1e-12, "{x}");
         }
     }
 

@@ -77,9 +77,7 @@ pub(crate) fn is_biased(scene: &Scene, settings: &Settings) -> bool {
 pub(crate) fn caveats(scene: &Scene, settings: &Settings) -> Vec<String> {
     let mut caveats = caveats_of_values(scene, settings);
     if settings.effective_replicates() < 2 {
-        caveats.push(
-            "one replicate gives no interval, and no tolerance can be reached".to_owned(),
-        );
+        caveats.push("one replicate gives no interval, and no tolerance can be reached".to_owned());
     }
     caveats
 }

@@ -78,8 +78,6 @@ impl Estimates {
         let rows = &self.sensors[sensor].replicate_lx;
         let points = rows.first().map_or(0, Vec::len);
         let t = crate::interval::t_quantile_for(rows.len(), self.miss_probability);
-        (0..points)
-            .map(|p| Interval::of_mean(rows.iter().map(|row| row[p]), t))
-            .collect()
+        (0..points).map(|p| Interval::of_mean(rows.iter().map(|row| row[p]), t)).collect()
     }
 }

@@ -52,9 +52,16 @@ pub(crate) struct Gathering<'a, S> {
 enum End<S> {
     Nothing,
     /// One map, frozen before the first path, whose error is corrected.
-    Plan { layout: MapLayout, map: IlluminationMap<S> },
+    Plan {
+        layout: MapLayout,
+        map: IlluminationMap<S>,
+    },
     /// A map for each replicate that grows with it.
-    Own { layout: MapLayout, tallies: Vec<MapTally<S>>, maps: Vec<IlluminationMap<S>> },
+    Own {
+        layout: MapLayout,
+        tallies: Vec<MapTally<S>>,
+        maps: Vec<IlluminationMap<S>>,
+    },
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -282,12 +289,7 @@ impl<S: Spectrum> End<S> {
     }
 
     /// Adds the photons `indices` to maps that grow.
-    fn grow(
-        &mut self,
-        stage: &Stage<'_, S>,
-        indices: Range<u64>,
-        watch: &mut Watch<'_>,
-    ) -> Growth {
+    fn grow(&mut self, stage: &Stage<'_, S>, indices: Range<u64>, watch: &mut Watch<'_>) -> Growth {
         let Self::Own { layout, tallies, maps } = self else { return Growth::None };
         let samples = indices.end;
         let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
@@ -315,11 +317,7 @@ impl<S: Spectrum> End<S> {
 }
 
 /// Direct light of the point-like lights at each target that is a point, in lx: all of them tested.
-fn exact_direct<S: Spectrum>(
-    stage: &Stage<'_, S>,
-    targets: &[Target],
-    rays: &mut u64,
-) -> Vec<f64> {
+fn exact_direct<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) -> Vec<f64> {
     let found: Vec<(f64, u64)> = targets
         .par_iter()
         .map(|target| {

@@ -55,11 +55,7 @@ pub(crate) struct MapReceiver<'a, S> {
 }
 
 impl<'a, S: Spectrum> MapReceiver<'a, S> {
-    pub(crate) fn new(
-        stage: &Stage<'_, S>,
-        layout: &'a MapLayout,
-        tally: &'a MapTally<S>,
-    ) -> Self {
+    pub(crate) fn new(stage: &Stage<'_, S>, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
         let most_bounces = stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(1));
         Self { layout, tally, most_bounces }
     }
@@ -71,7 +67,9 @@ impl MapLayout {
     pub(crate) fn new<S: Spectrum>(world: &World<S>, element_m: Option<f64>) -> Self {
         let mut element_m = element_m.unwrap_or(world.size_m() / ELEMENTS_ACROSS);
         let parts = |facet: &crate::world::Facet<S>, element_m: f64| match facet.scattering {
-            Scattering::Diffuse(_) => (facet.longest_edge_m() / element_m).ceil().clamp(1.0, 65535.0),
+            Scattering::Diffuse(_) => {
+                (facet.longest_edge_m() / element_m).ceil().clamp(1.0, 65535.0)
+            }
             Scattering::Mirror(_) => 0.0,
         };
         let total = |element_m: f64| -> f64 {
@@ -205,7 +203,10 @@ mod tests {
                     }
                 }
             }
-            assert!(numbers.iter().copied().eq(0..(parts * parts) as usize), "{parts}: {numbers:?}");
+            assert!(
+                numbers.iter().copied().eq(0..(parts * parts) as usize),
+                "{parts}: {numbers:?}"
+            );
         }
     }
 

@@ -85,7 +85,9 @@ impl PhotonCounts {
         if photons == 0 {
             return Vec::new();
         }
-        vec![format!("{photons} photons were cut after {MOST_EVENTS} events: mirrors trap light here")]
+        vec![format!(
+            "{photons} photons were cut after {MOST_EVENTS} events: mirrors trap light here"
+        )]
     }
 
     /// Mean number of coordinates of a photon.

@@ -40,11 +40,7 @@ pub(crate) trait Estimation {
     fn first_checkpoint(&self) -> u64;
 }
 
-fn run<S: Spectrum>(
-    scene: &Scene,
-    settings: &Settings,
-    observer: &mut dyn Observer,
-) -> Estimates {
+fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
     let stage = Stage::<S>::new(scene, settings);
     let mut watch = Watch::new(observer);
     let mut estimation: Box<dyn Estimation + '_> = match settings.estimator {

@@ -21,10 +21,12 @@ pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
             SensorShape::Grid(grid) if grid.quantity == Quantity::Mean => {
                 targets.extend((0..grid.cells()).map(|cell| Target::Cell { grid: *grid, cell }));
             }
-            _ => targets.extend(sensor.points().into_iter().map(|point| Target::Point {
-                position: point.position,
-                normal: point.normal,
-            })),
+            _ => targets.extend(
+                sensor
+                    .points()
+                    .into_iter()
+                    .map(|point| Target::Point { position: point.position, normal: point.normal }),
+            ),
         }
     }
     targets

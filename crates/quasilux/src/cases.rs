@@ -57,9 +57,8 @@ pub(crate) struct Verdict {
 impl Case {
     /// Reads a case.
     pub(crate) fn read(path: &Path) -> Result<Self, Refusal> {
-        let refuse = |error: &dyn std::fmt::Display| {
-            Refusal::new(format!("{}: {error}", path.display()))
-        };
+        let refuse =
+            |error: &dyn std::fmt::Display| Refusal::new(format!("{}: {error}", path.display()));
         let text = std::fs::read_to_string(path).map_err(|error| refuse(&error))?;
         let mut case: Self = toml::from_str(&text).map_err(|error| refuse(&error))?;
         if case.expect.is_empty() {
@@ -73,11 +72,10 @@ impl Case {
 impl Expectation {
     /// Judges a report; one verdict a point.
     pub(crate) fn judge(&self, report: &Report) -> Result<Vec<Verdict>, Refusal> {
-        let sensor = report
-            .sensors
-            .iter()
-            .find(|sensor| sensor.name == self.sensor)
-            .ok_or_else(|| Refusal::new(format!("no sensor \"{}\" in the project", self.sensor)))?;
+        let sensor =
+            report.sensors.iter().find(|sensor| sensor.name == self.sensor).ok_or_else(|| {
+                Refusal::new(format!("no sensor \"{}\" in the project", self.sensor))
+            })?;
         let points = match (self.figure.is_of_points(), self.point) {
             (false, None) => return Ok(vec![self.verdict(None, self.summary_figure(sensor))]),
             (false, Some(_)) => {

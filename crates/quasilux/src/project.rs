@@ -24,8 +24,7 @@ impl Files for Folder {
 /// Loads a project; messages name its files as the user does.
 pub(crate) fn open(path: &Path) -> Result<Loaded, Refusal> {
     let name = path.display().to_string();
-    let bytes =
-        read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+    let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
     let folder = Folder(path.parent().unwrap_or(Path::new("")).to_owned());
     Ok(load(&name, &bytes, &folder)?)
 }
@@ -67,17 +66,17 @@ pub(crate) fn settings(
     }
     let placed = |at: &Option<quasilux_scene::Placed<f64>>| at.as_ref().map(|at| at.value);
     let defaults = Settings::default();
-    settings.rel_tol =
-        arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
+    settings.rel_tol = arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
     settings.confidence = placed(&section.confidence).unwrap_or(defaults.confidence);
     settings.map_element_m = placed(&section.map_element_m);
-    settings.replicates =
-        section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
+    settings.replicates = section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
     settings.seed =
         arguments.seed.or(section.seed.as_ref().map(|at| at.value)).unwrap_or(defaults.seed);
     settings.max_bounces = section.max_bounces.as_ref().and_then(|at| at.value);
     settings.max_samples = arguments.samples;
-    if settings.effective_replicates() < 2 && arguments.samples.is_none() && arguments.time.is_none()
+    if settings.effective_replicates() < 2
+        && arguments.samples.is_none()
+        && arguments.time.is_none()
     {
         return Err(Refusal::new(
             "one replicate gives no interval, so no tolerance can end the run: give --samples or \

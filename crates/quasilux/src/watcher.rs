@@ -1,5 +1,7 @@
 //! Watches a run: shows how far it is, and ends it when time is up or the user says so.
 
+#![allow(clippy::disallowed_methods, reason = "this is the one place that reads the clock")]
+
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quasilux_measure::number::count;
@@ -31,8 +33,11 @@ impl Watcher {
     /// Starts the clock. The bar goes to stderr, and only where that is a terminal.
     pub(crate) fn new(time: Option<Duration>, quiet: bool) -> Self {
         let start = Instant::now();
-        let target =
-            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(8) };
+        let target = if quiet {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr_with_hz(8)
+        };
         let style = ProgressStyle::with_template("{bar:24} {msg}")
             .expect("the template is well formed")
             .progress_chars("=> ");

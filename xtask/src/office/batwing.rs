@@ -39,11 +39,7 @@ pub(crate) fn file() -> Result<String, Failure> {
     );
     text.push_str(&header);
     for plane in candelas {
-        text.push_str(&wrapped(
-            plane
-                .iter()
-                .map(|intensity_cd| format!("{intensity_cd:.1}")),
-        ));
+        text.push_str(&wrapped(plane.iter().map(|intensity_cd| format!("{intensity_cd:.1}"))));
     }
     if !text.is_ascii() {
         return Err("an LM-63 file is ASCII text".into());
@@ -88,10 +84,7 @@ fn flux_lm(table: &[Vec<f64>]) -> f64 {
     };
     let plane_flux = |plane: &Vec<f64>| (0..GAMMAS - 1).map(|g| band(plane, g)).sum::<f64>();
     let fluxes: Vec<f64> = table.iter().map(plane_flux).collect();
-    let trapezoids = fluxes
-        .windows(2)
-        .map(|pair| 0.5 * (pair[0] + pair[1]))
-        .sum::<f64>();
+    let trapezoids = fluxes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).sum::<f64>();
     4.0 * trapezoids * C_STEP_DEG.to_radians()
 }
 
@@ -112,9 +105,7 @@ mod tests {
     fn numbers() -> Vec<f64> {
         let text = file().unwrap();
         let (_, body) = text.split_once("TILT=NONE\r\n").unwrap();
-        body.split_whitespace()
-            .map(|word| word.parse().unwrap())
-            .collect()
+        body.split_whitespace().map(|word| word.parse().unwrap()).collect()
     }
 
     /// The flux of the written table by the midpoint rule, 1/8 degree in gamma and 1 degree in C.
@@ -147,17 +138,11 @@ mod tests {
     #[test]
     fn the_distribution_is_a_batwing_across_and_a_lobe_along() {
         let table = table(1.0);
-        let peak = |plane: &[f64]| {
-            (0..GAMMAS)
-                .max_by(|&a, &b| plane[a].total_cmp(&plane[b]))
-                .unwrap()
-        };
+        let peak =
+            |plane: &[f64]| (0..GAMMAS).max_by(|&a, &b| plane[a].total_cmp(&plane[b])).unwrap();
         assert_eq!(peak(&table[0]), 0);
         let peak_deg = GAMMA_STEP_DEG * peak(&table[PLANES - 1]) as f64;
-        assert!(
-            (35.0..40.0).contains(&peak_deg),
-            "peak at {peak_deg} degrees"
-        );
+        assert!((35.0..40.0).contains(&peak_deg), "peak at {peak_deg} degrees");
         assert!(table.iter().flatten().all(|intensity| *intensity >= 0.0));
     }
 }

@@ -17,40 +17,27 @@ pub(crate) const LUMINAIRES_MM: [[i32; 3]; 6] = [
 ];
 
 /// Lower left corner of each desk, and whether its user looks toward +y.
-const DESKS_MM: [([i32; 2], bool); 4] = [
-    ([900, 1690], true),
-    ([3500, 1690], true),
-    ([900, 2510], false),
-    ([3500, 2510], false),
-];
+const DESKS_MM: [([i32; 2], bool); 4] =
+    [([900, 1690], true), ([3500, 1690], true), ([900, 2510], false), ([3500, 2510], false)];
 const DESK_SIZE_MM: [i32; 2] = [1600, 800];
 
 /// All furniture.
 pub(crate) fn objects() -> Vec<Object> {
     let mut objects = Vec::new();
     for (i, (corner, looks_up)) in DESKS_MM.into_iter().enumerate() {
-        let place = Place {
-            corner_mm: corner,
-            mirrored: !looks_up,
-        };
+        let place = Place { corner_mm: corner, mirrored: !looks_up };
         objects.push(named(format!("desk_{}", i + 1), desk(&place)));
         objects.push(named(format!("screen_{}", i + 1), screen(&place)));
         objects.push(named(format!("chair_{}", i + 1), chair(&place)));
     }
     objects.push(named("shelves", shelves()));
     objects.push(named("books", books()));
-    objects.push(named(
-        "cabinet",
-        vec![Block::new("shelf", [5540, 3500, 10], [440, 1200, 760])],
-    ));
+    objects.push(named("cabinet", vec![Block::new("shelf", [5540, 3500, 10], [440, 1200, 760])]));
     objects.push(named(
         "whiteboard",
         vec![Block::new("whiteboard", [5, 1600, 900], [15, 1800, 1200])],
     ));
-    objects.push(named(
-        "waste_bin",
-        vec![Block::new("plastic", [3000, 1500, 1], [260, 260, 300])],
-    ));
+    objects.push(named("waste_bin", vec![Block::new("plastic", [3000, 1500, 1], [260, 260, 300])]));
     objects.push(named("door_frame", door_frame()));
     for (i, x_mm) in [600, 3300].into_iter().enumerate() {
         objects.push(named(format!("window_{}", i + 1), window(x_mm)));
@@ -62,10 +49,7 @@ pub(crate) fn objects() -> Vec<Object> {
 }
 
 fn named(name: impl Into<String>, blocks: Vec<Block>) -> Object {
-    Object {
-        name: name.into(),
-        blocks,
-    }
+    Object { name: name.into(), blocks }
 }
 
 /// Where a desk stands: its parts are given as if the user sat at low y and looked toward +y.
@@ -122,17 +106,9 @@ const BAYS: i32 = 4;
 const BOARDS_Z_MM: [i32; 6] = [60, 440, 820, 1200, 1580, 1960];
 
 fn shelves() -> Vec<Block> {
-    let mut blocks = vec![Block::new(
-        "shelf",
-        [SHELF_X_MM, 5, 1],
-        [BAYS * BAY_MM + 20, 8, 2000],
-    )];
+    let mut blocks = vec![Block::new("shelf", [SHELF_X_MM, 5, 1], [BAYS * BAY_MM + 20, 8, 2000])];
     for bay in 0..=BAYS {
-        blocks.push(Block::new(
-            "shelf",
-            [SHELF_X_MM + bay * BAY_MM, 14, 1],
-            [20, 346, 2000],
-        ));
+        blocks.push(Block::new("shelf", [SHELF_X_MM + bay * BAY_MM, 14, 1], [20, 346, 2000]));
     }
     for bay in 0..BAYS {
         for z_mm in BOARDS_Z_MM {
@@ -156,16 +132,8 @@ fn books() -> Vec<Block> {
                 if x_mm + width_mm > end_mm {
                     break;
                 }
-                let material = if numbers.between(0, 3) == 0 {
-                    "paper"
-                } else {
-                    "binder"
-                };
-                let size_mm = [
-                    width_mm,
-                    numbers.between(180, 260),
-                    numbers.between(220, 320),
-                ];
+                let material = if numbers.between(0, 3) == 0 { "paper" } else { "binder" };
+                let size_mm = [width_mm, numbers.between(180, 260), numbers.between(220, 320)];
                 blocks.push(Block::new(material, [x_mm, 20, board_z_mm + 21], size_mm));
                 x_mm += width_mm + numbers.between(2, 90);
             }
@@ -210,10 +178,8 @@ struct Numbers(u64);
 impl Numbers {
     /// A number in [low, high).
     fn between(&mut self, low: i32, high: i32) -> i32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         // The high half is below 2^32, so the product fits and the quotient is below high - low.
         let span = (high - low).unsigned_abs();
         low + (((self.0 >> 32) * u64::from(span)) >> 32) as i32

@@ -62,10 +62,7 @@ fn material_file() -> String {
     let materials = MATERIALS.map(|(name, reflectance)| {
         format!("newmtl {name}\nKd {reflectance} {reflectance} {reflectance}\n")
     });
-    format!(
-        "# An office; written by `cargo xtask office`\n{}",
-        materials.concat()
-    )
+    format!("# An office; written by `cargo xtask office`\n{}", materials.concat())
 }
 
 #[cfg(test)]
@@ -88,12 +85,7 @@ mod tests {
     fn blocks() -> Vec<(String, Block)> {
         let objects = furniture::objects().into_iter();
         objects
-            .flat_map(|object| {
-                object
-                    .blocks
-                    .into_iter()
-                    .map(move |b| (object.name.clone(), b))
-            })
+            .flat_map(|object| object.blocks.into_iter().map(move |b| (object.name.clone(), b)))
             .collect()
     }
 
@@ -118,10 +110,7 @@ mod tests {
                 assert!(inside, "{name} touches the room: {block:?}");
             }
             for (other_name, other) in &blocks[..i] {
-                assert!(
-                    !block.touches(other),
-                    "{name} touches {other_name}: {block:?} {other:?}"
-                );
+                assert!(!block.touches(other), "{name} touches {other_name}: {block:?} {other:?}");
             }
         }
     }
@@ -132,11 +121,7 @@ mod tests {
         let materials = project["materials"].as_table().unwrap();
         assert_eq!(materials.len(), MATERIALS.len());
         for (name, reflectance) in MATERIALS {
-            assert_eq!(
-                materials[name]["reflectance"].as_float(),
-                Some(reflectance),
-                "{name}"
-            );
+            assert_eq!(materials[name]["reflectance"].as_float(), Some(reflectance), "{name}");
         }
         let used = blocks().into_iter().map(|(_, block)| block.material);
         let known = |name: &str| MATERIALS.iter().any(|(material, _)| *material == name);

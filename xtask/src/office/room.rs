@@ -10,11 +10,8 @@ use std::collections::BTreeMap;
 pub(crate) const SIZE_MM: [i32; 3] = [6000, 5000, 2800];
 
 /// Where the faces of the room are cut: at the edges of the windows and of the door.
-const LINES_MM: [&[i32]; 3] = [
-    &[0, 600, 2700, 3300, 5400, 6000],
-    &[0, 400, 1300, 5000],
-    &[0, 900, 2100, 2300, 2800],
-];
+const LINES_MM: [&[i32]; 3] =
+    [&[0, 600, 2700, 3300, 5400, 6000], &[0, 400, 1300, 5000], &[0, 900, 2100, 2300, 2800]];
 
 /// A part of a wall that has its own material.
 struct Opening {
@@ -24,21 +21,9 @@ struct Opening {
 }
 
 const OPENINGS: [Opening; 3] = [
-    Opening {
-        material: "glass",
-        low_mm: [600, 5000, 900],
-        high_mm: [2700, 5000, 2300],
-    },
-    Opening {
-        material: "glass",
-        low_mm: [3300, 5000, 900],
-        high_mm: [5400, 5000, 2300],
-    },
-    Opening {
-        material: "door",
-        low_mm: [6000, 400, 0],
-        high_mm: [6000, 1300, 2100],
-    },
+    Opening { material: "glass", low_mm: [600, 5000, 900], high_mm: [2700, 5000, 2300] },
+    Opening { material: "glass", low_mm: [3300, 5000, 900], high_mm: [5400, 5000, 2300] },
+    Opening { material: "door", low_mm: [6000, 400, 0], high_mm: [6000, 1300, 2100] },
 ];
 
 /// A rectangle of the shell, counter-clockwise seen from inside.
@@ -48,10 +33,7 @@ type Quad = [[i32; 3]; 4];
 pub(crate) fn write(file: &mut Wavefront) {
     let mut by_material: BTreeMap<&str, Vec<Quad>> = BTreeMap::new();
     for quad in quads() {
-        by_material
-            .entry(material_of(&quad))
-            .or_default()
-            .push(quad);
+        by_material.entry(material_of(&quad)).or_default().push(quad);
     }
     let mut positions: Vec<[i32; 3]> = by_material.values().flatten().flatten().copied().collect();
     positions.sort_unstable();
@@ -96,15 +78,8 @@ fn quads() -> Vec<Quad> {
 
 fn material_of(quad: &Quad) -> &'static str {
     let inside = |opening: &&Opening| {
-        quad.iter()
-            .flatten()
-            .zip(opening.low_mm.iter().cycle())
-            .all(|(x, low)| x >= low)
-            && quad
-                .iter()
-                .flatten()
-                .zip(opening.high_mm.iter().cycle())
-                .all(|(x, high)| x <= high)
+        quad.iter().flatten().zip(opening.low_mm.iter().cycle()).all(|(x, low)| x >= low)
+            && quad.iter().flatten().zip(opening.high_mm.iter().cycle()).all(|(x, high)| x <= high)
     };
     if let Some(opening) = OPENINGS.iter().find(inside) {
         return opening.material;
@@ -136,24 +111,15 @@ mod tests {
             }
         }
         for ((a, b), count) in &edges {
-            assert_eq!(
-                (*count, edges.get(&(*b, *a))),
-                (1, Some(&1)),
-                "edge {a:?} {b:?}"
-            );
+            assert_eq!((*count, edges.get(&(*b, *a))), (1, Some(&1)), "edge {a:?} {b:?}");
         }
-        assert_eq!(
-            six_volumes,
-            -6 * SIZE_MM.map(i64::from).iter().product::<i64>()
-        );
+        assert_eq!(six_volumes, -6 * SIZE_MM.map(i64::from).iter().product::<i64>());
     }
 
     #[test]
     fn door_and_windows_have_their_areas() {
         let area_mm2 = |material: &str| -> i64 {
-            let parts = quads()
-                .into_iter()
-                .filter(|quad| material_of(quad) == material);
+            let parts = quads().into_iter().filter(|quad| material_of(quad) == material);
             parts
                 .map(|quad| {
                     (0..3)

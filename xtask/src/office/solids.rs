@@ -26,11 +26,7 @@ impl Block {
     /// The box that begins at `low_mm` and extends by `size_mm`.
     pub(crate) fn new(material: &'static str, low_mm: [i32; 3], size_mm: [i32; 3]) -> Self {
         let high_mm = std::array::from_fn(|axis| low_mm[axis] + size_mm[axis]);
-        Self {
-            low_mm,
-            high_mm,
-            material,
-        }
+        Self { low_mm, high_mm, material }
     }
 
     /// Whether two boxes share a point.
@@ -44,24 +40,14 @@ impl Block {
     /// The corner whose bit `axis` says whether it is at the high end of that axis.
     fn corner_mm(&self, bits: usize) -> [i32; 3] {
         std::array::from_fn(|axis| {
-            if bits >> axis & 1 == 1 {
-                self.high_mm[axis]
-            } else {
-                self.low_mm[axis]
-            }
+            if bits >> axis & 1 == 1 { self.high_mm[axis] } else { self.low_mm[axis] }
         })
     }
 }
 
 /// The faces of a box as corner bits, counter-clockwise seen from outside.
-const OUTWARD_FACES: [[usize; 4]; 6] = [
-    [0, 4, 6, 2],
-    [1, 3, 7, 5],
-    [0, 1, 5, 4],
-    [2, 6, 7, 3],
-    [0, 2, 3, 1],
-    [4, 5, 7, 6],
-];
+const OUTWARD_FACES: [[usize; 4]; 6] =
+    [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 /// OBJ text under construction.
 #[derive(Debug)]
@@ -166,11 +152,7 @@ mod tests {
         }
         assert_eq!(six_volumes, 6 * 30);
         assert_eq!(edges.len(), 24);
-        assert!(
-            edges
-                .iter()
-                .all(|&(a, b)| edges.iter().filter(|&&e| e == (b, a)).count() == 1)
-        );
+        assert!(edges.iter().all(|&(a, b)| edges.iter().filter(|&&e| e == (b, a)).count() == 1));
     }
 
     #[test]

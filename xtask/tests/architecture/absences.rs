@@ -31,26 +31,18 @@ const OUTSIDE: [&str; 16] = [
 const OUTSIDE_MODULES: [&str; 4] = ["fs", "env", "net", "process"];
 
 /// Names for places where things collect.
-const DRAWERS: [&str; 7] = [
-    "utils", "util", "core", "common", "helpers", "misc", "shared",
-];
+const DRAWERS: [&str; 7] = ["utils", "util", "core", "common", "helpers", "misc", "shared"];
 
 /// Reads of the outside in crates below the command line, their tests left out.
 pub(crate) fn outside_reads(files: &[RustFile]) -> Vec<Violation> {
     let below =
         |path: &str| path.starts_with("crates/quasilux-") && path.split('/').nth(2) == Some("src");
     let mut violations = Vec::new();
-    for file in files
-        .iter()
-        .filter(|file| below(&file.path) && !is_test_module(file, files))
-    {
+    for file in files.iter().filter(|file| below(&file.path) && !is_test_module(file, files)) {
         let code = &file.shipped;
         let mut tell = |place: usize, word: &str| {
             let line = line_of(code, place);
-            violations.push(format!(
-                "{}:{line}: {word} below the command line",
-                file.path
-            ));
+            violations.push(format!("{}:{line}: {word} below the command line", file.path));
         };
         for word in OUTSIDE {
             places(code, word).for_each(|place| tell(place, word));
@@ -97,12 +89,8 @@ pub(crate) fn long_files(files: &[RustFile], listed: &[(&str, &str)]) -> Vec<Vio
 
 /// `unsafe` outside the ray kernel.
 pub(crate) fn unsafe_code(files: &[RustFile]) -> Vec<Violation> {
-    let elsewhere = files
-        .iter()
-        .filter(|file| !file.path.starts_with("crates/quasilux-bvh/"));
-    elsewhere
-        .flat_map(|file| tell_all(file, &file.code, "unsafe"))
-        .collect()
+    let elsewhere = files.iter().filter(|file| !file.path.starts_with("crates/quasilux-bvh/"));
+    elsewhere.flat_map(|file| tell_all(file, &file.code, "unsafe")).collect()
 }
 
 /// Tests that are switched off but look alive.
@@ -117,10 +105,7 @@ pub(crate) fn ignored_tests(files: &[RustFile]) -> Vec<Violation> {
             }
         }
         for (i, line) in file.text.lines().map(str::trim_start).enumerate() {
-            let fence = line
-                .strip_prefix("//!")
-                .or(line.strip_prefix("///"))
-                .map(str::trim_start);
+            let fence = line.strip_prefix("//!").or(line.strip_prefix("///")).map(str::trim_start);
             if fence.is_some_and(|fence| fence.starts_with("```ignore")) {
                 violations.push(format!("{}:{}: an ignored doc test", file.path, i + 1));
             }
@@ -138,17 +123,12 @@ pub(crate) fn drawers(names: impl Iterator<Item = String>) -> Vec<Violation> {
         };
         name.split('/').any(says)
     };
-    names
-        .filter(|name| is_drawer(name))
-        .map(|name| format!("{name}: say what is in it"))
-        .collect()
+    names.filter(|name| is_drawer(name)).map(|name| format!("{name}: say what is in it")).collect()
 }
 
 fn tell_all(file: &RustFile, code: &str, word: &str) -> Vec<Violation> {
     let lines = places(code, word).map(|place| line_of(code, place));
-    lines
-        .map(|line| format!("{}:{line}: {word}", file.path))
-        .collect()
+    lines.map(|line| format!("{}:{line}: {word}", file.path)).collect()
 }
 
 #[cfg(test)]
@@ -182,10 +162,7 @@ mod tests {
     #[test]
     fn the_command_line_tests_and_words_alike_are_not_rejected() {
         assert_eq!(reads("crates/quasilux/src/main.rs", "use std::fs;"), 0);
-        assert_eq!(
-            reads("crates/quasilux-scene/tests/all.rs", "use std::fs;"),
-            0
-        );
+        assert_eq!(reads("crates/quasilux-scene/tests/all.rs", "use std::fs;"), 0);
         for text in [
             "#[cfg(test)]\nmod tests { use std::fs; }",
             "// std::fs is not used here",
@@ -202,10 +179,7 @@ mod tests {
     fn a_module_is_a_test_only_where_its_parent_says_so() {
         let tests = RustFile::new("crates/quasilux-scene/src/tests.rs", "use std::fs;");
         let parent = |text| RustFile::new("crates/quasilux-scene/src/lib.rs", text);
-        assert_eq!(
-            outside_reads(&[tests.clone(), parent("#[cfg(test)]\nmod tests;")]).len(),
-            0
-        );
+        assert_eq!(outside_reads(&[tests.clone(), parent("#[cfg(test)]\nmod tests;")]).len(), 0);
         assert_eq!(outside_reads(&[tests, parent("mod tests;")]).len(), 1);
     }
 
@@ -224,14 +198,8 @@ mod tests {
     fn unsafe_code_is_rejected_outside_the_kernel() {
         let text = "fn f() { unsafe { g() } }";
         assert_eq!(unsafe_code(&[RustFile::new(LIBRARY, text)]).len(), 1);
-        assert_eq!(
-            unsafe_code(&[RustFile::new("crates/quasilux-bvh/src/simd.rs", text)]).len(),
-            0
-        );
-        assert_eq!(
-            unsafe_code(&[RustFile::new(LIBRARY, "#![forbid(unsafe_code)]")]).len(),
-            0
-        );
+        assert_eq!(unsafe_code(&[RustFile::new("crates/quasilux-bvh/src/simd.rs", text)]).len(), 0);
+        assert_eq!(unsafe_code(&[RustFile::new(LIBRARY, "#![forbid(unsafe_code)]")]).len(), 0);
     }
 
     #[test]
@@ -242,11 +210,7 @@ mod tests {
             "#[cfg_attr(debug_assertions, ignore)]\nfn slow() {}",
             "/// ```ignore\n/// x\n/// ```\nfn f() {}",
         ] {
-            assert_eq!(
-                ignored_tests(&[RustFile::new(LIBRARY, text)]).len(),
-                1,
-                "{text}"
-            );
+            assert_eq!(ignored_tests(&[RustFile::new(LIBRARY, text)]).len(), 1, "{text}");
         }
         let awake = "#[test]\nfn ignore() { ignore(v[0]); }";
         assert_eq!(ignored_tests(&[RustFile::new(LIBRARY, awake)]).len(), 0);
@@ -255,12 +219,9 @@ mod tests {
     #[test]
     fn drawers_are_rejected() {
         let found = |name: &str| drawers(std::iter::once(name.to_owned())).len();
-        for name in [
-            "quasilux-core",
-            "quasilux-utils",
-            "crates/a/src/utils.rs",
-            "a/tests/common/mod.rs",
-        ] {
+        for name in
+            ["quasilux-core", "quasilux-utils", "crates/a/src/utils.rs", "a/tests/common/mod.rs"]
+        {
             assert_eq!(found(name), 1, "{name}");
         }
         for name in ["quasilux-scene", "crates/quasilux-scene/src/commons.rs"] {

@@ -12,17 +12,9 @@ const MAY_USE: [(&str, &[&str]); 8] = [
     ("quasilux-scene", &["quasilux-photometry"]),
     (
         "quasilux-transport",
-        &[
-            "quasilux-scene",
-            "quasilux-sampling",
-            "quasilux-bvh",
-            "quasilux-photometry",
-        ],
+        &["quasilux-scene", "quasilux-sampling", "quasilux-bvh", "quasilux-photometry"],
     ),
-    (
-        "quasilux-measure",
-        &["quasilux-transport", "quasilux-scene"],
-    ),
+    ("quasilux-measure", &["quasilux-transport", "quasilux-scene"]),
     (
         "quasilux",
         &[
@@ -65,9 +57,7 @@ pub(crate) fn violations(manifests: &[(String, Table)]) -> Vec<Violation> {
 /// Crates whose row in the table of the page `ARCHITECTURE.md` is missing or says something else.
 pub(crate) fn page_violations(page: &str) -> Vec<Violation> {
     let says = |name: &str, used: &[&str]| {
-        let row = page
-            .lines()
-            .find(|line| line.starts_with(&format!("| `{name}` |")))?;
+        let row = page.lines().find(|line| line.starts_with(&format!("| `{name}` |")))?;
         let last = row.trim_end_matches([' ', '|']).rsplit('|').next()?.trim();
         let mut said: Vec<&str> = match last {
             "-" => Vec::new(),
@@ -79,9 +69,7 @@ pub(crate) fn page_violations(page: &str) -> Vec<Violation> {
         used.sort_unstable();
         Some(said == used)
     };
-    let wrong = MAY_USE
-        .iter()
-        .filter(|(name, used)| says(name, used) != Some(true));
+    let wrong = MAY_USE.iter().filter(|(name, used)| says(name, used) != Some(true));
     wrong
         .map(|(name, _)| format!("ARCHITECTURE.md has no row for {name}, or another one"))
         .collect()
@@ -90,20 +78,14 @@ pub(crate) fn page_violations(page: &str) -> Vec<Violation> {
 /// The section and the name of each crate of ours that a manifest asks for.
 fn arrows(manifest: &Table) -> Vec<(&'static str, String)> {
     let targets = manifest.get("target").and_then(|target| target.as_table());
-    let for_targets = targets
-        .into_iter()
-        .flat_map(Table::values)
-        .filter_map(|t| t.as_table());
+    let for_targets = targets.into_iter().flat_map(Table::values).filter_map(|t| t.as_table());
     let mut arrows = Vec::new();
     for table in std::iter::once(manifest).chain(for_targets) {
         for section in ["dependencies", "build-dependencies", "dev-dependencies"] {
             let dependencies = table.get(section).and_then(|section| section.as_table());
             for (key, value) in dependencies.into_iter().flatten() {
                 // A renamed dependency keeps its name in `package`.
-                let name = value
-                    .get("package")
-                    .and_then(|name| name.as_str())
-                    .unwrap_or(key);
+                let name = value.get("package").and_then(|name| name.as_str()).unwrap_or(key);
                 if name.starts_with("quasilux") {
                     arrows.push((section, name.to_owned()));
                 }
@@ -141,10 +123,7 @@ mod tests {
         ] {
             let found = of("quasilux-scene", sections);
             assert_eq!(found.len(), 1, "{sections}");
-            assert!(
-                found[0].contains("must not use quasilux-transport"),
-                "{found:?}"
-            );
+            assert!(found[0].contains("must not use quasilux-transport"), "{found:?}");
         }
     }
 
@@ -153,26 +132,17 @@ mod tests {
         let row = |(name, used): &(&str, &[&str])| match *name {
             "quasilux" => "| `quasilux` | x | all of the above |\n".to_owned(),
             _ if used.is_empty() => format!("| `{name}` | x | - |\n"),
-            _ => format!(
-                "| `{name}` | x | {} |\n",
-                used.join(", ").replace("quasilux-", "")
-            ),
+            _ => format!("| `{name}` | x | {} |\n", used.join(", ").replace("quasilux-", "")),
         };
         let page: String = MAY_USE.iter().map(row).collect();
         assert_eq!(page_violations(&page), [""; 0]);
-        assert_eq!(
-            page_violations(&page.replace("| photometry |", "| sampling |")).len(),
-            1
-        );
+        assert_eq!(page_violations(&page.replace("| photometry |", "| sampling |")).len(), 1);
         assert_eq!(page_violations("").len(), MAY_USE.len());
     }
 
     #[test]
     fn the_test_tool_is_rejected_outside_tests() {
-        assert_eq!(
-            of("quasilux-scene", "[dependencies]\nquasilux-stats = '1'").len(),
-            1
-        );
+        assert_eq!(of("quasilux-scene", "[dependencies]\nquasilux-stats = '1'").len(), 1);
     }
 
     #[test]

@@ -18,10 +18,7 @@ const LONG_FILES: [(&str, &str); 0] = [];
 type Violation = String;
 
 fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .unwrap()
-        .to_path_buf()
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_path_buf()
 }
 
 /// Names of the crates, which are the names of their folders, with their manifests.
@@ -32,18 +29,11 @@ fn manifests() -> Vec<(String, toml::Table)> {
         .filter(|path| path.is_dir())
         .map(|path| {
             let text = fs::read_to_string(path.join("Cargo.toml")).unwrap();
-            (
-                path.file_name().unwrap().to_str().unwrap().to_owned(),
-                text.parse().unwrap(),
-            )
+            (path.file_name().unwrap().to_str().unwrap().to_owned(), text.parse().unwrap())
         })
         .collect();
     manifests.sort_by(|a, b| a.0.cmp(&b.0));
-    assert!(
-        manifests.len() >= 8,
-        "only {} crates found",
-        manifests.len()
-    );
+    assert!(manifests.len() >= 8, "only {} crates found", manifests.len());
     manifests
 }
 
@@ -51,10 +41,8 @@ fn manifests() -> Vec<(String, toml::Table)> {
 fn rust_files() -> Vec<RustFile> {
     let root = workspace();
     let mut files = Vec::new();
-    let mut folders: Vec<PathBuf> = ["crates", "xtask", "benches"]
-        .iter()
-        .map(|name| root.join(name))
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        ["crates", "xtask", "benches"].iter().map(|name| root.join(name)).collect();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else {
             continue;
@@ -65,10 +53,7 @@ fn rust_files() -> Vec<RustFile> {
             } else if path.extension().is_some_and(|extension| extension == "rs") {
                 let parts: Vec<_> = path.strip_prefix(&root).unwrap().iter().collect();
                 let name: Vec<_> = parts.iter().map(|part| part.to_str().unwrap()).collect();
-                files.push(RustFile::new(
-                    &name.join("/"),
-                    &fs::read_to_string(&path).unwrap(),
-                ));
+                files.push(RustFile::new(&name.join("/"), &fs::read_to_string(&path).unwrap()));
             }
         }
     }

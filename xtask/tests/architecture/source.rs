@@ -21,24 +21,16 @@ impl RustFile {
     pub(crate) fn new(path: &str, text: &str) -> Self {
         let code = without_comments_and_literals(text);
         let shipped = without_test_items(&code);
-        Self {
-            path: path.to_owned(),
-            text: text.to_owned(),
-            code,
-            shipped,
-        }
+        Self { path: path.to_owned(), text: text.to_owned(), code, shipped }
     }
 }
 
 /// The places where `word` stands in `code` with no identifier character around it.
 pub(crate) fn places<'a>(code: &'a str, word: &'a str) -> impl Iterator<Item = usize> + 'a {
     let continues = |c: char| c.is_alphanumeric() || c == '_';
-    code.match_indices(word)
-        .map(|(place, _)| place)
-        .filter(move |&place| {
-            !code[..place].ends_with(continues)
-                && !code[place + word.len()..].starts_with(continues)
-        })
+    code.match_indices(word).map(|(place, _)| place).filter(move |&place| {
+        !code[..place].ends_with(continues) && !code[place + word.len()..].starts_with(continues)
+    })
 }
 
 /// The number of the line that `place` is on.
@@ -100,11 +92,7 @@ fn blank_length(rest: &[u8], before: Option<u8>) -> usize {
                 0xc0.. => 2,
                 _ => 1,
             };
-            if rest.get(1 + length) == Some(&b'\'') {
-                2 + length
-            } else {
-                0
-            }
+            if rest.get(1 + length) == Some(&b'\'') { 2 + length } else { 0 }
         }
         _ => 0,
     }
@@ -141,9 +129,7 @@ fn raw_string_length(rest: &[u8], prefix: usize) -> usize {
     let mut close = vec![b'"'];
     close.resize(1 + hashes, b'#');
     let body = prefix + hashes + 1;
-    let found = rest[body..]
-        .windows(close.len())
-        .position(|window| window == close);
+    let found = rest[body..].windows(close.len()).position(|window| window == close);
     found.map_or(rest.len(), |at| body + at + close.len())
 }
 
@@ -154,16 +140,10 @@ fn without_test_items(code: &str) -> String {
         let body = place + attribute.len();
         let end = code[body..].find(['{', ';']).map_or(code.len(), |at| {
             let at = body + at;
-            if code.as_bytes()[at] == b'{' {
-                end_of_group(code, at)
-            } else {
-                at + 1
-            }
+            if code.as_bytes()[at] == b'{' { end_of_group(code, at) } else { at + 1 }
         });
-        let blank: String = code[place..end]
-            .bytes()
-            .map(|b| if b == b'\n' { '\n' } else { ' ' })
-            .collect();
+        let blank: String =
+            code[place..end].bytes().map(|b| if b == b'\n' { '\n' } else { ' ' }).collect();
         out.replace_range(place..end, &blank);
     }
     out
@@ -191,21 +171,13 @@ let d = b"unsafe"; let e = '\''; let f = "é"; let g = 'é'; unsafe { h() }"####
         let text = "fn a() { x::y(); }\n#[cfg(test)]\nmod tests { fn b() { z(); } }\n\
                     #[cfg(test)]\nuse w::v;\nfn c() { z(); }";
         let shipped = RustFile::new("x.rs", text).shipped;
-        assert_eq!(
-            places(&shipped, "z")
-                .map(|at| line_of(&shipped, at))
-                .collect::<Vec<_>>(),
-            [6]
-        );
+        assert_eq!(places(&shipped, "z").map(|at| line_of(&shipped, at)).collect::<Vec<_>>(), [6]);
         assert_eq!(places(&shipped, "v").count(), 0);
         assert_eq!(places(&shipped, "y").count(), 1);
     }
 
     #[test]
     fn words_are_whole() {
-        assert_eq!(
-            places("Instant InstantX x.Instant xInstant", "Instant").count(),
-            2
-        );
+        assert_eq!(places("Instant InstantX x.Instant xInstant", "Instant").count(), 2);
     }
 }

@@ -56,7 +56,11 @@ fn hard_meshes() {
 fn huge_and_tiny_triangles_together() {
     let numbers = &mut Numbers(2);
     let mut mesh = ball(DVec3::new(0.3, 0.2, 0.1), 1e-4, 2);
-    mesh.push([DVec3::new(-1e3, -1e3, -1.0), DVec3::new(1e3, -1e3, -1.0), DVec3::new(0.0, 2e3, -1.0)]);
+    mesh.push([
+        DVec3::new(-1e3, -1e3, -1.0),
+        DVec3::new(1e3, -1e3, -1.0),
+        DVec3::new(0.0, 2e3, -1.0),
+    ]);
     assert_twins_agree("huge and tiny", &mesh, 6000, numbers);
 }
 

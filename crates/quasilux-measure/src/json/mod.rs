@@ -21,9 +21,7 @@ pub const FORMAT: &str = "quasilux-result/1";
 pub fn json(report: &Report) -> String {
     let mut bytes = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Layout::default());
-    Document::of(report)
-        .serialize(&mut serializer)
-        .expect("memory takes every finite number");
+    Document::of(report).serialize(&mut serializer).expect("memory takes every finite number");
     bytes.push(b'\n');
     String::from_utf8(bytes).expect("JSON is UTF-8")
 }
@@ -123,11 +121,7 @@ impl<'a> SensorEntry<'a> {
     fn of(sensor: &'a SensorReport) -> Self {
         Self {
             name: &sensor.name,
-            kind: if sensor.grid.is_some() {
-                "grid"
-            } else {
-                "points"
-            },
+            kind: if sensor.grid.is_some() { "grid" } else { "points" },
             counts: sensor.grid.map(|grid| grid.counts),
             points: sensor.points.iter().map(PointEntry::of).collect(),
             summary: SummaryEntry::of(&sensor.summary),
@@ -149,10 +143,7 @@ impl PointEntry {
 
 impl SummaryEntry {
     fn of(summary: &Summary) -> Self {
-        let entry = |f: Figure| FigureEntry {
-            value: f.value,
-            half_width: f.half_width,
-        };
+        let entry = |f: Figure| FigureEntry { value: f.value, half_width: f.half_width };
         Self {
             average_lx: entry(summary.average_lx),
             minimum_lx: entry(summary.minimum_lx),
@@ -208,9 +199,7 @@ mod tests {
         let mut from = 0;
         for key in keys {
             let key = format!("\"{key}\":");
-            let at = text[from..]
-                .find(&key)
-                .unwrap_or_else(|| panic!("{key} after {from}"));
+            let at = text[from..].find(&key).unwrap_or_else(|| panic!("{key} after {from}"));
             from += at + key.len();
         }
     }
@@ -220,57 +209,15 @@ mod tests {
         let text = json(&example::office());
         assert_order(&text, &["format", "biased", "sensors", "run", "warnings"]);
         assert_order(&text, &["name", "kind", "counts", "points", "summary"]);
-        let point = [
-            "position",
-            "normal",
-            "illuminance_lx",
-            "half_width_lx",
-            "direct_lx",
-        ];
+        let point = ["position", "normal", "illuminance_lx", "half_width_lx", "direct_lx"];
         assert_order(&text, &point);
-        assert_order(
-            &text,
-            &["average_lx", "minimum_lx", "maximum_lx", "uniformity"],
-        );
+        assert_order(&text, &["average_lx", "minimum_lx", "maximum_lx", "uniformity"]);
         let run = &text[text.find("\"run\"").expect("a run")..];
-        assert_order(
-            run,
-            &[
-                "version",
-                "estimator",
-                "sequence",
-                "replicates",
-                "samples",
-                "rays",
-            ],
-        );
-        assert_order(
-            run,
-            &[
-                "rays",
-                "seconds",
-                "threads",
-                "confidence",
-                "tolerance_reached",
-            ],
-        );
-        assert_order(
-            run,
-            &["tolerance_reached", "mean_dimension", "photon", "path"],
-        );
-        assert_order(
-            run,
-            &[
-                "path",
-                "flux_emitted_lm",
-                "flux_absorbed_lm",
-                "flux_lost_lm",
-            ],
-        );
-        assert_order(
-            run,
-            &["flux_lost_lm", "flux_cut_lm", "invalid_contributions"],
-        );
+        assert_order(run, &["version", "estimator", "sequence", "replicates", "samples", "rays"]);
+        assert_order(run, &["rays", "seconds", "threads", "confidence", "tolerance_reached"]);
+        assert_order(run, &["tolerance_reached", "mean_dimension", "photon", "path"]);
+        assert_order(run, &["path", "flux_emitted_lm", "flux_absorbed_lm", "flux_lost_lm"]);
+        assert_order(run, &["flux_lost_lm", "flux_cut_lm", "invalid_contributions"]);
     }
 
     #[test]
@@ -280,45 +227,27 @@ mod tests {
         assert_eq!(document["format"], FORMAT);
         let sensor = &document["sensors"][0];
         assert_eq!(sensor["kind"], "grid");
-        for (entry, point) in sensor["points"]
-            .as_array()
-            .expect("points")
-            .iter()
-            .zip(&report.sensors[0].points)
+        for (entry, point) in
+            sensor["points"].as_array().expect("points").iter().zip(&report.sensors[0].points)
         {
             assert_eq!(entry["illuminance_lx"].as_f64(), point.illuminance_lx.value);
-            assert_eq!(
-                entry["half_width_lx"].as_f64(),
-                point.illuminance_lx.half_width
-            );
+            assert_eq!(entry["half_width_lx"].as_f64(), point.illuminance_lx.half_width);
             assert_eq!(entry["position"][1].as_f64(), Some(point.position_m.y));
         }
         let average = &sensor["summary"]["average_lx"];
-        assert_eq!(
-            average["value"].as_f64(),
-            report.sensors[0].summary.average_lx.value
-        );
+        assert_eq!(average["value"].as_f64(), report.sensors[0].summary.average_lx.value);
         assert_eq!(document["run"]["replicates"], 16);
         assert_eq!(document["run"]["mean_dimension"]["path"], Value::Null);
         assert_eq!(document["run"]["max_bounces"], Value::Null);
-        assert_eq!(
-            document["warnings"],
-            serde_json::json!(["a \"quoted\" warning"])
-        );
+        assert_eq!(document["warnings"], serde_json::json!(["a \"quoted\" warning"]));
     }
 
     #[test]
     fn one_line_a_point() {
         let report = example::office();
         let text = json(&report);
-        let lines = text
-            .lines()
-            .filter(|l| l.trim_start().starts_with("{\"position\": ["))
-            .count();
-        assert_eq!(
-            lines,
-            report.sensors[0].points.len() + report.sensors[1].points.len()
-        );
+        let lines = text.lines().filter(|l| l.trim_start().starts_with("{\"position\": [")).count();
+        assert_eq!(lines, report.sensors[0].points.len() + report.sensors[1].points.len());
         assert!(text.ends_with("}\n"));
     }
 
@@ -333,11 +262,7 @@ mod tests {
         assert_eq!(sensor["points"][2]["illuminance_lx"], 1.0);
         assert_eq!(sensor["summary"]["average_lx"]["value"], Value::Null);
         assert_eq!(document["run"]["seconds"], Value::Null);
-        assert!(
-            document["warnings"][0]
-                .as_str()
-                .is_some_and(|w| w.contains("desk"))
-        );
+        assert!(document["warnings"][0].as_str().is_some_and(|w| w.contains("desk")));
     }
 
     #[test]

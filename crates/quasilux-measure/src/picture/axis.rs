@@ -26,11 +26,7 @@ impl Axis {
         let place = |value: f64| ((value - start_m) / (end_m - start_m)).clamp(0.0, 1.0);
         Self {
             title: format!("{title} (m)"),
-            ticks: ticks
-                .values
-                .iter()
-                .map(|&v| (place(v), ticks.label(v)))
-                .collect(),
+            ticks: ticks.values.iter().map(|&v| (place(v), ticks.label(v))).collect(),
         }
     }
 }
@@ -44,10 +40,7 @@ mod tests {
         let axis = Axis::of(DVec3::new(0.5, 0.0, 0.0), DVec3::X * 4.0, "u", 5);
         assert_eq!(axis.title, "x (m)");
         let expected = [(0.125, "1"), (0.375, "2"), (0.625, "3"), (0.875, "4")];
-        assert_eq!(
-            axis.ticks,
-            expected.map(|(place, text)| (place, text.to_owned()))
-        );
+        assert_eq!(axis.ticks, expected.map(|(place, text)| (place, text.to_owned())));
         let backward = Axis::of(DVec3::Y * 4.0, DVec3::Y * -4.0, "v", 3);
         assert_eq!(backward.title, "y (m)");
         assert_eq!(backward.ticks[0], (1.0, "0".to_owned()));

@@ -17,11 +17,7 @@ pub(crate) type Segment = [DVec2; 2];
 impl Canvas {
     /// A white canvas.
     pub(crate) fn new(width: usize, height: usize) -> Self {
-        Self {
-            width,
-            height,
-            pixels: vec![[255; 3]; width * height],
-        }
+        Self { width, height, pixels: vec![[255; 3]; width * height] }
     }
 
     /// Sets a pixel; outside the canvas nothing happens.
@@ -64,11 +60,7 @@ impl Canvas {
                 }
             }
         }
-        for (i, &share) in coverage
-            .iter()
-            .enumerate()
-            .filter(|(_, share)| **share > 0.0)
-        {
+        for (i, &share) in coverage.iter().enumerate().filter(|(_, share)| **share > 0.0) {
             let pixel = &mut self.pixels[(y0 + i / w) * self.width + x0 + i % w];
             *pixel = mix(*pixel, colour, share);
         }
@@ -82,9 +74,7 @@ impl Canvas {
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
         let mut writer = encoder.write_header().expect("memory takes a header");
-        writer
-            .write_image_data(self.pixels.as_flattened())
-            .expect("memory takes a picture");
+        writer.write_image_data(self.pixels.as_flattened()).expect("memory takes a picture");
         writer.finish().expect("memory takes an end");
         bytes
     }
@@ -106,11 +96,7 @@ impl Canvas {
 fn distance(p: DVec2, [a, b]: &Segment) -> f64 {
     let along = *b - *a;
     let squared = along.length_squared();
-    let t = if squared > 0.0 {
-        ((p - *a).dot(along) / squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let t = if squared > 0.0 { ((p - *a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(*a + along * t)
 }
 
@@ -121,16 +107,8 @@ mod tests {
     #[test]
     fn a_line_covers_its_area() {
         let mut canvas = Canvas::new(40, 30);
-        canvas.stroke(
-            &[[DVec2::new(5.0, 7.3), DVec2::new(31.0, 19.6)]],
-            3.0,
-            [0; 3],
-        );
-        let ink: f64 = canvas
-            .pixels
-            .iter()
-            .map(|p| 1.0 - f64::from(p[0]) / 255.0)
-            .sum();
+        canvas.stroke(&[[DVec2::new(5.0, 7.3), DVec2::new(31.0, 19.6)]], 3.0, [0; 3]);
+        let ink: f64 = canvas.pixels.iter().map(|p| 1.0 - f64::from(p[0]) / 255.0).sum();
         let length = DVec2::new(26.0, 12.3).length();
         let expected = 3.0 * length + std::f64::consts::PI * 1.5 * 1.5;
         assert!((ink / expected - 1.0).abs() < 0.02, "{ink} for {expected}");

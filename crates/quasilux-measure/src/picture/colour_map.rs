@@ -45,22 +45,14 @@ pub(crate) fn mix(a: Colour, b: Colour, t: f64) -> Colour {
 
 /// Near-black or white, readable on `background`.
 pub(crate) fn ink_on(background: Colour) -> Colour {
-    if relative_luminance(background) > EVEN_CONTRAST_LUMINANCE {
-        [16, 16, 16]
-    } else {
-        [255; 3]
-    }
+    if relative_luminance(background) > EVEN_CONTRAST_LUMINANCE { [16, 16, 16] } else { [255; 3] }
 }
 
 /// Relative luminance in [0, 1] of an sRGB colour (IEC 61966-2-1, clause 5.2).
 fn relative_luminance(colour: Colour) -> f64 {
     let linear = colour.map(|channel| {
         let x = f64::from(channel) / 255.0;
-        if x <= 0.04045 {
-            x / 12.92
-        } else {
-            libm::pow((x + 0.055) / 1.055, 2.4)
-        }
+        if x <= 0.04045 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }
     });
     0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 }
@@ -72,26 +64,17 @@ mod tests {
     /// CIE 1976 lightness L* (ISO/CIE 11664-4, clause 4).
     fn lightness(colour: Colour) -> f64 {
         let y = relative_luminance(colour);
-        if y > 216.0 / 24389.0 {
-            116.0 * libm::cbrt(y) - 16.0
-        } else {
-            y * 24389.0 / 27.0
-        }
+        if y > 216.0 / 24389.0 { 116.0 * libm::cbrt(y) - 16.0 } else { y * 24389.0 / 27.0 }
     }
 
     #[test]
     fn lightness_grows_evenly() {
-        let at: Vec<f64> = (0..=20)
-            .map(|i| lightness(colour(f64::from(i) / 20.0)))
-            .collect();
+        let at: Vec<f64> = (0..=20).map(|i| lightness(colour(f64::from(i) / 20.0))).collect();
         let mean_step = (at[20] - at[0]) / 20.0;
         assert!(at[0] < 16.0 && at[20] > 90.0, "{at:?}");
         for pair in at.windows(2) {
             let step = pair[1] - pair[0];
-            assert!(
-                (step / mean_step - 1.0).abs() < 0.35,
-                "step {step}, mean {mean_step}"
-            );
+            assert!((step / mean_step - 1.0).abs() < 0.35, "step {step}, mean {mean_step}");
         }
     }
 

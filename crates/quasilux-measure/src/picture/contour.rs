@@ -32,25 +32,16 @@ impl Field {
     pub(crate) fn of_cells([columns, rows]: [usize; 2], values: &[f64]) -> Self {
         let nodes = |n: usize| -> Vec<f64> {
             let centres = (0..n).map(|i| i as f64 + 0.5);
-            std::iter::once(0.0)
-                .chain(centres)
-                .chain([n as f64])
-                .collect()
+            std::iter::once(0.0).chain(centres).chain([n as f64]).collect()
         };
         // The field is separable: rows first, then columns of the widened rows.
-        let wide: Vec<f64> = values
-            .chunks(columns)
-            .flat_map(|row| extended(row.iter().copied()))
-            .collect();
+        let wide: Vec<f64> =
+            values.chunks(columns).flat_map(|row| extended(row.iter().copied())).collect();
         let columns_with_border: Vec<Vec<f64>> = (0..columns + 2)
             .map(|i| extended(wide.iter().skip(i).step_by(columns + 2).copied()))
             .collect();
         let values = (0..rows + 2).flat_map(|j| columns_with_border.iter().map(move |c| c[j]));
-        Self {
-            x: nodes(columns),
-            y: nodes(rows),
-            values: values.collect(),
-        }
+        Self { x: nodes(columns), y: nodes(rows), values: values.collect() }
     }
 
     /// The same bilinear field on a lattice with every square cut into `pieces` times `pieces`.
@@ -62,9 +53,7 @@ impl Field {
         };
         let (x, y) = (finer(&self.x), finer(&self.y));
         let place = |nodes: &[f64], at: &[(usize, f64)]| -> Vec<f64> {
-            at.iter()
-                .map(|&(i, t)| nodes[i] + (nodes[i + 1] - nodes[i]) * t)
-                .collect()
+            at.iter().map(|&(i, t)| nodes[i] + (nodes[i + 1] - nodes[i]) * t).collect()
         };
         let columns = self.x.len();
         let at = |i: usize, j: usize| self.values[j * columns + i];
@@ -75,11 +64,7 @@ impl Field {
                 low + (high - low) * t
             })
         });
-        Self {
-            values: values.collect(),
-            x: place(&self.x, &x),
-            y: place(&self.y, &y),
-        }
+        Self { values: values.collect(), x: place(&self.x, &x), y: place(&self.y, &y) }
     }
 
     /// The lines on which the field has a level, in a fixed order.
@@ -95,11 +80,8 @@ impl Field {
         }
         let mut lines = Vec::new();
         // Open lines first, from their ends: what is left then is closed.
-        let ends: Vec<Edge> = neighbours
-            .iter()
-            .filter(|(_, n)| n.len() == 1)
-            .map(|(edge, _)| *edge)
-            .collect();
+        let ends: Vec<Edge> =
+            neighbours.iter().filter(|(_, n)| n.len() == 1).map(|(edge, _)| *edge).collect();
         for end in ends {
             lines.extend(self.follow(&mut neighbours, end, level));
         }
@@ -119,12 +101,8 @@ impl Field {
             return Vec::new();
         }
         // Edge k joins corners k and k + 1, counter-clockwise from the lower one.
-        let edges: [Edge; 4] = [
-            (node, false),
-            (node + 1, true),
-            (node + columns, false),
-            (node, true),
-        ];
+        let edges: [Edge; 4] =
+            [(node, false), (node + 1, true), (node + columns, false), (node, true)];
         let above = values.map(|v| v >= level);
         let crossed: Vec<usize> = (0..4).filter(|&k| above[k] != above[(k + 1) % 4]).collect();
         match crossed.as_slice() {
@@ -135,10 +113,7 @@ impl Field {
                 // Lines cut off the two corners that differ from the centre: corner k lies
                 // between the edges k - 1 and k.
                 let first = usize::from(above[0] == centre_above);
-                vec![
-                    [edges[(first + 3) % 4], edges[first]],
-                    [edges[first + 1], edges[first + 2]],
-                ]
+                vec![[edges[(first + 3) % 4], edges[first]], [edges[first + 1], edges[first + 2]]]
             }
         }
     }
@@ -189,10 +164,7 @@ fn extended(centres: impl Iterator<Item = f64>) -> Vec<f64> {
     let n = centres.len();
     let before = beyond(centres[0], centres.get(1));
     let after = beyond(centres[n - 1], n.checked_sub(2).map(|i| &centres[i]));
-    std::iter::once(before)
-        .chain(centres)
-        .chain([after])
-        .collect()
+    std::iter::once(before).chain(centres).chain([after]).collect()
 }
 
 #[cfg(test)]
@@ -232,11 +204,7 @@ mod tests {
                 // The bilinear interpolant of the distance is off by less than 1/8 of the second
                 // derivatives 1/r along each axis.
                 let tolerance = 0.25 / radius;
-                assert!(
-                    lines[0]
-                        .iter()
-                        .all(|p| (p.distance(centre) - radius).abs() < tolerance)
-                );
+                assert!(lines[0].iter().all(|p| (p.distance(centre) - radius).abs() < tolerance));
                 let length: f64 = lines[0].windows(2).map(|w| w[0].distance(w[1])).sum();
                 assert!((length / (2.0 * std::f64::consts::PI * radius) - 1.0).abs() < 0.02);
             }
@@ -270,10 +238,7 @@ mod tests {
                 let on_border = |p: DVec2| [p.x, p.y].iter().any(|c| *c == 0.0 || *c == 9.0);
                 let (first, last) = (line[0], line[line.len() - 1]);
                 assert!(first == last || (on_border(first) && on_border(last)));
-                assert!(
-                    line.windows(2)
-                        .all(|w| w[0].distance(w[1]) <= 2.0_f64.sqrt() + 1e-12)
-                );
+                assert!(line.windows(2).all(|w| w[0].distance(w[1]) <= 2.0_f64.sqrt() + 1e-12));
             }
         }
     }
@@ -281,12 +246,7 @@ mod tests {
     #[test]
     fn nothing_to_draw() {
         assert!(field([1, 1], |_, _| 5.0).contours(5.0).is_empty());
-        assert!(
-            field([8, 8], |_, _| 5.0)
-                .refined(4)
-                .contours(5.0)
-                .is_empty()
-        );
+        assert!(field([8, 8], |_, _| 5.0).refined(4).contours(5.0).is_empty());
         assert!(field([5, 1], |_, _| f64::NAN).contours(1.0).is_empty());
         assert_eq!(field([1, 6], |_, y| y).contours(3.2).len(), 1);
     }

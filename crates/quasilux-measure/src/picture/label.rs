@@ -43,18 +43,12 @@ pub(crate) fn place(
         let centre = (ends[0] + ends[1]) / 2.0;
         let inside =
             centre.cmpgt(DVec2::splat(radius_px)).all() && centre.cmplt(size - radius_px).all();
-        let free = taken
-            .iter()
-            .all(|t| t.centre.distance(centre) > t.radius_px + radius_px);
+        let free = taken.iter().all(|t| t.centre.distance(centre) > t.radius_px + radius_px);
         (inside && free && along.length() > 0.9 * length_px).then(|| {
             let leftward = along.x < 0.0 || (along.x == 0.0 && along.y > 0.0);
             let direction = along.normalize() * if leftward { -1.0 } else { 1.0 };
-            let place = LabelPlace {
-                centre,
-                direction,
-                radius_px,
-                gap_px: [from, from + length_px],
-            };
+            let place =
+                LabelPlace { centre, direction, radius_px, gap_px: [from, from + length_px] };
             (place, along.length())
         })
     });
@@ -65,10 +59,7 @@ pub(crate) fn place(
 
 /// The straight pieces of a line, without the gap of its label.
 pub(crate) fn pieces(line: &Line, label: Option<LabelPlace>) -> Vec<Segment> {
-    let Some(LabelPlace {
-        gap_px: [from, to], ..
-    }) = label
-    else {
+    let Some(LabelPlace { gap_px: [from, to], .. }) = label else {
         return line.windows(2).map(|w| [w[0], w[1]]).collect();
     };
     let lengths = lengths_along(line);
@@ -99,11 +90,7 @@ fn lengths_along(line: &Line) -> Vec<f64> {
 fn point_at(line: &Line, lengths: &[f64], s: f64) -> DVec2 {
     let i = lengths.partition_point(|l| *l < s).clamp(1, line.len() - 1);
     let piece = lengths[i] - lengths[i - 1];
-    let t = if piece > 0.0 {
-        ((s - lengths[i - 1]) / piece).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let t = if piece > 0.0 { ((s - lengths[i - 1]) / piece).clamp(0.0, 1.0) } else { 0.0 };
     line[i - 1].lerp(line[i], t)
 }
 
@@ -117,22 +104,13 @@ mod tests {
 
     #[test]
     fn the_straight_stretch_wins_and_the_gap_is_as_long_as_the_label() {
-        let zigzag = [
-            [10.0, 50.0],
-            [20.0, 60.0],
-            [30.0, 50.0],
-            [40.0, 60.0],
-            [160.0, 60.0],
-        ];
+        let zigzag = [[10.0, 50.0], [20.0, 60.0], [30.0, 50.0], [40.0, 60.0], [160.0, 60.0]];
         let line = polyline(&zigzag);
         let place = place(&line, 30.0, DVec2::splat(200.0), &[]).expect("room for a label");
         assert!(place.centre.x >= 55.0 && place.centre.y == 60.0);
         assert!(place.direction.distance(DVec2::X) < 1e-12);
         let total: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
-        let drawn: f64 = pieces(&line, Some(place))
-            .iter()
-            .map(|[a, b]| a.distance(*b))
-            .sum();
+        let drawn: f64 = pieces(&line, Some(place)).iter().map(|[a, b]| a.distance(*b)).sum();
         assert!((total - drawn - 30.0).abs() < 1e-9);
     }
 

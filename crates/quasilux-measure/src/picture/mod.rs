@@ -71,12 +71,7 @@ fn draw_title(canvas: &mut Canvas, layout: &Layout, sensor: &SensorReport) {
     text::draw(canvas, &title, DVec2::new(left, layout.title_base()), style);
     for (k, line) in layout.summary_lines.iter().enumerate() {
         let at = DVec2::new(left, layout.summary_base(k));
-        text::draw(
-            canvas,
-            line,
-            at,
-            TextStyle::new(layout::SUMMARY_PX, INK, Align::Left),
-        );
+        text::draw(canvas, line, at, TextStyle::new(layout::SUMMARY_PX, INK, Align::Left));
     }
 }
 
@@ -89,10 +84,7 @@ fn draw_axes(canvas: &mut Canvas, layout: &Layout, grid: &quasilux_scene::Grid) 
     let mut style = TextStyle::new(layout::SMALL_PX, SOFT_INK, Align::Centre);
     for (share, number) in &along.ticks {
         let column = (x as f64 + share * w as f64).floor() + 0.5;
-        let ends = [
-            DVec2::new(column, bottom + 1.0),
-            DVec2::new(column, bottom + 6.0),
-        ];
+        let ends = [DVec2::new(column, bottom + 1.0), DVec2::new(column, bottom + 6.0)];
         canvas.stroke(&[ends], 1.0, SOFT_INK);
         text::draw(canvas, number, DVec2::new(column, bottom + 20.5), style);
     }
@@ -103,11 +95,7 @@ fn draw_axes(canvas: &mut Canvas, layout: &Layout, grid: &quasilux_scene::Grid) 
     for (share, number) in &across.ticks {
         let row = (bottom - share * h as f64).ceil() - 0.5;
         let left = x as f64;
-        canvas.stroke(
-            &[[DVec2::new(left - 6.0, row), DVec2::new(left - 1.0, row)]],
-            1.0,
-            SOFT_INK,
-        );
+        canvas.stroke(&[[DVec2::new(left - 6.0, row), DVec2::new(left - 1.0, row)]], 1.0, SOFT_INK);
         let base = DVec2::new(left - 10.5, row + 0.5 * layout::SMALL_PX);
         text::draw(canvas, number, base, style);
         widest = widest.max(text::width_px(number, layout::SMALL_PX));
@@ -127,10 +115,7 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout, scale: &LuxScale) {
     let top = y as f64;
     let place = |lx: f64| (x as f64 + scale.share(lx) * w as f64).floor() + 0.5;
     for &lx in &scale.levels.values {
-        let ends = [
-            DVec2::new(place(lx), top),
-            DVec2::new(place(lx), top + h as f64),
-        ];
+        let ends = [DVec2::new(place(lx), top), DVec2::new(place(lx), top + h as f64)];
         canvas.stroke(&[ends], 1.0, colour_map::ink_on(scale.colour(lx)));
     }
     let style = TextStyle::new(layout::SMALL_PX, SOFT_INK, Align::Centre);
@@ -139,10 +124,7 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout, scale: &LuxScale) {
     for &lx in &scale.ticks.values {
         let column = place(lx);
         canvas.stroke(
-            &[[
-                DVec2::new(column, below + 1.0),
-                DVec2::new(column, below + 5.0),
-            ]],
+            &[[DVec2::new(column, below + 1.0), DVec2::new(column, below + 5.0)]],
             1.0,
             SOFT_INK,
         );
@@ -179,18 +161,12 @@ fn draw_footer(canvas: &mut Canvas, layout: &Layout, report: &Report) {
         ""
     };
     let left = layout.content_left();
-    for (k, (line, colour)) in [(made.as_str(), SOFT_INK), (caution, CAUTION_INK)]
-        .into_iter()
-        .enumerate()
+    for (k, (line, colour)) in
+        [(made.as_str(), SOFT_INK), (caution, CAUTION_INK)].into_iter().enumerate()
     {
         let line = text::fitted(line, layout::SMALL_PX, layout.content_width());
         let style = TextStyle::new(layout::SMALL_PX, colour, Align::Left);
-        text::draw(
-            canvas,
-            &line,
-            DVec2::new(left, layout.footer_base(k)),
-            style,
-        );
+        text::draw(canvas, &line, DVec2::new(left, layout.footer_base(k)), style);
     }
 }
 
@@ -201,9 +177,7 @@ mod tests {
 
     /// Decodes a picture: width, height and pixels.
     fn decoded(png: &[u8]) -> ([u32; 2], Vec<u8>) {
-        let mut reader = png::Decoder::new(std::io::Cursor::new(png))
-            .read_info()
-            .expect("a PNG");
+        let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
         let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
         let info = reader.next_frame(&mut pixels).expect("a frame");
         ([info.width, info.height], pixels)

@@ -30,11 +30,7 @@ pub(crate) fn draw(canvas: &mut Canvas, layout: &Layout, sensor: &SensorReport, 
         counts: grid.counts.map(|n| n as usize),
         corner: DVec2::new(layout.plot_corner[0] as f64, layout.plot_corner[1] as f64),
         size: DVec2::new(layout.plot_size[0] as f64, layout.plot_size[1] as f64),
-        lx: sensor
-            .points
-            .iter()
-            .map(|p| p.illuminance_lx.value)
-            .collect(),
+        lx: sensor.points.iter().map(|p| p.illuminance_lx.value).collect(),
         scale,
     };
     plot.draw_cells(canvas, layout);
@@ -81,9 +77,7 @@ impl Plot<'_> {
 
     fn draw_contours(&self, canvas: &mut Canvas) -> Vec<LabelPlace> {
         let values: Vec<f64> = self.lx.iter().map(|lx| lx.unwrap_or(f64::NAN)).collect();
-        let pieces = (self.cell_px().max_element() / 6.0)
-            .round()
-            .clamp(1.0, 12.0) as usize;
+        let pieces = (self.cell_px().max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
         let mut labels: Vec<LabelPlace> = Vec::new();
         for &level in &self.scale.levels.values {
@@ -94,10 +88,7 @@ impl Plot<'_> {
                 let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
                 let place = label::place(&line, length_px, self.size, &labels);
                 let mut segments = label::pieces(&line, place);
-                segments
-                    .iter_mut()
-                    .flatten()
-                    .for_each(|p| *p += self.corner);
+                segments.iter_mut().flatten().for_each(|p| *p += self.corner);
                 canvas.stroke(&segments, LINE_PX, ink);
                 if let Some(place) = place {
                     self.draw_label(canvas, &number, ink, place);
@@ -118,11 +109,7 @@ impl Plot<'_> {
     }
 
     fn draw_numbers(&self, canvas: &mut Canvas, labels: &[LabelPlace]) {
-        let largest = self
-            .lx
-            .iter()
-            .flatten()
-            .fold(0.0_f64, |a, b| a.max(b.abs()));
+        let largest = self.lx.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
         let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
         let numbers: Vec<String> = self
             .lx
@@ -157,12 +144,7 @@ impl Plot<'_> {
     fn draw_frame(&self, canvas: &mut Canvas) {
         let low = self.corner - 0.5;
         let high = self.corner + self.size + 0.5;
-        let corners = [
-            low,
-            DVec2::new(high.x, low.y),
-            high,
-            DVec2::new(low.x, high.y),
-        ];
+        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
         let sides: Vec<_> = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect();
         canvas.stroke(&sides, 1.0, SOFT_INK);
     }

@@ -37,40 +37,19 @@ impl LuxScale {
         let mut levels = Ticks::within(low, high, MOST_LEVELS, least_step);
         levels.values.retain(|level| *level > low && *level < high);
         let step = levels.step;
-        let base = if low >= 0.0 && low < 0.5 * high {
-            0.0
-        } else {
-            low
-        };
+        let base = if low >= 0.0 && low < 0.5 * high { 0.0 } else { low };
         let (low_lx, high_lx) = ((base / step).floor() * step, (high / step).ceil() * step);
         let ticks = Ticks::within(low_lx, high_lx, MOST_TICKS, step);
-        Self {
-            low_lx,
-            high_lx,
-            levels,
-            ticks,
-        }
+        Self { low_lx, high_lx, levels, ticks }
     }
 
     fn constant(low: f64, high: f64) -> Self {
-        let (low, high) = (
-            low.min(0.0),
-            if high > 0.0 || low < 0.0 {
-                high.max(0.0)
-            } else {
-                1.0
-            },
-        );
+        let (low, high) = (low.min(0.0), if high > 0.0 || low < 0.0 { high.max(0.0) } else { 1.0 });
         let step = Ticks::within(low, high, MOST_LEVELS, 0.0).step;
         let (low_lx, high_lx) = ((low / step).floor() * step, (high / step).ceil() * step);
         let ticks = Ticks::within(low_lx, high_lx, MOST_TICKS, 0.0);
         let levels = Ticks::within(0.0, 0.0, MOST_LEVELS, 0.0);
-        Self {
-            low_lx,
-            high_lx,
-            levels,
-            ticks,
-        }
+        Self { low_lx, high_lx, levels, ticks }
     }
 
     /// Place on the scale, 0 at its low end and 1 at its high one.
@@ -85,11 +64,8 @@ impl LuxScale {
 }
 
 fn median_half_width(sensor: &SensorReport) -> f64 {
-    let mut all: Vec<f64> = sensor
-        .points
-        .iter()
-        .filter_map(|p| p.illuminance_lx.half_width)
-        .collect();
+    let mut all: Vec<f64> =
+        sensor.points.iter().filter_map(|p| p.illuminance_lx.half_width).collect();
     all.sort_by(f64::total_cmp);
     all.get(all.len() / 2).copied().unwrap_or(0.0)
 }

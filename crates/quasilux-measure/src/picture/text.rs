@@ -37,22 +37,13 @@ impl TextStyle {
     /// Level text of a height.
     pub(crate) fn new(capital_px: f64, colour: Colour, align: Align) -> Self {
         let stroke_px = (0.13 * capital_px).max(1.15);
-        Self {
-            capital_px,
-            stroke_px,
-            colour,
-            align,
-            direction: DVec2::X,
-        }
+        Self { capital_px, stroke_px, colour, align, direction: DVec2::X }
     }
 }
 
 /// Width of a line of text in pixels.
 pub(crate) fn width_px(text: &str, capital_px: f64) -> f64 {
-    let units: f64 = text
-        .chars()
-        .map(|c| f64::from(glyph(c).0) + SPACING_UNITS)
-        .sum();
+    let units: f64 = text.chars().map(|c| f64::from(glyph(c).0) + SPACING_UNITS).sum();
     (units - SPACING_UNITS).max(0.0) * capital_px / CAPITAL_UNITS
 }
 
@@ -109,10 +100,7 @@ fn outline(text: &str, at: DVec2, style: TextStyle) -> Vec<Segment> {
 }
 
 fn glyph(c: char) -> (u8, &'static str) {
-    GLYPHS
-        .iter()
-        .find(|g| g.0 == c)
-        .map_or(MISSING, |&(_, width, strokes)| (width, strokes))
+    GLYPHS.iter().find(|g| g.0 == c).map_or(MISSING, |&(_, width, strokes)| (width, strokes))
 }
 
 /// The points of a stroke in glyph units, curves cut into straight pieces.
@@ -125,10 +113,7 @@ fn flattened(stroke: &str) -> Vec<DVec2> {
     };
     if let Some(curve) = stroke.strip_prefix('~') {
         let controls = polygon(curve);
-        let (inner, last) = (
-            &controls[1..controls.len() - 1],
-            controls[controls.len() - 1],
-        );
+        let (inner, last) = (&controls[1..controls.len() - 1], controls[controls.len() - 1]);
         let mut points = vec![controls[0]];
         for (i, &control) in inner.iter().enumerate() {
             let end = inner.get(i + 1).map_or(last, |next| (control + next) / 2.0);
@@ -175,12 +160,7 @@ mod tests {
             for stroke in strokes.split_whitespace() {
                 let digits = stroke.trim_start_matches(['~', 'o']);
                 assert!(digits.len() >= 4 && digits.len().is_multiple_of(2), "{c}");
-                assert!(
-                    digits
-                        .bytes()
-                        .all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'c')),
-                    "{c}"
-                );
+                assert!(digits.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'c')), "{c}");
                 for p in flattened(stroke) {
                     assert!((0.0..=f64::from(width)).contains(&p.x), "{c} is too wide");
                     assert!((-3.0..=9.0).contains(&p.y), "{c} is too high");

@@ -32,10 +32,7 @@ impl Planes {
             numbers.start_record("the candela values of each plane", warnings);
             for vertical in 0..self.verticals {
                 let candela = numbers.next("a candela value", warnings).map_err(|error| {
-                    let at = Position {
-                        line: error.line(),
-                        column: error.column(),
-                    };
+                    let at = Position { line: error.line(), column: error.column() };
                     let (value, planes) = (vertical + 1, self.horizontals);
                     let expected = format!(
                         "candela value {value} of {} in plane {} of {planes}",
@@ -46,12 +43,7 @@ impl Planes {
                 })?;
                 if candela.value < 0.0 {
                     let expected = "candela values of 0 or more (read as 0)";
-                    warnings.push(
-                        Deviation::NegativeCandela,
-                        candela.at,
-                        candela.value,
-                        expected,
-                    );
+                    warnings.push(Deviation::NegativeCandela, candela.at, candela.value, expected);
                 }
                 let intensity_cd = candela.value.max(0.0) * self.factor;
                 if intensity_cd > LARGEST_INTENSITY_CD {

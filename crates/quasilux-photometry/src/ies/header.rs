@@ -30,21 +30,13 @@ pub(super) fn read_header<'t>(
     };
     let Some(tilt_line) = lines.iter().position(|line| tilt_value(line).is_some()) else {
         let last = lines.len();
-        let at = Position {
-            line: last,
-            column: lines[last - 1].chars().count() + 1,
-        };
+        let at = Position { line: last, column: lines[last - 1].chars().count() + 1 };
         let expected = "a line TILT=NONE, TILT=INCLUDE or TILT=<file> (is this an IES LM-63 file?)";
         return Err(ReadError::new(at, "the end of the file", expected));
     };
     if first > 0 {
         let at = Position { line: 1, column: 1 };
-        warnings.push(
-            Deviation::LeadingBlankLine,
-            at,
-            "an empty line",
-            "the identifying line",
-        );
+        warnings.push(Deviation::LeadingBlankLine, at, "an empty line", "the identifying line");
     }
 
     let (standard, is_identifying) = if first < tilt_line {
@@ -56,10 +48,7 @@ pub(super) fn read_header<'t>(
     let keywords = read_keywords(&lines[..labels.end], labels.start, standard, warnings);
 
     let value = tilt_value(lines[tilt_line]).unwrap_or_default();
-    let at = Position {
-        line: tilt_line + 1,
-        column: 1,
-    };
+    let at = Position { line: tilt_line + 1, column: 1 };
     if !lines[tilt_line].starts_with("TILT=")
         || value != value.to_ascii_uppercase() && is_word(value)
     {
@@ -82,20 +71,13 @@ pub(super) fn read_header<'t>(
         }
         _ => TiltLine::File(value),
     };
-    Ok(Header {
-        standard,
-        keywords,
-        tilt,
-        next_line: tilt_line + 1,
-    })
+    Ok(Header { standard, keywords, tilt, next_line: tilt_line + 1 })
 }
 
 /// The text behind `TILT=`, if the line is one.
 fn tilt_value(line: &str) -> Option<&str> {
     let (name, value) = line.split_once('=')?;
-    name.trim()
-        .eq_ignore_ascii_case("TILT")
-        .then(|| value.trim())
+    name.trim().eq_ignore_ascii_case("TILT").then(|| value.trim())
 }
 
 fn is_word(value: &str) -> bool {
@@ -104,11 +86,8 @@ fn is_word(value: &str) -> bool {
 
 /// The edition, and whether the line identifies one at all: LM-63-1986 had no such line.
 fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard, bool) {
-    let compact: String = line
-        .chars()
-        .filter(|c| !c.is_whitespace())
-        .map(|c| c.to_ascii_uppercase())
-        .collect();
+    let compact: String =
+        line.chars().filter(|c| !c.is_whitespace()).map(|c| c.to_ascii_uppercase()).collect();
     let year = compact.split_once("LM-63-").map(|(_, year)| year);
     let (standard, spelling) = match (compact.as_str(), year) {
         ("IESNA91", _) | (_, Some("1991" | "91")) => (IesStandard::Lm63Of1991, "IESNA91"),
@@ -117,10 +96,7 @@ fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard,
         (_, Some("2002" | "02")) => (IesStandard::Lm63Of2002, "IESNA:LM-63-2002"),
         (_, Some("2019" | "19")) => (IesStandard::Lm63Of2019, "IES:LM-63-2019"),
         _ if compact.starts_with("IESNA") || year.is_some() => {
-            let at = Position {
-                line: number,
-                column: 1,
-            };
+            let at = Position { line: number, column: 1 };
             let expected = "an edition between IESNA91 and IES:LM-63-2019 (read as LM-63-2002)";
             warnings.push(Deviation::UnknownStandard, at, quoted(line), expected);
             return (IesStandard::Lm63Of2002, true);
@@ -128,15 +104,9 @@ fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard,
         _ => return (IesStandard::Lm63Of1986, false),
     };
     if line.trim_end() != spelling {
-        let at = Position {
-            line: number,
-            column: 1,
-        };
-        let expected = if spelling.is_empty() {
-            "no identifying line in LM-63-1986"
-        } else {
-            spelling
-        };
+        let at = Position { line: number, column: 1 };
+        let expected =
+            if spelling.is_empty() { "no identifying line in LM-63-1986" } else { spelling };
         warnings.push(Deviation::IdentifyingLine, at, quoted(line), expected);
     }
     (standard, true)
@@ -157,10 +127,7 @@ fn read_keywords(
             None if text.is_empty() => continue,
             None => {
                 if standard > IesStandard::Lm63Of1986 {
-                    let at = Position {
-                        line: index + 1,
-                        column: 1,
-                    };
+                    let at = Position { line: index + 1, column: 1 };
                     let expected = "a keyword in brackets (kept as a label)";
                     warnings.push(Deviation::LabelWithoutKeyword, at, quoted(text), expected);
                 }
@@ -172,11 +139,7 @@ fn read_keywords(
                 previous.value.push('\n');
                 previous.value.push_str(value);
             }
-            _ => keywords.push(Keyword {
-                name,
-                value: value.to_owned(),
-                line: index + 1,
-            }),
+            _ => keywords.push(Keyword { name, value: value.to_owned(), line: index + 1 }),
         }
     }
     keywords
@@ -191,35 +154,17 @@ mod tests {
         let edition = |line| {
             let mut warnings = Warnings::default();
             let (standard, _) = identify(line, 1, &mut warnings);
-            (
-                standard,
-                warnings
-                    .into_vec()
-                    .first()
-                    .map(|warning| warning.deviation()),
-            )
+            (standard, warnings.into_vec().first().map(|warning| warning.deviation()))
         };
         assert_eq!(edition("IESNA91"), (IesStandard::Lm63Of1991, None));
-        assert_eq!(
-            edition("IESNA:LM-63-1995  "),
-            (IesStandard::Lm63Of1995, None)
-        );
+        assert_eq!(edition("IESNA:LM-63-1995  "), (IesStandard::Lm63Of1995, None));
         assert_eq!(edition("IESNA:LM-63-2002"), (IesStandard::Lm63Of2002, None));
         assert_eq!(edition("IES:LM-63-2019"), (IesStandard::Lm63Of2019, None));
         assert_eq!(edition("A label of 1986"), (IesStandard::Lm63Of1986, None));
         let spelling = Some(Deviation::IdentifyingLine);
-        assert_eq!(
-            edition(" IESNA: lm-63-2002"),
-            (IesStandard::Lm63Of2002, spelling)
-        );
-        assert_eq!(
-            edition("ANSI/IES LM-63-19"),
-            (IesStandard::Lm63Of2019, spelling)
-        );
+        assert_eq!(edition(" IESNA: lm-63-2002"), (IesStandard::Lm63Of2002, spelling));
+        assert_eq!(edition("ANSI/IES LM-63-19"), (IesStandard::Lm63Of2019, spelling));
         let unknown = Some(Deviation::UnknownStandard);
-        assert_eq!(
-            edition("IESNA:LM-63-2031"),
-            (IesStandard::Lm63Of2002, unknown)
-        );
+        assert_eq!(edition("IESNA:LM-63-2031"), (IesStandard::Lm63Of2002, unknown));
     }
 }

@@ -49,10 +49,7 @@ pub fn read_ies(bytes: &[u8]) -> Result<Read, ReadError> {
     let header = read_header(&lines, &mut warnings)?;
     let mut numbers = Numbers::new(&lines, header.next_line);
     let photometry = read_numbers(header, &mut numbers, &mut warnings)?;
-    Ok(Read {
-        photometry,
-        warnings: warnings.into_vec(),
-    })
+    Ok(Read { photometry, warnings: warnings.into_vec() })
 }
 
 /// Record 1.
@@ -86,37 +83,18 @@ fn read_numbers(
     numbers.start_record("the horizontal angles", warnings);
     let horizontal = numbers.list(counts.horizontals, "horizontal angle", warnings)?;
     let (phi_rad, symmetry) = planes::c_rad(&horizontal, warnings)?;
-    let planes = Planes {
-        verticals: counts.verticals,
-        horizontals: counts.horizontals,
-        factor,
-    };
+    let planes = Planes { verticals: counts.verticals, horizontals: counts.horizontals, factor };
     let values = planes.read(numbers, warnings)?;
-    planes.check_closing(
-        &values,
-        symmetry,
-        horizontal[horizontal.len() - 1].at,
-        warnings,
-    );
+    planes.check_closing(&values, symmetry, horizontal[horizontal.len() - 1].at, warnings);
     if let Some((text, at)) = numbers.rest(warnings)
         && !text.trim_matches(['[', ']']).eq_ignore_ascii_case("END")
     {
-        warnings.push(
-            Deviation::TrailingText,
-            at,
-            quoted(text),
-            "the end of the file",
-        );
+        warnings.push(Deviation::TrailingText, at, quoted(text), "the end of the file");
     }
 
     let lumens = counts.lumens_per_lamp;
-    let table = SphericalTable::new(Grid {
-        theta_rad,
-        phi_rad,
-        symmetry,
-        values,
-    })
-    .map_err(|error| ReadError::new(lumens.at, error, "a photometric table"))?;
+    let table = SphericalTable::new(Grid { theta_rad, phi_rad, symmetry, values })
+        .map_err(|error| ReadError::new(lumens.at, error, "a photometric table"))?;
     if lumens.value < 0.0 && lumens.value != -1.0 {
         let expected = "-1 for absolute photometry (read as such)";
         warnings.push(Deviation::NegativeLumens, lumens.at, lumens.value, expected);
@@ -146,10 +124,7 @@ fn read_tilt(
     match line {
         TiltLine::None => Ok(Tilt::None),
         TiltLine::File(name) => {
-            let at = Position {
-                line: line_number,
-                column: 1,
-            };
+            let at = Position { line: line_number, column: 1 };
             let expected =
                 "TILT=NONE or TILT=INCLUDE (the file is not read, no tilt factor is applied)";
             warnings.push(
@@ -185,10 +160,7 @@ fn read_tilt(
             }
             Ok(Tilt::Include {
                 lamp_geometry: lamp_geometry as u8,
-                angles_rad: angles
-                    .iter()
-                    .map(|angle| angle.value / 180.0 * PI)
-                    .collect(),
+                angles_rad: angles.iter().map(|angle| angle.value / 180.0 * PI).collect(),
                 factors: factors.iter().map(|factor| factor.value).collect(),
             })
         }
@@ -208,11 +180,7 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
         1 => METRES_PER_FOOT,
         2 => 1.0,
         _ => {
-            return Err(ReadError::new(
-                units_at,
-                units,
-                "a units type of 1 (feet) or 2 (metres)",
-            ));
+            return Err(ReadError::new(units_at, units, "a units type of 1 (feet) or 2 (metres)"));
         }
     };
     let name = match photometric_type {
@@ -238,14 +206,7 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
         length_m: dimension("the luminous length")?,
         height_m: dimension("the luminous height")?,
     };
-    Ok(Counts {
-        lamp_count,
-        lumens_per_lamp,
-        multiplier,
-        verticals,
-        horizontals,
-        opening,
-    })
+    Ok(Counts { lamp_count, lumens_per_lamp, multiplier, verticals, horizontals, opening })
 }
 
 fn positive(number: &Number, expected: &str) -> Result<f64, ReadError> {
@@ -267,27 +228,14 @@ fn ballast_lamp_factor(
     }
     if field.value == 0.0 {
         let expected = "1 in the field behind the ballast factor (read as 1)";
-        warnings.push(
-            Deviation::ZeroBallastLampFactor,
-            field.at,
-            field.value,
-            expected,
-        );
+        warnings.push(Deviation::ZeroBallastLampFactor, field.at, field.value, expected);
         return Ok(1.0);
     }
     if field.value != 1.0 && standard >= IesStandard::Lm63Of1995 {
         let expected = "1 in the reserved field behind the ballast factor (applied as a factor)";
-        warnings.push(
-            Deviation::BallastLampFactor,
-            field.at,
-            field.value,
-            expected,
-        );
+        warnings.push(Deviation::BallastLampFactor, field.at, field.value, expected);
     }
-    positive(
-        field,
-        "a ballast-lamp photometric factor above 0 (1 if unknown)",
-    )
+    positive(field, "a ballast-lamp photometric factor above 0 (1 if unknown)")
 }
 
 fn check_flux(
@@ -298,12 +246,7 @@ fn check_flux(
 ) {
     let flux_lm = table.integral();
     if flux_lm <= 0.0 {
-        warnings.push(
-            Deviation::NoLight,
-            at,
-            "an integrated flux of 0 lm",
-            "some light",
-        );
+        warnings.push(Deviation::NoLight, at, "an integrated flux of 0 lm", "some light");
         return;
     }
     let Some(rated_flux_lm) = facts.rated_flux_lm() else {

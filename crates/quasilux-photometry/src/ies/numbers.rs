@@ -37,16 +37,8 @@ struct Token<'t> {
 impl<'t> Numbers<'t> {
     /// Starts at the line with index `line`.
     pub(super) fn new(lines: &'t [&'t str], line: usize) -> Self {
-        let cursor = Cursor {
-            line,
-            byte: 0,
-            characters: 0,
-        };
-        Self {
-            lines,
-            cursor,
-            last_line: None,
-        }
+        let cursor = Cursor { line, byte: 0, characters: 0 };
+        Self { lines, cursor, last_line: None }
     }
 
     /// The next number; `what` names it in an error.
@@ -61,10 +53,7 @@ impl<'t> Numbers<'t> {
         let at = token.at;
         let wrong = || ReadError::new(at, quoted(token.text), format_args!("{what} (a number)"));
         // Of what Rust reads as a number, words such as "inf" and "nan" are not meant.
-        let plausible = token
-            .text
-            .bytes()
-            .all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+        let plausible = token.text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
         let value: f64 = if plausible {
             token.text.parse().map_err(|_| wrong())?
         } else {
@@ -96,10 +85,7 @@ impl<'t> Numbers<'t> {
             return Err(ReadError::new(at, value, expected));
         }
         let as_written = self.lines[at.line - 1].chars().skip(at.column - 1);
-        if as_written
-            .take_while(|c| !is_separator(*c))
-            .any(|c| c == '.')
-        {
+        if as_written.take_while(|c| !is_separator(*c)).any(|c| c == '.') {
             warnings.push(
                 Deviation::CountWithPoint,
                 at,
@@ -123,10 +109,7 @@ impl<'t> Numbers<'t> {
             let number = self.next(what, warnings).map_err(|error| {
                 let expected = format!("{} {} of {count}", error.expected(), index + 1);
                 ReadError::new(
-                    Position {
-                        line: error.line(),
-                        column: error.column(),
-                    },
+                    Position { line: error.line(), column: error.column() },
                     error.found(),
                     expected,
                 )
@@ -144,21 +127,12 @@ impl<'t> Numbers<'t> {
         at: Position,
         what: &str,
     ) -> Result<(), ReadError> {
-        let room: usize = self
-            .lines
-            .iter()
-            .skip(self.cursor.line)
-            .map(|line| line.len() + 1)
-            .sum();
+        let room: usize = self.lines.iter().skip(self.cursor.line).map(|line| line.len() + 1).sum();
         if count <= room / 2 + 1 {
             return Ok(());
         }
         let found = format!("a file that ends before {count} values of {what} fit");
-        Err(ReadError::new(
-            at,
-            found,
-            "a complete file, or smaller numbers of angles",
-        ))
+        Err(ReadError::new(at, found, "a complete file, or smaller numbers of angles"))
     }
 
     /// Notes a record that starts on the line of the number before it.
@@ -167,12 +141,7 @@ impl<'t> Numbers<'t> {
         if let Some(token) = self.token(warnings) {
             if self.last_line == Some(token.at.line) {
                 let expected = format_args!("{what} to begin on a new line").to_string();
-                warnings.push(
-                    Deviation::RecordStart,
-                    token.at,
-                    quoted(token.text),
-                    expected,
-                );
+                warnings.push(Deviation::RecordStart, token.at, quoted(token.text), expected);
             }
             self.cursor = cursor;
         }
@@ -192,12 +161,7 @@ impl<'t> Numbers<'t> {
                 let mut before = self.cursor;
                 before.advance(&rest[..semicolon]);
                 let expected = "blanks or a comma between numbers";
-                warnings.push(
-                    Deviation::Semicolon,
-                    before.position(),
-                    "a semicolon",
-                    expected,
-                );
+                warnings.push(Deviation::Semicolon, before.position(), "a semicolon", expected);
             }
             if skipped < rest.len() {
                 let rest = &rest[skipped..];
@@ -207,31 +171,20 @@ impl<'t> Numbers<'t> {
                 self.cursor.advance(text);
                 return Some(Token { text, at });
             }
-            self.cursor = Cursor {
-                line: self.cursor.line + 1,
-                byte: 0,
-                characters: 0,
-            };
+            self.cursor = Cursor { line: self.cursor.line + 1, byte: 0, characters: 0 };
         }
         None
     }
 
     /// The place to go on from.
     fn here(&self) -> Position {
-        if self.cursor.line < self.lines.len() {
-            self.cursor.position()
-        } else {
-            self.end()
-        }
+        if self.cursor.line < self.lines.len() { self.cursor.position() } else { self.end() }
     }
 
     /// Behind the last character of the file.
     fn end(&self) -> Position {
         let column = self.lines.last().map_or(1, |line| line.chars().count() + 1);
-        Position {
-            line: self.lines.len().max(1),
-            column,
-        }
+        Position { line: self.lines.len().max(1), column }
     }
 }
 
@@ -242,10 +195,7 @@ impl Cursor {
     }
 
     fn position(&self) -> Position {
-        Position {
-            line: self.line + 1,
-            column: self.characters + 1,
-        }
+        Position { line: self.line + 1, column: self.characters + 1 }
     }
 }
 

@@ -11,10 +11,7 @@ const ROUNDING_DEG: f64 = 1e-3;
 /// Polar angles gamma in radians: ascending within 0 to 180 degrees.
 pub(super) fn gamma_rad(angles: &[Number], warnings: &mut Warnings) -> Result<Vec<f64>, ReadError> {
     check_ascending(angles, "vertical")?;
-    let degrees: Vec<f64> = angles
-        .iter()
-        .map(|angle| snapped(angle.value, 90.0))
-        .collect();
+    let degrees: Vec<f64> = angles.iter().map(|angle| snapped(angle.value, 90.0)).collect();
     for (angle, degrees) in angles.iter().zip(&degrees) {
         if !(0.0..=180.0).contains(degrees) {
             let expected = "vertical angles between 0 and 180 degrees, as type C has them";
@@ -36,23 +33,13 @@ pub(super) fn c_rad(
     warnings: &mut Warnings,
 ) -> Result<(Vec<f64>, Symmetry), ReadError> {
     check_ascending(angles, "horizontal")?;
-    let degrees: Vec<f64> = angles
-        .iter()
-        .map(|angle| snapped(angle.value, 90.0))
-        .collect();
+    let degrees: Vec<f64> = angles.iter().map(|angle| snapped(angle.value, 90.0)).collect();
     let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
     let at = angles[0].at;
     if let Some(far) = angles.iter().find(|angle| angle.value.abs() > 720.0) {
-        return Err(ReadError::new(
-            far.at,
-            far.value,
-            "horizontal angles from 0 to 360 degrees",
-        ));
+        return Err(ReadError::new(far.at, far.value, "horizontal angles from 0 to 360 degrees"));
     }
-    let widest_gap = degrees
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .fold(0.0, f64::max);
+    let widest_gap = degrees.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let span = last - first;
 
     let symmetry = if degrees.len() == 1 {
@@ -75,12 +62,7 @@ pub(super) fn c_rad(
     } else if span > 180.0 && span < 360.0 && 360.0 - span <= 1.5 * widest_gap {
         let found = format_args!("planes that end at {last}").to_string();
         let expected = "a closing plane at 360 (taken to equal the first one)";
-        warnings.push(
-            Deviation::MissingClosingPlane,
-            angles[angles.len() - 1].at,
-            found,
-            expected,
-        );
+        warnings.push(Deviation::MissingClosingPlane, angles[angles.len() - 1].at, found, expected);
         Symmetry::Open
     } else {
         let found = format_args!("horizontal planes from {first} to {last}").to_string();
@@ -92,11 +74,7 @@ pub(super) fn c_rad(
     // Mirrored halves and quarters need a first plane that is one of the luminaire's axes.
     if matches!(symmetry, Symmetry::Quadrant | Symmetry::Bilateral) && first % 90.0 != 0.0 {
         let found = format_args!("horizontal planes from {first} to {last}").to_string();
-        return Err(ReadError::new(
-            at,
-            found,
-            "planes that begin at 0 or 90 degrees",
-        ));
+        return Err(ReadError::new(at, found, "planes that begin at 0 or 90 degrees"));
     }
     if !usual && symmetry != Symmetry::Rotational {
         let found = format_args!("planes from {first} to {last}").to_string();
@@ -107,17 +85,10 @@ pub(super) fn c_rad(
 }
 
 fn check_ascending(angles: &[Number], what: &str) -> Result<(), ReadError> {
-    match angles
-        .windows(2)
-        .find(|pair| pair[1].value <= pair[0].value)
-    {
+    match angles.windows(2).find(|pair| pair[1].value <= pair[0].value) {
         Some(pair) => {
             let found = format!("{} after {}", pair[1].value, pair[0].value);
-            Err(ReadError::new(
-                pair[1].at,
-                found,
-                format_args!("{what} angles in ascending order"),
-            ))
+            Err(ReadError::new(pair[1].at, found, format_args!("{what} angles in ascending order")))
         }
         None => Ok(()),
     }
@@ -126,11 +97,7 @@ fn check_ascending(angles: &[Number], what: &str) -> Result<(), ReadError> {
 /// The angle, or the multiple of `step` that it misses by rounding only.
 fn snapped(degrees: f64, step: f64) -> f64 {
     let near = (degrees / step).round() * step;
-    if (degrees - near).abs() < ROUNDING_DEG {
-        near
-    } else {
-        degrees
-    }
+    if (degrees - near).abs() < ROUNDING_DEG { near } else { degrees }
 }
 
 /// Exact at multiples of 90 degrees.

@@ -27,12 +27,7 @@ pub(super) fn decode<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Cow<'a, st
             utf_16(body, u16::from_be_bytes)
         }
         [0xEF, 0xBB, 0xBF, body @ ..] => {
-            warnings.push(
-                Deviation::ByteOrderMark,
-                START,
-                "a byte order mark",
-                "plain ASCII",
-            );
+            warnings.push(Deviation::ByteOrderMark, START, "a byte order mark", "plain ASCII");
             eight_bit(body, warnings)
         }
         body => eight_bit(body, warnings),
@@ -44,11 +39,8 @@ fn eight_bit<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Cow<'a, str> {
         Ok(text) => Cow::Borrowed(text),
         Err(error) => {
             let text: String = bytes.iter().copied().map(char::from).collect();
-            let before: String = bytes[..error.valid_up_to()]
-                .iter()
-                .copied()
-                .map(char::from)
-                .collect();
+            let before: String =
+                bytes[..error.valid_up_to()].iter().copied().map(char::from).collect();
             let last_line = lines(&before).last().map_or(0, |line| line.chars().count());
             let ended = before.ends_with(['\n', '\r']);
             let at = Position {
@@ -76,11 +68,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
             rest = None;
             return Some(current);
         };
-        let line_end = if current[end..].starts_with("\r\n") {
-            2
-        } else {
-            1
-        };
+        let line_end = if current[end..].starts_with("\r\n") { 2 } else { 1 };
         let tail = &current[end + line_end..];
         rest = (!tail.is_empty()).then_some(tail);
         Some(&current[..end])

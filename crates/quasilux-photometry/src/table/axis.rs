@@ -26,10 +26,7 @@ impl Axis {
             .iter()
             .enumerate()
             .all(|(index, &knot)| (knot - (first + step * index as f64)).abs() < 1e-6 * step);
-        Self {
-            knots,
-            cells_per_rad: even.then_some(step.recip()),
-        }
+        Self { knots, cells_per_rad: even.then_some(step.recip()) }
     }
 
     pub(super) fn knots(&self) -> &[f64] {
@@ -63,10 +60,7 @@ impl Axis {
             None => (self.knots.partition_point(|&knot| knot <= x) - 1).min(last_cell),
         };
         let (start, end) = (self.knots[cell], self.knots[cell + 1]);
-        Place {
-            cell,
-            fraction: (x - start) / (end - start),
-        }
+        Place { cell, fraction: (x - start) / (end - start) }
     }
 }
 
@@ -79,10 +73,7 @@ mod tests {
         let knots: Vec<f64> = (0..=1800).map(|i| f64::from(i) / 1800.0 * 3.1).collect();
         let even = Axis::new(knots.clone());
         assert!(even.cells_per_rad.is_some());
-        let uneven = Axis {
-            knots: knots.clone(),
-            cells_per_rad: None,
-        };
+        let uneven = Axis { knots: knots.clone(), cells_per_rad: None };
         for &knot in &knots {
             for x in [knot.next_down(), knot, knot.next_up()] {
                 assert_eq!(even.place(x), uneven.place(x), "at {x}");
@@ -93,26 +84,8 @@ mod tests {
     #[test]
     fn outside_is_clamped() {
         let axis = Axis::new(vec![0.0, 1.0, 3.0]);
-        assert_eq!(
-            axis.place(-1.0),
-            Place {
-                cell: 0,
-                fraction: 0.0
-            }
-        );
-        assert_eq!(
-            axis.place(9.0),
-            Place {
-                cell: 1,
-                fraction: 1.0
-            }
-        );
-        assert_eq!(
-            axis.place(2.0),
-            Place {
-                cell: 1,
-                fraction: 0.5
-            }
-        );
+        assert_eq!(axis.place(-1.0), Place { cell: 0, fraction: 0.0 });
+        assert_eq!(axis.place(9.0), Place { cell: 1, fraction: 1.0 });
+        assert_eq!(axis.place(2.0), Place { cell: 1, fraction: 0.5 });
     }
 }

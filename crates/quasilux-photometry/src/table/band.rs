@@ -118,11 +118,7 @@ impl Band {
             }
             let newton = x - excess / density;
             let is_newton = newton >= low && newton <= high;
-            let next = if is_newton {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
+            let next = if is_newton { newton } else { 0.5 * (low + high) };
             let step = (next - x).abs();
             x = next;
             // After a Newton step the error is below step^2 over the distance to the nearer end, for
@@ -165,38 +161,17 @@ impl Moments {
             (
                 x * alternating(
                     x2,
-                    [
-                        1.0 / 6.0,
-                        1.0 / 20.0,
-                        1.0 / 42.0,
-                        1.0 / 72.0,
-                        1.0 / 110.0,
-                        1.0 / 156.0,
-                    ],
+                    [1.0 / 6.0, 1.0 / 20.0, 1.0 / 42.0, 1.0 / 72.0, 1.0 / 110.0, 1.0 / 156.0],
                 ),
                 0.5 * x2
                     * alternating(
                         x2,
-                        [
-                            1.0 / 12.0,
-                            1.0 / 30.0,
-                            1.0 / 56.0,
-                            1.0 / 90.0,
-                            1.0 / 132.0,
-                            1.0 / 182.0,
-                        ],
+                        [1.0 / 12.0, 1.0 / 30.0, 1.0 / 56.0, 1.0 / 90.0, 1.0 / 132.0, 1.0 / 182.0],
                     ),
                 x * x2 / 3.0
                     * alternating(
                         x2,
-                        [
-                            1.0 / 10.0,
-                            1.0 / 28.0,
-                            1.0 / 54.0,
-                            1.0 / 88.0,
-                            1.0 / 130.0,
-                            1.0 / 180.0,
-                        ],
+                        [1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0, 1.0 / 130.0, 1.0 / 180.0],
                     ),
             )
         } else {
@@ -204,21 +179,13 @@ impl Moments {
             let half = libm::sin(0.5 * x);
             (sin, 2.0 * half * half, sin - x * cos)
         };
-        Self {
-            sin,
-            versine,
-            s_cos: x * sin - versine,
-            s_sin,
-        }
+        Self { sin, versine, s_cos: x * sin - versine, s_sin }
     }
 }
 
 /// `1 - r0 y (1 - r1 y (1 - ...))`.
 fn alternating(y: f64, ratios: [f64; 6]) -> f64 {
-    ratios
-        .iter()
-        .rev()
-        .fold(1.0, |tail, ratio| 1.0 - ratio * y * tail)
+    ratios.iter().rev().fold(1.0, |tail, ratio| 1.0 - ratio * y * tail)
 }
 
 /// `x` kept [`EDGE_RAD`] inside `start..end`, or halfway where that leaves no room.
@@ -253,14 +220,9 @@ mod tests {
 
     #[test]
     fn integral_agrees_with_quadrature() {
-        for (start, end) in [
-            (0.0, 0.5),
-            (0.3, 2.9),
-            (0.0, PI),
-            (2.0, PI),
-            (1.5, 1.6),
-            (0.0, 0.0017),
-        ] {
+        for (start, end) in
+            [(0.0, 0.5), (0.3, 2.9), (0.0, PI), (2.0, PI), (1.5, 1.6), (0.0, 0.0017)]
+        {
             for (a, b) in [(1.0, 1.0), (0.0, 3.0), (2.0, 0.0), (5.0, 1.0)] {
                 let band = Band::new(start, end, a, b);
                 let lerp = |t: f64| (a * (end - t) + b * (t - start)) / (end - start);
@@ -281,10 +243,7 @@ mod tests {
             for band in [Band::new(0.0, d, 1.0, 2.0), Band::new(PI - d, PI, 2.0, 1.0)] {
                 let width = band.width_rad();
                 let expected = width * width * (1.0 / 6.0 + 2.0 / 3.0);
-                assert!(
-                    (band.integral() / expected - 1.0).abs() < d * d + 1e-7,
-                    "{d}"
-                );
+                assert!((band.integral() / expected - 1.0).abs() < d * d + 1e-7, "{d}");
             }
             let north = Band::new(0.0, d, 1.0, 2.0);
             let expected = d * d * (5.0 / 6.0) - d * d * d * d * (1.0 / 120.0 + 2.0 / 30.0);
@@ -294,13 +253,7 @@ mod tests {
 
     #[test]
     fn quantile_and_fraction_are_inverse() {
-        for (start, end) in [
-            (0.0, 0.001_745),
-            (0.0, PI),
-            (3.0, PI),
-            (1.0, 1.2),
-            (0.2, 3.0),
-        ] {
+        for (start, end) in [(0.0, 0.001_745), (0.0, PI), (3.0, PI), (1.0, 1.2), (0.2, 3.0)] {
             for (a, b) in [(1.0, 1.0), (0.0, 3.0), (2.0, 0.0), (1e-12, 1.0)] {
                 let band = Band::new(start, end, a, b);
                 for i in 0..=1000 {

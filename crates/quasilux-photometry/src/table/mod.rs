@@ -141,10 +141,7 @@ impl SphericalTable {
 
     /// The azimuths of the unfolded grid, ascending over one full turn.
     pub fn phi_rad(&self) -> impl Iterator<Item = f64> {
-        self.phi
-            .knots()
-            .iter()
-            .map(|offset| self.phi_start_rad + offset)
+        self.phi.knots().iter().map(|offset| self.phi_start_rad + offset)
     }
 
     /// The values at both azimuths of a cell, at a place between two parallels.
@@ -161,11 +158,7 @@ impl SphericalTable {
     /// The azimuth as an offset from the first knot, in [0, one turn].
     fn phi_offset(&self, phi_rad: f64) -> f64 {
         let offset = phi_rad - self.phi_start_rad;
-        if (0.0..=TAU).contains(&offset) {
-            offset
-        } else {
-            offset - (offset / TAU).floor() * TAU
-        }
+        if (0.0..=TAU).contains(&offset) { offset } else { offset - (offset / TAU).floor() * TAU }
     }
 }
 

@@ -62,11 +62,7 @@ mod tests {
                 cell.flux_below(cell.theta[1])
             })
             .sum();
-        assert!(
-            (flux - table.integral()).abs() < 1e-12 * flux,
-            "{flux} {}",
-            table.integral()
-        );
+        assert!((flux - table.integral()).abs() < 1e-12 * flux, "{flux} {}", table.integral());
     }
 
     #[test]
@@ -83,17 +79,8 @@ mod tests {
                 })
                 .chain((0..4).map(|column| Cell::of(&table, row, column).flux_below(theta_rad)))
                 .sum();
-            let u = table.invert(
-                Angles {
-                    theta_rad,
-                    phi_rad: 0.3,
-                }
-                .direction(),
-            );
-            assert!(
-                (u[0] - flux / table.integral()).abs() < 1e-12,
-                "at {theta_rad}"
-            );
+            let u = table.invert(Angles { theta_rad, phi_rad: 0.3 }.direction());
+            assert!((u[0] - flux / table.integral()).abs() < 1e-12, "at {theta_rad}");
         }
     }
 }

@@ -34,20 +34,13 @@ impl SphericalTable {
         let row = self.theta.place(theta_rad);
         let phi_rad = self.phi_start_rad + self.sample_phi_offset(row, u[1]);
         let direction = Angles { theta_rad, phi_rad }.direction();
-        Some(DirectionSample {
-            direction,
-            pdf_sr: self.pdf(direction),
-        })
+        Some(DirectionSample { direction, pdf_sr: self.pdf(direction) })
     }
 
     /// Solid angle, sr^-1: the density of [`Self::sample`]; zero where the integral is zero.
     pub fn pdf(&self, direction: DVec3) -> f64 {
         let integral = self.integral();
-        if integral > 0.0 {
-            self.value(direction) / integral
-        } else {
-            0.0
-        }
+        if integral > 0.0 { self.value(direction) / integral } else { 0.0 }
     }
 
     /// The coordinates that [`Self::sample`] turns into `direction`.
@@ -55,22 +48,13 @@ impl SphericalTable {
     /// A direction outside the polar range is first moved to its border.
     pub fn invert(&self, direction: DVec3) -> [f64; 2] {
         let angles = Angles::of(direction);
-        let theta_rad = angles
-            .theta_rad
-            .clamp(self.theta.first(), self.theta.last());
+        let theta_rad = angles.theta_rad.clamp(self.theta.first(), self.theta.last());
         let row = self.theta.place(theta_rad);
         let band = &self.bands[row.cell];
         let below = self.integral_before[row.cell]
             + band.integral() * band.fraction_below(theta_rad).clamp(0.0, 1.0);
-        let u0 = if self.integral() > 0.0 {
-            below / self.integral()
-        } else {
-            0.0
-        };
-        [
-            u0.min(1.0),
-            self.invert_phi_offset(row, self.phi_offset(angles.phi_rad)),
-        ]
+        let u0 = if self.integral() > 0.0 { below / self.integral() } else { 0.0 };
+        [u0.min(1.0), self.invert_phi_offset(row, self.phi_offset(angles.phi_rad))]
     }
 
     fn sample_theta(&self, u: f64) -> f64 {
@@ -103,10 +87,7 @@ impl SphericalTable {
         }
         let Place { cell, fraction } = self.phi.place(offset);
         let (at_start, at_end) = self.cell_edges(row, cell);
-        let (below, above) = (
-            self.row_integral(row, cell),
-            self.row_integral(row, cell + 1),
-        );
+        let (below, above) = (self.row_integral(row, cell), self.row_integral(row, cell + 1));
         let inside_cell = (above - below) * linear_fraction(at_start, at_end, fraction);
         ((below + inside_cell) / total).min(1.0)
     }
@@ -115,11 +96,7 @@ impl SphericalTable {
     fn row_integral(&self, row: Place, knot: usize) -> f64 {
         let columns = self.phi.knots().len();
         let above = row.cell * columns + knot;
-        lerp(
-            self.row_integrals[above],
-            self.row_integrals[above + columns],
-            row.fraction,
-        )
+        lerp(self.row_integrals[above], self.row_integrals[above + columns], row.fraction)
     }
 }
 
@@ -142,11 +119,7 @@ fn step(count: usize, target: f64, before: impl Fn(usize) -> f64) -> usize {
         low
     };
     let beyond = first_beyond(&|sum| sum > target);
-    if beyond < count {
-        beyond
-    } else {
-        first_beyond(&|sum| sum >= before(count))
-    }
+    if beyond < count { beyond } else { first_beyond(&|sum| sum >= before(count)) }
 }
 
 #[cfg(test)]
@@ -156,9 +129,8 @@ mod tests {
     #[test]
     fn a_step_of_height_zero_is_never_taken() {
         let sums = [0.0, 0.0, 1.0, 1.0, 3.0, 3.0];
-        let taken: Vec<usize> = [0.0, 0.5, 1.0, 2.9, 3.0, 4.0]
-            .map(|target| step(5, target, |i| sums[i]))
-            .to_vec();
+        let taken: Vec<usize> =
+            [0.0, 0.5, 1.0, 2.9, 3.0, 4.0].map(|target| step(5, target, |i| sums[i])).to_vec();
         assert_eq!(taken, [1, 1, 3, 3, 3, 3]);
     }
 }

@@ -83,12 +83,8 @@ impl Grid {
         let columns = self.phi_rad.len();
         let start = self.phi_rad[0];
         // Which column of the measured grid stands at each offset of the full one.
-        let measured: Vec<(f64, usize)> = self
-            .phi_rad
-            .iter()
-            .enumerate()
-            .map(|(column, phi)| (phi - start, column))
-            .collect();
+        let measured: Vec<(f64, usize)> =
+            self.phi_rad.iter().enumerate().map(|(column, phi)| (phi - start, column)).collect();
         let full = match self.symmetry {
             Symmetry::Rotational => vec![(0.0, 0), (TAU, 0)],
             Symmetry::Quadrant => mirrored(&mirrored(&measured, FRAC_PI_2), PI),
@@ -137,23 +133,13 @@ impl Grid {
             Symmetry::Open => columns > 1 && span < TAU - ANGLE_TOLERANCE_RAD,
         };
         if !fits {
-            return Err(TableError::Span {
-                span_deg: span / PI * 180.0,
-                symmetry: self.symmetry,
-            });
+            return Err(TableError::Span { span_deg: span / PI * 180.0, symmetry: self.symmetry });
         }
         let expected = rows.saturating_mul(columns);
         if self.values.len() != expected {
-            return Err(TableError::ValueCount {
-                expected,
-                found: self.values.len(),
-            });
+            return Err(TableError::ValueCount { expected, found: self.values.len() });
         }
-        match self
-            .values
-            .iter()
-            .position(|value| !(0.0..=LARGEST_VALUE).contains(value))
-        {
+        match self.values.iter().position(|value| !(0.0..=LARGEST_VALUE).contains(value)) {
             Some(index) => Err(TableError::Value(index)),
             None => Ok(()),
         }
@@ -161,10 +147,7 @@ impl Grid {
 }
 
 fn first_not_ascending(angles: &[f64], least: f64, greatest: f64) -> Option<usize> {
-    if angles
-        .first()
-        .is_none_or(|first| !(least..=greatest).contains(first))
-    {
+    if angles.first().is_none_or(|first| !(least..=greatest).contains(first)) {
         return Some(0);
     }
     let outside = |pair: &[f64]| !(pair[1] > pair[0] && pair[1] <= greatest);
@@ -174,16 +157,8 @@ fn first_not_ascending(angles: &[f64], least: f64, greatest: f64) -> Option<usiz
 /// Columns from offset 0 to `end`, followed by their mirror images from `end` to `2 end`.
 fn mirrored(columns: &[(f64, usize)], end: f64) -> Vec<(f64, usize)> {
     let (last, before) = (columns[columns.len() - 1].1, &columns[..columns.len() - 1]);
-    let images = before
-        .iter()
-        .rev()
-        .map(|&(offset, column)| (2.0 * end - offset, column));
-    before
-        .iter()
-        .copied()
-        .chain([(end, last)])
-        .chain(images)
-        .collect()
+    let images = before.iter().rev().map(|&(offset, column)| (2.0 * end - offset, column));
+    before.iter().copied().chain([(end, last)]).chain(images).collect()
 }
 
 /// The same columns with the last one at exactly one turn.

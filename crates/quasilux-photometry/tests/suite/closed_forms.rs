@@ -6,11 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 #[test]
 fn isotropic_flux_is_four_pi_times_the_intensity() {
-    for theta in [
-        vec![0.0, 180.0],
-        steps(0.0, 5.0, 180.0),
-        steps(0.0, 0.1, 180.0),
-    ] {
+    for theta in [vec![0.0, 180.0], steps(0.0, 5.0, 180.0), steps(0.0, 0.1, 180.0)] {
         let isotropic = table(&theta, &steps(0.0, 45.0, 360.0), Symmetry::None, |_, _| 7.0);
         assert!((isotropic.integral() / (28.0 * PI) - 1.0).abs() < 1e-13);
     }
@@ -20,18 +16,12 @@ fn isotropic_flux_is_four_pi_times_the_intensity() {
 #[test]
 fn lambertian_flux_tends_to_pi_times_the_intensity() {
     for step in [5.0, 1.0, 0.1] {
-        let lambertian = table(
-            &steps(0.0, step, 90.0),
-            &[0.0],
-            Symmetry::Rotational,
-            |t, _| libm::cos(t / 180.0 * PI),
-        );
+        let lambertian = table(&steps(0.0, step, 90.0), &[0.0], Symmetry::Rotational, |t, _| {
+            libm::cos(t / 180.0 * PI)
+        });
         let h = step / 180.0 * PI;
         let error = 1.0 - lambertian.integral() / PI;
-        assert!(
-            (error / (h * h / 12.0) - 1.0).abs() < 0.01,
-            "step {step}: {error:e}"
-        );
+        assert!((error / (h * h / 12.0) - 1.0).abs() < 0.01, "step {step}: {error:e}");
     }
 }
 
@@ -68,11 +58,7 @@ fn brute_force(table: &SphericalTable) -> f64 {
         .map(|ends| {
             let h = (ends[1] - ends[0]) / 400.0;
             let weighted = (0..=400).map(|i| {
-                let weight = if i == 0 || i == 400 {
-                    1.0
-                } else {
-                    2.0 + 2.0 * f64::from(i % 2)
-                };
+                let weight = if i == 0 || i == 400 { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
                 weight * integrand((ends[0] + h * f64::from(i)).min(ends[1]))
             });
             weighted.sum::<f64>() * h / 3.0
@@ -89,10 +75,7 @@ fn azimuths_may_be_turns_off() {
             let phi_rad = TAU * generator.uniform();
             let value = table.value_at(Angles { theta_rad, phi_rad });
             for turned in [phi_rad - TAU, phi_rad + TAU] {
-                let other = table.value_at(Angles {
-                    theta_rad,
-                    phi_rad: turned,
-                });
+                let other = table.value_at(Angles { theta_rad, phi_rad: turned });
                 assert!((value - other).abs() <= 1e-9 * value.max(1.0), "{name}");
             }
         }
@@ -110,11 +93,7 @@ fn intensity_of_a_file_is_bilinear_in_its_angles() {
         // gamma, C, intensity: multiplier 2 x ballast factor 0.5 = 1.
         (0.0, 0.0, 100.0),
         (15.0, 45.0, 0.25 * (100.0 + 100.0 + 50.0 + 80.0)),
-        (
-            45.0,
-            135.0,
-            0.5 * (0.75 * 80.0 + 0.25 * 20.0) + 0.5 * (0.75 * 60.0),
-        ),
+        (45.0, 135.0, 0.5 * (0.75 * 80.0 + 0.25 * 20.0) + 0.5 * (0.75 * 60.0)),
         (60.0, 270.0, 0.25 * (60.0 + 0.0 + 50.0 + 10.0)),
         (90.0, 10.0, 10.0 + 10.0 / 90.0 * 10.0),
         (91.0, 10.0, 0.0),

@@ -54,11 +54,7 @@ fn published_files_sample_their_own_density() {
             let error = (back[0] - u[0]).abs().max((back[1] - u[1]).abs());
             assert!(error < 1e-9, "{}: {u:?} became {back:?}", name(file));
             let flux_lm = photometry.intensity_cd(sample.direction) / sample.pdf_sr;
-            assert!(
-                (flux_lm / photometry.flux_lm() - 1.0).abs() < 1e-14,
-                "{}",
-                name(file)
-            );
+            assert!((flux_lm / photometry.flux_lm() - 1.0).abs() < 1e-14, "{}", name(file));
         }
     }
 }
@@ -77,39 +73,25 @@ fn published_fluxes_differ_only_with_a_warning() {
             continue;
         };
         let differs = (read.photometry.flux_lm() / rated_flux_lm - 1.0).abs() > 0.01;
-        let warned = read
-            .warnings
-            .iter()
-            .any(|w| w.deviation() == Deviation::FluxDiffers);
+        let warned = read.warnings.iter().any(|w| w.deviation() == Deviation::FluxDiffers);
         assert_eq!(differs, warned, "{}", name(file));
     }
 }
 
 fn name(file: &Path) -> String {
-    file.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
+    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// The published files in the order of their names, or `None`, with a line that says so.
 pub(crate) fn published_files() -> Option<Vec<PathBuf>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ies");
     let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!(
-            "no published IES files at {}: nothing compared",
-            folder.display()
-        );
+        println!("no published IES files at {}: nothing compared", folder.display());
         return None;
     };
-    let is_ies = |path: &PathBuf| {
-        path.extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("ies"))
-    };
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.unwrap().path())
-        .filter(is_ies)
-        .collect();
+    let is_ies = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ies"));
+    let mut files: Vec<PathBuf> =
+        entries.map(|entry| entry.unwrap().path()).filter(is_ies).collect();
     files.sort();
     Some(files)
 }

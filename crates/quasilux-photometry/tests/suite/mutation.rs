@@ -34,12 +34,7 @@ fn damaged_files_never_panic() {
     let mut seeds = vec![OWN.to_vec()];
     let small = |bytes: &Vec<u8>| bytes.len() < 3000;
     if let Some(files) = published_files() {
-        seeds.extend(
-            files
-                .iter()
-                .map(|file| std::fs::read(file).unwrap())
-                .filter(small),
-        );
+        seeds.extend(files.iter().map(|file| std::fs::read(file).unwrap()).filter(small));
     }
     let mut generator = Generator(12);
     let (mut read, mut refused) = (0, 0);
@@ -63,14 +58,8 @@ fn damaged_files_never_panic() {
             }
             Err(error) => {
                 refused += 1;
-                assert!(
-                    error.line() > 0 && error.line() <= bytes.len() + 1,
-                    "{error}"
-                );
-                assert!(
-                    error.column() > 0 && error.to_string().len() < 400,
-                    "{error}"
-                );
+                assert!(error.line() > 0 && error.line() <= bytes.len() + 1, "{error}");
+                assert!(error.column() > 0 && error.to_string().len() < 400, "{error}");
             }
         }
     }

@@ -13,10 +13,7 @@ fn read(text: &str) -> Read {
 }
 
 fn deviations(read: &Read) -> Vec<Deviation> {
-    read.warnings
-        .iter()
-        .map(|warning| warning.deviation())
-        .collect()
+    read.warnings.iter().map(|warning| warning.deviation()).collect()
 }
 
 #[test]
@@ -70,11 +67,7 @@ fn symmetries_follow_the_span_of_the_planes() {
         ("0 90 180", Symmetry::Bilateral, None),
         ("90 180 270", Symmetry::Bilateral, None),
         ("0 180 360", Symmetry::None, None),
-        (
-            "0 90 180 270",
-            Symmetry::Open,
-            Some(Deviation::MissingClosingPlane),
-        ),
+        ("0 90 180 270", Symmetry::Open, Some(Deviation::MissingClosingPlane)),
         ("-90 0 90", Symmetry::Bilateral, Some(Deviation::FirstPlane)),
         ("-180 0 180", Symmetry::None, Some(Deviation::FirstPlane)),
         ("45", Symmetry::Rotational, Some(Deviation::SinglePlane)),
@@ -119,11 +112,7 @@ fn each_deviation_is_tolerated_and_named() {
         (Deviation::VerticalRange, "0 180", "0 170"),
         (Deviation::SinglePlane, "\n0\n", "\n30\n"),
         (Deviation::NegativeCandela, "100 100", "100 -0.1"),
-        (
-            Deviation::TrailingText,
-            "100 100\n",
-            "100 100\nthe end of it\n",
-        ),
+        (Deviation::TrailingText, "100 100\n", "100 100\nthe end of it\n"),
         (Deviation::NoLight, "100 100", "0 0"),
         (Deviation::FluxDiffers, "1 -1 1", "1 1000 1"),
     ];
@@ -134,10 +123,7 @@ fn each_deviation_is_tolerated_and_named() {
         assert_eq!(deviations(&read), [*deviation], "{to:?}");
     }
     let latin_1 = good.replace("TILT", "[LAMP] 30x\nTILT").into_bytes();
-    let latin_1: Vec<u8> = latin_1
-        .iter()
-        .map(|&b| if b == b'x' { 0xB0 } else { b })
-        .collect();
+    let latin_1: Vec<u8> = latin_1.iter().map(|&b| if b == b'x' { 0xB0 } else { b }).collect();
     let read = read_ies(&latin_1).unwrap();
     assert_eq!(deviations(&read), [Deviation::Encoding]);
     assert_eq!(read.photometry.facts().keyword("LAMP"), Some("30\u{B0}"));
@@ -181,22 +167,12 @@ fn refusals_say_where_and_what() {
         ("1 1 10", "1 1 1e999", 4, 5, "finite"),
         ("0 180", "0 0", 5, 3, "ascending"),
         ("0 180", "0 190", 5, 3, "between 0 and 180"),
-        (
-            "100 100",
-            "100",
-            7,
-            4,
-            "candela value 2 of 2 in plane 1 of 1",
-        ),
+        ("100 100", "100", 7, 4, "candela value 2 of 2 in plane 1 of 1"),
         ("100 100", "100 1oo", 7, 5, "\"1oo\""),
     ];
     for (from, to, line, column, message) in cases {
         let error = read_ies(good.replacen(from, to, 1).as_bytes()).unwrap_err();
-        assert_eq!(
-            (error.line(), error.column()),
-            (*line, *column),
-            "{to:?}: {error}"
-        );
+        assert_eq!((error.line(), error.column()), (*line, *column), "{to:?}: {error}");
         assert!(error.to_string().contains(message), "{to:?}: {error}");
     }
     assert_eq!(read_ies(b"").unwrap_err().line(), 1);
@@ -210,9 +186,7 @@ fn refusals_say_where_and_what() {
 fn a_file_may_be_one_long_line() {
     let (verticals, planes) = (400, 1000);
     let angles = |count: usize, last: f64| -> String {
-        (0..count)
-            .map(|i| format!("{} ", last * i as f64 / (count - 1) as f64))
-            .collect()
+        (0..count).map(|i| format!("{} ", last * i as f64 / (count - 1) as f64)).collect()
     };
     let candela = "100 ".repeat(verticals * planes);
     let text = format!(

@@ -32,19 +32,10 @@ fn every_sample_has_light_and_unit_length() {
         for u0 in [0.0, 1e-300, 1e-18, 0.25, 0.5, 0.75, below_1, 1.0] {
             for u1 in [0.0, 1e-300, 1e-18, 0.25, 0.5, 0.75, below_1, 1.0] {
                 let sample = table.sample([u0, u1]).unwrap();
-                assert!(
-                    sample.pdf_sr > 0.0 && sample.pdf_sr.is_finite(),
-                    "{name} {u0} {u1}"
-                );
-                assert!(
-                    (sample.direction.length() - 1.0).abs() < 1e-15,
-                    "{name} {u0} {u1}"
-                );
+                assert!(sample.pdf_sr > 0.0 && sample.pdf_sr.is_finite(), "{name} {u0} {u1}");
+                assert!((sample.direction.length() - 1.0).abs() < 1e-15, "{name} {u0} {u1}");
                 let weight = table.value(sample.direction) / sample.pdf_sr;
-                assert!(
-                    (weight / table.integral() - 1.0).abs() < 1e-15,
-                    "{name}: zero variance"
-                );
+                assert!((weight / table.integral() - 1.0).abs() < 1e-15, "{name}: zero variance");
             }
         }
     }
@@ -55,11 +46,7 @@ fn a_dark_table_has_no_directions() {
     let dark = table(&[0.0, 90.0], &[0.0], Symmetry::Rotational, |_, _| 0.0);
     assert_eq!(dark.sample([0.5, 0.5]), None);
     assert_eq!(dark.pdf(DVec3::Z), 0.0);
-    assert!(
-        dark.invert(DVec3::X)
-            .iter()
-            .all(|u| (0.0..=1.0).contains(u))
-    );
+    assert!(dark.invert(DVec3::X).iter().all(|u| (0.0..=1.0).contains(u)));
 }
 
 /// Central differences of half-width 1e-6 err by about 1e-9 relative; the bound finds a density
@@ -70,18 +57,14 @@ fn density_is_the_inverse_of_the_jacobian() {
         let mut generator = Generator(2);
         let (mut compared, mut drawn, step) = (0, 0, 1e-6);
         while compared < 500 {
-            let u = [
-                0.01 + 0.98 * generator.uniform(),
-                0.01 + 0.98 * generator.uniform(),
-            ];
+            let u = [0.01 + 0.98 * generator.uniform(), 0.01 + 0.98 * generator.uniform()];
             let direction = |u| table.sample(u).unwrap().direction;
             // A difference across a border of the grid is not a derivative.
             let same_cell = cell(&table, direction([u[0] - step, u[1] - step]))
                 == cell(&table, direction([u[0] + step, u[1] + step]));
-            let at_pole = Angles::of(direction(u))
-                .theta_rad
-                .min(PI - Angles::of(direction(u)).theta_rad)
-                < 1e-3;
+            let at_pole =
+                Angles::of(direction(u)).theta_rad.min(PI - Angles::of(direction(u)).theta_rad)
+                    < 1e-3;
             if same_cell && !at_pole {
                 let stretch = sphere_jacobian(|u| direction(u).to_array(), u, step);
                 let product = stretch * table.sample(u).unwrap().pdf_sr;
@@ -89,10 +72,7 @@ fn density_is_the_inverse_of_the_jacobian() {
                 compared += 1;
             }
             drawn += 1;
-            assert!(
-                drawn < 5000,
-                "{name}: only {compared} places off the borders"
-            );
+            assert!(drawn < 5000, "{name}: only {compared} places off the borders");
         }
     }
 }
@@ -113,26 +93,13 @@ fn neighbours_stay_neighbours() {
 #[test]
 fn chi_square_rejects_a_density_two_percent_wrong() {
     let right = |t: f64, _: f64| 100.0 + t;
-    let wrong = |t: f64, p: f64| {
-        right(t, p)
-            * if (90.0..270.0).contains(&p) {
-                1.02
-            } else {
-                1.0
-            }
-    };
+    let wrong = |t: f64, p: f64| right(t, p) * if (90.0..270.0).contains(&p) { 1.02 } else { 1.0 };
     let (theta, phi) = (steps(0.0, 10.0, 180.0), steps(0.0, 10.0, 360.0));
     let right = table(&theta, &phi, Symmetry::None, right);
     let wrong = table(&theta, &phi, Symmetry::None, wrong);
     let level = sidak(SIGNIFICANCE, 10);
-    assert!(
-        chi_square(&right, &wrong, 3) < level,
-        "a wrong density passed"
-    );
-    assert!(
-        chi_square(&right, &right, 3) > level,
-        "the right density failed"
-    );
+    assert!(chi_square(&right, &wrong, 3) < level, "a wrong density passed");
+    assert!(chi_square(&right, &right, 3) > level, "the right density failed");
 }
 
 /// Seed 4, 2^20 samples and about 200 cells a table, 0.1 % for the family: finds a density 2 %
@@ -160,10 +127,7 @@ fn chi_square(sampled: &SphericalTable, expected: &SphericalTable, seed: u64) ->
     let angles = |u| Angles::of(sampled.sample(u).unwrap().direction);
     let quantiles = |bins: usize| (1..bins).map(move |i| i as f64 / bins as f64);
     let thetas = quantiles(THETA_BINS).map(|u| angles([u, 0.5]).theta_rad);
-    let ends = [
-        sampled.theta_rad()[0],
-        sampled.theta_rad()[sampled.theta_rad().len() - 1],
-    ];
+    let ends = [sampled.theta_rad()[0], sampled.theta_rad()[sampled.theta_rad().len() - 1]];
     let theta_edges = sorted(thetas.chain(ends).collect());
     let phis = quantiles(PHI_BINS).map(|u| angles([0.5, u]).phi_rad.rem_euclid(TAU));
     let phi_edges = sorted(phis.chain([0.0, TAU]).collect());
@@ -173,11 +137,8 @@ fn chi_square(sampled: &SphericalTable, expected: &SphericalTable, seed: u64) ->
     for _ in 0..SAMPLES {
         let u = [generator.uniform(), generator.uniform()];
         let angles = Angles::of(sampled.sample(u).unwrap().direction);
-        let theta = (theta_edges
-            .partition_point(|&e| e <= angles.theta_rad)
-            .max(1)
-            - 1)
-        .min(THETA_BINS - 1);
+        let theta = (theta_edges.partition_point(|&e| e <= angles.theta_rad).max(1) - 1)
+            .min(THETA_BINS - 1);
         let phi = angles.phi_rad.rem_euclid(TAU);
         let phi = (phi_edges.partition_point(|&e| e <= phi) - 1).min(PHI_BINS - 1);
         observed[theta * PHI_BINS + phi] += 1;
@@ -209,14 +170,8 @@ fn chi_square(sampled: &SphericalTable, expected: &SphericalTable, seed: u64) ->
 /// form.
 fn integral_over(table: &SphericalTable, theta: [f64; 2], phi: [f64; 2]) -> f64 {
     let panels = |ends: [f64; 2], knots: &[f64]| -> Vec<[f64; 2]> {
-        let inside = knots
-            .iter()
-            .copied()
-            .filter(|k| *k > ends[0] + 1e-12 && *k < ends[1] - 1e-12);
-        let mut edges: Vec<f64> = std::iter::once(ends[0])
-            .chain(inside)
-            .chain([ends[1]])
-            .collect();
+        let inside = knots.iter().copied().filter(|k| *k > ends[0] + 1e-12 && *k < ends[1] - 1e-12);
+        let mut edges: Vec<f64> = std::iter::once(ends[0]).chain(inside).chain([ends[1]]).collect();
         edges.sort_by(f64::total_cmp);
         edges.windows(2).map(|pair| [pair[0], pair[1]]).collect()
     };
@@ -229,10 +184,7 @@ fn integral_over(table: &SphericalTable, theta: [f64; 2], phi: [f64; 2]) -> f64 
             let theta_rad = 0.5 * (t0 + t1) + 0.5 * (t1 - t0) * x;
             for &[p0, p1] in &phi_panels {
                 // Linear in phi: the midpoint is exact.
-                let value = table.value_at(Angles {
-                    theta_rad,
-                    phi_rad: 0.5 * (p0 + p1),
-                });
+                let value = table.value_at(Angles { theta_rad, phi_rad: 0.5 * (p0 + p1) });
                 sum += 0.5 * (t1 - t0) * wx * (p1 - p0) * value * libm::sin(theta_rad);
             }
         }
@@ -255,9 +207,7 @@ fn cell(table: &SphericalTable, direction: DVec3) -> [usize; 2] {
     let first = table.phi_rad().next().unwrap_or_default();
     let phi_rad = first + (angles.phi_rad - first).rem_euclid(TAU);
     [
-        table
-            .theta_rad()
-            .partition_point(|&knot| knot <= angles.theta_rad),
+        table.theta_rad().partition_point(|&knot| knot <= angles.theta_rad),
         table.phi_rad().filter(|&knot| knot <= phi_rad).count(),
     ]
 }

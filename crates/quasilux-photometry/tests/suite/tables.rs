@@ -58,21 +58,14 @@ pub(crate) fn hard_tables() -> Vec<(&'static str, SphericalTable)> {
     let asymmetric =
         |t: f64, p: f64| 100.0 + t + 3.0 * (p - 100.0).abs() * t / 180.0 + p % 7.0 * 20.0;
     let checkered = |t: f64, p: f64| {
-        if ((t / 30.0) as i64 + (p / 45.0) as i64) % 2 == 0 {
-            0.0
-        } else {
-            5.0
-        }
+        if ((t / 30.0) as i64 + (p / 45.0) as i64) % 2 == 0 { 0.0 } else { 5.0 }
     };
     vec![
         (
             "asymmetric",
-            table(
-                &steps(0.0, 20.0, 180.0),
-                &steps(0.0, 30.0, 360.0),
-                Symmetry::None,
-                |t, p| asymmetric(t, p % 360.0),
-            ),
+            table(&steps(0.0, 20.0, 180.0), &steps(0.0, 30.0, 360.0), Symmetry::None, |t, p| {
+                asymmetric(t, p % 360.0)
+            }),
         ),
         (
             "uneven and open",
@@ -85,32 +78,21 @@ pub(crate) fn hard_tables() -> Vec<(&'static str, SphericalTable)> {
         ),
         (
             "needle",
-            table(
-                &steps(0.0, 1.0, 90.0),
-                &steps(0.0, 5.0, 360.0),
-                Symmetry::None,
-                |t, p| {
-                    if t == 40.0 && p == 120.0 { 1e6 } else { 0.0 }
-                },
-            ),
+            table(&steps(0.0, 1.0, 90.0), &steps(0.0, 5.0, 360.0), Symmetry::None, |t, p| {
+                if t == 40.0 && p == 120.0 { 1e6 } else { 0.0 }
+            }),
         ),
         (
             "zero corners",
-            table(
-                &steps(0.0, 30.0, 180.0),
-                &steps(0.0, 45.0, 360.0),
-                Symmetry::None,
-                |t, p| checkered(t, p % 360.0),
-            ),
+            table(&steps(0.0, 30.0, 180.0), &steps(0.0, 45.0, 360.0), Symmetry::None, |t, p| {
+                checkered(t, p % 360.0)
+            }),
         ),
         (
             "fine at the north pole",
-            table(
-                &steps(0.0, 0.1, 2.0),
-                &steps(0.0, 15.0, 90.0),
-                Symmetry::Quadrant,
-                |t, p| 2.0 - t + p / 90.0,
-            ),
+            table(&steps(0.0, 0.1, 2.0), &steps(0.0, 15.0, 90.0), Symmetry::Quadrant, |t, p| {
+                2.0 - t + p / 90.0
+            }),
         ),
         (
             "fine at the south pole",
@@ -132,25 +114,14 @@ pub(crate) fn hard_tables() -> Vec<(&'static str, SphericalTable)> {
         ),
         (
             "upwards",
-            table(
-                &steps(90.0, 10.0, 180.0),
-                &steps(0.0, 22.5, 360.0),
-                Symmetry::None,
-                |t, p| t - 90.0 + if p % 360.0 < 90.0 { 30.0 } else { 0.0 },
-            ),
+            table(&steps(90.0, 10.0, 180.0), &steps(0.0, 22.5, 360.0), Symmetry::None, |t, p| {
+                t - 90.0 + if p % 360.0 < 90.0 { 30.0 } else { 0.0 }
+            }),
         ),
         (
             "single plane",
-            table(
-                &steps(0.0, 5.0, 180.0),
-                &[0.0],
-                Symmetry::Rotational,
-                |t, _| (t - 60.0).abs(),
-            ),
+            table(&steps(0.0, 5.0, 180.0), &[0.0], Symmetry::Rotational, |t, _| (t - 60.0).abs()),
         ),
-        (
-            "two parallels",
-            table(&[0.0, 180.0], &[0.0], Symmetry::Rotational, |t, _| t),
-        ),
+        ("two parallels", table(&[0.0, 180.0], &[0.0], Symmetry::Rotational, |t, _| t)),
     ]
 }

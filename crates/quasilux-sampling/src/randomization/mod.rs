@@ -21,11 +21,8 @@ pub enum Randomization {
 
 impl Randomization {
     /// Every randomisation by the name that users write.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("none", Self::None),
-        ("shift", Self::Shift),
-        ("owen", Self::Owen),
-    ];
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("none", Self::None), ("shift", Self::Shift), ("owen", Self::Owen)];
 
     /// The name that users write.
     #[must_use]

@@ -27,10 +27,7 @@ impl OwenKey {
     /// The scramble of a key; `key` must be well mixed.
     #[inline]
     pub(crate) const fn new(key: u64) -> Self {
-        Self {
-            first: key,
-            second: mix(key.wrapping_add(GOLDEN)),
-        }
+        Self { first: key, second: mix(key.wrapping_add(GOLDEN)) }
     }
 
     /// The scrambled digits; digit 1 is in bit 0 before and after.
@@ -49,7 +46,5 @@ impl OwenKey {
 /// the nested scramble of the index, most significant bit first.
 #[inline]
 pub(crate) const fn shuffle_index(index: u64, key: u64) -> u64 {
-    OwenKey::new(key)
-        .scramble(index.reverse_bits())
-        .reverse_bits()
+    OwenKey::new(key).scramble(index.reverse_bits()).reverse_bits()
 }

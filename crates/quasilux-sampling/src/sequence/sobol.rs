@@ -48,17 +48,10 @@ impl SobolMatrices {
 
     fn build() -> Self {
         let mut by_nibble = vec![nibble_tables(&identity_columns())];
-        for line in DIRECTION_NUMBERS
-            .lines()
-            .filter(|line| !line.starts_with('#'))
-        {
+        for line in DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#')) {
             by_nibble.push(nibble_tables(&columns(line)));
         }
-        assert_eq!(
-            by_nibble.len(),
-            Self::DIMENSIONS as usize,
-            "rows of the direction numbers"
-        );
+        assert_eq!(by_nibble.len(), Self::DIMENSIONS as usize, "rows of the direction numbers");
         Self { by_nibble }
     }
 }
@@ -72,16 +65,9 @@ fn identity_columns() -> [u64; 64] {
 /// m_s`: v_k = m_k 2^(64 - k) for k <= s, and then v_k = a_1 v_(k-1) + .. + a_(s-1) v_(k-s+1) +
 /// v_(k-s) + v_(k-s) / 2^s with carry-less sums.
 fn columns(line: &str) -> [u64; 64] {
-    let mut numbers = line.split(' ').map(|field| {
-        field
-            .parse::<u64>()
-            .expect("direction numbers are integers")
-    });
-    let mut next = || {
-        numbers
-            .next()
-            .expect("a line of direction numbers is d s a m_1 .. m_s")
-    };
+    let mut numbers =
+        line.split(' ').map(|field| field.parse::<u64>().expect("direction numbers are integers"));
+    let mut next = || numbers.next().expect("a line of direction numbers is d s a m_1 .. m_s");
     let _dimension = next();
     let degree = next() as usize;
     let inner_coefficients = next();
@@ -118,26 +104,19 @@ mod tests {
 
     /// The definition, one bit at a time.
     fn slow_digits(columns: &[u64; 64], index: u64) -> u64 {
-        let product = (0..64)
-            .filter(|k| (index >> k) & 1 == 1)
-            .fold(0, |sum, k| sum ^ columns[k]);
+        let product = (0..64).filter(|k| (index >> k) & 1 == 1).fold(0, |sum, k| sum ^ columns[k]);
         product.reverse_bits()
     }
 
     #[test]
     fn tables_equal_the_bitwise_definition() {
         let matrices = SobolMatrices::get();
-        let lines = DIRECTION_NUMBERS
-            .lines()
-            .filter(|line| !line.starts_with('#'));
+        let lines = DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#'));
         for (line, dimension) in lines.zip(1..) {
             let columns = columns(line);
             for step in 0..64 {
                 let index = crate::hash::mix(step) >> step;
-                assert_eq!(
-                    matrices.digits(index, dimension),
-                    slow_digits(&columns, index)
-                );
+                assert_eq!(matrices.digits(index, dimension), slow_digits(&columns, index));
             }
         }
     }
@@ -145,16 +124,9 @@ mod tests {
     /// The triangular form makes every coordinate alone a (0, m, 1)-net for each m up to 64.
     #[test]
     fn matrices_are_unit_upper_triangular() {
-        for line in DIRECTION_NUMBERS
-            .lines()
-            .filter(|line| !line.starts_with('#'))
-        {
+        for line in DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#')) {
             for (k, column) in columns(line).iter().enumerate() {
-                assert_eq!(
-                    column.trailing_zeros() as usize,
-                    63 - k,
-                    "column {k} of line {line}"
-                );
+                assert_eq!(column.trailing_zeros() as usize, 63 - k, "column {k} of line {line}");
             }
         }
     }

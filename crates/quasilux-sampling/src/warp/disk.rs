@@ -25,11 +25,7 @@ pub fn sample_disk(u: [f64; 2]) -> [f64; 2] {
 /// Density of [`sample_disk`] with respect to area (per square radius).
 #[must_use]
 pub fn pdf_disk(point: [f64; 2]) -> f64 {
-    if point[0] * point[0] + point[1] * point[1] <= 1.0 {
-        FRAC_1_PI
-    } else {
-        0.0
-    }
+    if point[0] * point[0] + point[1] * point[1] <= 1.0 { FRAC_1_PI } else { 0.0 }
 }
 
 /// The coordinates that [`sample_disk`] maps to `point`, for area.
@@ -40,16 +36,10 @@ pub fn invert_disk(point: [f64; 2]) -> [f64; 2] {
     let phi_rad = libm::atan2(y, x);
     let (a, b) = if x.abs() > y.abs() {
         let centre_rad = if x > 0.0 { 0.0 } else { PI.copysign(y) };
-        (
-            r.copysign(x),
-            (phi_rad - centre_rad) * 2.0 * FRAC_2_PI * r.copysign(x),
-        )
+        (r.copysign(x), (phi_rad - centre_rad) * 2.0 * FRAC_2_PI * r.copysign(x))
     } else {
         let centre_rad = FRAC_PI_2.copysign(y);
-        (
-            (centre_rad - phi_rad) * 2.0 * FRAC_2_PI * r.copysign(y),
-            r.copysign(y),
-        )
+        ((centre_rad - phi_rad) * 2.0 * FRAC_2_PI * r.copysign(y), r.copysign(y))
     };
     [unit(0.5 * (a + 1.0)), unit(0.5 * (b + 1.0))]
 }

@@ -22,11 +22,7 @@ pub fn pdf_uniform_sphere(_direction: [f64; 3]) -> f64 {
 #[must_use]
 pub fn invert_uniform_sphere(direction: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = direction;
-    let depth = if z > 0.0 {
-        (x * x + y * y) / (1.0 + z)
-    } else {
-        1.0 - z
-    };
+    let depth = if z > 0.0 { (x * x + y * y) / (1.0 + z) } else { 1.0 - z };
     [unit(0.5 * depth), invert_azimuth(x, y)]
 }
 

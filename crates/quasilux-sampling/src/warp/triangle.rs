@@ -9,11 +9,8 @@ use super::unit;
 /// Barycentric coordinates of a point of a triangle, uniform in area.
 #[must_use]
 pub fn sample_triangle(u: [f64; 2]) -> [f64; 3] {
-    let [b0, b1] = if u[1] > u[0] {
-        [0.5 * u[0], u[1] - 0.5 * u[0]]
-    } else {
-        [u[0] - 0.5 * u[1], 0.5 * u[1]]
-    };
+    let [b0, b1] =
+        if u[1] > u[0] { [0.5 * u[0], u[1] - 0.5 * u[0]] } else { [u[0] - 0.5 * u[1], 0.5 * u[1]] };
     [b0, b1, (1.0 - b0 - b1).max(0.0)]
 }
 
@@ -27,9 +24,5 @@ pub fn pdf_triangle(area_m2: f64) -> f64 {
 #[must_use]
 pub fn invert_triangle(barycentric: [f64; 3]) -> [f64; 2] {
     let [b0, b1, _] = barycentric;
-    if b1 > b0 {
-        [unit(2.0 * b0), unit(b0 + b1)]
-    } else {
-        [unit(b0 + b1), unit(2.0 * b1)]
-    }
+    if b1 > b0 { [unit(2.0 * b0), unit(b0 + b1)] } else { [unit(b0 + b1), unit(2.0 * b1)] }
 }

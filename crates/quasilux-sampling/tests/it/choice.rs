@@ -22,22 +22,15 @@ fn rests_are_uniform_and_independent_of_the_choice() {
         by_bool[8 * usize::from(choice.value) + cell(choice.rest, 8)] += 1;
     }
     let positive = |counts: [u64; 64]| -> Vec<u64> {
-        (0..64)
-            .filter(|i| WEIGHTS[i / 8] > 0.0)
-            .map(|i| counts[i])
-            .collect()
+        (0..64).filter(|i| WEIGHTS[i / 8] > 0.0).map(|i| counts[i]).collect()
     };
-    let probabilities: Vec<f64> = (0..64)
-        .map(|i| WEIGHTS[i / 8] / 64.0)
-        .filter(|p| *p > 0.0)
-        .collect();
+    let probabilities: Vec<f64> =
+        (0..64).map(|i| WEIGHTS[i / 8] / 64.0).filter(|p| *p > 0.0).collect();
     for counts in [by_table, by_scan] {
         assert!((0..64).all(|i| WEIGHTS[i / 8] > 0.0 || counts[i] == 0));
         assert_distributed(&positive(counts), &probabilities, "entry and rest");
     }
-    let of_bool: Vec<f64> = (0..16)
-        .map(|i| if i < 8 { 0.7 / 8.0 } else { 0.3 / 8.0 })
-        .collect();
+    let of_bool: Vec<f64> = (0..16).map(|i| if i < 8 { 0.7 / 8.0 } else { 0.3 / 8.0 }).collect();
     assert_distributed(&by_bool, &of_bool, "truth and rest");
 }
 
@@ -63,26 +56,17 @@ fn guided_search_equals_the_definition() {
     let points = random(2);
     let weight = |index| {
         let x = points.coordinate(index, 0);
-        if x < 0.2 {
-            0.0
-        } else {
-            libm::exp(70.0 * (x - 1.0))
-        }
+        if x < 0.2 { 0.0 } else { libm::exp(70.0 * (x - 1.0)) }
     };
     let weights: Vec<f64> = (0..1_000_000).map(weight).collect();
     let distribution = Discrete::new(&weights).unwrap();
-    let borders: Vec<f64> = (0..weights.len())
-        .map(|i| distribution.invert(i, 1.0))
-        .collect();
+    let borders: Vec<f64> = (0..weights.len()).map(|i| distribution.invert(i, 1.0)).collect();
     let at_random = (0..100_000).map(|index| points.coordinate(index, 1));
     let on_borders = (0..100_000).flat_map(|index| {
         let border = borders[cell(points.coordinate(index, 2), borders.len())];
         [border.next_down(), border, border.next_up()]
     });
-    for u in at_random
-        .chain(on_borders)
-        .filter(|u| (0.0..1.0).contains(u))
-    {
+    for u in at_random.chain(on_borders).filter(|u| (0.0..1.0).contains(u)) {
         let choice = distribution.choose(u);
         assert!(weights[choice.index] > 0.0 && choice.probability > 0.0);
         let definition = borders.partition_point(|border| *border <= u);
@@ -120,43 +104,24 @@ fn what_is_no_distribution_is_refused() {
     ];
     for weights in refused {
         assert!(Discrete::new(weights).is_none(), "{weights:?}");
-        assert!(
-            choose_weights(0.5, weights.iter().copied()).is_none(),
-            "{weights:?}"
-        );
+        assert!(choose_weights(0.5, weights.iter().copied()).is_none(), "{weights:?}");
     }
 }
 
 #[test]
 fn extremes_are_chosen_without_panic() {
     let tiny = f64::from_bits(1);
-    for weights in [
-        &[tiny][..],
-        &[tiny, 0.0, tiny],
-        &[0.0, f64::MAX, 0.0],
-        &[1e-300, 1.0, 1e-300],
-    ] {
+    for weights in [&[tiny][..], &[tiny, 0.0, tiny], &[0.0, f64::MAX, 0.0], &[1e-300, 1.0, 1e-300]]
+    {
         let distribution = Discrete::new(weights).unwrap();
-        for u in [
-            0.0,
-            tiny,
-            0.5,
-            1.0 - f64::EPSILON / 2.0,
-            1.0,
-            2.0,
-            -1.0,
-            f64::INFINITY,
-        ] {
+        for u in [0.0, tiny, 0.5, 1.0 - f64::EPSILON / 2.0, 1.0, 2.0, -1.0, f64::INFINITY] {
             let scan = choose_weights(u, weights.iter().copied()).unwrap();
             for choice in [distribution.choose(u), scan] {
                 assert!(weights[choice.index] > 0.0, "u = {u}, {weights:?}");
                 assert!((0.0..1.0).contains(&choice.rest));
             }
         }
-        let _ = (
-            distribution.choose(f64::NAN),
-            choose_weights(f64::NAN, weights.iter().copied()),
-        );
+        let _ = (distribution.choose(f64::NAN), choose_weights(f64::NAN, weights.iter().copied()));
     }
 }
 
@@ -165,16 +130,10 @@ fn choose_bool_is_total() {
     let below_one = 1.0 - f64::EPSILON / 2.0;
     for u in [0.0, 1e-300, 0.5, below_one] {
         for never in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            assert_eq!(
-                (choose_bool(u, never).value, choose_bool(u, never).rest),
-                (false, u)
-            );
+            assert_eq!((choose_bool(u, never).value, choose_bool(u, never).rest), (false, u));
         }
         for always in [1.0, 2.0, f64::INFINITY] {
-            assert_eq!(
-                (choose_bool(u, always).value, choose_bool(u, always).rest),
-                (true, u)
-            );
+            assert_eq!((choose_bool(u, always).value, choose_bool(u, always).rest), (true, u));
         }
         for p_true in [1e-300, 0.5, below_one] {
             assert!((0.0..1.0).contains(&choose_bool(u, p_true).rest));

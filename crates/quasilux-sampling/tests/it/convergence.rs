@@ -7,9 +7,7 @@ use crate::support::{assert_mean, mean_and_error};
 /// Smooth in four dimensions, with integral 1.
 fn integrand(x: [f64; 4]) -> f64 {
     let normalisation = 1.0 - libm::exp(-1.0);
-    x.into_iter()
-        .map(|x| libm::exp(-x) / normalisation)
-        .product()
+    x.into_iter().map(|x| libm::exp(-x) / normalisation).product()
 }
 
 fn mean(points: &PointSet, count: u64) -> f64 {
@@ -32,16 +30,10 @@ fn error_slope(sequence: Sequence, randomization: Randomization) -> f64 {
         })
         .collect();
     let n = errors.len() as f64;
-    let (sum_x, sum_y) = errors
-        .iter()
-        .fold((0.0, 0.0), |(x, y), e| (x + e.0, y + e.1));
+    let (sum_x, sum_y) = errors.iter().fold((0.0, 0.0), |(x, y), e| (x + e.0, y + e.1));
     let (mean_x, mean_y) = (sum_x / n, sum_y / n);
     let covariance: f64 = errors.iter().map(|e| (e.0 - mean_x) * (e.1 - mean_y)).sum();
-    covariance
-        / errors
-            .iter()
-            .map(|e| (e.0 - mean_x) * (e.0 - mean_x))
-            .sum::<f64>()
+    covariance / errors.iter().map(|e| (e.0 - mean_x) * (e.0 - mean_x)).sum::<f64>()
 }
 
 /// The standard error of a slope is about 0.015: seven errors, each known to 13 %.
@@ -67,19 +59,10 @@ fn randomised_means_are_unbiased() {
     ];
     for (sequence, randomization) in kinds {
         let means: Vec<f64> = (0..1000)
-            .map(|seed| {
-                mean(
-                    &PointSet::new(sequence, randomization, stream_key(seed, 1, 2)),
-                    256,
-                )
-            })
+            .map(|seed| mean(&PointSet::new(sequence, randomization, stream_key(seed, 1, 2)), 256))
             .collect();
         let (mean, error) = mean_and_error(&means);
-        println!(
-            "{} {}: mean {mean} +- {error:e}",
-            sequence.name(),
-            randomization.name()
-        );
+        println!("{} {}: mean {mean} +- {error:e}", sequence.name(), randomization.name());
         assert_mean(mean, 1.0, error, "mean over seeds");
     }
 }

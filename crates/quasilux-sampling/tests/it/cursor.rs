@@ -8,15 +8,8 @@ use crate::support::sobol;
 fn hands_out_coordinates_in_order() {
     let points = sobol(Randomization::Owen, 1);
     let mut cursor = SampleCursor::new(&points, 77);
-    let coordinates = [
-        cursor.next_1d(),
-        cursor.next_2d()[0],
-        cursor.clone().next_1d(),
-    ];
-    assert_eq!(
-        coordinates,
-        [0, 1, 3].map(|dimension| points.coordinate(77, dimension))
-    );
+    let coordinates = [cursor.next_1d(), cursor.next_2d()[0], cursor.clone().next_1d()];
+    assert_eq!(coordinates, [0, 1, 3].map(|dimension| points.coordinate(77, dimension)));
     assert_eq!((cursor.used(), cursor.dimension()), (3, 3));
 }
 

@@ -29,17 +29,11 @@ fn neighbours_are_independent() {
     type Neighbour<'a> = (&'a str, &'a dyn Fn(u64) -> f64);
     let neighbours: [Neighbour<'_>; 6] = [
         ("next index", &|index| here.coordinate(index + 1, 3)),
-        ("index + 2^32", &|index| {
-            here.coordinate(index + (1 << 32), 3)
-        }),
+        ("index + 2^32", &|index| here.coordinate(index + (1 << 32), 3)),
         ("next dimension", &|index| here.coordinate(index, 4)),
-        ("dimension + 2^16", &|index| {
-            here.coordinate(index, 3 + (1 << 16))
-        }),
+        ("dimension + 2^16", &|index| here.coordinate(index, 3 + (1 << 16))),
         ("next key", &|index| next_key.coordinate(index, 3)),
-        ("next index and dimension", &|index| {
-            here.coordinate(index + 1, 4)
-        }),
+        ("next index and dimension", &|index| here.coordinate(index + 1, 4)),
     ];
     for (name, neighbour) in neighbours {
         let mut counts = vec![0; 64 * 64];

@@ -5,11 +5,8 @@ use quasilux_sampling::{Randomization, Sequence};
 use crate::support::{cell, sobol};
 
 const GOLDEN: &str = include_str!("golden/sobol_scipy.txt");
-const RANDOMIZATIONS: [Randomization; 3] = [
-    Randomization::None,
-    Randomization::Shift,
-    Randomization::Owen,
-];
+const RANDOMIZATIONS: [Randomization; 3] =
+    [Randomization::None, Randomization::Shift, Randomization::Owen];
 
 /// Coordinate of point i of scipy, which walks in Gray-code order, in units of 1/4096.
 fn scipy_order(i: u64, dimension: u32) -> u64 {
@@ -25,19 +22,16 @@ fn equals_scipy_for_4096_points_in_50_dimensions() {
         let (head, numbers) = line.split_once(": ").expect("a colon");
         let (kind, number) = head.split_once(' ').expect("a kind and a number");
         let number: u32 = number.parse().expect("a number");
-        let numbers: Vec<u64> = numbers
-            .split(' ')
-            .map(|field| field.parse().expect("an integer"))
-            .collect();
+        let numbers: Vec<u64> =
+            numbers.split(' ').map(|field| field.parse().expect("an integer")).collect();
         if kind == "point" {
             let ours: Vec<u64> = (0..50).map(|d| scipy_order(u64::from(number), d)).collect();
             assert_eq!(ours, numbers, "point {number}");
             points += 1;
         } else {
             let fnv = |hash: u64, word: u64| (hash ^ word).wrapping_mul(1_099_511_628_211);
-            let hash = (0..4096)
-                .map(|i| scipy_order(i, number))
-                .fold(14_695_981_039_346_656_037, fnv);
+            let hash =
+                (0..4096).map(|i| scipy_order(i, number)).fold(14_695_981_039_346_656_037, fnv);
             assert_eq!(hash, numbers[0], "dimension {number}");
             hashes += 1;
         }
@@ -86,10 +80,7 @@ fn every_dimension_is_stratified_far_out() {
             for index in offset..offset + 1024 {
                 seen[cell(points.coordinate(index, dimension), 1024)] = true;
             }
-            assert!(
-                seen.iter().all(|seen| *seen),
-                "dimension {dimension}, {randomization:?}"
-            );
+            assert!(seen.iter().all(|seen| *seen), "dimension {dimension}, {randomization:?}");
         }
     }
 }
@@ -101,14 +92,9 @@ fn every_dimension_is_stratified_far_out() {
 fn padding_is_independent() {
     for randomization in RANDOMIZATIONS {
         let points = sobol(randomization, 4);
-        for (first, second) in [
-            (0, 1024),
-            (1, 1025),
-            (7, 2055),
-            (1030, 2054),
-            (0, 1025),
-            (1024, 3072),
-        ] {
+        for (first, second) in
+            [(0, 1024), (1, 1025), (7, 2055), (1030, 2054), (0, 1025), (1024, 3072)]
+        {
             let mut counts = [0_u64; 256];
             for index in 0..1 << 14 {
                 let x = cell(points.coordinate(index, first), 16);
@@ -140,15 +126,7 @@ fn extreme_arguments_have_coordinates() {
 
 #[test]
 fn names_are_the_names() {
-    assert!(
-        Sequence::NAMES
-            .iter()
-            .all(|(name, sequence)| *name == sequence.name())
-    );
-    assert!(
-        Randomization::NAMES
-            .iter()
-            .all(|(name, kind)| *name == kind.name())
-    );
+    assert!(Sequence::NAMES.iter().all(|(name, sequence)| *name == sequence.name()));
+    assert!(Randomization::NAMES.iter().all(|(name, kind)| *name == kind.name()));
     assert_eq!(Randomization::NAMES.map(|(_, kind)| kind), RANDOMIZATIONS);
 }

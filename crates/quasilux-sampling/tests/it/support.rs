@@ -6,11 +6,7 @@ pub(crate) const SIGNIFICANCE: f64 = 1e-6;
 
 /// A pseudo-random point set.
 pub(crate) fn random(seed: u64) -> PointSet {
-    PointSet::new(
-        Sequence::Random,
-        Randomization::None,
-        stream_key(seed, 0, 0),
-    )
+    PointSet::new(Sequence::Random, Randomization::None, stream_key(seed, 0, 0))
 }
 
 /// A Sobol' point set.
@@ -33,10 +29,7 @@ pub(crate) fn assert_uniform(counts: &[u64], what: &str) {
 /// Pearson's test of counts against given probabilities.
 pub(crate) fn assert_distributed(counts: &[u64], probabilities: &[f64], what: &str) {
     let p_value = chi_square_p_value(counts, probabilities);
-    assert!(
-        p_value > SIGNIFICANCE,
-        "{what}: chi-square p-value {p_value:e}"
-    );
+    assert!(p_value > SIGNIFICANCE, "{what}: chi-square p-value {p_value:e}");
 }
 
 /// The probability of a statistic at least as large, by the cube-root approximation of Wilson and
@@ -46,10 +39,7 @@ pub(crate) fn chi_square_p_value(counts: &[u64], probabilities: &[f64]) -> f64 {
     let mut statistic = 0.0;
     for (count, probability) in counts.iter().zip(probabilities) {
         let expected = total * probability;
-        assert!(
-            expected >= 5.0,
-            "too few samples: {expected} expected in a cell"
-        );
+        assert!(expected >= 5.0, "too few samples: {expected} expected in a cell");
         let excess = *count as f64 - expected;
         statistic += excess * excess / expected;
     }
@@ -83,9 +73,7 @@ fn upper_tail(z: f64) -> f64 {
 /// the other.
 #[test]
 fn chi_square_rejects_two_percent() {
-    let wrong: Vec<f64> = (0..64)
-        .map(|i| if i < 32 { 1.02 / 64.0 } else { 0.98 / 64.0 })
-        .collect();
+    let wrong: Vec<f64> = (0..64).map(|i| if i < 32 { 1.02 / 64.0 } else { 0.98 / 64.0 }).collect();
     let points = random(1);
     let mut counts = [0; 64];
     for index in 0..1 << 18 {

@@ -84,11 +84,7 @@ fn norm(a: [f64; 3]) -> f64 {
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// 1 / pdf is the area into which the warp stretches the unit of area; central differences.
@@ -107,11 +103,7 @@ fn densities_are_inverse_jacobians() {
             let along_b = difference((warp.sample)([a, b + H]), (warp.sample)([a, b - H]));
             let jacobian = norm(cross(along_a, along_b)) / (4.0 * H * H);
             let product = jacobian * (warp.pdf)((warp.sample)([a, b]));
-            assert!(
-                (product - 1.0).abs() < 1e-5,
-                "{} at {a}, {b}: {product}",
-                warp.name
-            );
+            assert!((product - 1.0).abs() < 1e-5, "{} at {a}, {b}: {product}", warp.name);
         }
     }
 }
@@ -123,30 +115,16 @@ fn inversion_undoes_sampling() {
     let edges = [0.0, f64::from_bits(1), 1e-9, 0.25, 0.5, 0.75, below_one];
     let points = random(2);
     let inside = (0..10_000).map(|index| [0, 1].map(|d| points.coordinate(index, d)));
-    let on_edges = edges
-        .iter()
-        .flat_map(|a| edges.iter().flat_map(move |b| [[*a, *b], [*b, *a]]));
+    let on_edges = edges.iter().flat_map(|a| edges.iter().flat_map(move |b| [[*a, *b], [*b, *a]]));
     for warp in &WARPS {
         for u in inside.clone().chain(on_edges.clone()) {
             let sample = (warp.sample)(u);
-            assert!(
-                (warp.pdf)(sample) > 0.0,
-                "{}: {sample:?} from {u:?}",
-                warp.name
-            );
+            assert!((warp.pdf)(sample) > 0.0, "{}: {sample:?} from {u:?}", warp.name);
             let back = (warp.invert)(sample);
-            assert!(
-                back.iter().all(|u| (0.0..1.0).contains(u)),
-                "{}: {back:?}",
-                warp.name
-            );
+            assert!(back.iter().all(|u| (0.0..1.0).contains(u)), "{}: {back:?}", warp.name);
             let again = (warp.sample)(back);
             let distance = norm(difference(again, sample));
-            assert!(
-                distance < 3e-8,
-                "{}: {sample:?} became {again:?}",
-                warp.name
-            );
+            assert!(distance < 3e-8, "{}: {sample:?} became {again:?}", warp.name);
             if u.iter().all(|u| (1e-6..1.0 - 1e-6).contains(u)) {
                 let worst = (back[0] - u[0]).abs().max((back[1] - u[1]).abs());
                 assert!(worst < 1e-9, "{}: {u:?} became {back:?}", warp.name);
@@ -177,11 +155,7 @@ fn directions_have_unit_length() {
     for warp in WARPS.iter().filter(|warp| warp.name.contains("sphere")) {
         for index in 0..10_000 {
             let direction = (warp.sample)([0, 1].map(|d| points.coordinate(index, d)));
-            assert!(
-                (norm(direction) - 1.0).abs() < 4.0 * f64::EPSILON,
-                "{}",
-                warp.name
-            );
+            assert!((norm(direction) - 1.0).abs() < 4.0 * f64::EPSILON, "{}", warp.name);
         }
     }
 }

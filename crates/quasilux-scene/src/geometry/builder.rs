@@ -110,10 +110,7 @@ impl MeshBuilder {
             Some(first) if first != reflectance => warnings.push(Warning::new(
                 &self.file,
                 None,
-                format!(
-                    "material \"{}\" has another reflectance before: kept",
-                    known.name
-                ),
+                format!("material \"{}\" has another reflectance before: kept", known.name),
             )),
             Some(_) => {}
         }
@@ -126,10 +123,7 @@ impl MeshBuilder {
         material: u32,
         corners: [DVec3; 3],
     ) -> Result<(), TriangleError> {
-        if !corners
-            .iter()
-            .all(|corner| corner.abs().max_element() <= MAX_COORDINATE_M)
-        {
+        if !corners.iter().all(|corner| corner.abs().max_element() <= MAX_COORDINATE_M) {
             return Err(TriangleError::NotFinite);
         }
         if self.total >= MAX_TRIANGLES {
@@ -157,13 +151,10 @@ impl MeshBuilder {
         // Adding zero makes -0 and +0 the same bits.
         let position = turned + DVec3::ZERO;
         let positions = &mut self.geometry.mesh.positions;
-        *self
-            .vertex_of
-            .entry(position.to_array().map(f64::to_bits))
-            .or_insert_with(|| {
-                positions.push(position);
-                (positions.len() - 1) as u32
-            })
+        *self.vertex_of.entry(position.to_array().map(f64::to_bits)).or_insert_with(|| {
+            positions.push(position);
+            (positions.len() - 1) as u32
+        })
     }
 }
 
@@ -184,10 +175,8 @@ impl TriangleError {
 
 /// Whether the height of a triangle is lost in the rounding of its coordinates.
 fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
-    let longest_squared = (b - a)
-        .length_squared()
-        .max((c - b).length_squared())
-        .max((a - c).length_squared());
+    let longest_squared =
+        (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     (b - a).cross(c - a).length() <= 1e-14 * longest_squared
 }
 
@@ -203,10 +192,7 @@ mod tests {
         builder.triangle(object, material, [a, b, c]).unwrap();
         builder.triangle(object, material, [-a, d, b]).unwrap();
         let mesh = &builder.geometry.mesh;
-        assert_eq!(
-            mesh.positions,
-            [DVec3::ZERO, DVec3::X, DVec3::Z, DVec3::NEG_Y]
-        );
+        assert_eq!(mesh.positions, [DVec3::ZERO, DVec3::X, DVec3::Z, DVec3::NEG_Y]);
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 3, 1]]);
     }
 
@@ -214,15 +200,9 @@ mod tests {
     fn triangles_without_area_are_counted_not_kept() {
         let mut builder = MeshBuilder::new(UpAxis::Z);
         let (object, material) = (builder.object("o"), builder.material("m"));
-        builder
-            .triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X * 2.0])
-            .unwrap();
-        builder
-            .triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X])
-            .unwrap();
-        builder
-            .triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::Y * 1e-9])
-            .unwrap();
+        builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X * 2.0]).unwrap();
+        builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X]).unwrap();
+        builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::Y * 1e-9]).unwrap();
         assert_eq!((builder.triangles, builder.dropped), (3, 2));
         let far = builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::NAN]);
         assert_eq!(far, Err(TriangleError::NotFinite));

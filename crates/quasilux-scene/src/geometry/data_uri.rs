@@ -50,9 +50,7 @@ pub(super) fn percent_decoded(uri: &str) -> String {
     let mut rest = uri.as_bytes();
     while let [first, tail @ ..] = rest {
         let hex = tail.get(..2).and_then(|two| std::str::from_utf8(two).ok());
-        let byte = hex
-            .filter(|_| *first == b'%')
-            .and_then(|hex| u8::from_str_radix(hex, 16).ok());
+        let byte = hex.filter(|_| *first == b'%').and_then(|hex| u8::from_str_radix(hex, 16).ok());
         bytes.push(byte.unwrap_or(*first));
         rest = if byte.is_some() { &tail[2..] } else { tail };
     }
@@ -83,14 +81,8 @@ mod tests {
     #[test]
     fn broken_uris_are_refused() {
         assert_eq!(decode("data:text/plain,abc"), Err(DataUriError::NotBase64));
-        assert_eq!(
-            decode("data:;base64,Zm9v!A"),
-            Err(DataUriError::BadCharacter(5))
-        );
-        assert_eq!(
-            decode("data:;base64,Zm9vY"),
-            Err(DataUriError::BadCharacter(5))
-        );
+        assert_eq!(decode("data:;base64,Zm9v!A"), Err(DataUriError::BadCharacter(5)));
+        assert_eq!(decode("data:;base64,Zm9vY"), Err(DataUriError::BadCharacter(5)));
     }
 
     #[test]

@@ -49,10 +49,7 @@ pub(super) fn read(
         let object = builder.object(&name);
         for primitive in mesh.primitives() {
             let material = primitive.material();
-            textured |= material
-                .pbr_metallic_roughness()
-                .base_color_texture()
-                .is_some();
+            textured |= material.pbr_metallic_roughness().base_color_texture().is_some();
             let material = match material_of.get(&material.index()) {
                 Some(&known) => known,
                 None => {
@@ -61,12 +58,7 @@ pub(super) fn read(
                     index
                 }
             };
-            let target = Target {
-                object,
-                material,
-                world_from_node,
-                name: &name,
-            };
+            let target = Target { object, material, world_from_node, name: &name };
             skipped +=
                 gltf_primitive::read(&primitive, &buffers, &target, builder).map_err(error)?;
         }
@@ -78,10 +70,7 @@ pub(super) fn read(
     if textured {
         warn("textures are not read: the base colours are used alone".to_owned());
     }
-    if document
-        .extensions_used()
-        .any(|name| name == "KHR_lights_punctual")
-    {
+    if document.extensions_used().any(|name| name == "KHR_lights_punctual") {
         warn("its lights are not read; lights belong to the project file".to_owned());
     }
     Ok(())
@@ -98,10 +87,8 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
         Gltf::from_slice_without_validation(bytes).map_err(|e| match e {
             ::gltf::Error::Deserialize(json) if !is_binary => LoadError::new(
                 file,
-                (json.line() > 0).then(|| Place {
-                    line: json.line(),
-                    column: json.column().max(1),
-                }),
+                (json.line() > 0)
+                    .then(|| Place { line: json.line(), column: json.column().max(1) }),
                 format!("not a valid glTF file: {json}"),
             ),
             other => error(format!("not a valid glTF file: {other}")),
@@ -130,10 +117,7 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
 fn check_position_indices(json: &::gltf::json::Root) -> Result<(), String> {
     let key = Checked::Valid(Semantic::Positions);
     for (index, mesh) in json.meshes.iter().enumerate() {
-        let positions = mesh
-            .primitives
-            .iter()
-            .filter_map(|p| p.attributes.get(&key));
+        let positions = mesh.primitives.iter().filter_map(|p| p.attributes.get(&key));
         for accessor in positions.map(|accessor| accessor.value()) {
             if accessor >= json.accessors.len() {
                 let count = json.accessors.len();
@@ -149,11 +133,8 @@ fn check_position_indices(json: &::gltf::json::Root) -> Result<(), String> {
 /// Checks lengths of the 12-byte header and of the first chunk [4.4] against the bytes that exist.
 fn check_glb_header(bytes: &[u8]) -> Result<(), String> {
     let word = |at: usize| {
-        let word = bytes
-            .get(at..at + 4)
-            .and_then(|slice| <[u8; 4]>::try_from(slice).ok());
-        word.map(u32::from_le_bytes)
-            .ok_or("the GLB header is cut off; expected 20 bytes")
+        let word = bytes.get(at..at + 4).and_then(|slice| <[u8; 4]>::try_from(slice).ok());
+        word.map(u32::from_le_bytes).ok_or("the GLB header is cut off; expected 20 bytes")
     };
     let (version, length, chunk) = (word(4)?, word(8)?, word(12)?);
     if version != 2 {
@@ -166,9 +147,7 @@ fn check_glb_header(bytes: &[u8]) -> Result<(), String> {
         ));
     }
     if chunk as usize > bytes.len() - 20 {
-        return Err(format!(
-            "the first GLB chunk says {chunk} bytes, more than the file holds"
-        ));
+        return Err(format!("the first GLB chunk says {chunk} bytes, more than the file holds"));
     }
     Ok(())
 }
@@ -183,9 +162,9 @@ fn buffers(
     let mut buffers = Vec::new();
     for buffer in document.buffers() {
         let bytes = match buffer.source() {
-            Source::Bin => blob
-                .take()
-                .ok_or("a buffer refers to a binary chunk that is missing")?,
+            Source::Bin => {
+                blob.take().ok_or("a buffer refers to a binary chunk that is missing")?
+            }
             Source::Uri(uri) if uri.starts_with("data:") => {
                 data_uri::decode(uri).map_err(|e| format!("buffer {}: {e}", buffer.index()))?
             }
@@ -197,9 +176,7 @@ fn buffers(
         };
         if bytes.len() < buffer.length() {
             let (index, given, declared) = (buffer.index(), bytes.len(), buffer.length());
-            return Err(format!(
-                "buffer {index} has {given} bytes; expected {declared}"
-            ));
+            return Err(format!("buffer {index} has {given} bytes; expected {declared}"));
         }
         buffers.push(bytes);
     }
@@ -210,9 +187,7 @@ fn buffers(
 /// default is named, and all roots where there is no scene.
 fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, String> {
     let mut seen = vec![false; document.nodes().len()];
-    let scene = document
-        .default_scene()
-        .or_else(|| document.scenes().next());
+    let scene = document.default_scene().or_else(|| document.scenes().next());
     let roots: Vec<Node<'_>> = match scene {
         Some(scene) => scene.nodes().collect(),
         None => {
@@ -221,40 +196,22 @@ fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, String> {
                 .nodes()
                 .flat_map(|node| node.children())
                 .for_each(|c| is_child[c.index()] = true);
-            document
-                .nodes()
-                .filter(|node| !is_child[node.index()])
-                .collect()
+            document.nodes().filter(|node| !is_child[node.index()]).collect()
         }
     };
-    let mut stack: Vec<_> = roots
-        .into_iter()
-        .rev()
-        .map(|node| (node, DMat4::IDENTITY))
-        .collect();
+    let mut stack: Vec<_> = roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
     let mut found = Vec::new();
     while let Some((node, world_from_parent)) = stack.pop() {
         // Nodes form strict trees [3.5.2]: this also bounds the walk.
         if std::mem::replace(&mut seen[node.index()], true) {
-            return Err(format!(
-                "node {} has two parents or is its own ancestor",
-                node.index()
-            ));
+            return Err(format!("node {} has two parents or is its own ancestor", node.index()));
         }
         let world_from_node = world_from_parent * local(&node)?;
         if !world_from_node.is_finite() {
-            return Err(format!(
-                "the transform of node {} is not finite",
-                node.index()
-            ));
+            return Err(format!("the transform of node {} is not finite", node.index()));
         }
         let children: Vec<_> = node.children().collect();
-        stack.extend(
-            children
-                .into_iter()
-                .rev()
-                .map(|child| (child, world_from_node)),
-        );
+        stack.extend(children.into_iter().rev().map(|child| (child, world_from_node)));
         found.push((node, world_from_node));
     }
     Ok(found)
@@ -267,17 +224,10 @@ fn local(node: &Node<'_>) -> Result<DMat4, String> {
             let column = |c: usize| DVec4::from_array(matrix[c].map(f64::from));
             Ok(DMat4::from_cols(column(0), column(1), column(2), column(3)))
         }
-        Transform::Decomposed {
-            translation,
-            rotation,
-            scale,
-        } => {
+        Transform::Decomposed { translation, rotation, scale } => {
             let rotation = DQuat::from_array(rotation.map(f64::from));
             if !(rotation.length_squared() > 1e-12 && rotation.is_finite()) {
-                return Err(format!(
-                    "the rotation of node {} is no quaternion",
-                    node.index()
-                ));
+                return Err(format!("the rotation of node {} is no quaternion", node.index()));
             }
             Ok(DMat4::from_scale_rotation_translation(
                 DVec3::from_array(scale.map(f64::from)),
@@ -297,14 +247,9 @@ fn describe(
     let Some(index) = material.index() else {
         return builder.material(super::DEFAULT_MATERIAL);
     };
-    let name = material
-        .name()
-        .map_or_else(|| format!("material_{index}"), str::to_owned);
+    let name = material.name().map_or_else(|| format!("material_{index}"), str::to_owned);
     let id = builder.material(&name);
-    let [r, g, b, _] = material
-        .pbr_metallic_roughness()
-        .base_color_factor()
-        .map(f64::from);
+    let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor().map(f64::from);
     // A channel that is not a number is taken as black.
     let colour = Rgb([r, g, b].map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 }));
     let emits = material.emissive_factor().iter().any(|&c| c > 0.0);

@@ -83,12 +83,7 @@ impl<'b> Accessor<'b> {
                 view.length()
             ));
         }
-        Ok(Self {
-            bytes,
-            stride,
-            count,
-            data_type,
-        })
+        Ok(Self { bytes, stride, count, data_type })
     }
 
     pub(super) fn count(&self) -> usize {

@@ -24,19 +24,14 @@ pub(super) fn read(
 ) -> Result<u64, String> {
     let object = format!("object \"{}\"", target.name);
     let mode = primitive.mode();
-    if matches!(
-        mode,
-        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
-    ) {
+    if matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
         return Ok(1);
     }
     let positions = primitive
         .get(&Semantic::Positions)
         .ok_or_else(|| format!("{object} has a primitive without positions"))?;
     let positions = Accessor::positions(&positions, buffers)?;
-    let indices = primitive
-        .indices()
-        .map(|indices| Accessor::indices(&indices, buffers));
+    let indices = primitive.indices().map(|indices| Accessor::indices(&indices, buffers));
     let indices = indices.transpose()?;
     let corners = indices.as_ref().map_or(positions.count(), Accessor::count);
 
@@ -48,10 +43,7 @@ pub(super) fn read(
             None => corner,
         };
         let local = positions.position(vertex).ok_or_else(|| {
-            format!(
-                "{object} refers to vertex {vertex}, but has {}",
-                positions.count()
-            )
+            format!("{object} refers to vertex {vertex}, but has {}", positions.count())
         })?;
         Ok(target.world_from_node.transform_point3(local))
     };

@@ -48,10 +48,7 @@ pub(crate) fn read(
 ) -> Result<Geometry, LoadError> {
     let mut builder = MeshBuilder::new(project.up.unwrap_or(UpAxis::Z));
     for file in &project.geometry {
-        let extension = file
-            .value
-            .rsplit_once('.')
-            .map(|(_, end)| end.to_ascii_lowercase());
+        let extension = file.value.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
         let is_obj = match extension.as_deref() {
             Some("obj") => true,
             Some("gltf" | "glb") => false,
@@ -89,10 +86,7 @@ pub(crate) fn read_file(
         let reason = reason(&error);
         project.error(
             name.place,
-            format!(
-                "cannot read \"{}\": {reason}; expected a readable file",
-                name.value
-            ),
+            format!("cannot read \"{}\": {reason}; expected a readable file", name.value),
         )
     })
 }
@@ -121,10 +115,7 @@ mod tests {
     #[test]
     fn paths_beside_a_file() {
         assert_eq!(beside("room.obj", "room.mtl"), "room.mtl");
-        assert_eq!(
-            beside("geo/room.obj", "maps\\room.mtl"),
-            "geo/maps/room.mtl"
-        );
+        assert_eq!(beside("geo/room.obj", "maps\\room.mtl"), "geo/maps/room.mtl");
         assert_eq!(beside("geo/room.obj", "/room.mtl"), "/room.mtl");
     }
 }

@@ -25,20 +25,13 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
         let line = line.trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let mut warn = |message: String| {
-            let place = Some(Place {
-                line: number,
-                column: 1,
-            });
+            let place = Some(Place { line: number, column: 1 });
             warnings.push(Warning::new(file, place, message));
         };
         if keyword == "newmtl" {
             let reflectance = Rgb::grey(DEFAULT_REFLECTANCE);
             let name = rest.trim().to_owned();
-            materials.push(MtlMaterial {
-                name,
-                reflectance,
-                emits: false,
-            });
+            materials.push(MtlMaterial { name, reflectance, emits: false });
             continue;
         }
         let Some(material) = materials.last_mut() else {
@@ -49,10 +42,7 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
                 Some(kd) => {
                     let clipped = Rgb(kd.0.map(|c| c.clamp(0.0, 1.0)));
                     if clipped != kd {
-                        warn(format!(
-                            "Kd of \"{}\" is outside 0 to 1: clipped",
-                            material.name
-                        ));
+                        warn(format!("Kd of \"{}\" is outside 0 to 1: clipped", material.name));
                     }
                     material.reflectance = clipped;
                 }
@@ -76,11 +66,8 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
 /// One or three finite numbers.
 fn colour(words: &str) -> Option<Rgb> {
     let words = words.split('#').next().unwrap_or_default();
-    let numbers: Vec<f64> = words
-        .split_whitespace()
-        .map(str::parse)
-        .collect::<Result<_, _>>()
-        .ok()?;
+    let numbers: Vec<f64> =
+        words.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
     let colour = match numbers.as_slice() {
         [grey] => Rgb::grey(*grey),
         [r, g, b] => Rgb([*r, *g, *b]),
@@ -99,13 +86,8 @@ mod tests {
                     Kd 0.25\nKe 3 3 3\nmap_Kd a.png\nnewmtl odd\nKd x\n\u{0}";
         let mut warnings = Vec::new();
         let materials = read("a.mtl", text.as_bytes(), &mut warnings);
-        let of = |i: usize| {
-            (
-                materials[i].name.as_str(),
-                materials[i].reflectance,
-                materials[i].emits,
-            )
-        };
+        let of =
+            |i: usize| (materials[i].name.as_str(), materials[i].reflectance, materials[i].emits);
         assert_eq!(materials.len(), 3);
         assert_eq!(of(0), ("white wall", Rgb([0.8, 0.7, 1.0]), false));
         assert_eq!(of(1), ("lamp", Rgb::grey(0.25), true));

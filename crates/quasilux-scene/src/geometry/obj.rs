@@ -21,26 +21,12 @@ pub(super) fn read(
 ) -> Result<(), LoadError> {
     let file = builder.file().to_owned();
     let lines = obj_lines::read(&file, bytes)?;
-    let materials: Vec<u32> = lines
-        .materials
-        .iter()
-        .map(|name| builder.material(name))
-        .collect();
+    let materials: Vec<u32> = lines.materials.iter().map(|name| builder.material(name)).collect();
     for (name, place) in &lines.libraries {
-        read_library(
-            &beside(&file, name),
-            *place,
-            files,
-            builder,
-            &lines,
-            warnings,
-        );
+        read_library(&beside(&file, name), *place, files, builder, &lines, warnings);
     }
     if lines.thin_faces > 0 {
-        let message = format!(
-            "{} faces have fewer than three corners: dropped",
-            lines.thin_faces
-        );
+        let message = format!("{} faces have fewer than three corners: dropped", lines.thin_faces);
         warnings.push(Warning::new(&file, None, message));
     }
 
@@ -61,11 +47,7 @@ pub(super) fn read(
         let material = material.unwrap_or_else(|| builder.material(DEFAULT_MATERIAL));
         let position = |&v: &u32| {
             let at = 3 * v as usize;
-            DVec3::new(
-                mesh.positions[at],
-                mesh.positions[at + 1],
-                mesh.positions[at + 2],
-            )
+            DVec3::new(mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2])
         };
         let mut indices = mesh.indices.as_slice();
         for arity in arities(mesh) {
@@ -88,15 +70,9 @@ pub(super) fn read(
 /// The models of the checked text. Material `i` of the models is `lines.materials[i]`.
 fn models(file: &str, lines: &ObjLines) -> Result<Vec<tobj::Model>, LoadError> {
     let mut reader = std::io::Read::chain(ASK_FOR_MATERIALS.as_bytes(), lines.text.as_bytes());
-    let options = tobj::LoadOptions {
-        triangulate: false,
-        ..tobj::LoadOptions::default()
-    };
+    let options = tobj::LoadOptions { triangulate: false, ..tobj::LoadOptions::default() };
     let materials = |_: &Path| {
-        let named = |name: &String| tobj::Material {
-            name: name.clone(),
-            ..Default::default()
-        };
+        let named = |name: &String| tobj::Material { name: name.clone(), ..Default::default() };
         let index_of = lines.materials.iter().cloned().zip(0..).collect();
         Ok((lines.materials.iter().map(named).collect(), index_of))
     };
@@ -110,10 +86,7 @@ fn arities(mesh: &tobj::Mesh) -> Vec<usize> {
     if mesh.face_arities.is_empty() {
         return vec![3; mesh.indices.len() / 3];
     }
-    mesh.face_arities
-        .iter()
-        .map(|&arity| arity as usize)
-        .collect()
+    mesh.face_arities.iter().map(|&arity| arity as usize).collect()
 }
 
 /// Reads an MTL file; one that is missing or broken is a warning, for the project file may define
@@ -129,20 +102,14 @@ fn read_library(
     let bytes = match files.read(path) {
         Ok(bytes) => bytes,
         Err(error) => {
-            let message = format!(
-                "cannot read \"{path}\": {}; its materials are unknown",
-                reason(&error)
-            );
+            let message =
+                format!("cannot read \"{path}\": {}; its materials are unknown", reason(&error));
             warnings.push(Warning::new(builder.file(), Some(place), message));
             return;
         }
     };
     for material in mtl::read(path, &bytes, warnings) {
-        let MtlMaterial {
-            name,
-            reflectance,
-            emits,
-        } = material;
+        let MtlMaterial { name, reflectance, emits } = material;
         if lines.materials.contains(&name) {
             let index = builder.material(&name);
             builder.describe(index, reflectance, emits, warnings);

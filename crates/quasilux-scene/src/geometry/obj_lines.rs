@@ -53,11 +53,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
     let mut known_materials = HashMap::new();
     let mut vertices: u64 = 0;
     for (line, statement) in statements_of(&text) {
-        let reader = Reader {
-            file,
-            line,
-            statement: &statement,
-        };
+        let reader = Reader { file, line, statement: &statement };
         let mut words = words_of(&statement);
         let Some((_, keyword)) = words.next() else {
             continue;
@@ -92,17 +88,12 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
                 });
                 let _ = writeln!(statements, "usemtl {name}");
             }
-            "mtllib" => lines
-                .libraries
-                .push((rest(&statement).to_owned(), reader.place(0))),
+            "mtllib" => lines.libraries.push((rest(&statement).to_owned(), reader.place(0))),
             _ => {}
         }
     }
     if let Some(face) = faces.iter().position(|&highest| highest > vertices) {
-        let place = Some(Place {
-            line: lines.face_lines[face],
-            column: 1,
-        });
+        let place = Some(Place { line: lines.face_lines[face], column: 1 });
         let message = format!(
             "a face refers to vertex {}; expected 1 to {vertices}, the vertices of the file",
             faces[face]
@@ -129,43 +120,28 @@ fn statements_of(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 
 /// The line up to a `#` that starts a word: names may hold one.
 fn without_comment(line: &str) -> &str {
-    let starts_word = |at: usize| {
-        line[..at]
-            .chars()
-            .next_back()
-            .is_none_or(char::is_whitespace)
-    };
-    let comment = line
-        .match_indices('#')
-        .map(|(at, _)| at)
-        .find(|&at| starts_word(at));
+    let starts_word = |at: usize| line[..at].chars().next_back().is_none_or(char::is_whitespace);
+    let comment = line.match_indices('#').map(|(at, _)| at).find(|&at| starts_word(at));
     &line[..comment.unwrap_or(line.len())]
 }
 
 fn words_of(statement: &str) -> Words<'_> {
     let start = statement.as_ptr() as usize;
-    let words: Vec<_> = statement
-        .split_whitespace()
-        .map(|word| (word.as_ptr() as usize - start, word))
-        .collect();
+    let words: Vec<_> =
+        statement.split_whitespace().map(|word| (word.as_ptr() as usize - start, word)).collect();
     words.into_iter().peekable()
 }
 
 /// What follows the keyword: a name that may hold spaces.
 fn rest(statement: &str) -> &str {
     let statement = statement.trim();
-    statement
-        .split_once(char::is_whitespace)
-        .map_or("", |(_, rest)| rest.trim())
+    statement.split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim())
 }
 
 impl Reader<'_> {
     fn place(&self, at: usize) -> Place {
         let before = self.statement.get(..at).unwrap_or_default();
-        Place {
-            line: self.line,
-            column: before.chars().count() + 1,
-        }
+        Place { line: self.line, column: before.chars().count() + 1 }
     }
 
     fn error(&self, at: usize, message: impl Into<String>) -> LoadError {
@@ -178,10 +154,7 @@ impl Reader<'_> {
         for axis in ["x", "y", "z"] {
             let expected = "expected v with three finite coordinates in metres";
             let (at, word) = words.next().ok_or_else(|| {
-                self.error(
-                    self.statement.len(),
-                    format!("the vertex has no {axis}; {expected}"),
-                )
+                self.error(self.statement.len(), format!("the vertex has no {axis}; {expected}"))
             })?;
             if !word.parse().is_ok_and(f64::is_finite) {
                 let message = format!("{axis} of the vertex is \"{}\"; {expected}", short(word));
@@ -234,14 +207,8 @@ mod tests {
                     v 0 0 0 1 # w\nv 1 0 0 0.5 0.5 0.5\nvt 0 0\nv 0 1 \\\n 0\n\
                     f 1/1/1 2//2 -1\nf 1 2\nl 1 2\n";
         let lines = read("a.obj", text.as_bytes()).unwrap();
-        assert_eq!(
-            lines.text,
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\no desk#1\nusemtl wood grain\nf 1 2 3\n"
-        );
-        assert_eq!(
-            lines.libraries,
-            [("a b.mtl".to_owned(), Place { line: 2, column: 1 })]
-        );
+        assert_eq!(lines.text, "v 0 0 0\nv 1 0 0\nv 0 1 0\no desk#1\nusemtl wood grain\nf 1 2 3\n");
+        assert_eq!(lines.libraries, [("a b.mtl".to_owned(), Place { line: 2, column: 1 })]);
         assert_eq!(lines.materials, ["wood grain"]);
         assert_eq!((lines.face_lines, lines.thin_faces), (vec![10], 1));
     }

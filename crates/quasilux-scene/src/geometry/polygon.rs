@@ -33,23 +33,14 @@ fn area_vector(corners: &[DVec3]) -> DVec3 {
     let Some(&origin) = corners.first() else {
         return DVec3::ZERO;
     };
-    corners
-        .windows(2)
-        .map(|pair| (pair[0] - origin).cross(pair[1] - origin))
-        .sum()
+    corners.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum()
 }
 
 /// Whether no corner turns against `normal`, and the outline goes round once.
 fn is_convex(corners: &[DVec3], normal: DVec3) -> bool {
     let n = corners.len();
-    let no_turn_back = (0..n).all(|i| {
-        turn(
-            corners[i],
-            corners[(i + 1) % n],
-            corners[(i + 2) % n],
-            normal,
-        ) >= 0.0
-    });
+    let no_turn_back =
+        (0..n).all(|i| turn(corners[i], corners[(i + 1) % n], corners[(i + 2) % n], normal) >= 0.0);
     no_turn_back
         && (1..n.max(2) - 1).all(|i| turn(corners[0], corners[i], corners[i + 1], normal) >= 0.0)
 }
@@ -60,11 +51,7 @@ fn turn(a: DVec3, b: DVec3, c: DVec3, normal: DVec3) -> f64 {
 }
 
 fn fan(corners: &[usize]) -> Vec<[usize; 3]> {
-    corners
-        .windows(2)
-        .skip(1)
-        .map(|pair| [corners[0], pair[0], pair[1]])
-        .collect()
+    corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]).collect()
 }
 
 fn clip_ears(corners: &[DVec3], normal: DVec3, mut left: Vec<usize>) -> Vec<[usize; 3]> {
@@ -102,10 +89,7 @@ mod tests {
 
     fn polygon(points: &[[f64; 2]]) -> Vec<DVec3> {
         // A tilted plane: x and y are kept, z follows.
-        points
-            .iter()
-            .map(|&[x, y]| DVec3::new(x, y, 0.5 * x - 0.25 * y))
-            .collect()
+        points.iter().map(|&[x, y]| DVec3::new(x, y, 0.5 * x - 0.25 * y)).collect()
     }
 
     /// Sum of the areas, and whether all triangles turn like the polygon.
@@ -123,14 +107,7 @@ mod tests {
 
     #[test]
     fn an_l_keeps_its_area_from_every_first_corner() {
-        let l = [
-            [0.0, 0.0],
-            [2.0, 0.0],
-            [2.0, 1.0],
-            [1.0, 1.0],
-            [1.0, 2.0],
-            [0.0, 2.0],
-        ];
+        let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
         let slant = DVec3::new(-0.5, 0.25, 1.0).length();
         for first in 0..l.len() {
             let mut turned = l;
@@ -157,22 +134,13 @@ mod tests {
         let star: Vec<DVec3> = (0..10).map(corner).collect();
         let expected = 5.0 * libm::sin(std::f64::consts::PI / 5.0);
         let (area, alike) = areas(&star);
-        assert!(
-            (area - expected).abs() < 1e-12 && alike,
-            "{area} is not {expected}"
-        );
+        assert!((area - expected).abs() < 1e-12 && alike, "{area} is not {expected}");
     }
 
     #[test]
     fn degenerate_outlines_are_still_cut() {
-        for points in [
-            &[[0.0, 0.0]; 5][..],
-            &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 0.0]],
-        ] {
-            assert_eq!(
-                triangulate(&polygon(points)).unwrap().len(),
-                points.len() - 2
-            );
+        for points in [&[[0.0, 0.0]; 5][..], &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 0.0]]] {
+            assert_eq!(triangulate(&polygon(points)).unwrap().len(), points.len() - 2);
         }
         let bow_tie = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
         assert_eq!(triangulate(&polygon(&bow_tie)).unwrap().len(), 2);

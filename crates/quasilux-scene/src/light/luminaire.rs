@@ -24,9 +24,7 @@ impl Luminaire {
     #[must_use]
     pub fn intensity_cd(&self, direction: DVec3) -> f64 {
         self.dimming
-            * self
-                .photometry
-                .intensity_cd(self.world_from_luminaire.transpose() * direction)
+            * self.photometry.intensity_cd(self.world_from_luminaire.transpose() * direction)
     }
 
     /// Total emitted flux in lm, integrated from the table.
@@ -91,11 +89,7 @@ mod tests {
 
     #[test]
     fn default_placement_is_the_identity() {
-        let placement = Placement {
-            aim: -DVec3::Z,
-            c0: DVec3::X,
-            rotation_rad: 0.0,
-        };
+        let placement = Placement { aim: -DVec3::Z, c0: DVec3::X, rotation_rad: 0.0 };
         let m = placement.world_from_luminaire().unwrap();
         close(m * DVec3::X, DVec3::X);
         close(m * DVec3::Y, DVec3::Y);
@@ -105,24 +99,14 @@ mod tests {
     #[test]
     fn rotation_turns_c0_toward_c90() {
         let quarter = std::f64::consts::FRAC_PI_2;
-        let placement = Placement {
-            aim: -DVec3::Z,
-            c0: DVec3::X,
-            rotation_rad: quarter,
-        };
-        close(
-            placement.world_from_luminaire().unwrap() * DVec3::X,
-            DVec3::Y,
-        );
+        let placement = Placement { aim: -DVec3::Z, c0: DVec3::X, rotation_rad: quarter };
+        close(placement.world_from_luminaire().unwrap() * DVec3::X, DVec3::Y);
     }
 
     #[test]
     fn a_wall_washer_keeps_its_nadir_on_aim() {
-        let placement = Placement {
-            aim: DVec3::X,
-            c0: DVec3::new(3.0, 1.0, 0.0),
-            rotation_rad: 0.0,
-        };
+        let placement =
+            Placement { aim: DVec3::X, c0: DVec3::new(3.0, 1.0, 0.0), rotation_rad: 0.0 };
         let m = placement.world_from_luminaire().unwrap();
         close(m * -DVec3::Z, DVec3::X);
         close(m * DVec3::X, DVec3::Y);
@@ -131,20 +115,9 @@ mod tests {
 
     #[test]
     fn degenerate_placements_are_refused() {
-        let parallel = Placement {
-            aim: DVec3::X,
-            c0: DVec3::X * 2.0,
-            rotation_rad: 0.0,
-        };
-        assert_eq!(
-            parallel.world_from_luminaire(),
-            Err(PlacementError::ParallelC0)
-        );
-        let zero = Placement {
-            aim: DVec3::ZERO,
-            c0: DVec3::X,
-            rotation_rad: 0.0,
-        };
+        let parallel = Placement { aim: DVec3::X, c0: DVec3::X * 2.0, rotation_rad: 0.0 };
+        assert_eq!(parallel.world_from_luminaire(), Err(PlacementError::ParallelC0));
+        let zero = Placement { aim: DVec3::ZERO, c0: DVec3::X, rotation_rad: 0.0 };
         assert_eq!(zero.world_from_luminaire(), Err(PlacementError::ZeroAim));
     }
 }

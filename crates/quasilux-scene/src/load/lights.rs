@@ -51,10 +51,8 @@ pub(super) fn place(
     if !lights.iter().any(|light| light.flux_lm() > 0.0) {
         let first_luminaire = project.luminaires.iter().map(|entry| entry.place);
         let first_light = project.lights.iter().map(LightEntry::place);
-        let place = first_luminaire
-            .chain(first_light)
-            .min()
-            .unwrap_or(Place { line: 1, column: 1 });
+        let place =
+            first_luminaire.chain(first_light).min().unwrap_or(Place { line: 1, column: 1 });
         let message = "no light gives any flux; expected at least one light with a positive flux";
         return Err(project.error(place, message));
     }
@@ -80,22 +78,12 @@ fn photometry(
     let bytes = geometry::read_file(project, name, files)?;
     let file = name.value.as_str();
     let read = read_ies(&bytes).map_err(|error| {
-        let place = Place {
-            line: error.line(),
-            column: error.column(),
-        };
+        let place = Place { line: error.line(), column: error.column() };
         LoadError::new(file, Some(place), without_place(&error.to_string(), place))
     })?;
     warnings.extend(read.warnings.iter().map(|warning| {
-        let place = Place {
-            line: warning.line(),
-            column: warning.column(),
-        };
-        Warning::new(
-            file,
-            Some(place),
-            without_place(&warning.to_string(), place),
-        )
+        let place = Place { line: warning.line(), column: warning.column() };
+        Warning::new(file, Some(place), without_place(&warning.to_string(), place))
     }));
     Ok(read.photometry)
 }
@@ -113,38 +101,23 @@ fn area_light(
     emission: Emission,
 ) -> Result<AreaLight, LoadError> {
     let mesh = &geometry.mesh;
-    let index = geometry
-        .materials
-        .iter()
-        .position(|material| material.name == name.value);
+    let index = geometry.materials.iter().position(|material| material.name == name.value);
     let triangles: Vec<u32> = (0..mesh.triangles.len() as u32)
         .filter(|&t| Some(mesh.material_of[t as usize] as usize) == index)
         .collect();
     let (Some(material), false) = (index, triangles.is_empty()) else {
-        let names = || {
-            geometry
-                .materials
-                .iter()
-                .map(|material| material.name.as_str())
-        };
+        let names = || geometry.materials.iter().map(|material| material.name.as_str());
         let message = format!(
             "no triangle has the material \"{}\"; expected one of {}",
             name.value,
             listed(names())
         );
-        return Err(project
-            .error(name.place, message)
-            .offer(&name.value, names()));
+        return Err(project.error(name.place, message).offer(&name.value, names()));
     };
     let area_m2: f64 = triangles.iter().map(|&t| mesh.area_m2(t)).sum();
     let luminance_cd_m2 = match emission {
         Emission::LuminanceCdM2(luminance_cd_m2) => luminance_cd_m2,
         Emission::FluxLm(flux_lm) => flux_lm / (PI * area_m2),
     };
-    Ok(AreaLight {
-        material: material as u32,
-        triangles,
-        area_m2,
-        luminance_cd_m2,
-    })
+    Ok(AreaLight { material: material as u32, triangles, area_m2, luminance_cd_m2 })
 }

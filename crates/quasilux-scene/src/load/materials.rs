@@ -14,12 +14,7 @@ pub(super) fn resolve(
     geometry: &Geometry,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, LoadError> {
-    let names = || {
-        geometry
-            .materials
-            .iter()
-            .map(|material| material.name.as_str())
-    };
+    let names = || geometry.materials.iter().map(|material| material.name.as_str());
     for entry in &project.materials {
         let name = &entry.name;
         if name.value != DEFAULT_MATERIAL && !names().any(|known| known == name.value) {
@@ -28,40 +23,27 @@ pub(super) fn resolve(
                 name.value,
                 listed(names())
             );
-            return Err(project
-                .error(name.place, message)
-                .offer(&name.value, names()));
+            return Err(project.error(name.place, message).offer(&name.value, names()));
         }
     }
     let default = entry_of(project, DEFAULT_MATERIAL);
     let mut triangles = vec![0_u64; geometry.materials.len()];
-    geometry
-        .mesh
-        .material_of
-        .iter()
-        .for_each(|&material| triangles[material as usize] += 1);
-    let materials = geometry
-        .materials
-        .iter()
-        .zip(triangles)
-        .map(|(material, count)| {
-            let bsdf = match (entry_of(project, &material.name), material.reflectance) {
-                (Some(entry), _) => entry.bsdf,
-                (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
-                (None, None) => {
-                    let bsdf = default.map_or_else(grey, |entry| entry.bsdf);
-                    if count > 0 {
-                        warnings.push(undefined(material, count, &bsdf));
-                    }
-                    bsdf
+    geometry.mesh.material_of.iter().for_each(|&material| triangles[material as usize] += 1);
+    let materials = geometry.materials.iter().zip(triangles).map(|(material, count)| {
+        let bsdf = match (entry_of(project, &material.name), material.reflectance) {
+            (Some(entry), _) => entry.bsdf,
+            (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
+            (None, None) => {
+                let bsdf = default.map_or_else(grey, |entry| entry.bsdf);
+                if count > 0 {
+                    warnings.push(undefined(material, count, &bsdf));
                 }
-            };
-            warn_of_emission(project, material, warnings);
-            Material {
-                name: material.name.clone(),
-                bsdf,
+                bsdf
             }
-        });
+        };
+        warn_of_emission(project, material, warnings);
+        Material { name: material.name.clone(), bsdf }
+    });
     Ok(materials.collect())
 }
 
@@ -74,16 +56,11 @@ pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn entry_of<'a>(project: &'a Project, name: &str) -> Option<&'a MaterialEntry> {
-    project
-        .materials
-        .iter()
-        .find(|entry| entry.name.value == name)
+    project.materials.iter().find(|entry| entry.name.value == name)
 }
 
 fn grey() -> Bsdf {
-    Bsdf::Diffuse(Diffuse {
-        reflectance: Rgb::grey(DEFAULT_REFLECTANCE),
-    })
+    Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(DEFAULT_REFLECTANCE) })
 }
 
 fn undefined(material: &FileMaterial, count: u64, bsdf: &Bsdf) -> Warning {
@@ -91,10 +68,7 @@ fn undefined(material: &FileMaterial, count: u64, bsdf: &Bsdf) -> Warning {
     let message = if material.name == DEFAULT_MATERIAL {
         format!("{count} triangles have no material: {used}")
     } else {
-        format!(
-            "the material \"{}\" of {count} triangles is not defined: {used}",
-            material.name
-        )
+        format!("the material \"{}\" of {count} triangles is not defined: {used}", material.name)
     };
     Warning::new(&material.file, None, message)
 }

@@ -42,21 +42,8 @@ pub fn load(
     let geometry = geometry::read(&project, files, &mut warnings)?;
     let materials = materials::resolve(&project, &geometry, &mut warnings)?;
     let lights = lights::place(&project, &geometry, files, &mut warnings)?;
-    let sensors = project
-        .sensors
-        .iter()
-        .map(|entry| entry.sensor.clone())
-        .collect();
-    let scene = Scene {
-        mesh: geometry.mesh,
-        materials,
-        lights,
-        sensors,
-    };
+    let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
+    let scene = Scene { mesh: geometry.mesh, materials, lights, sensors };
     checks::sensors_in_walls(&scene, &project, &mut warnings)?;
-    Ok(Loaded {
-        scene,
-        simulation: project.simulation,
-        warnings,
-    })
+    Ok(Loaded { scene, simulation: project.simulation, warnings })
 }

@@ -44,24 +44,15 @@ pub(super) struct Value<'a> {
 impl<'a> Source<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
         let breaks = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
-        let line_starts = std::iter::once(0)
-            .chain(breaks.map(|(at, _)| at + 1))
-            .collect();
-        Self {
-            file,
-            text,
-            line_starts,
-        }
+        let line_starts = std::iter::once(0).chain(breaks.map(|(at, _)| at + 1)).collect();
+        Self { file, text, line_starts }
     }
 
     pub(super) fn place(&self, offset: usize) -> Place {
         let line = self.line_starts.partition_point(|&start| start <= offset);
         let start = self.line_starts[line - 1];
         let before = self.text.get(start..offset).unwrap_or_default();
-        Place {
-            line,
-            column: before.chars().count() + 1,
-        }
+        Place { line, column: before.chars().count() + 1 }
     }
 
     pub(super) fn error(&self, offset: usize, message: impl Into<String>) -> LoadError {
@@ -69,12 +60,7 @@ impl<'a> Source<'a> {
     }
 
     pub(super) fn root(&'a self, table: &'a DeTable<'a>) -> Section<'a> {
-        Section {
-            source: self,
-            name: "the project file".to_owned(),
-            table,
-            span: 0..0,
-        }
+        Section { source: self, name: "the project file".to_owned(), table, span: 0..0 }
     }
 }
 
@@ -96,14 +82,7 @@ impl<'a> Section<'a> {
             .map(|(key, value)| {
                 let name: &str = key.get_ref();
                 let place = self.source.place(key.span().start);
-                (
-                    Placed { value: name, place },
-                    Value {
-                        source: self.source,
-                        key: name,
-                        value,
-                    },
-                )
+                (Placed { value: name, place }, Value { source: self.source, key: name, value })
             })
             .collect()
     }
@@ -128,19 +107,12 @@ impl<'a> Section<'a> {
 
     pub(super) fn get(&self, key: &'a str) -> Option<Value<'a>> {
         let (_, value) = self.table.iter().find(|(name, _)| name.get_ref() == key)?;
-        Some(Value {
-            source: self.source,
-            key,
-            value,
-        })
+        Some(Value { source: self.source, key, value })
     }
 
     pub(super) fn require(&self, key: &'a str, expected: &str) -> Result<Value<'a>, LoadError> {
         self.get(key).ok_or_else(|| {
-            self.error(format!(
-                "{} lacks \"{key}\"; expected {expected}",
-                self.name
-            ))
+            self.error(format!("{} lacks \"{key}\"; expected {expected}", self.name))
         })
     }
 
@@ -163,9 +135,7 @@ impl<'a> Section<'a> {
 
     /// A table under `key`, if given.
     pub(super) fn table(&self, key: &'a str) -> Result<Option<Section<'a>>, LoadError> {
-        self.get(key)
-            .map(|value| value.section(format!("[{key}]")))
-            .transpose()
+        self.get(key).map(|value| value.section(format!("[{key}]"))).transpose()
     }
 
     /// The tables of an array of tables; none if the key is not given.
@@ -175,10 +145,7 @@ impl<'a> Section<'a> {
         };
         let expected = format!("[[{key}]], in double brackets");
         let elements = value.array(&expected)?;
-        elements
-            .into_iter()
-            .map(|element| element.section(format!("[[{key}]]")))
-            .collect()
+        elements.into_iter().map(|element| element.section(format!("[[{key}]]"))).collect()
     }
 }
 
@@ -192,20 +159,12 @@ impl<'a> Value<'a> {
     }
 
     pub(super) fn placed<T>(&self, value: T) -> Placed<T> {
-        Placed {
-            value,
-            place: self.place(),
-        }
+        Placed { value, place: self.place() }
     }
 
     /// The refusal that repeats the value and says what was expected instead.
     pub(super) fn unexpected(&self, expected: &str) -> LoadError {
-        let text = self
-            .source
-            .text
-            .get(self.value.span())
-            .unwrap_or_default()
-            .trim();
+        let text = self.source.text.get(self.value.span()).unwrap_or_default().trim();
         let short = text.chars().count() <= MAX_QUOTED_CHARS && !text.contains('\n');
         let shown = match self.value.get_ref() {
             DeValue::Table(_) => "a table",
@@ -229,19 +188,14 @@ impl<'a> Value<'a> {
 
     /// One of a list of names; those in `planned` are known but not built yet.
     pub(super) fn name(&self, known: &[&str], planned: &[&str]) -> Result<&'a str, LoadError> {
-        let expected = known
-            .iter()
-            .map(|name| format!("\"{name}\""))
-            .collect::<Vec<_>>();
+        let expected = known.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
         let expected = expected.join(" or ");
         let name = self.string(&expected)?;
         if planned.contains(&name) {
             return Err(self.error(format!("{} \"{name}\" is not built yet", self.key)));
         }
         if !known.contains(&name) {
-            return Err(self
-                .unexpected(&expected)
-                .offer(name, known.iter().copied()));
+            return Err(self.unexpected(&expected).offer(name, known.iter().copied()));
         }
         Ok(name)
     }
@@ -254,9 +208,9 @@ impl<'a> Value<'a> {
     ) -> Result<f64, LoadError> {
         let number = match self.value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
-            DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
-                .ok()
-                .map(|n| n as f64),
+            DeValue::Integer(integer) => {
+                i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|n| n as f64)
+            }
             _ => None,
         };
         number
@@ -276,20 +230,14 @@ impl<'a> Value<'a> {
             }
             _ => None,
         };
-        integer
-            .filter(|n| range.contains(n))
-            .ok_or_else(|| self.unexpected(expected))
+        integer.filter(|n| range.contains(n)).ok_or_else(|| self.unexpected(expected))
     }
 
     pub(super) fn array(&self, expected: &str) -> Result<Vec<Value<'a>>, LoadError> {
         match self.value.get_ref() {
             DeValue::Array(elements) => Ok(elements
                 .iter()
-                .map(|value| Value {
-                    source: self.source,
-                    key: self.key,
-                    value,
-                })
+                .map(|value| Value { source: self.source, key: self.key, value })
                 .collect()),
             _ => Err(self.unexpected(expected)),
         }
@@ -308,12 +256,9 @@ impl<'a> Value<'a> {
 
     pub(super) fn section(&self, name: String) -> Result<Section<'a>, LoadError> {
         match self.value.get_ref() {
-            DeValue::Table(table) => Ok(Section {
-                source: self.source,
-                name,
-                table,
-                span: self.value.span(),
-            }),
+            DeValue::Table(table) => {
+                Ok(Section { source: self.source, name, table, span: self.value.span() })
+            }
             _ => Err(self.unexpected(&format!("the table {name}"))),
         }
     }

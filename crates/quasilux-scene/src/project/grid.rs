@@ -16,11 +16,7 @@ const SLACK: f64 = 1.0 - 1e-9;
 pub(super) fn en12464_cell_m(edges_m: [f64; 2]) -> f64 {
     let longer = edges_m[0].max(edges_m[1]);
     let shorter = edges_m[0].min(edges_m[1]);
-    let d = if longer >= 2.0 * shorter {
-        shorter
-    } else {
-        longer
-    };
+    let d = if longer >= 2.0 * shorter { shorter } else { longer };
     (0.2 * libm::pow(5.0, libm::log10(d))).min(MAX_CELL_M)
 }
 

@@ -12,14 +12,8 @@ const MAX_LIGHT: f64 = 1e60;
 /// One light.
 #[derive(Clone, Debug)]
 pub(crate) enum LightEntry {
-    Point {
-        place: Place,
-        light: PointLight,
-    },
-    Area {
-        material: Placed<String>,
-        emission: Emission,
-    },
+    Point { place: Place, light: PointLight },
+    Area { material: Placed<String>, emission: Emission },
 }
 
 /// How the project file gives the light of a surface.
@@ -46,14 +40,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<LightEntry>, LoadError> {
 
 fn light(section: &Section<'_>) -> Result<LightEntry, LoadError> {
     let kind = section.require("kind", "\"point\" or \"area\"")?;
-    let planned = [
-        "directional",
-        "distant",
-        "environment",
-        "sky",
-        "spot",
-        "sun",
-    ];
+    let planned = ["directional", "distant", "environment", "sky", "spot", "sun"];
     match kind.name(&["point", "area"], &planned)? {
         "point" => point(section),
         _ => area(section),
@@ -68,13 +55,7 @@ fn point(section: &Section<'_>) -> Result<LightEntry, LoadError> {
     let intensity_cd = section
         .require("intensity_cd", intensity)?
         .number(intensity, |x| (0.0..=MAX_LIGHT).contains(&x))?;
-    Ok(LightEntry::Point {
-        place: section.place(),
-        light: PointLight {
-            position,
-            intensity_cd,
-        },
-    })
+    Ok(LightEntry::Point { place: section.place(), light: PointLight { position, intensity_cd } })
 }
 
 fn area(section: &Section<'_>) -> Result<LightEntry, LoadError> {

@@ -5,14 +5,7 @@ use crate::light::{Placement, PlacementError};
 use crate::{LoadError, Place, Placed};
 use glam::{DMat3, DVec3};
 
-const KEYS: [&str; 6] = [
-    "photometry",
-    "position",
-    "aim",
-    "c0",
-    "rotation_deg",
-    "dimming",
-];
+const KEYS: [&str; 6] = ["photometry", "position", "aim", "c0", "rotation_deg", "dimming"];
 
 /// One luminaire.
 #[derive(Clone, Debug)]
@@ -35,9 +28,8 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
     let position = "a position [x, y, z] in m";
     let position = section.require("position", position)?.vector(position)?;
     let dimming = section.get("dimming").map(|dimming| {
-        dimming.number("a factor of at least 0, where 1 is full light", |x| {
-            (0.0..=1e9).contains(&x)
-        })
+        dimming
+            .number("a factor of at least 0, where 1 is full light", |x| (0.0..=1e9).contains(&x))
     });
     Ok(LuminaireEntry {
         place: section.place(),
@@ -50,9 +42,7 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
 
 fn photometry(value: Value<'_>) -> Result<Placed<String>, LoadError> {
     let name = value.string("the name of an .ies file")?;
-    let extension = name
-        .rsplit_once('.')
-        .map(|(_, end)| end.to_ascii_lowercase());
+    let extension = name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
     match extension.as_deref() {
         Some("ies") => Ok(value.placed(name.to_owned())),
         Some("ldt") => Err(value.error("EULUMDAT files (.ldt) are not built yet; expected .ies")),
@@ -64,13 +54,10 @@ fn photometry(value: Value<'_>) -> Result<Placed<String>, LoadError> {
 fn rotation(section: &Section<'_>) -> Result<DMat3, LoadError> {
     let (aim, c0) = (section.get("aim"), section.get("c0"));
     let direction = |value: Option<Value<'_>>, default: DVec3| {
-        value.map_or(Ok(default), |value| {
-            value.vector("a direction [x, y, z] with a length")
-        })
+        value.map_or(Ok(default), |value| value.vector("a direction [x, y, z] with a length"))
     };
-    let degrees = section
-        .get("rotation_deg")
-        .map(|turn| turn.number("an angle in degrees", |_| true));
+    let degrees =
+        section.get("rotation_deg").map(|turn| turn.number("an angle in degrees", |_| true));
     let placement = Placement {
         aim: direction(aim, DVec3::NEG_Z)?,
         c0: direction(c0, DVec3::X)?,
@@ -79,14 +66,12 @@ fn rotation(section: &Section<'_>) -> Result<DMat3, LoadError> {
     placement.world_from_luminaire().map_err(|error| {
         let (culprit, message) = match error {
             PlacementError::ZeroAim => (aim, "\"aim\" has no length; expected a direction"),
-            PlacementError::ParallelC0 if c0.is_none() => (
-                aim,
-                "\"aim\" is along x, as is the default \"c0\"; expected a \"c0\" across it",
-            ),
-            PlacementError::ParallelC0 => (
-                c0,
-                "\"c0\" is parallel to \"aim\"; expected a direction across it",
-            ),
+            PlacementError::ParallelC0 if c0.is_none() => {
+                (aim, "\"aim\" is along x, as is the default \"c0\"; expected a \"c0\" across it")
+            }
+            PlacementError::ParallelC0 => {
+                (c0, "\"c0\" is parallel to \"aim\"; expected a direction across it")
+            }
         };
         culprit.map_or_else(|| section.error(message), |value| value.error(message))
     })

@@ -4,24 +4,10 @@ use super::document::{Section, Value};
 use crate::bsdf::{Diffuse, Mirror};
 use crate::{Bsdf, LoadError, Placed, Rgb};
 
-const PLANNED_KINDS: [&str; 8] = [
-    "bsdf",
-    "conductor",
-    "dielectric",
-    "glass",
-    "glossy",
-    "phong",
-    "plastic",
-    "translucent",
-];
-const PLANNED_KEYS: [&str; 6] = [
-    "bsdf",
-    "eta",
-    "roughness",
-    "specular",
-    "transmittance",
-    "texture",
-];
+const PLANNED_KINDS: [&str; 8] =
+    ["bsdf", "conductor", "dielectric", "glass", "glossy", "phong", "plastic", "translucent"];
+const PLANNED_KEYS: [&str; 6] =
+    ["bsdf", "eta", "roughness", "specular", "transmittance", "texture"];
 
 /// One material.
 #[derive(Clone, Debug)]
@@ -38,23 +24,15 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> 
     entries
         .map(|(name, value)| {
             let section = value.section(format!("[materials.{}]", name.value))?;
-            let name = Placed {
-                value: name.value.to_owned(),
-                place: name.place,
-            };
-            Ok(MaterialEntry {
-                name,
-                bsdf: bsdf(&section)?,
-            })
+            let name = Placed { value: name.value.to_owned(), place: name.place };
+            Ok(MaterialEntry { name, bsdf: bsdf(&section)? })
         })
         .collect()
 }
 
 fn bsdf(section: &Section<'_>) -> Result<Bsdf, LoadError> {
     section.only(&["kind", "reflectance"], &PLANNED_KEYS)?;
-    let kind = section
-        .get("kind")
-        .map(|kind| kind.name(&["diffuse", "mirror"], &PLANNED_KINDS));
+    let kind = section.get("kind").map(|kind| kind.name(&["diffuse", "mirror"], &PLANNED_KINDS));
     let kind = kind.transpose()?.unwrap_or("diffuse");
     let reflectance =
         reflectance(section.require("reflectance", "a number or [r, g, b] within 0 to 1")?)?;

@@ -46,14 +46,7 @@ pub(crate) struct Project {
     pub(crate) simulation: SimulationSection,
 }
 
-const SECTIONS: [&str; 6] = [
-    "scene",
-    "materials",
-    "luminaires",
-    "lights",
-    "sensors",
-    "simulation",
-];
+const SECTIONS: [&str; 6] = ["scene", "materials", "luminaires", "lights", "sensors", "simulation"];
 
 impl Project {
     pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Self, LoadError> {
@@ -65,8 +58,7 @@ impl Project {
             source.error(offset, format!("not valid TOML: {message}"))
         })?;
         let root = source.root(table.get_ref());
-        root.only(&SECTIONS, &["cameras"])
-            .map_err(|error| plural_cameras(&root, error))?;
+        root.only(&SECTIONS, &["cameras"]).map_err(|error| plural_cameras(&root, error))?;
 
         let (geometry, up) = scene_section(&root)?;
         let luminaires = luminaires::read(&root)?;
@@ -94,10 +86,7 @@ impl Project {
 }
 
 fn plural_cameras(root: &Section<'_>, error: LoadError) -> LoadError {
-    let cameras = root
-        .entries()
-        .into_iter()
-        .find(|(key, _)| key.value == "cameras");
+    let cameras = root.entries().into_iter().find(|(key, _)| key.value == "cameras");
     match cameras {
         Some((key, _)) if Some(key.place) == error.place() => {
             LoadError::new(error.file(), error.place(), "cameras are not built yet")
@@ -118,9 +107,7 @@ fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, LoadError> {
 fn scene_section(root: &Section<'_>) -> Result<(Vec<Placed<String>>, Option<UpAxis>), LoadError> {
     let expected = "[\"room.obj\"]: OBJ, glTF or GLB files, relative to the project file";
     let section = root.table("scene")?.ok_or_else(|| {
-        root.error(format!(
-            "no [scene] section; expected [scene] with geometry = {expected}"
-        ))
+        root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
     })?;
     section.only(&["geometry", "up"], &[])?;
     let list = section.require("geometry", expected)?;
@@ -132,17 +119,11 @@ fn scene_section(root: &Section<'_>) -> Result<(Vec<Placed<String>>, Option<UpAx
     for file in files {
         let name = file.string("the name of an OBJ, glTF or GLB file")?;
         if geometry.iter().any(|earlier| earlier.value == name) {
-            return Err(file.error(format!(
-                "\"{name}\" is listed twice; expected each file once"
-            )));
+            return Err(file.error(format!("\"{name}\" is listed twice; expected each file once")));
         }
         geometry.push(file.placed(name.to_owned()));
     }
-    let up = match section
-        .get("up")
-        .map(|up| up.name(&["y", "z"], &[]))
-        .transpose()?
-    {
+    let up = match section.get("up").map(|up| up.name(&["y", "z"], &[])).transpose()? {
         None => None,
         Some("y") => Some(UpAxis::Y),
         Some(_) => Some(UpAxis::Z),

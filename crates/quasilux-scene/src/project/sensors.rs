@@ -5,9 +5,8 @@ use super::grid::{cells_along, en12464_cell_m};
 use crate::{Grid, LoadError, Place, Quantity, Sensor, SensorPoint, SensorShape};
 use glam::DVec3;
 
-const GRID_KEYS: [&str; 10] = [
-    "name", "kind", "origin", "u", "v", "spacing", "counts", "rule", "normal", "quantity",
-];
+const GRID_KEYS: [&str; 10] =
+    ["name", "kind", "origin", "u", "v", "spacing", "counts", "rule", "normal", "quantity"];
 const POINTS_KEYS: [&str; 4] = ["name", "kind", "points", "normals"];
 
 /// Most cells that all grids of a project may have together.
@@ -31,31 +30,16 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<SensorEntry>, LoadError> {
     for section in root.tables("sensors")? {
         let kind = section.require("kind", "\"grid\" or \"points\"")?;
         let kind = kind.name(&["grid", "points"], &["cylindrical", "mesh", "surface"])?;
-        section.only(
-            if kind == "grid" {
-                &GRID_KEYS
-            } else {
-                &POINTS_KEYS
-            },
-            &[],
-        )?;
+        section.only(if kind == "grid" { &GRID_KEYS } else { &POINTS_KEYS }, &[])?;
         let name = name(&section, &entries)?;
         let place = section.place();
         entries.push(if kind == "grid" {
             let shape = SensorShape::Grid(grid(&section, &mut cells)?);
-            SensorEntry {
-                place,
-                point_places: Vec::new(),
-                sensor: Sensor { name, shape },
-            }
+            SensorEntry { place, point_places: Vec::new(), sensor: Sensor { name, shape } }
         } else {
             let (points, point_places) = points(&section)?;
             let shape = SensorShape::Points(points);
-            SensorEntry {
-                place,
-                point_places,
-                sensor: Sensor { name, shape },
-            }
+            SensorEntry { place, point_places, sensor: Sensor { name, shape } }
         });
     }
     if entries.is_empty() {
@@ -70,9 +54,7 @@ fn name(section: &Section<'_>, earlier: &[SensorEntry]) -> Result<String, LoadEr
     let value = section.require("name", expected)?;
     let name = value.string(expected)?;
     let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
-    let reserved = ["con", "prn", "aux", "nul"]
-        .iter()
-        .any(|word| name.eq_ignore_ascii_case(word));
+    let reserved = ["con", "prn", "aux", "nul"].iter().any(|word| name.eq_ignore_ascii_case(word));
     let edges = name.starts_with(['.', ' ', '-']) || name.ends_with(['.', ' ']);
     if name.is_empty()
         || name.len() > MAX_NAME_BYTES
@@ -121,9 +103,7 @@ fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {
         u,
         v,
         counts: counts(section, [u.length(), v.length()], cells)?,
-        normal: section
-            .get("normal")
-            .map_or(Ok(plane_normal), |n| normal(n, plane_normal))?,
+        normal: section.get("normal").map_or(Ok(plane_normal), |n| normal(n, plane_normal))?,
         quantity,
     })
 }
@@ -175,10 +155,7 @@ fn normal(value: Value<'_>, plane_normal: DVec3) -> Result<DVec3, LoadError> {
 
 fn direction(value: Value<'_>) -> Result<DVec3, LoadError> {
     let expected = "a direction [x, y, z] with a length";
-    value
-        .vector(expected)?
-        .try_normalize()
-        .ok_or_else(|| value.unexpected(expected))
+    value.vector(expected)?.try_normalize().ok_or_else(|| value.unexpected(expected))
 }
 
 fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Place>), LoadError> {
@@ -193,21 +170,13 @@ fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Place>), LoadE
     let normals = list.array(expected)?;
     if normals.len() != positions.len() {
         let (points, given) = (positions.len(), normals.len());
-        return Err(list.error(format!(
-            "{points} points but {given} normals; expected {expected}"
-        )));
+        return Err(list.error(format!("{points} points but {given} normals; expected {expected}")));
     }
     let place = |value: &Value<'_>| value.place();
     let places = positions.iter().map(place).collect();
-    let points = positions
-        .into_iter()
-        .zip(normals)
-        .map(|(position, normal)| {
-            let position = position.vector("a position [x, y, z] in m")?;
-            Ok(SensorPoint {
-                position,
-                normal: direction(normal)?,
-            })
-        });
+    let points = positions.into_iter().zip(normals).map(|(position, normal)| {
+        let position = position.vector("a position [x, y, z] in m")?;
+        Ok(SensorPoint { position, normal: direction(normal)? })
+    });
     Ok((points.collect::<Result<_, LoadError>>()?, places))
 }

@@ -58,28 +58,18 @@ impl SimulationSection {
     #[must_use]
     pub fn unknown_name(&self, at: &Placed<String>, what: &str, known: &[&str]) -> LoadError {
         let list = known.join(", ");
-        self.error_at(
-            at,
-            format!("unknown {what} \"{}\"; expected one of {list}", at.value),
-        )
-        .offer(&at.value, known.iter().copied())
+        self.error_at(at, format!("unknown {what} \"{}\"; expected one of {list}", at.value))
+            .offer(&at.value, known.iter().copied())
     }
 }
 
 pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, LoadError> {
     let file = file.to_owned();
     let Some(section) = root.table("simulation")? else {
-        return Ok(SimulationSection {
-            file,
-            ..SimulationSection::default()
-        });
+        return Ok(SimulationSection { file, ..SimulationSection::default() });
     };
     section.only(&KEYS, &[])?;
-    let name = |key| {
-        placed(&section, key, |value| {
-            Ok(value.string("a name")?.to_owned())
-        })
-    };
+    let name = |key| placed(&section, key, |value| Ok(value.string("a name")?.to_owned()));
     let number = |key, expected: &str, accept: fn(f64) -> bool| {
         placed(&section, key, |value| value.number(expected, accept))
     };
@@ -96,9 +86,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         })?,
         replicates: placed(&section, "replicates", |value| {
             let expected = format!("an integer from 1 to {MAX_REPLICATES}");
-            value
-                .integer(&expected, 1..=MAX_REPLICATES)
-                .map(|n| n as u32)
+            value.integer(&expected, 1..=MAX_REPLICATES).map(|n| n as u32)
         })?,
         seed: placed(&section, "seed", |value| {
             value.integer("an integer from 0 to 18446744073709551615", 0..=u64::MAX)
@@ -113,9 +101,7 @@ fn bounces(value: &Value<'_>) -> Result<Option<u32>, LoadError> {
         return value.name(&["unlimited"], &[]).map(|_| None);
     }
     let expected = "\"unlimited\" or a number of bounces";
-    value
-        .integer(expected, 0..=u64::from(u32::MAX))
-        .map(|n| Some(n as u32))
+    value.integer(expected, 0..=u64::from(u32::MAX)).map(|n| Some(n as u32))
 }
 
 fn placed<'a, T>(
@@ -123,8 +109,5 @@ fn placed<'a, T>(
     key: &'a str,
     read: impl Fn(Value<'a>) -> Result<T, LoadError>,
 ) -> Result<Option<Placed<T>>, LoadError> {
-    section
-        .get(key)
-        .map(|value| Ok(value.placed(read(value)?)))
-        .transpose()
+    section.get(key).map(|value| Ok(value.placed(read(value)?))).transpose()
 }

@@ -14,10 +14,9 @@ fn check(project: &str, files: &MapFiles, file: &str, line: Option<usize>, needl
     assert!(text.contains(needle), "no {needle:?} in: {text}");
     assert!(!text.contains('\n'), "several lines: {text}");
     match error.place() {
-        Some(p) => assert!(
-            text.starts_with(&format!("{file}:{}:{}: ", p.line, p.column)),
-            "{text}"
-        ),
+        Some(p) => {
+            assert!(text.starts_with(&format!("{file}:{}:{}: ", p.line, p.column)), "{text}")
+        }
         None => assert!(text.starts_with(&format!("{file}: ")), "{text}"),
     }
 }
@@ -30,14 +29,7 @@ fn the_project_itself_loads() {
 
 #[test]
 fn project_files_are_refused_at_their_line() {
-    for Case {
-        from,
-        to,
-        file,
-        line,
-        needle,
-    } in PROJECT_CASES
-    {
+    for Case { from, to, file, line, needle } in PROJECT_CASES {
         assert!(PROJECT.contains(from), "{from} is not in the project");
         let project = PROJECT.replacen(from, to, 1);
         check(&project, &MapFiles::room(), file, Some(*line), needle);
@@ -48,25 +40,10 @@ fn project_files_are_refused_at_their_line() {
 fn empty_and_binary_project_files() {
     let files = MapFiles::room();
     check("", &files, "room.toml", Some(1), "no [scene] section");
-    check(
-        "\u{feff}",
-        &files,
-        "room.toml",
-        Some(1),
-        "no [scene] section",
-    );
-    check(
-        "\0\u{1}\u{2}",
-        &files,
-        "room.toml",
-        Some(1),
-        "not valid TOML",
-    );
+    check("\u{feff}", &files, "room.toml", Some(1), "no [scene] section");
+    check("\0\u{1}\u{2}", &files, "room.toml", Some(1), "not valid TOML");
     let error = quasilux_scene::load("a.toml", b"[scene]\nup = \"\xff\"", &files).unwrap_err();
-    assert!(
-        error.to_string().starts_with("a.toml:2:7: not UTF-8"),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("a.toml:2:7: not UTF-8"), "{error}");
     let deep = "a = ".to_owned() + &"[".repeat(100_000);
     check(&deep, &files, "room.toml", Some(1), "not valid TOML");
 }
@@ -74,29 +51,13 @@ fn empty_and_binary_project_files() {
 #[test]
 fn geometry_files_are_refused_at_their_line() {
     for (obj, line, needle) in [
-        (
-            ROOM_OBJ.replace("v 1 1 0", "v 1 nan 0"),
-            Some(6),
-            "y of the vertex is \"nan\"",
-        ),
+        (ROOM_OBJ.replace("v 1 1 0", "v 1 nan 0"), Some(6), "y of the vertex is \"nan\""),
         (ROOM_OBJ.replace("v 1 1 0", "v 1 inf 0"), Some(6), "\"inf\""),
         (ROOM_OBJ.replace("v 1 1 0", "v 1 1"), Some(6), "has no z"),
-        (
-            ROOM_OBJ.replace("f 1 2 3 4", "f 1 2 5"),
-            Some(8),
-            "vertex 5; expected 1 to 4",
-        ),
+        (ROOM_OBJ.replace("f 1 2 3 4", "f 1 2 5"), Some(8), "vertex 5; expected 1 to 4"),
         (ROOM_OBJ.replace("f 1 2 3 4", "f 1 2 -5"), Some(8), "\"-5\""),
-        (
-            ROOM_OBJ.replace("f 1 2 3 4", "f 1 2 1000000000"),
-            Some(8),
-            "1 to 4",
-        ),
-        (
-            ROOM_OBJ.replace("v 1 1 0", "v 1 1e10 0"),
-            Some(8),
-            "beyond 1e9 m",
-        ),
+        (ROOM_OBJ.replace("f 1 2 3 4", "f 1 2 1000000000"), Some(8), "1 to 4"),
+        (ROOM_OBJ.replace("v 1 1 0", "v 1 1e10 0"), Some(8), "beyond 1e9 m"),
         (ROOM_OBJ.replace("f 1 2 3 4", "f 1 1 1"), None, "degenerate"),
         (ROOM_OBJ.replace("f 1 2 3 4", ""), None, "no triangles"),
         (String::new(), None, "no triangles"),

@@ -21,9 +21,7 @@ fn geometry_below(folder: &Path, found: &mut Vec<PathBuf>) {
         if path.is_dir() {
             geometry_below(&path, found);
         } else if path.to_str().is_some_and(|name| {
-            [".obj", ".gltf", ".glb"]
-                .iter()
-                .any(|end| name.to_lowercase().ends_with(end))
+            [".obj", ".gltf", ".glb"].iter().any(|end| name.to_lowercase().ends_with(end))
         }) {
             found.push(path);
         }
@@ -37,16 +35,10 @@ fn all_scenes_load_or_are_refused_in_one_line() {
     geometry_below(&folder, &mut paths);
     paths.sort();
     if paths.is_empty() {
-        println!(
-            "no collection of scenes at {}: nothing to load",
-            folder.display()
-        );
+        println!("no collection of scenes at {}: nothing to load", folder.display());
     }
     for path in paths {
-        let name = path
-            .file_name()
-            .and_then(|name| name.to_str())
-            .unwrap_or_default();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         let files = Folder(path.parent().unwrap_or(&folder).to_owned());
         let project = PROJECT
             .replace("[\"room.obj\"]", &format!("[{name:?}]\nup = \"y\""))
@@ -57,10 +49,7 @@ fn all_scenes_load_or_are_refused_in_one_line() {
                 assert!(!mesh.triangles.is_empty());
                 assert!((0..mesh.triangles.len() as u32).all(|t| mesh.area_m2(t) > 0.0));
                 println!("{}: {} triangles", path.display(), mesh.triangles.len());
-                loaded
-                    .warnings
-                    .iter()
-                    .for_each(|warning| println!("    {warning}"));
+                loaded.warnings.iter().for_each(|warning| println!("    {warning}"));
             }
             Err(error) => {
                 let text = error.to_string();

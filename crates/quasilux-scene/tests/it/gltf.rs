@@ -31,16 +31,9 @@ pub(crate) const SQUARE: &str = r#"{
 }"#;
 
 pub(crate) fn square_bytes() -> Vec<u8> {
-    let corners = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 0.0, -1.0],
-        [0.0, 0.0, -1.0],
-    ];
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
     let positions = corners.into_iter().flatten().flat_map(f32::to_le_bytes);
-    let indices = [0_u16, 1, 2, 0, 2, 3]
-        .into_iter()
-        .flat_map(u16::to_le_bytes);
+    let indices = [0_u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes);
     positions.chain(indices).collect()
 }
 
@@ -65,10 +58,7 @@ pub(crate) fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
 }
 
 pub(crate) fn square_glb() -> Vec<u8> {
-    glb(
-        &SQUARE.replace(", \"uri\": \"square%20mesh.bin\"", ""),
-        &square_bytes(),
-    )
+    glb(&SQUARE.replace(", \"uri\": \"square%20mesh.bin\"", ""), &square_bytes())
 }
 
 fn files() -> MapFiles {
@@ -87,27 +77,18 @@ fn hierarchy_names_and_colours() {
     assert_eq!(scene.mesh.objects, ["floor", "square"]);
     assert_eq!(scene.mesh.object_of, [0, 0, 1, 1]);
     assert_eq!(scene.materials[0].name, "oak");
-    assert_eq!(
-        scene.materials[0].bsdf.reflectance(),
-        Rgb([0.5, 0.25, 0.125])
-    );
+    assert_eq!(scene.materials[0].bsdf.reflectance(), Rgb([0.5, 0.25, 0.125]));
     // A quarter turn about y takes x to -z and -z to -x; then 10 m along x; then z up.
     for (corner, expected) in scene.mesh.corners(0).iter().zip([
         DVec3::new(10.0, 0.0, 0.0),
         DVec3::new(10.0, 1.0, 0.0),
         DVec3::new(9.0, 1.0, 0.0),
     ]) {
-        assert!(
-            (*corner - expected).length() < 1e-7,
-            "{corner} is not {expected}"
-        );
+        assert!((*corner - expected).length() < 1e-7, "{corner} is not {expected}");
     }
     // Mirrored or not, the front stays on top.
     for triangle in 0..4 {
-        assert!(
-            (scene.mesh.front_normal(triangle) - DVec3::Z).length() < 1e-7,
-            "{triangle}"
-        );
+        assert!((scene.mesh.front_normal(triangle) - DVec3::Z).length() < 1e-7, "{triangle}");
     }
 }
 
@@ -120,18 +101,13 @@ fn the_three_kinds_of_buffer_hold_the_same() {
     let digits = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut uri = "data:application/octet-stream;base64,".to_owned();
     for three in square_bytes().chunks(3) {
-        let bits = three
-            .iter()
-            .fold(0_usize, |bits, &byte| bits << 8 | usize::from(byte));
+        let bits = three.iter().fold(0_usize, |bits, &byte| bits << 8 | usize::from(byte));
         for shift in [18, 12, 6, 0] {
             let _ = write!(uri, "{}", char::from(digits[bits >> shift & 63]));
         }
     }
     let embedded = files().with("room.gltf", SQUARE.replace("square%20mesh.bin", &uri));
-    assert_eq!(
-        load_geometry("room.gltf", &embedded).unwrap().scene.mesh,
-        text.scene.mesh
-    );
+    assert_eq!(load_geometry("room.gltf", &embedded).unwrap().scene.mesh, text.scene.mesh);
 }
 
 #[test]
@@ -146,66 +122,30 @@ fn an_axis_that_is_not_named_is_warned_of() {
 #[test]
 fn what_lies_or_is_not_built_is_refused() {
     for (from, to, needle) in [
-        (
-            "\"count\": 4",
-            "\"count\": 1000000000",
-            "accessor 0 says 1000000000 elements",
-        ),
-        (
-            "\"count\": 6",
-            "\"count\": 1000000000",
-            "accessor 1 says 1000000000 elements",
-        ),
-        (
-            "\"count\": 6",
-            "\"count\": 18446744073709551615",
-            "accessor 1 says 18446744073709551615",
-        ),
+        ("\"count\": 4", "\"count\": 1000000000", "accessor 0 says 1000000000 elements"),
+        ("\"count\": 6", "\"count\": 1000000000", "accessor 1 says 1000000000 elements"),
+        ("\"count\": 6", "\"count\": 18446744073709551615", "accessor 1 says 18446744073709551615"),
         (
             "\"byteLength\": 60",
             "\"byteLength\": 1000000000",
             "buffer 0 has 60 bytes; expected 1000000000",
         ),
-        (
-            "\"byteLength\": 48",
-            "\"byteLength\": 1000",
-            "buffer view 0 reaches beyond",
-        ),
+        ("\"byteLength\": 48", "\"byteLength\": 1000", "buffer view 0 reaches beyond"),
         (
             "\"byteLength\": 12",
             "\"byteLength\": 12, \"byteStride\": 252",
             "accessor 1 says 6 elements",
         ),
-        (
-            "\"count\": 4",
-            "\"count\": 3",
-            "refers to vertex 3, but has 3",
-        ),
-        (
-            "\"count\": 4",
-            "\"byteOffset\": 18446744073709551615, \"count\": 4",
-            "accessor 0 says",
-        ),
-        (
-            "\"POSITION\": 0",
-            "\"POSITION\": 2",
-            "mesh 0 refers to accessor 2, but the file has 2",
-        ),
+        ("\"count\": 4", "\"count\": 3", "refers to vertex 3, but has 3"),
+        ("\"count\": 4", "\"byteOffset\": 18446744073709551615, \"count\": 4", "accessor 0 says"),
+        ("\"POSITION\": 0", "\"POSITION\": 2", "mesh 0 refers to accessor 2, but the file has 2"),
         ("5126", "5123", "expected three 32-bit floats"),
         ("5123", "5126", "expected unsigned integers"),
-        (
-            "{\"mesh\": 0, \"scale\"",
-            "{\"children\": [0], \"scale\"",
-            "node 0 has two parents",
-        ),
+        ("{\"mesh\": 0, \"scale\"", "{\"children\": [0], \"scale\"", "node 0 has two parents"),
         ("[1, 2]", "[1, 1]", "node 1 has two parents"),
         ("[1, 2]", "[1, 7]", "Index out of bounds"),
         ("[10, 0, 0]", "[1e38, 0, 0]", "beyond 1e9 m"),
-        (
-            "[0, 0.70710678, 0, 0.70710678]",
-            "[0, 0, 0, 0]",
-            "no quaternion",
-        ),
+        ("[0, 0.70710678, 0, 0.70710678]", "[0, 0, 0, 0]", "no quaternion"),
         (
             "\"2.0\"}",
             "\"2.0\"}, \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]",
@@ -216,16 +156,8 @@ fn what_lies_or_is_not_built_is_refused() {
             "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 1, \"componentType\": 5123}, \"values\": {\"bufferView\": 1}}",
             "is sparse",
         ),
-        (
-            "\"bufferView\": 1,",
-            "",
-            "accessors[1].bufferView: Missing data",
-        ),
-        (
-            "square%20mesh.bin",
-            "none.bin",
-            "cannot read the buffer \"models/none.bin\"",
-        ),
+        ("\"bufferView\": 1,", "", "accessors[1].bufferView: Missing data"),
+        ("square%20mesh.bin", "none.bin", "cannot read the buffer \"models/none.bin\""),
         ("square%20mesh.bin", "data:text/plain,abc", "not base64"),
         ("\"version\"", "\"vershun\"", "not a valid glTF file"),
     ] {
@@ -234,19 +166,13 @@ fn what_lies_or_is_not_built_is_refused() {
         let files = files().with("models/room.gltf", json);
         let error = load_geometry("models/room.gltf", &files).unwrap_err();
         assert_eq!(error.file(), "models/room.gltf", "{error}");
-        assert!(
-            error.to_string().contains(needle),
-            "no {needle:?} in: {error}"
-        );
+        assert!(error.to_string().contains(needle), "no {needle:?} in: {error}");
     }
 }
 
 #[test]
 fn broken_json_is_refused_at_its_line() {
-    let files = files().with(
-        "models/room.gltf",
-        SQUARE.replace("\"scene\": 0,", "\"scene\": 0"),
-    );
+    let files = files().with("models/room.gltf", SQUARE.replace("\"scene\": 0,", "\"scene\": 0"));
     let error = load_geometry("models/room.gltf", &files).unwrap_err();
     assert_eq!(error.place().map(|place| place.line), Some(4), "{error}");
 }
@@ -271,10 +197,7 @@ fn glb_headers_that_lie_are_refused() {
         (Vec::new(), "not a valid glTF file"),
     ] {
         let error = load_geometry("room.glb", &files().with("room.glb", bytes)).unwrap_err();
-        assert!(
-            error.to_string().contains(needle),
-            "no {needle:?} in: {error}"
-        );
+        assert!(error.to_string().contains(needle), "no {needle:?} in: {error}");
     }
 }
 
@@ -282,27 +205,15 @@ fn glb_headers_that_lie_are_refused() {
 fn strips_fans_and_primitives_without_indices() {
     for (mode, indices) in [(5, [0_u16, 1, 3, 2]), (6, [0, 1, 2, 3])] {
         let mut bytes = square_bytes();
-        bytes.splice(
-            48..,
-            indices.into_iter().flat_map(u16::to_le_bytes).chain([0; 4]),
-        );
-        let json = SQUARE.replace("\"count\": 6", "\"count\": 4").replace(
-            "\"indices\": 1",
-            &format!("\"indices\": 1, \"mode\": {mode}"),
-        );
-        let files = files()
-            .with("models/room.gltf", json)
-            .with("models/square mesh.bin", bytes);
-        let mesh = load_geometry("models/room.gltf", &files)
-            .unwrap()
-            .scene
-            .mesh;
+        bytes.splice(48.., indices.into_iter().flat_map(u16::to_le_bytes).chain([0; 4]));
+        let json = SQUARE
+            .replace("\"count\": 6", "\"count\": 4")
+            .replace("\"indices\": 1", &format!("\"indices\": 1, \"mode\": {mode}"));
+        let files = files().with("models/room.gltf", json).with("models/square mesh.bin", bytes);
+        let mesh = load_geometry("models/room.gltf", &files).unwrap().scene.mesh;
         let area: f64 = (0..4).map(|t| mesh.area_m2(t)).sum();
         assert!((area - 2.0).abs() < 1e-6, "{area}");
-        assert!(
-            (0..4).all(|t| mesh.front_normal(t).y > 0.999),
-            "mode {mode}"
-        );
+        assert!((0..4).all(|t| mesh.front_normal(t).y > 0.999), "mode {mode}");
     }
     let json = SQUARE.replace(", \"indices\": 1", "");
     let mesh = load_geometry("models/room.gltf", &files().with("models/room.gltf", json));

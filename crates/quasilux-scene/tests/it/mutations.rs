@@ -78,10 +78,7 @@ fn survive(original: &[u8], seed: u64, load: impl Fn(Vec<u8>) -> Result<(), Stri
 
 /// Mutations must reach both ends: some still load, some are refused.
 fn assert_mixed(loaded: usize) {
-    assert!(
-        (MUTATIONS / 200..MUTATIONS * 99 / 100).contains(&loaded),
-        "{loaded} loaded"
-    );
+    assert!((MUTATIONS / 200..MUTATIONS * 99 / 100).contains(&loaded), "{loaded} loaded");
 }
 
 #[test]
@@ -92,9 +89,7 @@ fn project_files() {
            estimator = \"path\"\nreplicates = 16\nmax_bounces = \"unlimited\"\n";
     let files = MapFiles::room();
     assert_mixed(survive(project.as_bytes(), 1, |bytes| {
-        load("a.toml", &bytes, &files)
-            .map(drop)
-            .map_err(|error| error.to_string())
+        load("a.toml", &bytes, &files).map(drop).map_err(|error| error.to_string())
     }));
 }
 
@@ -103,9 +98,7 @@ fn obj_files() {
     let obj = ROOM_OBJ.to_owned() + "g wall\nv 0 0 1\nf -1 -2 -4\nf 1/2/3 2//4 3/1 4 5\n";
     assert_mixed(survive(obj.as_bytes(), 2, |bytes| {
         let files = MapFiles::room().with("room.obj", bytes);
-        load_geometry("room.obj", &files)
-            .map(drop)
-            .map_err(|error| error.to_string())
+        load_geometry("room.obj", &files).map(drop).map_err(|error| error.to_string())
     }));
 }
 
@@ -113,9 +106,7 @@ fn obj_files() {
 fn mtl_files() {
     let loaded = survive(ROOM_MTL.as_bytes(), 3, |bytes| {
         let files = MapFiles::room().with("room.mtl", bytes);
-        load_geometry("room.obj", &files)
-            .map(drop)
-            .map_err(|error| error.to_string())
+        load_geometry("room.obj", &files).map(drop).map_err(|error| error.to_string())
     });
     assert_eq!(loaded, MUTATIONS, "a broken MTL file is only warned of");
 }
@@ -123,12 +114,8 @@ fn mtl_files() {
 #[test]
 fn gltf_files() {
     assert_mixed(survive(SQUARE.as_bytes(), 4, |bytes| {
-        let files = MapFiles::room()
-            .with("a.gltf", bytes)
-            .with("square mesh.bin", square_bytes());
-        load_geometry("a.gltf", &files)
-            .map(drop)
-            .map_err(|error| error.to_string())
+        let files = MapFiles::room().with("a.gltf", bytes).with("square mesh.bin", square_bytes());
+        load_geometry("a.gltf", &files).map(drop).map_err(|error| error.to_string())
     }));
 }
 
@@ -136,8 +123,6 @@ fn gltf_files() {
 fn glb_files() {
     assert_mixed(survive(&square_glb(), 5, |bytes| {
         let files = MapFiles::room().with("a.glb", bytes);
-        load_geometry("a.glb", &files)
-            .map(drop)
-            .map_err(|error| error.to_string())
+        load_geometry("a.glb", &files).map(drop).map_err(|error| error.to_string())
     }));
 }

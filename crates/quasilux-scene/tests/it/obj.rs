@@ -23,14 +23,9 @@ fn names_materials_and_polygons_are_kept() {
     assert_eq!(scene.materials[1].bsdf.reflectance(), Rgb::grey(0.6));
     assert_eq!(scene.mesh.positions.len(), 6);
     // The L-shaped leg covers 3 m^2, all of it facing up.
-    let up: f64 = (4..8)
-        .map(|t| scene.mesh.double_area_vector(t).z / 2.0)
-        .sum();
+    let up: f64 = (4..8).map(|t| scene.mesh.double_area_vector(t).z / 2.0).sum();
     let area: f64 = (4..8).map(|t| scene.mesh.area_m2(t)).sum();
-    assert!(
-        (up - 3.0).abs() < 1e-12 && (area - 3.0).abs() < 1e-12,
-        "{up} {area}"
-    );
+    assert!((up - 3.0).abs() < 1e-12 && (area - 3.0).abs() < 1e-12, "{up} {area}");
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
 }
 
@@ -75,19 +70,14 @@ fn names_need_not_be_utf_8_and_y_may_point_up() {
     let project = PROJECT.replace("[\"room.obj\"]", "[\"room.obj\"]\nup = \"y\"");
     let scene = load_text(&project, &files).unwrap().scene;
     assert_eq!(scene.materials[0].name, "h\u{fffd}lzern");
-    assert_eq!(
-        scene.mesh.positions,
-        [DVec3::Z, DVec3::new(1.0, 0.0, 1.0), DVec3::ONE]
-    );
+    assert_eq!(scene.mesh.positions, [DVec3::Z, DVec3::new(1.0, 0.0, 1.0), DVec3::ONE]);
     assert_eq!(scene.mesh.front_normal(0), DVec3::Z);
 }
 
 #[test]
 fn positions_are_read_in_double_precision() {
-    let files = MapFiles::room().with(
-        "room.obj",
-        ROOM_OBJ.replace("v 1 1 0", "v 1 1.0000000000000002 0"),
-    );
+    let files =
+        MapFiles::room().with("room.obj", ROOM_OBJ.replace("v 1 1 0", "v 1 1.0000000000000002 0"));
     let scene = load_text(PROJECT, &files).unwrap().scene;
     assert_eq!(scene.mesh.positions[2].y, 1.0 + f64::EPSILON);
 }

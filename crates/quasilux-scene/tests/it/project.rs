@@ -6,13 +6,7 @@ use quasilux_scene::{Light, Quantity, SensorShape};
 use std::f64::consts::PI;
 
 fn grid_of(project: &str) -> quasilux_scene::Grid {
-    match load_text(project, &MapFiles::room())
-        .unwrap()
-        .scene
-        .sensors
-        .remove(0)
-        .shape
-    {
+    match load_text(project, &MapFiles::room()).unwrap().scene.sensors.remove(0).shape {
         SensorShape::Grid(grid) => grid,
         SensorShape::Points(_) => panic!("a grid was asked for"),
     }
@@ -21,10 +15,7 @@ fn grid_of(project: &str) -> quasilux_scene::Grid {
 #[test]
 fn grids_by_spacing_counts_and_rule() {
     let grid = grid_of(PROJECT);
-    assert_eq!(
-        (grid.counts, grid.normal, grid.quantity),
-        ([4, 4], DVec3::Z, Quantity::Centre)
-    );
+    assert_eq!((grid.counts, grid.normal, grid.quantity), ([4, 4], DVec3::Z, Quantity::Centre));
     let grid = grid_of(&PROJECT.replace("spacing = 0.25", "counts = [2, 3]\nquantity = \"mean\""));
     assert_eq!((grid.counts, grid.quantity), ([2, 3], Quantity::Mean));
     let grid = grid_of(&PROJECT.replace("spacing = 0.25", "spacing = 0.3\nnormal = [0, 0, -2]"));
@@ -40,21 +31,11 @@ fn grids_by_spacing_counts_and_rule() {
 #[test]
 fn area_lights_by_luminance_and_flux() {
     let point = "kind = \"point\"\nposition = [0.5, 0.5, 2.0]\nintensity_cd = 100";
-    for (amount, luminance) in [
-        ("luminance_cd_m2 = 300", 300.0),
-        ("flux_lm = 300", 300.0 / PI),
-    ] {
+    for (amount, luminance) in [("luminance_cd_m2 = 300", 300.0), ("flux_lm = 300", 300.0 / PI)] {
         let area = format!("kind = \"area\"\nmaterial = \"wood\"\n{amount}");
-        let scene = load_text(&PROJECT.replace(point, &area), &MapFiles::room())
-            .unwrap()
-            .scene;
-        let Light::Area(light) = &scene.lights[0] else {
-            panic!("an area light was asked for")
-        };
-        assert_eq!(
-            (light.material, light.triangles.as_slice()),
-            (0, &[0, 1][..])
-        );
+        let scene = load_text(&PROJECT.replace(point, &area), &MapFiles::room()).unwrap().scene;
+        let Light::Area(light) = &scene.lights[0] else { panic!("an area light was asked for") };
+        assert_eq!((light.material, light.triangles.as_slice()), (0, &[0, 1][..]));
         assert!((light.area_m2 - 1.0).abs() < 1e-15);
         assert!((light.luminance_cd_m2 - luminance).abs() < 1e-12 * luminance);
     }
@@ -65,21 +46,13 @@ fn luminaires_share_their_photometry() {
     let one =
         "[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\nrotation_deg = 90\n";
     let two = "[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [1, 0, 2]\ndimming = 0.5\n";
-    let scene = load_text(&format!("{PROJECT}{one}{two}"), &MapFiles::room())
-        .unwrap()
-        .scene;
-    let [
-        Light::Luminaire(first),
-        Light::Luminaire(second),
-        Light::Point(_),
-    ] = scene.lights.as_slice()
+    let scene = load_text(&format!("{PROJECT}{one}{two}"), &MapFiles::room()).unwrap().scene;
+    let [Light::Luminaire(first), Light::Luminaire(second), Light::Point(_)] =
+        scene.lights.as_slice()
     else {
         panic!("luminaires come first: {:?}", scene.lights)
     };
-    assert!(std::sync::Arc::ptr_eq(
-        &first.photometry,
-        &second.photometry
-    ));
+    assert!(std::sync::Arc::ptr_eq(&first.photometry, &second.photometry));
     assert!((first.world_from_luminaire * DVec3::X - DVec3::Y).length() < 1e-12);
     // 1000 cd over the lower half: 2 pi times 1000 lm.
     assert!((first.flux_lm() - 2000.0 * PI).abs() < 1e-6 * first.flux_lm());
@@ -92,18 +65,12 @@ fn simulation_values_keep_their_places() {
         + "[simulation]\nestimator = \"pat\"\nrel_tol = 0.02\nconfidence = 0.9\nreplicates = 8\n\
            seed = 0xff\nmax_bounces = \"unlimited\"\nmap_element_m = 1\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
-    assert_eq!(
-        simulation.rel_tol.as_ref().map(|v| (v.value, v.place.line)),
-        Some((0.02, 18))
-    );
+    assert_eq!(simulation.rel_tol.as_ref().map(|v| (v.value, v.place.line)), Some((0.02, 18)));
     assert_eq!(simulation.confidence.as_ref().map(|v| v.value), Some(0.9));
     assert_eq!(simulation.replicates.as_ref().map(|v| v.value), Some(8));
     assert_eq!(simulation.seed.as_ref().map(|v| v.value), Some(255));
     assert_eq!(simulation.max_bounces.as_ref().map(|v| v.value), Some(None));
-    assert_eq!(
-        simulation.map_element_m.as_ref().map(|v| v.value),
-        Some(1.0)
-    );
+    assert_eq!(simulation.map_element_m.as_ref().map(|v| v.value), Some(1.0));
     assert_eq!(simulation.sequence, None);
     let estimator = simulation.estimator.as_ref().unwrap();
     let error = simulation.unknown_name(estimator, "estimator", &["photon", "path"]);
@@ -124,11 +91,7 @@ fn emission_in_a_geometry_file_needs_a_light() {
     let files = MapFiles::room().with("room.mtl", "newmtl wood\nKd 0.4\nKe 1 1 1\n");
     let warnings = load_text(PROJECT, &files).unwrap().warnings;
     assert_eq!(warnings.len(), 1);
-    assert!(
-        warnings[0].message.contains("\"wood\" emits"),
-        "{}",
-        warnings[0]
-    );
+    assert!(warnings[0].message.contains("\"wood\" emits"), "{}", warnings[0]);
     let light = "[[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 1\n";
     let loaded = load_text(&format!("{PROJECT}{light}"), &files).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);

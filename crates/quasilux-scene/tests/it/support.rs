@@ -52,10 +52,7 @@ impl MapFiles {
 
 impl Files for MapFiles {
     fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
-        self.0
-            .get(path)
-            .cloned()
-            .ok_or_else(|| Error::from(ErrorKind::NotFound))
+        self.0.get(path).cloned().ok_or_else(|| Error::from(ErrorKind::NotFound))
     }
 }
 

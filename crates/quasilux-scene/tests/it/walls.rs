@@ -8,22 +8,12 @@ fn box_obj(name: &str, low: [f64; 3], high: [f64; 3], first: usize) -> String {
     let mut obj = format!("o {name}\nusemtl wood\n");
     for i in 0..8 {
         let pick = |axis: usize| {
-            if i >> axis & 1 == 1 {
-                high[axis]
-            } else {
-                low[axis]
-            }
+            if i >> axis & 1 == 1 { high[axis] } else { low[axis] }
         };
         let _ = writeln!(obj, "v {} {} {}", pick(0), pick(1), pick(2));
     }
-    for quad in [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ] {
+    for quad in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    {
         let [a, b, c, d] = quad.map(|v| v + first);
         let _ = writeln!(obj, "f {a} {b} {c} {d}");
     }
@@ -70,10 +60,8 @@ fn a_cupboard_with_a_light_is_no_wall() {
     let project = probe("[0.2, 0.3, 0.4]").replace("[0.5, 0.5, 2.0]", "[0.1, 0.1, 0.1]");
     assert!(load_text(&project, &files()).is_ok());
     let point = "kind = \"point\"\nposition = [0.5, 0.5, 2.0]\nintensity_cd = 100";
-    let furnace = probe("[0.2, 0.3, 0.4]").replace(
-        point,
-        "kind = \"area\"\nmaterial = \"wood\"\nluminance_cd_m2 = 1",
-    );
+    let furnace = probe("[0.2, 0.3, 0.4]")
+        .replace(point, "kind = \"area\"\nmaterial = \"wood\"\nluminance_cd_m2 = 1");
     assert!(load_text(&furnace, &files()).is_ok());
 }
 
@@ -83,17 +71,13 @@ fn grids_may_be_partly_inside() {
     let warnings = warnings_of(&load_text(PROJECT, &files()).unwrap());
     assert_eq!(
         warnings,
-        [
-            "room.toml:9:1: 8 of 16 points of sensor \"plane\" lie inside the closed object \
-          \"cupboard\", which holds no light"
-        ]
+        ["room.toml:9:1: 8 of 16 points of sensor \"plane\" lie inside the closed object \
+          \"cupboard\", which holds no light"]
     );
     let narrow = PROJECT.replace("u = [1, 0, 0]", "u = [0.3, 0, 0]");
     let error = load_text(&narrow, &files()).unwrap_err();
     assert!(
-        error
-            .to_string()
-            .starts_with("room.toml:9:1: sensor \"plane\" lies inside"),
+        error.to_string().starts_with("room.toml:9:1: sensor \"plane\" lies inside"),
         "{error}"
     );
 }

@@ -36,12 +36,7 @@ impl<'a> Lights<'a> {
         let emitters = Emitters::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
         let fluxes: Vec<f64> = pointlikes.fluxes_lm().chain([emitters_lm]).collect();
-        Self {
-            pointlikes,
-            emitters,
-            by_flux: Discrete::new(&fluxes),
-            flux_lm: fluxes.iter().sum(),
-        }
+        Self { pointlikes, emitters, by_flux: Discrete::new(&fluxes), flux_lm: fluxes.iter().sum() }
     }
 
     /// One photon of equal flux: the light in proportion to its flux, place and direction from the

@@ -4,7 +4,7 @@ use glam::DVec3;
 use quasilux_scene::bsdf::{Diffuse, Mirror};
 use quasilux_scene::light::{AreaLight, PointLight};
 use quasilux_scene::{
-    Bsdf, Light, Material, Mesh, Rgb, Scene, Sensor, SensorPoint, SensorShape,
+    Bsdf, Grid, Light, Material, Mesh, Quantity, Rgb, Scene, Sensor, SensorPoint, SensorShape,
 };
 
 /// A closed box from the origin to `size`, its normals inward, of one material.
@@ -12,7 +12,8 @@ pub(crate) fn room(size: DVec3, bsdf: Bsdf) -> Scene {
     let positions = (0..8)
         .map(|i| size * DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2 & 1)))
         .collect();
-    let quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
+    let quads =
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
     let triangles: Vec<[u32; 3]> =
         quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let count = triangles.len();
@@ -59,9 +60,21 @@ pub(crate) fn points(name: &str, points: &[(DVec3, DVec3)]) -> Sensor {
 pub(crate) fn diffuse_cube(places: &[(f64, f64)]) -> Scene {
     let mut scene = room(DVec3::splat(10.0), diffuse(2.0 / 3.0));
     scene.lights.push(point_light(DVec3::splat(5.0), 50_000.0));
-    let on_wall =
-        |&(y, z): &(f64, f64)| (DVec3::new(0.0, 5.0 + 5.0 * y, 5.0 + 5.0 * z), DVec3::X);
+    let on_wall = |&(y, z): &(f64, f64)| (DVec3::new(0.0, 5.0 + 5.0 * y, 5.0 + 5.0 * z), DVec3::X);
     let places: Vec<(DVec3, DVec3)> = places.iter().map(on_wall).collect();
     scene.sensors.push(points("wall", &places));
     scene
+}
+
+/// Means over the cells of a grid that covers the wall x = 0 of the diffuse cube.
+pub(crate) fn wall_grid(counts: [u32; 2]) -> Sensor {
+    let grid = Grid {
+        origin: DVec3::ZERO,
+        u: DVec3::Y * 10.0,
+        v: DVec3::Z * 10.0,
+        counts,
+        normal: DVec3::X,
+        quantity: Quantity::Mean,
+    };
+    Sensor { name: "grid".to_owned(), shape: SensorShape::Grid(grid) }
 }

@@ -17,7 +17,10 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
     if cases.is_empty() {
         return Err(Refusal::new(format!("{}: no cases, expected *.toml", folder.display())));
     }
-    println!("{:<24}{:<19}{:<28}{:>12}  {:<24}verdict", "case", "estimator", "figure", "expected", "got");
+    println!(
+        "{:<24}{:<19}{:<28}{:>12}  {:<24}verdict",
+        "case", "estimator", "figure", "expected", "got"
+    );
     let (mut held, mut failed) = (0, 0);
     for path in cases {
         for (name, verdict) in judge(&Case::read(&path)?)? {
