@@ -3,7 +3,7 @@
 //! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
 
-use crate::estimates::{Estimates, MeanDimension, SensorEstimates};
+use crate::estimates::{Estimates, MeanDimension};
 use crate::map::MapLayout;
 use crate::photon::{PhotonCounts, PhotonReceiver};
 use crate::photons::trace_photons;
@@ -106,24 +106,15 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
                 })
                 .collect()
         };
-        let rows: Vec<Vec<Vec<f64>>> =
-            self.counters.iter().map(|own| by_sensor(self.scene, &read(&own.all))).collect();
+        let rows: Vec<Vec<f64>> = self.counters.iter().map(|own| read(&own.all)).collect();
         let mut direct_lx = vec![0.0; self.receivers.targets.len()];
         for own in &self.counters {
             for (sum, value) in direct_lx.iter_mut().zip(read(&own.direct)) {
                 *sum += value / self.counters.len() as f64;
             }
         }
-        let sensors = by_sensor(self.scene, &direct_lx)
-            .into_iter()
-            .enumerate()
-            .map(|(sensor, direct_lx)| SensorEstimates {
-                replicate_lx: rows.iter().map(|row| row[sensor].clone()).collect(),
-                direct_lx,
-            })
-            .collect();
         Estimates {
-            sensors,
+            sensors: by_sensor(self.scene, &rows, &direct_lx),
             samples: self.samples,
             rays: self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),

@@ -1,11 +1,10 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
-use crate::estimates::{Estimates, MeanDimension, SensorEstimates};
-use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally};
-use crate::path::{Gathered, MapEnd, PathWork, Rest, trace_path};
+use crate::end::{End, Growth};
+use crate::estimates::{Estimates, MeanDimension};
+use crate::path::{Gathered, PathWork, Rest, trace_path};
 use crate::photon::PhotonCounts;
-use crate::photons::trace_photons;
-use crate::settings::{Estimator, Settings};
+use crate::settings::Settings;
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -24,13 +23,6 @@ const BLOCKS_PER_ROUND: u64 = 512;
 /// The first checkpoint takes at most this many indices, and about this many paths in all.
 const FIRST_SAMPLES: u64 = 64;
 const FIRST_PATHS: u64 = 1 << 22;
-/// Share of the paths that correct the map. With few the error of the correction prevails (on the
-/// diffuse cube a share of 0.1 takes 18 times as long to the same error as plain paths, 0.6 three
-/// times); with all of them these are plain paths.
-const CORRECTED_SHARE: f64 = 0.6;
-/// Photons that only balance the flux, where the estimator needs none.
-const BALANCE_PHOTONS: u64 = 1 << 14;
-
 /// Paths from all sensor points, in all replicates.
 pub(crate) struct Gathering<'a, S> {
     stage: &'a Stage<'a, S>,
@@ -46,22 +38,8 @@ pub(crate) struct Gathering<'a, S> {
     samples: u64,
     work: WorkCounts,
     photons: PhotonCounts,
-}
-
-/// What the paths end on.
-enum End<S> {
-    Nothing,
-    /// One map, frozen before the first path, whose error is corrected.
-    Plan {
-        layout: MapLayout,
-        map: IlluminationMap<S>,
-    },
-    /// A map for each replicate that grows with it.
-    Own {
-        layout: MapLayout,
-        tallies: Vec<MapTally<S>>,
-        maps: Vec<IlluminationMap<S>>,
-    },
+    /// Targets whose direct light is not finite.
+    invalid_points: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,7 +72,13 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
         let mut work = WorkCounts::default();
-        let exact_direct_lx = exact_direct(stage, &targets, &mut work.rays);
+        let mut exact_direct_lx = exact_direct(stage, &targets, &mut work.rays);
+        let mut invalid_points = 0;
+        for value_lx in exact_direct_lx.iter_mut().filter(|value_lx| !value_lx.is_finite()) {
+            // A light right at a sensor point has no illuminance to speak of.
+            *value_lx = 0.0;
+            invalid_points += 1;
+        }
         let (end, photons) = End::prepare(stage, settings, replicates, watch);
         Self {
             stage,
@@ -108,6 +92,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             samples: 0,
             work,
             photons,
+            invalid_points,
         }
     }
 
@@ -206,12 +191,13 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let n = self.samples as f64;
         let replicates = self.replicates as usize;
         let mean = |sum: Sum| self.quantum.value(sum) / n;
-        let rows = |r: usize| -> Vec<f64> {
+        let row = |r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates);
             own.zip(&self.exact_direct_lx)
                 .map(|(sums, exact_lx)| exact_lx + (mean(sums.direct) + mean(sums.indirect)))
                 .collect()
         };
+        let rows: Vec<Vec<f64>> = (0..replicates).map(row).collect();
         let direct_lx: Vec<f64> = self
             .sums
             .chunks_exact(replicates)
@@ -220,27 +206,18 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 exact_lx + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
             })
             .collect();
-        let rows: Vec<Vec<Vec<f64>>> =
-            (0..replicates).map(|r| by_sensor(self.scene, &rows(r))).collect();
-        let sensors = by_sensor(self.scene, &direct_lx)
-            .into_iter()
-            .enumerate()
-            .map(|(sensor, direct_lx)| SensorEstimates {
-                replicate_lx: rows.iter().map(|row| row[sensor].clone()).collect(),
-                direct_lx,
-            })
-            .collect();
         let mean_dimension = MeanDimension {
             photon: self.photons.mean_dimension(),
             path: Some(self.work.coordinates as f64 / self.work.paths as f64),
         };
         Estimates {
-            sensors,
+            sensors: by_sensor(self.scene, &rows, &direct_lx),
             samples: self.samples,
             rays: self.work.rays + self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
             mean_dimension,
-            invalid_contributions: self.sums.iter().map(PathSums::invalid).sum(),
+            invalid_contributions: self.invalid_points
+                + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
             warnings: self.photons.warnings(),
             ..Estimates::default()
         }
@@ -250,69 +227,6 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let affordable = FIRST_PATHS / (self.sums.len() as u64).max(1);
         let powers = (affordable + 1).next_power_of_two() / 2;
         powers.clamp(1, FIRST_SAMPLES)
-    }
-}
-
-/// What happened to the maps before more paths are traced.
-enum Growth {
-    None,
-    NewMaps(PhotonCounts),
-    Stopped,
-}
-
-impl<S: Spectrum> End<S> {
-    /// Traces the photons that come before all paths.
-    fn prepare(
-        stage: &Stage<'_, S>,
-        settings: &Settings,
-        replicates: u32,
-        watch: &mut Watch<'_>,
-    ) -> (Self, PhotonCounts) {
-        // Before the first checkpoint the observer stops nothing, so there are always counts.
-        let mut plan = |photons: u64, receiver: Option<MapReceiver<'_, S>>| {
-            let stream = Stream::PlanPhotons;
-            trace_photons(stage, stream, 0..1, 0..photons, |_| receiver, watch).unwrap_or_default()
-        };
-        if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
-            return (Self::Nothing, plan(BALANCE_PHOTONS, None));
-        }
-        let layout = MapLayout::new(&stage.world, settings.map_element_m);
-        if settings.estimator == Estimator::BidirectionalMap {
-            let tallies = (0..replicates).map(|_| MapTally::new(&layout)).collect();
-            return (Self::Own { layout, tallies, maps: Vec::new() }, PhotonCounts::default());
-        }
-        let photons = (2 * layout.len() as u64).next_power_of_two().clamp(1 << 14, 1 << 19);
-        let tally = MapTally::new(&layout);
-        let counts = plan(photons, Some(MapReceiver::new(stage, &layout, &tally)));
-        let map = tally.read(&layout, stage.lights.flux_lm / photons as f64);
-        (Self::Plan { layout, map }, counts)
-    }
-
-    /// Adds the photons `indices` to maps that grow.
-    fn grow(&mut self, stage: &Stage<'_, S>, indices: Range<u64>, watch: &mut Watch<'_>) -> Growth {
-        let Self::Own { layout, tallies, maps } = self else { return Growth::None };
-        let samples = indices.end;
-        let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
-        let replicates = 0..tallies.len() as u32;
-        let traced = trace_photons(stage, Stream::Photons, replicates, indices, receiver, watch);
-        let Some(counts) = traced else { return Growth::Stopped };
-        let flux_lm = stage.lights.flux_lm / samples as f64;
-        *maps = tallies.iter().map(|tally| tally.read(layout, flux_lm)).collect();
-        Growth::NewMaps(counts)
-    }
-
-    /// Where the paths of one replicate end.
-    fn rest(&self, replicate: u32) -> Rest<'_, S> {
-        match self {
-            Self::Nothing => Rest::Path,
-            Self::Plan { layout, map } => {
-                Rest::Map(MapEnd { layout, map, corrected_share: Some(CORRECTED_SHARE) })
-            }
-            Self::Own { layout, maps, .. } => {
-                let map = &maps[replicate as usize];
-                Rest::Map(MapEnd { layout, map, corrected_share: None })
-            }
-        }
     }
 }
 

@@ -9,6 +9,7 @@
 
 mod check;
 mod counting;
+mod end;
 pub mod estimates;
 mod gathering;
 pub mod interval;

@@ -63,6 +63,12 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
         estimates.miss_probability = schedule.miss_probability();
         estimates.biased = is_biased(scene, settings);
         estimates.warnings.extend(caveats(scene, settings));
+        if estimates.invalid_contributions > 0 {
+            estimates.warnings.push(format!(
+                "{} contributions were not finite, negative or too large, and are not in the results",
+                estimates.invalid_contributions
+            ));
+        }
         let largest = largest_relative_half_width(&estimates);
         let excess = excess(largest, settings);
         estimates.tolerance_reached = excess.is_some_and(|excess| excess <= 1.0);

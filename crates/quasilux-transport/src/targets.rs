@@ -1,5 +1,6 @@
 //! The sensor points of all sensors in one list.
 
+use crate::estimates::SensorEstimates;
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
 use quasilux_scene::{Quantity, Scene, SensorShape};
@@ -32,16 +33,24 @@ pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
     targets
 }
 
-/// Cuts a list over all targets into one list a sensor.
-pub(crate) fn by_sensor<T: Clone>(scene: &Scene, all: &[T]) -> Vec<Vec<T>> {
-    let mut rest = all;
+/// The figures of each sensor, from lists over all targets: illuminance in lx of each replicate,
+/// and the direct part.
+pub(crate) fn by_sensor(
+    scene: &Scene,
+    replicate_lx: &[Vec<f64>],
+    direct_lx: &[f64],
+) -> Vec<SensorEstimates> {
+    let mut first = 0;
     scene
         .sensors
         .iter()
         .map(|sensor| {
-            let (own, others) = rest.split_at(sensor.len());
-            rest = others;
-            own.to_vec()
+            let own = first..first + sensor.len();
+            first = own.end;
+            SensorEstimates {
+                replicate_lx: replicate_lx.iter().map(|row| row[own.clone()].to_vec()).collect(),
+                direct_lx: direct_lx[own].to_vec(),
+            }
         })
         .collect()
 }

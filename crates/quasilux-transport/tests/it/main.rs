@@ -1,5 +1,6 @@
 //! Simulations against closed forms.
 
+mod agreement;
 mod balance;
 mod coverage;
 mod cube;
