@@ -15,7 +15,7 @@ pub enum CheckError {
     PointOffSurface {
         /// Name of the sensor.
         sensor: String,
-        /// Number of the point, from 0.
+        /// Number of the point, from 1.
         point: usize,
     },
     /// Photon counting needs the flux through a grid's own plane.
@@ -54,6 +54,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
                     })
                 };
                 if let Some(point) = points.iter().position(is_off) {
+                    let point = point + 1;
                     return Err(CheckError::PointOffSurface { sensor: name(), point });
                 }
             }

@@ -15,7 +15,7 @@ pub(crate) struct Case {
     pub(crate) project: PathBuf,
     /// The project's own where empty.
     #[serde(default)]
-    pub(crate) estimators: Vec<String>,
+    estimators: Vec<String>,
     pub(crate) expect: Vec<Expectation>,
 }
 
@@ -66,6 +66,14 @@ impl Case {
         }
         case.project = path.parent().unwrap_or(Path::new("")).join(case.project);
         Ok(case)
+    }
+
+    /// The estimators to try; `None` is the project's own.
+    pub(crate) fn estimators(&self) -> Vec<Option<String>> {
+        match self.estimators.as_slice() {
+            [] => vec![None],
+            names => names.iter().cloned().map(Some).collect(),
+        }
     }
 }
 

@@ -50,9 +50,3 @@ impl From<quasilux_scene::LoadError> for Refusal {
         Self::new(error)
     }
 }
-
-impl From<quasilux_transport::CheckError> for Refusal {
-    fn from(error: quasilux_transport::CheckError) -> Self {
-        Self::new(error)
-    }
-}

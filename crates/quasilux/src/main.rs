@@ -9,13 +9,14 @@ mod commands;
 mod exit;
 mod interrupt;
 mod names;
+mod print;
 mod project;
 mod results;
 mod watcher;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use exit::Exit;
+use exit::{Exit, Refusal};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -23,13 +24,13 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
-        Command::Points(_)
-        | Command::Photometry(_)
-        | Command::Bsdf(_)
-        | Command::Plan(_)
-        | Command::Shard(_)
-        | Command::Merge(_)
-        | Command::Resume(_) => Err(exit::Refusal::not_built("this command")),
+        Command::Points(_) => Err(Refusal::not_built("quasilux points")),
+        Command::Photometry(_) => Err(Refusal::not_built("quasilux photometry")),
+        Command::Bsdf(_) => Err(Refusal::not_built("quasilux bsdf")),
+        Command::Plan(_) => Err(Refusal::not_built("quasilux plan")),
+        Command::Shard(_) => Err(Refusal::not_built("quasilux shard")),
+        Command::Merge(_) => Err(Refusal::not_built("quasilux merge")),
+        Command::Resume(_) => Err(Refusal::not_built("quasilux resume")),
     };
     match outcome {
         Ok(exit) => exit.into(),

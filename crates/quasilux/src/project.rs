@@ -4,7 +4,7 @@ use crate::arguments::SimulationArguments;
 use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_scene::{Files, Loaded, SimulationSection, load};
+use quasilux_scene::{Files, Loaded, load};
 use quasilux_transport::{Estimator, Settings};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -21,12 +21,19 @@ impl Files for Folder {
     }
 }
 
+/// A loaded project, and what messages call its file.
+pub(crate) struct Project {
+    pub(crate) name: String,
+    pub(crate) loaded: Loaded,
+}
+
 /// Loads a project; messages name its files as the user does.
-pub(crate) fn open(path: &Path) -> Result<Loaded, Refusal> {
+pub(crate) fn open(path: &Path) -> Result<Project, Refusal> {
     let name = path.display().to_string();
     let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
     let folder = Folder(path.parent().unwrap_or(Path::new("")).to_owned());
-    Ok(load(&name, &bytes, &folder)?)
+    let loaded = load(&name, &bytes, &folder)?;
+    Ok(Project { name, loaded })
 }
 
 fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
@@ -42,11 +49,13 @@ fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// What the simulation is asked to do: the command line before the project file before defaults.
+/// What the simulation is asked to do: the command line before the project file before defaults;
+/// checked against the scene.
 pub(crate) fn settings(
-    section: &SimulationSection,
+    project: &Project,
     arguments: &SimulationArguments,
 ) -> Result<Settings, Refusal> {
+    let section = &project.loaded.simulation;
     let mut settings = Settings::default();
     if let Some(name) = &section.estimator {
         settings.estimator = names::in_project(section, "estimator", name, &Estimator::NAMES)?;
@@ -78,10 +87,13 @@ pub(crate) fn settings(
         && arguments.samples.is_none()
         && arguments.time.is_none()
     {
-        return Err(Refusal::new(
-            "one replicate gives no interval, so no tolerance can end the run: give --samples or \
-             --time, or ask for more replicates and a randomization",
-        ));
+        return Err(Refusal::new(format!(
+            "{}: one replicate gives no interval, so no tolerance can end the run: give --samples \
+             or --time, or ask for more replicates and a randomization",
+            project.name
+        )));
     }
+    let checked = quasilux_transport::check(&project.loaded.scene, &settings);
+    checked.map_err(|error| Refusal::new(format!("{}: {error}", project.name)))?;
     Ok(settings)
 }

@@ -2,11 +2,12 @@
 
 use crate::arguments::{RunArguments, SimulationArguments};
 use crate::exit::{Exit, Refusal};
+use crate::print::print;
+use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
 use quasilux_measure::{Report, RunFacts, Style, json, table};
-use quasilux_scene::Loaded;
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 /// A finished simulation.
@@ -18,15 +19,16 @@ pub(crate) struct Finished {
 /// Runs a project, writes its results and prints what was asked for.
 pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
     interrupt::listen()?;
-    let loaded = project::open(&arguments.project)?;
+    let project = project::open(&arguments.project)?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.project));
-    if !arguments.quiet {
-        for warning in &loaded.warnings {
+    if arguments.json && !arguments.quiet {
+        // The table has the warnings; the document is for programs.
+        for warning in &project.loaded.warnings {
             eprintln!("warning: {warning}");
         }
     }
     results::prepare(&folder)?;
-    let finished = simulate(&loaded, &arguments.simulation, arguments.quiet)?;
+    let finished = simulate(&project, &arguments.simulation, arguments.quiet)?;
     results::write(&folder, &finished.report)?;
     if arguments.json {
         print(&json::json(&finished.report));
@@ -39,12 +41,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
 
 /// Simulates a loaded project on the wanted number of threads.
 pub(crate) fn simulate(
-    loaded: &Loaded,
+    project: &Project,
     arguments: &SimulationArguments,
     quiet: bool,
 ) -> Result<Finished, Refusal> {
-    let settings = project::settings(&loaded.simulation, arguments)?;
-    quasilux_transport::check(&loaded.scene, &settings)?;
+    let settings = project::settings(project, arguments)?;
+    let scene = &project.loaded.scene;
     let threads = match arguments.threads {
         Some(threads) => usize::from(threads),
         None => std::thread::available_parallelism().map_or(1, usize::from),
@@ -54,20 +56,19 @@ pub(crate) fn simulate(
         .build()
         .map_err(|error| Refusal::new(format!("cannot start {threads} threads: {error}")))?;
     let mut watcher = Watcher::new(arguments.time, quiet);
-    let estimates =
-        pool.install(|| quasilux_transport::simulate(&loaded.scene, &settings, &mut watcher));
+    let estimates = pool.install(|| quasilux_transport::simulate(scene, &settings, &mut watcher));
     let facts = RunFacts {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         seconds: watcher.finish().as_secs_f64(),
         threads,
-        warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
+        warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
     };
     let exit = match watcher.stopped {
         Some(Stopped::Interrupt) => Exit::Interrupted,
         _ if estimates.tolerance_reached => Exit::Done,
         _ => Exit::Limited,
     };
-    let report = Report::new(&loaded.scene, &settings, &estimates, facts);
+    let report = Report::new(scene, &settings, &estimates, facts);
     Ok(Finished { report, exit })
 }
 
@@ -79,9 +80,4 @@ fn default_folder(project: &Path) -> PathBuf {
 fn style() -> Style {
     let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     if std::io::stdout().is_terminal() && !unwanted { Style::Colour } else { Style::Plain }
-}
-
-/// Prints to stdout; a reader that has gone away is no reason to fail.
-fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
 }

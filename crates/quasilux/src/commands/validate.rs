@@ -4,11 +4,13 @@ use super::run::simulate;
 use crate::arguments::{SimulationArguments, ValidateArguments};
 use crate::cases::{Case, Verdict};
 use crate::exit::{Exit, Refusal};
+use crate::print::print;
 use crate::{interrupt, project};
-use quasilux_measure::number::figure_text;
+use quasilux_measure::Report;
+use quasilux_measure::number::{exact, figure_text};
 use std::path::PathBuf;
 
-/// Runs the cases; exit code 1 when one fails.
+/// Runs the cases; exit code 1 when one fails. An interrupted run is no verdict.
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
     interrupt::listen()?;
     let folder = arguments.folder.join("cases");
@@ -17,18 +19,24 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
     if cases.is_empty() {
         return Err(Refusal::new(format!("{}: no cases, expected *.toml", folder.display())));
     }
-    println!(
-        "{:<24}{:<19}{:<28}{:>12}  {:<24}verdict",
-        "case", "estimator", "figure", "expected", "got"
-    );
+    print_row(["case", "estimator", "figure", "expected", "got", "verdict"]);
     let (mut held, mut failed) = (0, 0);
     for path in cases {
-        for (name, verdict) in judge(&Case::read(&path)?)? {
-            print_row(&name, &verdict);
-            *(if verdict.holds { &mut held } else { &mut failed }) += 1;
+        let case = Case::read(&path)?;
+        let project = project::open(&case.project)?;
+        for estimator in case.estimators() {
+            let arguments = SimulationArguments { estimator, ..SimulationArguments::default() };
+            let finished = simulate(&project, &arguments, true)?;
+            if finished.exit == Exit::Interrupted {
+                return Ok(Exit::Interrupted);
+            }
+            for verdict in judge(&case, &finished.report)? {
+                print_verdict(&case, &finished.report, &verdict);
+                *(if verdict.holds { &mut held } else { &mut failed }) += 1;
+            }
         }
     }
-    println!("{held} passed, {failed} failed");
+    print(&format!("{held} passed, {failed} failed\n"));
     Ok(if failed == 0 { Exit::Done } else { Exit::CheckFailed })
 }
 
@@ -44,30 +52,32 @@ fn case_files(folder: &std::path::Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The verdicts of a case under each of its estimators, with what to call them.
-fn judge(case: &Case) -> Result<Vec<(String, Verdict)>, Refusal> {
-    let loaded = project::open(&case.project)?;
-    let own = vec![None];
-    let named = case.estimators.iter().cloned().map(Some).collect();
-    let estimators: Vec<Option<String>> = if case.estimators.is_empty() { own } else { named };
+/// The verdicts of all expectations of a case.
+fn judge(case: &Case, report: &Report) -> Result<Vec<Verdict>, Refusal> {
     let mut verdicts = Vec::new();
-    for estimator in estimators {
-        let arguments = SimulationArguments { estimator, ..SimulationArguments::default() };
-        let report = simulate(&loaded, &arguments, true)?.report;
-        let label = format!("{:<24}{:<19}", case.name, report.run.settings.estimator.name());
-        for expectation in &case.expect {
-            let own = expectation.judge(&report).map_err(|refusal| {
-                Refusal::new(format!("case \"{}\" ({}): {refusal}", case.name, case.source))
-            })?;
-            verdicts.extend(own.into_iter().map(|verdict| (label.clone(), verdict)));
-        }
+    for expectation in &case.expect {
+        verdicts.extend(expectation.judge(report).map_err(|refusal| {
+            Refusal::new(format!("case \"{}\" ({}): {refusal}", case.name, case.source))
+        })?);
     }
     Ok(verdicts)
 }
 
-fn print_row(label: &str, verdict: &Verdict) {
+fn print_verdict(case: &Case, report: &Report, verdict: &Verdict) {
     let Verdict { what, expected, got, holds, why } = verdict;
-    let got = figure_text(*got).joined();
     let judged = if *holds { "holds".to_owned() } else { format!("FAILS: {why}") };
-    println!("{label}{what:<28}{expected:>12.6}  {got:<24}{judged}");
+    print_row([
+        &case.name,
+        report.run.settings.estimator.name(),
+        what,
+        &exact(*expected),
+        &figure_text(*got).joined(),
+        &judged,
+    ]);
+}
+
+fn print_row([case, estimator, figure, expected, got, verdict]: [&str; 6]) {
+    print(&format!(
+        "{case:<20}  {estimator:<17}  {figure:<26}  {expected:>18}  {got:<20}  {verdict}\n"
+    ));
 }

@@ -1,0 +1,48 @@
+//! Luminaire files that make no sense.
+
+use super::{Case, LAMP_IES, check};
+
+#[test]
+fn luminaire_files() {
+    let lamp = |from: &str, to: &str| {
+        assert!(LAMP_IES.contains(from), "no {from} in the file");
+        LAMP_IES.replacen(from, to, 1)
+    };
+    check(
+        "photometry",
+        &[
+            Case::new("missing").remove("lamp.ies").says(&["project.toml:8:14:", "lamp.ies"]),
+            Case::new("empty").file("lamp.ies", "").says(&["lamp.ies:1:1:", "expected"]),
+            Case::new("binary junk").file("lamp.ies", junk()).says(&["lamp.ies:", "expected"]),
+            Case::new("too few numbers")
+                .file("lamp.ies", lamp("100 80 20", "100 80"))
+                .says(&["lamp.ies:14:", "expected"]),
+            Case::new("cut off in the header")
+                .file("lamp.ies", &LAMP_IES[..40])
+                .says(&["lamp.ies:", "TILT"]),
+            Case::new("a word for a number")
+                .file("lamp.ies", lamp("100 80 20", "100 eighty 20"))
+                .says(&["lamp.ies:14:5:", "eighty"]),
+            Case::new("type B")
+                .file("lamp.ies", lamp("1 -1 1 3 1 1 2", "1 -1 1 3 1 2 2"))
+                .says(&["lamp.ies:10:", "type C"]),
+            Case::new("angles that descend")
+                .file("lamp.ies", lamp("0 45 90", "0 90 45"))
+                .says(&["lamp.ies:12:", "45"]),
+            Case::new("a billion angles")
+                .file("lamp.ies", lamp("1 -1 1 3 1 1 2", "1 -1 1 1000000000 1 1 2"))
+                .says(&["lamp.ies:1", "expected"]),
+            Case::new("EULUMDAT")
+                .replace("lamp.ies", "lamp.ldt")
+                .file("lamp.ldt", "made-up")
+                .says(&["project.toml:8:14:", "not built yet"]),
+            Case::new("neither")
+                .replace("lamp.ies", "lamp.png")
+                .says(&["project.toml:8:14:", ".ies"]),
+        ],
+    );
+}
+
+fn junk() -> Vec<u8> {
+    (0..=255).cycle().take(5000).collect()
+}

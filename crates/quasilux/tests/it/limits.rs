@@ -1,0 +1,93 @@
+//! Runs that end before the tolerance: results, exit codes, and the bits of a `--samples` run.
+
+use crate::scenes::{Look, remove_probes, write_room};
+use crate::support::{Folder, number, parsed, without_seconds_and_threads};
+
+/// A tolerance that no run of a test reaches.
+const OUT_OF_REACH: [&str; 2] = ["--rel-tol", "1e-9"];
+
+#[test]
+fn samples_end_a_run_with_exit_code_3() {
+    let folder = room("limits_samples");
+    for samples in ["1", "37", "100", "256"] {
+        let more = [&OUT_OF_REACH[..], &["--samples", samples]].concat();
+        let document = parsed(&folder.document("room.toml", samples, &more, 3));
+        assert_eq!(number(&document, "/run/samples").to_string(), samples);
+        assert_eq!(document["run"]["tolerance_reached"], false);
+    }
+}
+
+#[test]
+fn a_reached_tolerance_gives_exit_code_0() {
+    let folder = room("limits_reached");
+    let more = ["--rel-tol", "20%", "--samples", "100000", "--time", "10m"];
+    let document = parsed(&folder.document("room.toml", "out", &more, 0));
+    assert_eq!(document["run"]["tolerance_reached"], true);
+    assert!(number(&document, "/run/samples") < 100_000.0);
+}
+
+#[test]
+fn without_intervals_samples_end_a_run() {
+    let folder = room("limits_unrandomised");
+    let project = folder.read("room.toml").replace("replicates = 8", "randomization = \"none\"");
+    folder.write("room.toml", project);
+    let document = parsed(&folder.document("room.toml", "out", &["--samples", "64"], 3));
+    assert!(document["sensors"][0]["points"][0]["half_width_lx"].is_null());
+    assert!(number(&document, "/sensors/0/points/0/illuminance_lx") > 0.0);
+    assert_eq!(document["run"]["replicates"], 1);
+    assert_eq!(document["warnings"].as_array().map(Vec::len), Some(1), "{}", document["warnings"]);
+}
+
+#[test]
+fn time_only_picks_the_last_checkpoint() {
+    for estimator in ["path", "bidirectional", "bidirectional-map", "photon"] {
+        let folder = room(&format!("limits_time_{estimator}"));
+        if estimator == "photon" {
+            remove_probes(&folder, "room");
+        }
+        let more = [&OUT_OF_REACH[..], &["--estimator", estimator, "--time", "0.5s"]].concat();
+        let document = folder.document("room.toml", "time", &more, 3);
+        let seconds = number(&parsed(&document), "/run/seconds");
+        assert!(seconds < 20.0, "{estimator}: {seconds} s instead of half a second");
+        assert_is_a_samples_run(&folder, &document, estimator);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_results_and_exit_code_130() {
+    use crate::support::{Run, interrupt};
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    let folder = room("limits_interrupt");
+    let arguments = [&["run", "room.toml", "--out", "interrupt"][..], &OUT_OF_REACH].concat();
+    let child = folder.command(&arguments).spawn().expect("the program starts");
+    // It listens to interrupts before it makes the folder.
+    while !folder.path("interrupt").exists() {
+        sleep(Duration::from_millis(5));
+    }
+    interrupt(&child);
+    let run = Run::of(child.wait_with_output().expect("the program ends"));
+    assert_eq!(run.code, Some(130), "{}", run.stderr);
+    assert!(run.stdout.contains("average"), "{}", run.stdout);
+    assert_is_a_samples_run(&folder, &folder.read("interrupt/result.json"), "path");
+}
+
+/// A run that ended early wrote what a run with as many samples writes.
+fn assert_is_a_samples_run(folder: &Folder, document: &str, estimator: &str) {
+    let samples = number(&parsed(document), "/run/samples").to_string();
+    let more = ["--estimator", estimator, "--samples", &samples];
+    let again = folder.document("room.toml", "samples", &[&OUT_OF_REACH[..], &more].concat(), 3);
+    assert_eq!(
+        without_seconds_and_threads(document),
+        without_seconds_and_threads(&again),
+        "{estimator}, {samples} samples"
+    );
+}
+
+fn room(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    write_room(&folder, "room", &Look::GREY);
+    folder
+}

@@ -1,0 +1,9 @@
+//! The program from outside: arguments and files in; exit codes, messages and results out.
+
+mod bad_input;
+mod direct;
+mod limits;
+mod results;
+mod scenes;
+mod support;
+mod validation;
