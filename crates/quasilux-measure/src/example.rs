@@ -114,6 +114,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
     let figures = sensors.iter().map(|(_, rows)| SensorEstimates {
         replicate_lx: rows.clone(),
         direct_lx: rows[0].iter().map(|lx| 0.8 * lx).collect(),
+        resolved: vec![true; rows[0].len()],
     });
     let estimates = Estimates {
         sensors: figures.collect(),
@@ -130,6 +131,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         confidence: 0.95,
         miss_probability: 0.025,
         tolerance_reached: true,
+        unresolved_points: 0,
         biased: false,
         warnings: Vec::new(),
     };

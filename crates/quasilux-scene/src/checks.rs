@@ -107,24 +107,36 @@ impl Walls<'_> {
     }
 }
 
-/// Whether a light is inside the solid or part of it; `None` when the tests are used up.
+/// Whether a light is inside the solid, on its surface or part of it; `None` when the tests are used
+/// up. A recessed luminaire lies on the surface: it is looked for a hair to each side.
 fn holds_light(
     scene: &Scene,
     solid: &Solid,
     contains: &mut impl FnMut(DVec3) -> Option<bool>,
 ) -> Option<bool> {
+    let hair_m = HAIR * solid.size_m();
     let mut contains = |position: DVec3| {
         if solid.may_contain(position) { contains(position) } else { Some(false) }
     };
+    let mut touches = |position: DVec3| {
+        // The eight diagonals reach inside from faces, edges and corners.
+        for octant in 0..8 {
+            let side = |bit: u32| if octant >> bit & 1 == 0 { hair_m } else { -hair_m };
+            if contains(position + DVec3::new(side(0), side(1), side(2)))? {
+                return Some(true);
+            }
+        }
+        contains(position)
+    };
     for light in &scene.lights {
         let lit = match light {
-            Light::Point(light) => contains(light.position)?,
-            Light::Luminaire(light) => contains(light.position)?,
+            Light::Point(light) => touches(light.position)?,
+            Light::Luminaire(light) => touches(light.position)?,
             Light::Area(light) => {
                 emits(light, solid) || {
                     let mut any = false;
                     for &triangle in &light.triangles {
-                        any = any || contains(centroid(&scene.mesh, triangle))?;
+                        any = any || touches(centroid(&scene.mesh, triangle))?;
                     }
                     any
                 }

@@ -95,6 +95,11 @@ impl Solid {
         Self { triangles, low, high }
     }
 
+    /// The diagonal of the box around the solid, in m.
+    pub(crate) fn size_m(&self) -> f64 {
+        (self.high - self.low).length()
+    }
+
     /// Whether the point is in the box around the solid.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         point.cmpgt(self.low).all() && point.cmplt(self.high).all()

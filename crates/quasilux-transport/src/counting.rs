@@ -20,7 +20,7 @@ use quasilux_scene::{Scene, SensorShape};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Indices per replicate of the first checkpoint.
-const FIRST_SAMPLES: u64 = 1 << 12;
+const FIRST_SAMPLES: u64 = 1 << 8;
 /// Marks elements that no sensor reads.
 const UNREAD: u32 = u32::MAX;
 
@@ -113,12 +113,15 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
                 *sum += value / self.counters.len() as f64;
             }
         }
+        let resolved: Vec<bool> =
+            (0..direct_lx.len()).map(|target| rows.iter().any(|row| row[target] != 0.0)).collect();
         Estimates {
-            sensors: by_sensor(self.scene, &rows, &direct_lx),
+            sensors: by_sensor(self.scene, &rows, &direct_lx, &resolved),
             samples: self.samples,
             rays: self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
             mean_dimension: MeanDimension { photon: self.photons.mean_dimension(), path: None },
+            biased: self.photons.endless > 0,
             warnings: self.photons.warnings(),
             ..Estimates::default()
         }

@@ -15,7 +15,7 @@ use std::ops::Range;
 /// times); with all of them these are plain paths.
 const CORRECTED_SHARE: f64 = 0.6;
 /// Photons that only balance the flux, where the estimator needs none.
-const BALANCE_PHOTONS: u64 = 1 << 14;
+const BALANCE_PHOTONS: u64 = 1 << 12;
 
 /// What the paths end on.
 pub(crate) enum End<S> {

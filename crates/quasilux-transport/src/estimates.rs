@@ -25,6 +25,9 @@ pub struct Estimates {
     pub miss_probability: f64,
     /// Whether every sensor point reached the wanted tolerance.
     pub tolerance_reached: bool,
+    /// Sensor points where light may be that no path or photon has found: their value is what was
+    /// found, and nothing is known of its error.
+    pub unresolved_points: u64,
     /// Whether values may be biased beyond what their intervals say.
     pub biased: bool,
     /// What a reader of the results must know.
@@ -38,6 +41,8 @@ pub struct SensorEstimates {
     pub replicate_lx: Vec<Vec<f64>>,
     /// The part of it that comes straight from the lights, mean over the replicates, in lx.
     pub direct_lx: Vec<f64>,
+    /// Whether light was found wherever it was looked for; points without have no interval.
+    pub resolved: Vec<bool>,
 }
 
 /// Where the flux of the photons went, all in lm. Emitted is the sum of the other three.
@@ -72,12 +77,13 @@ impl Estimates {
         jackknife(&self.sensors[sensor].replicate_lx, self.miss_probability, statistic)
     }
 
-    /// The intervals of all points of one sensor, in lx.
+    /// The intervals of all points of one sensor, in lx; no half-width where nothing was found.
     #[must_use]
     pub fn point_intervals(&self, sensor: usize) -> Vec<Interval> {
-        let rows = &self.sensors[sensor].replicate_lx;
-        let points = rows.first().map_or(0, Vec::len);
-        let t = crate::interval::t_quantile_for(rows.len(), self.miss_probability);
-        (0..points).map(|p| Interval::of_mean(rows.iter().map(|row| row[p]), t)).collect()
+        let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
+        let t = crate::interval::t_quantile_for(replicate_lx.len(), self.miss_probability);
+        let values = |point: usize| replicate_lx.iter().map(move |row| row[point]);
+        let t_at = |point: usize| t.filter(|_| resolved[point]);
+        (0..resolved.len()).map(|p| Interval::of_mean(values(p), t_at(p))).collect()
     }
 }

@@ -3,7 +3,7 @@
 use crate::end::{End, Growth};
 use crate::estimates::{Estimates, MeanDimension};
 use crate::path::{Gathered, PathWork, Rest, trace_path};
-use crate::photon::PhotonCounts;
+use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::settings::Settings;
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
@@ -21,7 +21,7 @@ const BLOCK: u64 = 256;
 /// Pieces of work between two words to the observer.
 const BLOCKS_PER_ROUND: u64 = 512;
 /// The first checkpoint takes at most this many indices, and about this many paths in all.
-const FIRST_SAMPLES: u64 = 64;
+const FIRST_SAMPLES: u64 = 16;
 const FIRST_PATHS: u64 = 1 << 22;
 /// Paths from all sensor points, in all replicates.
 pub(crate) struct Gathering<'a, S> {
@@ -40,12 +40,16 @@ pub(crate) struct Gathering<'a, S> {
     photons: PhotonCounts,
     /// Targets whose direct light is not finite.
     invalid_points: u64,
+    /// Whether direct light is sampled too.
+    seeks_emitters: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct PathSums {
     direct: Sum,
     indirect: Sum,
+    /// Paths that came to a surface that reflects.
+    reflected: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,6 +57,7 @@ struct WorkCounts {
     paths: u64,
     rays: u64,
     coordinates: u64,
+    endless: u64,
 }
 
 /// One piece of work: some paths of one target in one replicate.
@@ -86,13 +91,14 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             exact_direct_lx,
             end,
             replicates,
-            quantum: Quantum::for_reference(stage.lights.flux_lm),
+            quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             targets,
             samples: 0,
             work,
             photons,
             invalid_points,
+            seeks_emitters: stage.lights.emitters.is_some(),
         }
     }
 
@@ -113,15 +119,16 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let rest = self.end.rest(block.replicate);
         let mut sums = PathSums::default();
         let mut work = PathWork::default();
-        let mut coordinates = 0;
+        let (mut coordinates, mut endless) = (0, 0);
         for index in block.indices.clone() {
             let mut cursor = SampleCursor::new(&points, index);
             let found = self.trace_one(self.targets[block.target], &rest, &mut cursor, &mut work);
             sums.add(found, self.quantum);
             coordinates += u64::from(cursor.used());
+            endless += u64::from(found.endless);
         }
         let paths = block.indices.end - block.indices.start;
-        (sums, WorkCounts { paths, rays: work.rays, coordinates })
+        (sums, WorkCounts { paths, rays: work.rays, coordinates, endless })
     }
 
     fn trace_one(
@@ -146,6 +153,30 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
                 found
             }
         }
+    }
+}
+
+impl<S> Gathering<'_, S> {
+    /// Whether the paths of each target found light where they came to surfaces that reflect.
+    fn resolved(&self) -> Vec<bool> {
+        let seeks_emitters = self.seeks_emitters;
+        self.sums
+            .chunks_exact(self.replicates as usize)
+            .map(|own| {
+                let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
+                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
+                let reflected = own.iter().any(|sums| sums.reflected > 0);
+                (found_indirect || !reflected)
+                    && (found_direct || found_indirect || !seeks_emitters)
+            })
+            .collect()
+    }
+
+    fn warning(&self) -> Option<String> {
+        let paths = self.work.endless;
+        (paths > 0).then(|| {
+            format!("{paths} paths were cut after {MOST_EVENTS} bounces: light is trapped here, and values are too low")
+        })
     }
 }
 
@@ -211,14 +242,15 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             path: Some(self.work.coordinates as f64 / self.work.paths as f64),
         };
         Estimates {
-            sensors: by_sensor(self.scene, &rows, &direct_lx),
+            sensors: by_sensor(self.scene, &rows, &direct_lx, &self.resolved()),
             samples: self.samples,
             rays: self.work.rays + self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
             mean_dimension,
             invalid_contributions: self.invalid_points
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
-            warnings: self.photons.warnings(),
+            biased: self.work.endless > 0,
+            warnings: self.photons.warnings().into_iter().chain(self.warning()).collect(),
             ..Estimates::default()
         }
     }
@@ -250,6 +282,7 @@ impl PathSums {
     fn add(&mut self, found: Gathered, quantum: Quantum) {
         self.direct.add(found.direct_lx, quantum);
         self.indirect.add_signed(found.indirect_lx, quantum);
+        self.reflected += u64::from(found.reflected);
     }
 
     fn invalid(&self) -> u64 {
@@ -261,6 +294,7 @@ impl AddAssign for PathSums {
     fn add_assign(&mut self, other: Self) {
         self.direct += other.direct;
         self.indirect += other.indirect;
+        self.reflected += other.reflected;
     }
 }
 
@@ -269,5 +303,6 @@ impl AddAssign for WorkCounts {
         self.paths += other.paths;
         self.rays += other.rays;
         self.coordinates += other.coordinates;
+        self.endless += other.endless;
     }
 }

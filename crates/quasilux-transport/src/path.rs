@@ -18,10 +18,8 @@ use quasilux_sampling::warp::sample_cosine_hemisphere;
 use quasilux_sampling::{SampleCursor, choose_bool};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// Diffuse surfaces that a path goes on from for certain; later ones by chance.
+/// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
-/// A path never goes on with a higher probability than this, so that it ends in white rooms.
-const MOST_SURVIVAL: f64 = 0.97;
 
 /// Where the light at the first diffuse surface comes from, but for the direct light.
 pub(crate) enum Rest<'m, S> {
@@ -46,6 +44,10 @@ pub(crate) struct Gathered {
     pub(crate) direct_lx: f64,
     /// After at least one bounce; may be negative where a map is corrected.
     pub(crate) indirect_lx: f64,
+    /// Whether the path came to a surface that reflects, so that there may be indirect light.
+    pub(crate) reflected: bool,
+    /// Whether it was cut after [`MOST_EVENTS`].
+    pub(crate) endless: bool,
 }
 
 /// Working space and counters of a series of paths.
@@ -90,7 +92,7 @@ pub(crate) fn trace_path<S: Spectrum>(
     let mut is_first_diffuse = true;
     for bounces in 0..MOST_EVENTS {
         work.rays += 1;
-        let Some(at) = world.trace(from, direction) else { break };
+        let Some(at) = world.trace(from, direction) else { return gathered };
         let emitted_cd_m2 = world.emitted_cd_m2(&at);
         if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &lights.emitters) {
             let shared = |cos| emitters.weight_of_direction(world, &at, direction, cos);
@@ -101,20 +103,32 @@ pub(crate) fn trace_path<S: Spectrum>(
                 gathered.indirect_lx += found;
             }
         }
-        if beta.luminance() == 0.0 || stage.max_bounces.is_some_and(|most| bounces >= most) {
-            break;
+        let reflected = beta * world.facet(&at).scattering.reflectance();
+        let reflectance = reflected.max_channel() / beta.max_channel();
+        let is_last = stage.max_bounces.is_some_and(|most| bounces >= most);
+        if is_last || reflected.max_channel() == 0.0 {
+            return gathered;
         }
+        gathered.reflected = true;
         from = world.vantage(&at);
         match world.facet(&at).scattering {
-            Scattering::Mirror(reflectance) => {
+            Scattering::Mirror(_) => {
+                let factor = if bounces < CERTAIN_BOUNCES {
+                    1.0
+                } else {
+                    survive(cursor.next_1d(), bounces, reflectance).everything
+                };
+                if factor == 0.0 {
+                    return gathered;
+                }
                 direction = mirrored(direction, at.n);
                 cos = None;
-                beta = beta * reflectance;
+                beta = reflected * factor;
                 beta_emitted = beta;
             }
-            Scattering::Diffuse(reflectance) => {
+            Scattering::Diffuse(_) => {
                 // From illuminance here to illuminance at the start.
-                let to_start = beta * reflectance * FRAC_1_PI;
+                let to_start = reflected * FRAC_1_PI;
                 let direct_lx = direct_here(stage, from, at.n, cursor, work);
                 gathered.indirect_lx += to_start.luminance() * direct_lx;
                 let [u, u1] = cursor.next_2d();
@@ -126,11 +140,11 @@ pub(crate) fn trace_path<S: Spectrum>(
                         gathered.indirect_lx += from_map * (1.0 - onward.everything);
                         onward
                     }
-                    _ => survive(u, bounces, reflectance.luminance()),
+                    _ => survive(u, bounces, reflectance),
                 };
-                if onward.everything == 0.0 && (onward.emitted == 0.0 || lights.emitters.is_none())
-                {
-                    break;
+                let seeks_emitters = onward.emitted != 0.0 && lights.emitters.is_some();
+                if onward.everything == 0.0 && !seeks_emitters {
+                    return gathered;
                 }
                 is_first_diffuse = false;
                 let local = sample_cosine_hemisphere([onward.u, u1]);
@@ -141,6 +155,7 @@ pub(crate) fn trace_path<S: Spectrum>(
             }
         }
     }
+    gathered.endless = true;
     gathered
 }
 
@@ -165,14 +180,14 @@ fn direct_here<S: Spectrum>(
     direct_lx
 }
 
-/// Russian roulette after the first bounces.
+/// Russian roulette after the first bounces. `reflectance` is that of the channel that is left
+/// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
 fn survive(u: f64, bounces: u32, reflectance: f64) -> Onward {
     if bounces < CERTAIN_BOUNCES {
         return Onward { emitted: 1.0, everything: 1.0, u };
     }
-    let survival = reflectance.min(MOST_SURVIVAL);
-    let choice = choose_bool(u, survival);
-    let factor = if choice.value { 1.0 / survival } else { 0.0 };
+    let choice = choose_bool(u, reflectance);
+    let factor = if choice.value { 1.0 / reflectance } else { 0.0 };
     Onward { emitted: factor, everything: factor, u: choice.rest }
 }
 

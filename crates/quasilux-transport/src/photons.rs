@@ -86,7 +86,8 @@ impl PhotonCounts {
             return Vec::new();
         }
         vec![format!(
-            "{photons} photons were cut after {MOST_EVENTS} events: mirrors trap light here"
+            "{photons} photons were cut after {MOST_EVENTS} bounces: light is trapped here, and \
+             values are too low"
         )]
     }
 

@@ -4,8 +4,9 @@
 //! may stop because the tolerance is reached. Looking several times and stopping at the first good
 //! look would make the interval miss too often, so the looks share one budget of miss probability
 //! (Bonferroni): the first look gets three quarters of it, each later one a quarter of the one
-//! before, which adds up to the whole. An interval at whatever look is then valid. Checkpoints that
-//! are no looks only plan: from their half-widths follows where the next look pays.
+//! before, which adds up to the whole. Checkpoints that are no looks only plan: from their
+//! half-widths follows where the next look pays. The bound holds for looks fixed ahead; that it also
+//! holds for looks planned from half-widths is measured by the coverage test.
 
 /// Share of the miss probability that the first look spends; each later one a quarter of the one
 /// before.

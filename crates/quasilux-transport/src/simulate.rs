@@ -4,7 +4,7 @@ use crate::check::{caveats, is_biased};
 use crate::counting::Counting;
 use crate::estimates::Estimates;
 use crate::gathering::Gathering;
-use crate::interval::{Interval, t_quantile_for};
+use crate::interval::Interval;
 use crate::observer::{Control, Observer};
 use crate::schedule::Schedule;
 use crate::settings::{Estimator, Settings};
@@ -12,6 +12,10 @@ use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
+
+/// Paths or photons, all replicates together, that a point where nothing is found gets before a
+/// run may end without it.
+const LEAST_TRIES: f64 = (1 << 14) as f64;
 
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
 /// first, or the observer stops it; at least up to the first checkpoint.
@@ -61,19 +65,16 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
         let mut estimates = estimation.estimates();
         estimates.confidence = settings.confidence;
         estimates.miss_probability = schedule.miss_probability();
-        estimates.biased = is_biased(scene, settings);
+        estimates.biased |= is_biased(scene, settings);
         estimates.warnings.extend(caveats(scene, settings));
-        if estimates.invalid_contributions > 0 {
-            estimates.warnings.push(format!(
-                "{} contributions were not finite, negative or too large, and are not in the results",
-                estimates.invalid_contributions
-            ));
-        }
-        let largest = largest_relative_half_width(&estimates);
-        let excess = excess(largest, settings);
-        estimates.tolerance_reached = excess.is_some_and(|excess| excess <= 1.0);
+        let convergence = Convergence::of(&estimates);
+        estimates.unresolved_points = convergence.unresolved;
+        estimates.warnings.extend(warnings_of_values(&estimates));
+        let excess = convergence.excess(&estimates, settings);
+        estimates.tolerance_reached =
+            excess.is_some_and(|excess| excess <= 1.0) && convergence.unresolved == 0;
         let over = schedule.complete(excess);
-        let control = watch.checkpoint(&estimates, largest);
+        let control = watch.checkpoint(&estimates, convergence.largest);
         last = Some(estimates);
         if over || control == Control::Stop {
             break;
@@ -82,21 +83,56 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
     last.expect("a run is never stopped before its first checkpoint")
 }
 
-/// The largest half-width over value among all sensor points; `None` without intervals.
-fn largest_relative_half_width(estimates: &Estimates) -> Option<f64> {
-    let mut largest: Option<f64> = None;
-    for sensor in &estimates.sensors {
-        let t = t_quantile_for(sensor.replicate_lx.len(), estimates.miss_probability)?;
-        for point in 0..sensor.direct_lx.len() {
-            let values = sensor.replicate_lx.iter().map(|row| row[point]);
-            let relative = Interval::of_mean(values, Some(t)).relative_half_width()?;
-            largest = Some(largest.map_or(relative, |other| other.max(relative)));
-        }
-    }
-    largest
+/// How near a run is to its tolerance.
+struct Convergence {
+    /// The largest half-width over value among the points that have one; `None` without any.
+    largest: Option<f64>,
+    /// Points where nothing was found yet.
+    unresolved: u64,
 }
 
-/// Half-width over tolerance; `None` where there is no tolerance or no half-width.
-fn excess(largest: Option<f64>, settings: &Settings) -> Option<f64> {
-    largest.filter(|_| settings.rel_tol > 0.0).map(|largest| largest / settings.rel_tol)
+impl Convergence {
+    fn of(estimates: &Estimates) -> Self {
+        let mut convergence = Self { largest: None, unresolved: 0 };
+        for (sensor, figures) in estimates.sensors.iter().enumerate() {
+            let unresolved = figures.resolved.iter().filter(|resolved| !**resolved).count();
+            convergence.unresolved += unresolved as u64;
+            let intervals = estimates.point_intervals(sensor);
+            let widths = intervals.iter().filter_map(Interval::relative_half_width);
+            convergence.largest =
+                widths.chain(convergence.largest).reduce(|a, b| if a > b { a } else { b });
+        }
+        convergence
+    }
+
+    /// Half-width over tolerance; `None` where there is no tolerance or no half-width. Points where
+    /// nothing was found hold a run up until they had a fair chance, not for ever.
+    fn excess(&self, estimates: &Estimates, settings: &Settings) -> Option<f64> {
+        if settings.rel_tol <= 0.0 || settings.effective_replicates() < 2 {
+            return None;
+        }
+        let resolved = self.largest.unwrap_or(0.0) / settings.rel_tol;
+        let tried = estimates.samples as f64 * f64::from(settings.effective_replicates());
+        let hold_up = (LEAST_TRIES / tried).sqrt();
+        Some(if self.unresolved > 0 && hold_up > 1.0 { resolved.max(hold_up) } else { resolved })
+    }
+}
+
+/// What a reader must know of the values of this checkpoint.
+fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if estimates.invalid_contributions > 0 {
+        warnings.push(format!(
+            "{} contributions were not finite, negative or too large, and are not in the results",
+            estimates.invalid_contributions
+        ));
+    }
+    if estimates.unresolved_points > 0 {
+        warnings.push(format!(
+            "at {} sensor points no light was found where it was looked for: they may be dark or \
+             light may be hard to find, and their values have no interval",
+            estimates.unresolved_points
+        ));
+    }
+    warnings
 }

@@ -17,6 +17,8 @@ pub(crate) trait Spectrum:
     fn channel(self, channel: usize) -> f64;
     /// The luminance, in the unit of the channels.
     fn luminance(self) -> f64;
+    /// The largest channel.
+    fn max_channel(self) -> f64;
     /// One in each channel: all lights are white.
     fn white() -> Self {
         Self::from_channels(|_| 1.0)
@@ -37,6 +39,9 @@ impl Spectrum for f64 {
     fn luminance(self) -> f64 {
         self
     }
+    fn max_channel(self) -> f64 {
+        self
+    }
 }
 
 impl Spectrum for Rgb {
@@ -52,5 +57,8 @@ impl Spectrum for Rgb {
     }
     fn luminance(self) -> f64 {
         Self::luminance(self)
+    }
+    fn max_channel(self) -> f64 {
+        Self::max_channel(self)
     }
 }

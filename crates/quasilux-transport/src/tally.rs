@@ -2,7 +2,7 @@
 //!
 //! A contribution is rounded to a whole number of quanta and added as an integer, so that any
 //! order, thread count or split gives the same bits. The quantum is a power of two fixed before
-//! sampling from the total flux of the lights, so dimming all of them scales it with them.
+//! sampling from the light that the scene can get, so dimming all lights scales it with them.
 
 use std::ops::AddAssign;
 
@@ -40,6 +40,11 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
+    /// Whether nothing but zeros was added.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.quanta == 0
+    }
+
     /// Adds a contribution that may be negative, as corrections are.
     #[inline]
     pub(crate) fn add_signed(&mut self, contribution: f64, quantum: Quantum) {

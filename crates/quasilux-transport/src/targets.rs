@@ -34,11 +34,12 @@ pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
 }
 
 /// The figures of each sensor, from lists over all targets: illuminance in lx of each replicate,
-/// and the direct part.
+/// the direct part, and whether light was found.
 pub(crate) fn by_sensor(
     scene: &Scene,
     replicate_lx: &[Vec<f64>],
     direct_lx: &[f64],
+    resolved: &[bool],
 ) -> Vec<SensorEstimates> {
     let mut first = 0;
     scene
@@ -49,7 +50,8 @@ pub(crate) fn by_sensor(
             first = own.end;
             SensorEstimates {
                 replicate_lx: replicate_lx.iter().map(|row| row[own.clone()].to_vec()).collect(),
-                direct_lx: direct_lx[own].to_vec(),
+                direct_lx: direct_lx[own.clone()].to_vec(),
+                resolved: resolved[own].to_vec(),
             }
         })
         .collect()

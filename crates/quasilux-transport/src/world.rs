@@ -3,6 +3,7 @@
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 use quasilux_bvh::{Hit, Ray, TriangleBvh};
+use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::bsdf::Mirror;
 use quasilux_scene::{Bsdf, Light, Scene};
 
@@ -13,6 +14,8 @@ const INWARD: f64 = 1.0 / (1_u64 << 34) as f64;
 const OFFSET: f64 = 1.0 / (1_u64 << 45) as f64;
 /// Sensor points stand this share of the scene's size in front of where they were put: a hair.
 const HAIR: f64 = 1.0 / (1_u64 << 30) as f64;
+/// Offsets are at least this share of the largest coordinate: a few units of its last place.
+const LEAST_OFFSET: f64 = 8.0 * f64::EPSILON;
 /// Shadow rays end this share of their length before the light, which may lie on a surface.
 const SHORTENING: f64 = 1e-9;
 
@@ -69,7 +72,20 @@ pub(crate) struct Vantage {
 pub(crate) struct World<S> {
     pub(crate) facets: Vec<Facet<S>>,
     bvh: TriangleBvh,
+    /// The emitting facets again, where some lie flush in another surface: they come first there.
+    flush_emitters: Option<FlushEmitters>,
+    bounds: Option<[DVec3; 2]>,
+    /// The largest extent in m.
     size_m: f64,
+    offset_m: f64,
+    hair_m: f64,
+}
+
+/// Emitting facets that lie in the plane of another surface, as a panel drawn onto a ceiling does.
+struct FlushEmitters {
+    bvh: TriangleBvh,
+    /// Facet of each triangle of the hierarchy.
+    facets: Vec<u32>,
 }
 
 impl<S: Spectrum> World<S> {
@@ -94,13 +110,29 @@ impl<S: Spectrum> World<S> {
             }
         }
         let bvh = TriangleBvh::build(facets.iter().map(|facet| facet.corners).collect());
-        let size_m = mesh.bounds().map_or(1.0, |[low, high]| {
-            low.abs().max(high.abs()).max_element().max((high - low).length())
-        });
-        Self { facets, bvh, size_m }
+        let bounds = mesh.bounds();
+        let [low, high] = bounds.unwrap_or([DVec3::ZERO, DVec3::ONE]);
+        let size_m = (high - low).length();
+        let least_m = LEAST_OFFSET * low.abs().max(high.abs()).max_element();
+        let mut world = Self {
+            facets,
+            bvh,
+            flush_emitters: None,
+            bounds,
+            size_m,
+            offset_m: (OFFSET * size_m).max(least_m),
+            hair_m: (HAIR * size_m).max(4.0 * least_m),
+        };
+        world.flush_emitters = FlushEmitters::of(&world);
+        world
     }
 
-    /// The largest extent or coordinate, in m.
+    /// The box around all facets; `None` where there are none.
+    pub(crate) fn bounds(&self) -> Option<[DVec3; 2]> {
+        self.bounds
+    }
+
+    /// The largest extent, in m.
     pub(crate) fn size_m(&self) -> f64 {
         self.size_m
     }
@@ -118,6 +150,8 @@ impl<S: Spectrum> World<S> {
     pub(crate) fn trace(&self, from: Vantage, direction: DVec3) -> Option<Interaction> {
         let ray = Ray::new(from.position, direction);
         let hit = self.bvh.closest_hit(&ray, from.excluded())?;
+        let flush = self.flush_emitters.as_ref();
+        let hit = flush.and_then(|flush| flush.before(&hit, &ray, from)).unwrap_or(hit);
         Some(self.interaction(&hit, direction))
     }
 
@@ -150,33 +184,61 @@ impl<S: Spectrum> World<S> {
 
     /// Where rays leave from that go on from a hit on the side it was hit from.
     pub(crate) fn vantage(&self, at: &Interaction) -> Vantage {
-        Vantage { position: at.position + at.n * (OFFSET * self.size_m), facet: at.facet }
+        Vantage { position: at.position + at.n * self.offset_m, facet: at.facet }
     }
 
     /// Where rays leave from a facet's front side.
     pub(crate) fn vantage_on_front(&self, facet: u32, position: DVec3) -> Vantage {
         let n = self.facets[facet as usize].front_normal;
-        Vantage { position: position + n * (OFFSET * self.size_m), facet }
+        Vantage { position: position + n * self.offset_m, facet }
     }
 
     /// Where rays leave from a sensor point: a hair in front of it.
     pub(crate) fn vantage_of_sensor(&self, position: DVec3, normal: DVec3) -> Vantage {
-        Vantage { position: position + normal * (HAIR * self.size_m), facet: u32::MAX }
+        Vantage { position: position + normal * self.hair_m, facet: u32::MAX }
     }
 
     /// Where rays leave from a point-like light along `direction`: it may lie on a surface.
     pub(crate) fn vantage_of_light(&self, position: DVec3, direction: DVec3) -> Vantage {
-        Vantage { position: position + direction * (HAIR * self.size_m), facet: u32::MAX }
+        Vantage { position: position + direction * self.hair_m, facet: u32::MAX }
     }
 
     /// The facet nearest to a point that a sensor with this normal can lie on, within a hair;
     /// among several the one that faces the normal most.
     pub(crate) fn facet_under(&self, position: DVec3, normal: DVec3) -> Option<Interaction> {
-        let reach = 4.0 * HAIR * self.size_m;
+        let reach = 4.0 * self.hair_m;
         let from = Vantage { position: position + normal * reach, facet: u32::MAX };
         let ray = Ray::new(from.position, -normal).up_to(2.0 * reach);
         let hit = self.bvh.closest_hit(&ray, &[])?;
         Some(self.interaction(&hit, -normal))
+    }
+}
+
+impl FlushEmitters {
+    /// Looks a hair in front of and behind each emitting facet, at 16 places spread over it.
+    fn of<S: Spectrum>(world: &World<S>) -> Option<Self> {
+        let emits = |&facet: &u32| world.facets[facet as usize].emitted_cd_m2 > 0.0;
+        let facets: Vec<u32> = (0..world.facets.len() as u32).filter(emits).collect();
+        let corners = facets.iter().map(|&facet| world.facets[facet as usize].corners).collect();
+        let is_flush = |&facet: &u32| {
+            let own = &world.facets[facet as usize];
+            (0..16).any(|place| {
+                let u = [f64::from(place / 4), f64::from(place % 4)].map(|i| (i + 0.5) / 4.0);
+                let start = own.point(sample_triangle(u)) + own.front_normal * world.hair_m;
+                let probe = Ray::new(start, -own.front_normal).up_to(2.0 * world.hair_m);
+                world.bvh.is_occluded(&probe, &[facet])
+            })
+        };
+        let found = facets.iter().any(is_flush);
+        found.then(|| Self { bvh: TriangleBvh::build(corners), facets })
+    }
+
+    /// The emitting facet that a ray meets together with `hit`, or just behind it.
+    fn before(&self, hit: &Hit, ray: &Ray, from: Vantage) -> Option<Hit> {
+        let reach = ray.up_to(hit.distance * (1.0 + SHORTENING));
+        let found = self.bvh.closest_hit(&reach, &[])?;
+        let triangle = self.facets[found.triangle as usize];
+        (triangle != from.facet).then_some(Hit { triangle, ..found })
     }
 }
 

@@ -81,3 +81,12 @@ fn grids_may_be_partly_inside() {
         "{error}"
     );
 }
+
+/// A recessed luminaire lies in the plane of the ceiling, or even in a corner of the room.
+#[test]
+fn lights_on_the_surface_of_a_room_light_it() {
+    for position in ["[0.5, 0.5, 3.0]", "[3.0, 0.5, 3.0]", "[3.0, 3.0, 3.0]"] {
+        let project = probe("[1.5, 1.5, 0.5]").replace("[0.5, 0.5, 2.0]", position);
+        assert!(load_text(&project, &files()).unwrap().warnings.is_empty(), "{position}");
+    }
+}

@@ -17,6 +17,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 pub(crate) struct Emitters {
     facets: Vec<u32>,
     by_flux: Discrete,
+    brightest_cd_m2: f64,
 }
 
 /// A point on an emitting facet.
@@ -40,12 +41,19 @@ impl Emitters {
             .map(|&f| &world.facets[f as usize])
             .map(|facet| facet.emitted_cd_m2 * facet.area_m2())
             .collect();
-        Some(Self { facets, by_flux: Discrete::new(&weights)? })
+        let luminances = facets.iter().map(|&f| world.facets[f as usize].emitted_cd_m2);
+        let brightest_cd_m2 = luminances.fold(0.0, f64::max);
+        Some(Self { by_flux: Discrete::new(&weights)?, facets, brightest_cd_m2 })
     }
 
     /// Their flux in lm: pi times luminance times area.
     pub(crate) fn flux_lm(&self) -> f64 {
         PI * self.by_flux.total()
+    }
+
+    /// The illuminance in lx right in front of the brightest: pi times luminance.
+    pub(crate) fn largest_lx(&self) -> f64 {
+        PI * self.brightest_cd_m2
     }
 
     /// A point uniform over area within equal luminance; density in m^-2.

@@ -12,6 +12,7 @@ use glam::DVec3;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 use quasilux_sampling::{Discrete, SampleCursor};
 use quasilux_scene::{Light, Scene};
+use std::f64::consts::PI;
 
 /// All lights of a scene.
 pub(crate) struct Lights<'a> {
@@ -35,8 +36,23 @@ impl<'a> Lights<'a> {
         let pointlikes = PointLikes::new(scene);
         let emitters = Emitters::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
-        let fluxes: Vec<f64> = pointlikes.fluxes_lm().chain([emitters_lm]).collect();
+        let fluxes: Vec<f64> =
+            pointlikes.iter().map(|(_, flux_lm)| flux_lm).chain([emitters_lm]).collect();
         Self { pointlikes, emitters, by_flux: Discrete::new(&fluxes), flux_lm: fluxes.iter().sum() }
+    }
+
+    /// An illuminance in lx that is large for this scene: what each light gives, on average over
+    /// directions, at a hundredth of the scene's size from it, or where the scene comes nearest.
+    pub(crate) fn reference_lx<S: Spectrum>(&self, world: &World<S>) -> f64 {
+        let near_m = 0.01 * world.size_m();
+        let pointlikes = self.pointlikes.iter().map(|(position, flux_lm)| {
+            let to_box_m = world
+                .bounds()
+                .map_or(0.0, |[low, high]| (position - position.clamp(low, high)).length());
+            let distance_m = to_box_m.max(near_m);
+            flux_lm / (4.0 * PI * distance_m * distance_m)
+        });
+        pointlikes.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
     }
 
     /// One photon of equal flux: the light in proportion to its flux, place and direction from the

@@ -29,8 +29,9 @@ impl<'a> PointLikes<'a> {
         self.0.get(index).copied()
     }
 
-    pub(crate) fn fluxes_lm(&self) -> impl Iterator<Item = f64> {
-        self.0.iter().map(|light| light.flux_lm())
+    /// Their positions in m and fluxes in lm.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (DVec3, f64)> {
+        self.0.iter().map(|light| (position(light), light.flux_lm()))
     }
 
     /// Illuminance in lx from all of them on the side `n` of a surface, every one tested.
@@ -84,12 +85,7 @@ impl Unshadowed {
 
 /// E = I cos / d^2 on the side `n` at `position`; 0 from behind.
 fn unshadowed(light: &Light, position: DVec3, n: DVec3) -> Unshadowed {
-    let light_position = match light {
-        Light::Point(point) => point.position,
-        Light::Luminaire(luminaire) => luminaire.position,
-        Light::Area(_) => unreachable!("area lights are not point-like"),
-    };
-    let toward = light_position - position;
+    let toward = self::position(light) - position;
     let distance_m = toward.length();
     let direction = toward / distance_m;
     let cos = n.dot(direction);
@@ -104,4 +100,12 @@ fn unshadowed(light: &Light, position: DVec3, n: DVec3) -> Unshadowed {
         intensity_cd * cos / (distance_m * distance_m)
     };
     Unshadowed { direction, distance_m, illuminance_lx }
+}
+
+fn position(light: &Light) -> DVec3 {
+    match light {
+        Light::Point(point) => point.position,
+        Light::Luminaire(luminaire) => luminaire.position,
+        Light::Area(_) => unreachable!("area lights are not point-like"),
+    }
 }

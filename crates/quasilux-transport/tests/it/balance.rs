@@ -40,5 +40,5 @@ fn a_hall_of_perfect_mirrors_ends_with_a_warning() {
         ..Settings::default()
     };
     let estimates = simulate(&scene, &settings, &mut ());
-    assert!(estimates.warnings.iter().any(|warning| warning.contains("mirrors trap light")));
+    assert!(estimates.warnings.iter().any(|warning| warning.contains("light is trapped here")));
 }

@@ -6,3 +6,4 @@ mod coverage;
 mod cube;
 mod furnace;
 mod scenes;
+mod traps;
