@@ -63,6 +63,7 @@ mod cursor;
 mod discrete;
 mod hash;
 mod point_set;
+pub mod quality;
 mod randomization;
 mod sequence;
 pub mod warp;

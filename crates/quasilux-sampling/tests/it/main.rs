@@ -6,7 +6,9 @@
 mod choice;
 mod convergence;
 mod cursor;
+mod integrands;
 mod owen;
+mod quality;
 mod random;
 mod sobol;
 mod support;
