@@ -58,23 +58,29 @@
 //! assert_eq!(direction, [1.0, 0.0, 0.0]);
 //! ```
 
+pub mod assignment;
+mod block;
 mod choice;
 mod cursor;
 mod discrete;
+mod groups;
 mod hash;
+mod histogram;
 mod point_set;
 pub mod quality;
 mod randomization;
 mod sequence;
+mod unit;
 pub mod warp;
 
 pub use choice::{BoolChoice, Choice, choose_bool, choose_weights};
 pub use cursor::SampleCursor;
 pub use discrete::Discrete;
+pub use groups::{CoherentGroups, Group, SharedDigits};
 pub use hash::stream_key;
+pub use histogram::DimensionHistogram;
 pub use point_set::PointSet;
 pub use randomization::Randomization;
-pub use sequence::Sequence;
+pub use sequence::{Sequence, radical_inverse};
 
-/// The largest coordinate: coordinates have 53 bits.
-pub(crate) const ONE_BELOW: f64 = 1.0 - f64::EPSILON / 2.0;
+pub(crate) use unit::ONE_BELOW;
