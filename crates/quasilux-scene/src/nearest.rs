@@ -8,10 +8,8 @@ const MAX_CHARS: usize = 128;
 
 /// The candidate at the smallest distance from `name`, the first of equals; `None` where all
 /// differ in more than a third of their characters (and by more than 2).
-pub(crate) fn nearest<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
         let Some(distance) = distance(name, candidate) else {
@@ -27,12 +25,7 @@ pub(crate) fn nearest<'a>(
 }
 
 fn distance(a: &str, b: &str) -> Option<usize> {
-    let letters = |s: &str| {
-        s.chars()
-            .flat_map(char::to_lowercase)
-            .take(MAX_CHARS + 1)
-            .collect()
-    };
+    let letters = |s: &str| s.chars().flat_map(char::to_lowercase).take(MAX_CHARS + 1).collect();
     let (a, b): (Vec<char>, Vec<char>) = (letters(a), letters(b));
     if a.len() > MAX_CHARS || b.len() > MAX_CHARS {
         return None;
@@ -60,12 +53,7 @@ mod tests {
 
     #[test]
     fn distances_by_hand() {
-        let cases = [
-            ("", "", 0),
-            ("abc", "", 3),
-            ("kitten", "sitting", 3),
-            ("ab", "ba", 1),
-        ];
+        let cases = [("", "", 0), ("abc", "", 3), ("kitten", "sitting", 3), ("ab", "ba", 1)];
         for (a, b, expected) in cases {
             assert_eq!(distance(a, b), Some(expected), "{a} {b}");
             assert_eq!(distance(b, a), Some(expected), "{b} {a}");

@@ -23,8 +23,8 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
-        Command::Points(_)
-        | Command::Photometry(_)
+        Command::Points(arguments) => commands::points(&arguments),
+        Command::Photometry(_)
         | Command::Bsdf(_)
         | Command::Plan(_)
         | Command::Shard(_)

@@ -1,14 +1,14 @@
 //! Names of estimators, sequences and randomisations, known and to come.
 
 use crate::exit::Refusal;
-use quasilux_scene::{LoadError, Placed, SimulationSection};
+use quasilux_scene::{LoadError, Placed, SimulationSection, nearest};
 
 /// Names that the design promises and this version lacks.
 const NOT_BUILT: [&str; 4] = ["halton", "hammersley", "rotation", "rank1"];
 
-/// The value that a name given on the command line stands for.
+/// The value that a name given on the command line stands for; `what` says where it was given.
 pub(crate) fn on_command_line<T: Copy>(
-    option: &str,
+    what: &str,
     name: &str,
     known: &[(&str, T)],
 ) -> Result<T, Refusal> {
@@ -16,10 +16,14 @@ pub(crate) fn on_command_line<T: Copy>(
         return Ok(*value);
     }
     if NOT_BUILT.contains(&name) {
-        return Err(Refusal::not_built(format!("--{option} {name}")));
+        return Err(Refusal::not_built(format!("{what} {name}")));
     }
     let list: Vec<&str> = known.iter().map(|(other, _)| *other).collect();
-    Err(Refusal::new(format!("--{option}: unknown name \"{name}\"; expected {}", list.join(", "))))
+    let nearest = nearest(name, list.iter().copied())
+        .map(|nearest| format!(", did you mean \"{nearest}\""))
+        .unwrap_or_default();
+    let list = list.join(", ");
+    Err(Refusal::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
 }
 
 /// The value that a name in a project file stands for.

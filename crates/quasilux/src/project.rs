@@ -60,10 +60,10 @@ pub(crate) fn settings(
         settings.randomization = names::in_project(section, "randomization", name, known)?;
     }
     if let Some(name) = &arguments.estimator {
-        settings.estimator = names::on_command_line("estimator", name, &Estimator::NAMES)?;
+        settings.estimator = names::on_command_line("--estimator", name, &Estimator::NAMES)?;
     }
     if let Some(name) = &arguments.sequence {
-        settings.sequence = names::on_command_line("sequence", name, &Sequence::NAMES)?;
+        settings.sequence = names::on_command_line("--sequence", name, &Sequence::NAMES)?;
     }
     let placed = |at: &Option<quasilux_scene::Placed<f64>>| at.as_ref().map(|at| at.value);
     let defaults = Settings::default();
