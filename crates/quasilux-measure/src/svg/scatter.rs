@@ -41,9 +41,9 @@ pub fn scatter(scatter: &Scatter<'_>) -> String {
     drawing.finish(&format!("{}, {}", scatter.title, scatter.subtitle))
 }
 
-/// Few points can be large; of many each covers a fifth of its share of the square.
+/// Few points can be large; of many each covers a tenth of its share of the square.
 fn radius_px(points: usize) -> f64 {
-    (0.25 * SIDE_PX / (points.max(1) as f64).sqrt()).clamp(0.6, 4.2)
+    (0.18 * SIDE_PX / (points.max(1) as f64).sqrt()).clamp(0.6, 4.2)
 }
 
 fn draw_cells(drawing: &mut Drawing, frame: Frame, cells: u32) {
