@@ -5,7 +5,8 @@
 //!
 //! Read on at [`report`] for the figures, [`json`] for the document that other programs rely on,
 //! [`csv`] and [`table`] for people with spreadsheets and terminals, and [`picture`] for the
-//! false-colour picture of a grid. [`number`] decides how many digits a figure deserves.
+//! false-colour picture of a grid. [`number`] decides how many digits a figure deserves. Plots of
+//! experiments are drawn by [`svg`].
 
 #[cfg(test)]
 pub(crate) mod example;
@@ -15,6 +16,7 @@ pub mod json;
 pub mod number;
 pub mod picture;
 pub mod report;
+pub mod svg;
 pub mod table;
 pub mod ticks;
 

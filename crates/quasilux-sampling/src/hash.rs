@@ -27,7 +27,7 @@ pub fn stream_key(seed: u64, replicate: u32, stream: u64) -> u64 {
 }
 
 /// A bijection of 64-bit words of which each output bit depends on each input bit.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub(crate) const fn mix(mut word: u64) -> u64 {
     word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -36,7 +36,7 @@ pub(crate) const fn mix(mut word: u64) -> u64 {
 }
 
 /// The key of one dimension of a randomised sequence.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub(crate) const fn dimension_key(key: u64, dimension: u32) -> u64 {
     mix(key ^ (dimension as u64 + 1).wrapping_mul(GOLDEN))

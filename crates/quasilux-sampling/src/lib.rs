@@ -1,16 +1,26 @@
 //! Points in the unit cube by index, and maps from them.
 //!
 //! # Limits
-//! - Indices have 64 bits and nothing folds: no sequence repeats within 2^64 points. Coordinates
-//!   have 53 bits.
-//! - Sobol' has 1024 dimensions of Joe and Kuo's. Past them come independently shuffled and
-//!   scrambled copies, at about half the speed and without the evenness of pairs across copies; no
-//!   dimension is refused.
-//! - Use 2^m points of Sobol', from the first on; other counts lose the gain over N^-1.
+//! - Indices have 64 bits. Sobol', the base-4 sequence and the pseudo-random points do not repeat
+//!   within 2^64 points, Halton's coordinates within 2^53; nothing folds at 2^16. Coordinates have
+//!   53 bits (Halton's under shift or scrambling 51 or more).
+//! - Sobol' has 1024 dimensions of Joe and Kuo's, the base-4 sequence 4. Past them come independently
+//!   shuffled and scrambled copies, at about half the speed and without the evenness of pairs across
+//!   copies. Halton has 1024 bases; past them dimensions are pseudo-random. No dimension is refused.
+//! - Use 2^m points of Sobol' and 4^m of the base-4 sequence, from the first on; other counts lose
+//!   the gain over N^-1. Of Hammersley's N points use all N.
 //! - [`Randomization::None`] says nothing about its error. Take several replicates, each under its
 //!   own key, and their spread; never the spread of the points within one.
-//! - Owen scrambling is by hashing: pairs of points, and hence variances, are as under exact nested
-//!   scrambling as far as tests can see; the joint distribution of many points is not.
+//! - Owen scrambling is by hashing: the flips of the first four digits and all pairs of points, hence
+//!   variances, are as under exact nested scrambling as far as tests can see; the joint distribution
+//!   of many points is not.
+//! - [`PointSet::fill`] is about ten times as fast as [`PointSet::coordinate`] for matrices over bits
+//!   and scrambled points; for Halton it is no faster.
+//!
+//! # Which sequence
+//! Owen-scrambled Sobol' unless there is a reason: on a photon's emission (4 coordinates, 4096
+//! photons) the root mean square error of the base-4 sequence is 1.0 to 1.2 times that of Sobol', of
+//! Halton 1.2 to 2.1, of Hammersley 1.0 to 1.8, of pseudo-random points 2.3 (a jump) to 37 (smooth).
 //!
 //! # Use
 //! ```
@@ -43,6 +53,21 @@
 //! assert!(means.windows(2).all(|pair| pair[0] != pair[1]));
 //! ```
 //!
+//! # Many points at once, and in another order
+//! ```
+//! use quasilux_sampling::{CoherentGroups, PointSet, Randomization, Sequence, stream_key};
+//!
+//! let points = PointSet::new(Sequence::Halton, Randomization::Owen, stream_key(1, 0, 0));
+//! let mut column = vec![0.0; 4096];
+//! points.fill(0, 0, &mut column);
+//!
+//! // Photons that start close together, in groups of at least 32.
+//! let groups = CoherentGroups::of_size(&points, 4096, &[0, 1, 2], 32).unwrap();
+//! let order: Vec<u64> = groups.indices().collect();
+//! assert_eq!(order.len(), 4096);
+//! assert!(groups.spreads(&points, 0).iter().zip(groups.bounds()).all(|(s, b)| *s < b));
+//! ```
+//!
 //! # From coordinates to choices and directions
 //! A discrete choice gives back what it did not use of its coordinate, so that one coordinate
 //! serves several choices:
@@ -58,22 +83,29 @@
 //! assert_eq!(direction, [1.0, 0.0, 0.0]);
 //! ```
 
+pub mod assignment;
+mod block;
 mod choice;
 mod cursor;
 mod discrete;
+mod groups;
 mod hash;
+mod histogram;
 mod point_set;
+pub mod quality;
 mod randomization;
 mod sequence;
+mod unit;
 pub mod warp;
 
 pub use choice::{BoolChoice, Choice, choose_bool, choose_weights};
 pub use cursor::SampleCursor;
 pub use discrete::Discrete;
+pub use groups::{CoherentGroups, Group, SharedDigits};
 pub use hash::stream_key;
+pub use histogram::DimensionHistogram;
 pub use point_set::PointSet;
 pub use randomization::Randomization;
-pub use sequence::Sequence;
+pub use sequence::{Sequence, radical_inverse};
 
-/// The largest coordinate: coordinates have 53 bits.
-pub(crate) const ONE_BELOW: f64 = 1.0 - f64::EPSILON / 2.0;
+pub(crate) use unit::ONE_BELOW;

@@ -1,8 +1,14 @@
 //! One randomised sequence.
 
 use crate::hash::{dimension_key, mix};
-use crate::randomization::{OwenKey, shift, shuffle_index};
-use crate::sequence::{SobolMatrices, random_digits};
+use crate::randomization::{
+    OwenKey, nested_radical_inverse, rotate_unit, rotate_word, shift, shifted_radical_inverse,
+    shuffle_index,
+};
+use crate::sequence::{
+    BinaryMatrices, faure4, halton, hammersley, radical_inverse, random_digits, sobol,
+};
+use crate::unit::{unit_from_digits, unit_from_word};
 use crate::{Randomization, Sequence};
 
 /// One randomised sequence: a pure function (index, dimension) -> [0, 1).
@@ -10,14 +16,20 @@ use crate::{Randomization, Sequence};
 /// Small and `Copy`; point sets with the same arguments are the same on every machine.
 #[derive(Clone, Copy)]
 pub struct PointSet {
-    generator: Generator,
+    sequence: Sequence,
+    pub(crate) generator: Generator,
     randomization: Randomization,
-    key: u64,
+    pub(crate) key: u64,
 }
 
+/// How coordinates are made.
 #[derive(Clone, Copy)]
-enum Generator {
-    Sobol(&'static SobolMatrices),
+pub(crate) enum Generator {
+    /// A matrix over bits for each dimension.
+    Binary(&'static BinaryMatrices),
+    /// A base for each dimension, after `steps` dimensions of equal steps (none or one).
+    Radical { bases: &'static [u32], steps: Option<u64> },
+    /// A hash.
     Random,
 }
 
@@ -31,20 +43,21 @@ impl PointSet {
     /// key and ignores the randomisation.
     #[must_use]
     pub fn new(sequence: Sequence, randomization: Randomization, key: u64) -> Self {
+        let radical = |steps| Generator::Radical { bases: halton::bases(), steps };
         let generator = match sequence {
-            Sequence::Sobol => Generator::Sobol(SobolMatrices::get()),
+            Sequence::Sobol => Generator::Binary(sobol::matrices()),
+            Sequence::Faure4 => Generator::Binary(faure4::matrices()),
+            Sequence::Halton => radical(None),
+            Sequence::Hammersley { points } => radical(Some(points)),
             Sequence::Random => Generator::Random,
         };
-        Self { generator, randomization, key }
+        Self { sequence, generator, randomization, key }
     }
 
     /// The sequence.
     #[must_use]
     pub const fn sequence(&self) -> Sequence {
-        match self.generator {
-            Generator::Sobol(_) => Sequence::Sobol,
-            Generator::Random => Sequence::Random,
-        }
+        self.sequence
     }
 
     /// The randomisation.
@@ -53,44 +66,108 @@ impl PointSet {
         self.randomization
     }
 
-    /// A coordinate in [0, 1) of 53 bits; both numbers count from 0.
+    /// A coordinate in [0, 1) of 53 bits (Halton under shift or scrambling: of 51 or more); both
+    /// numbers count from 0.
     ///
-    /// Past the last dimension of the sequence (Sobol': 1024) come its dimensions again, each time
-    /// with the indices shuffled in aligned blocks of 2^m and the digits scrambled, independently
-    /// of all that came before, also where the sequence itself is not randomised.
+    /// Past the last dimension of Sobol' (1024) and of the base-4 sequence (4) come their dimensions
+    /// again, each time with the indices shuffled in aligned blocks of 2^m and the digits scrambled,
+    /// independently of all that came before, also where the sequence itself is not randomised.
+    /// Halton's and Hammersley's dimensions past the first 1024 bases (2 to 8161) are pseudo-random.
     #[inline]
     #[must_use]
     pub fn coordinate(&self, index: u64, dimension: u32) -> f64 {
-        let digits = match self.generator {
-            Generator::Sobol(matrices) if dimension < SobolMatrices::DIMENSIONS => {
-                self.randomize(matrices.digits(index, dimension), dimension)
+        match self.generator {
+            Generator::Binary(matrices) if dimension < matrices.dimensions() => {
+                let digits = matrices.digits(index, dimension);
+                match self.randomization {
+                    Randomization::None => unit_from_digits(digits),
+                    Randomization::Rotation => {
+                        unit_from_word(rotate_word(digits.reverse_bits(), self.key, dimension))
+                    }
+                    Randomization::Shift => unit_from_digits(shift(digits, self.key, dimension)),
+                    Randomization::Owen => unit_from_digits(self.owen(dimension).scramble(digits)),
+                }
             }
-            Generator::Sobol(matrices) => self.padded_sobol_digits(matrices, index, dimension),
-            Generator::Random => random_digits(self.key, index, dimension),
-        };
-        unit_from_digits(digits)
+            Generator::Binary(matrices) => self.padded_coordinate(matrices, index, dimension),
+            Generator::Radical { bases, steps } => {
+                self.radical_coordinate(bases, steps, index, dimension)
+            }
+            Generator::Random => unit_from_word(random_digits(self.key, index, dimension)),
+        }
     }
 
-    #[inline]
-    fn randomize(&self, digits: u64, dimension: u32) -> u64 {
+    /// The base in which a dimension of the sequence itself has digits.
+    pub(crate) fn digit_base(&self, dimension: u32) -> Option<u32> {
+        match self.generator {
+            Generator::Binary(matrices) => (dimension < matrices.dimensions()).then_some(2),
+            Generator::Radical { bases, steps: None } => bases.get(dimension as usize).copied(),
+            Generator::Radical { bases, .. } => {
+                bases.get(dimension.checked_sub(1)? as usize).copied()
+            }
+            Generator::Random => None,
+        }
+    }
+
+    /// The scramble of one dimension.
+    #[inline(always)]
+    pub(crate) fn owen(&self, dimension: u32) -> OwenKey {
+        let key = dimension_key(self.padding_key(), dimension);
+        OwenKey::new(key)
+    }
+
+    /// The key of the shuffle of the indices before copy `copy` of the dimensions of a sequence.
+    pub(crate) fn shuffle_key(&self, copy: u32) -> u64 {
+        dimension_key(mix(!self.padding_key()), copy)
+    }
+
+    #[inline(always)]
+    const fn padding_key(&self) -> u64 {
         match self.randomization {
-            Randomization::None => digits,
-            Randomization::Shift => shift(digits, self.key, dimension),
-            Randomization::Owen => owen(digits, self.key, dimension),
+            Randomization::None => PADDING_KEY,
+            Randomization::Rotation | Randomization::Shift | Randomization::Owen => self.key,
         }
     }
 
     /// Without the shuffle, dimensions j and j + 1024 would share their digits up to flips: a
     /// diagonal.
-    #[cold]
-    fn padded_sobol_digits(&self, matrices: &SobolMatrices, index: u64, dimension: u32) -> u64 {
-        let copy = dimension / SobolMatrices::DIMENSIONS;
-        let key = match self.randomization {
-            Randomization::None => PADDING_KEY,
-            Randomization::Shift | Randomization::Owen => self.key,
+    #[inline(never)]
+    fn padded_coordinate(&self, matrices: &BinaryMatrices, index: u64, dimension: u32) -> f64 {
+        let (copy, original) =
+            (dimension / matrices.dimensions(), dimension % matrices.dimensions());
+        let digits = matrices.digits(shuffle_index(index, self.shuffle_key(copy)), original);
+        unit_from_digits(self.owen(dimension).scramble(digits))
+    }
+
+    #[inline(never)]
+    fn radical_coordinate(
+        &self,
+        bases: &[u32],
+        steps: Option<u64>,
+        index: u64,
+        dimension: u32,
+    ) -> f64 {
+        let place = match steps {
+            Some(points) if dimension == 0 => {
+                return hammersley::step(points, index, self.randomization, self.key);
+            }
+            Some(_) => dimension - 1,
+            None => dimension,
         };
-        let shuffled = shuffle_index(index, dimension_key(mix(!key), copy));
-        owen(matrices.digits(shuffled, dimension % SobolMatrices::DIMENSIONS), key, dimension)
+        let Some(base) = bases.get(place as usize).copied() else {
+            return unit_from_word(random_digits(self.padding_key(), index, dimension));
+        };
+        let key = dimension_key(self.key, dimension);
+        match self.randomization {
+            Randomization::None => radical_inverse(base, index),
+            Randomization::Rotation => {
+                rotate_unit(radical_inverse(base, index), self.key, dimension)
+            }
+            // In base 2 the index is its own row of digits.
+            Randomization::Shift if base == 2 => unit_from_digits(index ^ key),
+            Randomization::Owen if base == 2 => unit_from_digits(OwenKey::new(key).scramble(index)),
+            Randomization::Shift => shifted_radical_inverse(base, index, key),
+            Randomization::Owen => nested_radical_inverse(base, index, key),
+        }
     }
 }
 
@@ -102,16 +179,4 @@ impl std::fmt::Debug for PointSet {
             .field("key", &self.key)
             .finish()
     }
-}
-
-#[inline]
-fn owen(digits: u64, key: u64, dimension: u32) -> u64 {
-    OwenKey::new(dimension_key(key, dimension)).scramble(digits)
-}
-
-/// The number 0.d1 d2 d3 .. in base 2, cut after 53 digits; d1 is in bit 0.
-#[inline]
-fn unit_from_digits(digits: u64) -> f64 {
-    const STEP: f64 = 1.0 / (1_u64 << 53) as f64;
-    (digits.reverse_bits() >> 11) as f64 * STEP
 }

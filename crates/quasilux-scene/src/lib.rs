@@ -25,6 +25,7 @@ pub use error::{LoadError, Place, Placed, Warning};
 pub use light::Light;
 pub use load::{Files, Loaded, load};
 pub use mesh::Mesh;
+pub use nearest::nearest;
 pub use project::SimulationSection;
 pub use rgb::Rgb;
 pub use scene::{Material, Scene};

@@ -8,10 +8,8 @@ const MAX_CHARS: usize = 128;
 
 /// The candidate at the smallest distance from `name`, the first of equals; `None` where all
 /// differ in more than a third of their characters (and by more than 2).
-pub(crate) fn nearest<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
         let Some(distance) = distance(name, candidate) else {

@@ -44,7 +44,8 @@ impl Estimator {
 pub struct Settings {
     /// How illuminance is estimated.
     pub estimator: Estimator,
-    /// The point set behind all coordinates.
+    /// The point set behind all coordinates. One with a fixed number of points needs the same
+    /// number in `max_samples`, and only that ends the run.
     pub sequence: Sequence,
     /// How replicates are made independent.
     pub randomization: Randomization,

@@ -73,7 +73,9 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
         let excess = convergence.excess(&estimates, settings);
         estimates.tolerance_reached =
             excess.is_some_and(|excess| excess <= 1.0) && convergence.unresolved == 0;
-        let over = schedule.complete(excess);
+        // Part of a set whose number of points is fixed would leave part of its lights out.
+        let may_end = settings.sequence.points().is_none();
+        let over = schedule.complete(excess.filter(|_| may_end));
         let control = watch.checkpoint(&estimates, convergence.largest);
         last = Some(estimates);
         if over || control == Control::Stop {

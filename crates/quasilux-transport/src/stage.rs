@@ -4,7 +4,7 @@ use crate::lights::Lights;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::world::World;
-use quasilux_sampling::{PointSet, stream_key};
+use quasilux_sampling::{PointSet, Sequence, stream_key};
 use quasilux_scene::Scene;
 
 /// A scene made ready for one simulation.
@@ -40,7 +40,11 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             Stream::PlanPhotons => 1,
             Stream::Paths(point) => 2 + point,
         };
-        let Settings { sequence, randomization, seed, .. } = *self.settings;
+        let Settings { mut sequence, randomization, seed, .. } = *self.settings;
+        if let (Sequence::Hammersley { .. }, Stream::PlanPhotons) = (sequence, stream) {
+            // A plan has its own number of photons.
+            sequence = Sequence::Halton;
+        }
         PointSet::new(sequence, randomization, stream_key(seed, replicate, id))
     }
 }

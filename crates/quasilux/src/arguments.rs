@@ -1,5 +1,9 @@
 //! What can be said on the command line.
 
+mod points;
+
+pub(crate) use points::PointsArguments;
+
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -20,8 +24,8 @@ pub(crate) enum Command {
     Validate(ValidateArguments),
     /// Repeat one of the experiments of the paper
     Experiment(ExperimentArguments),
-    /// Print or draw points of a sequence (not built yet)
-    Points(NotBuilt),
+    /// Print or draw points of a sequence, or compare all sequences
+    Points(PointsArguments),
     /// Summarise, draw or convert luminaire files (not built yet)
     Photometry(NotBuilt),
     /// Summarise or draw measured surfaces (not built yet)

@@ -24,7 +24,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
-        Command::Points(_) => Err(Refusal::not_built("quasilux points")),
+        Command::Points(arguments) => commands::points(&arguments),
         Command::Photometry(_) => Err(Refusal::not_built("quasilux photometry")),
         Command::Bsdf(_) => Err(Refusal::not_built("quasilux bsdf")),
         Command::Plan(_) => Err(Refusal::not_built("quasilux plan")),

@@ -1,25 +1,41 @@
-//! Names of estimators, sequences and randomisations, known and to come.
+//! Names of estimators, sequences and randomisations.
 
 use crate::exit::Refusal;
-use quasilux_scene::{LoadError, Placed, SimulationSection};
+use quasilux_sampling::Sequence;
+use quasilux_scene::{LoadError, Placed, SimulationSection, nearest};
 
-/// Names that the design promises and this version lacks.
-const NOT_BUILT: [&str; 4] = ["halton", "hammersley", "rotation", "rank1"];
+/// The sequences by name. Without the number of points those that need it are left out.
+pub(crate) fn sequences(points: Option<u64>) -> Vec<(&'static str, Sequence)> {
+    points.map_or_else(|| Sequence::NAMES.to_vec(), |points| Sequence::names_for(points).to_vec())
+}
 
-/// The value that a name given on the command line stands for.
+/// Why a known name is not in a list of sequences.
+fn lacks_points(name: &str) -> Option<String> {
+    let needs = Sequence::names_for(0).into_iter().filter(|(_, kind)| kind.points().is_some());
+    needs
+        .map(|(known, _)| known)
+        .find(|known| *known == name)
+        .map(|name| format!("{name} must know the number of points ahead: give --samples"))
+}
+
+/// The value that a name given on the command line stands for; `what` says where it was given.
 pub(crate) fn on_command_line<T: Copy>(
-    option: &str,
+    what: &str,
     name: &str,
     known: &[(&str, T)],
 ) -> Result<T, Refusal> {
     if let Some((_, value)) = known.iter().find(|(other, _)| *other == name) {
         return Ok(*value);
     }
-    if NOT_BUILT.contains(&name) {
-        return Err(Refusal::not_built(format!("--{option} {name}")));
+    if let Some(reason) = lacks_points(name) {
+        return Err(Refusal::new(format!("{what}: {reason}")));
     }
     let list: Vec<&str> = known.iter().map(|(other, _)| *other).collect();
-    Err(Refusal::new(format!("--{option}: unknown name \"{name}\"; expected {}", list.join(", "))))
+    let nearest = nearest(name, list.iter().copied())
+        .map(|nearest| format!(", did you mean \"{nearest}\""))
+        .unwrap_or_default();
+    let list = list.join(", ");
+    Err(Refusal::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
 }
 
 /// The value that a name in a project file stands for.
@@ -32,8 +48,8 @@ pub(crate) fn in_project<T: Copy>(
     if let Some((_, value)) = known.iter().find(|(other, _)| *other == name.value) {
         return Ok(*value);
     }
-    if NOT_BUILT.contains(&name.value.as_str()) {
-        return Err(section.error_at(name, format!("{key} = \"{}\" is not built yet", name.value)));
+    if let Some(reason) = lacks_points(&name.value) {
+        return Err(section.error_at(name, format!("{key}: {reason}")));
     }
     let list: Vec<&str> = known.iter().map(|(other, _)| *other).collect();
     Err(section.unknown_name(name, key, &list))

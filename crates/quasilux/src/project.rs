@@ -3,7 +3,7 @@
 use crate::arguments::SimulationArguments;
 use crate::exit::Refusal;
 use crate::names;
-use quasilux_sampling::{Randomization, Sequence};
+use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
 use quasilux_transport::{Estimator, Settings};
 use std::io::Read;
@@ -61,17 +61,27 @@ pub(crate) fn settings(
         settings.estimator = names::in_project(section, "estimator", name, &Estimator::NAMES)?;
     }
     if let Some(name) = &section.sequence {
-        settings.sequence = names::in_project(section, "sequence", name, &Sequence::NAMES)?;
+        // A sequence that is overruled needs no number of points.
+        let points = arguments.samples.or(arguments.sequence.as_ref().map(|_| 1));
+        let known = names::sequences(points);
+        settings.sequence = names::in_project(section, "sequence", name, &known)?;
     }
     if let Some(name) = &section.randomization {
         let known = &Randomization::NAMES;
         settings.randomization = names::in_project(section, "randomization", name, known)?;
     }
     if let Some(name) = &arguments.estimator {
-        settings.estimator = names::on_command_line("estimator", name, &Estimator::NAMES)?;
+        settings.estimator = names::on_command_line("--estimator", name, &Estimator::NAMES)?;
     }
     if let Some(name) = &arguments.sequence {
-        settings.sequence = names::on_command_line("sequence", name, &Sequence::NAMES)?;
+        let known = names::sequences(arguments.samples);
+        settings.sequence = names::on_command_line("--sequence", name, &known)?;
+    }
+    if settings.sequence.points().is_some() && arguments.time.is_some() {
+        return Err(Refusal::new(format!(
+            "{} fills its first dimension with all of --samples: --time cannot end it before",
+            settings.sequence.name()
+        )));
     }
     let placed = |at: &Option<quasilux_scene::Placed<f64>>| at.as_ref().map(|at| at.value);
     let defaults = Settings::default();

@@ -2,6 +2,8 @@
 
 use crate::exit::Refusal;
 use quasilux_measure::{Report, csv, false_colour_png, json};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Makes sure that results can be written to `folder` before anything is computed.
@@ -22,14 +24,38 @@ pub(crate) fn write(folder: &Path, report: &Report) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
+/// Makes sure that `path` can become a file before anything is computed.
+pub(crate) fn prepare_file(path: &Path) -> Result<(), Refusal> {
+    if path.is_dir() {
+        return Err(Refusal::new(format!("{}: is a folder, expected a file", path.display())));
+    }
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => prepare(folder),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file, whole or not at all.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
+    stream_whole(path, |file| file.write_all(bytes))
+}
+
+/// Writes a file piece by piece; it appears when it is whole.
+pub(crate) fn stream_whole(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Refusal> {
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(".part");
-    std::fs::write(&temporary, bytes)
+    let written = File::create(&temporary).and_then(|file| {
+        let mut file = BufWriter::new(file);
+        write(&mut file).and_then(|()| file.flush())
+    });
+    written
         .and_then(|()| std::fs::rename(&temporary, path))
         .map_err(|error| cannot_write(path, &error))
 }
 
-fn cannot_write(path: &Path, error: &std::io::Error) -> Refusal {
+fn cannot_write(path: &Path, error: &io::Error) -> Refusal {
     Refusal::new(format!("{}: cannot write results: {error}", path.display()))
 }

@@ -1,10 +1,16 @@
 //! Which points: a closed set, one file a variant.
 
+mod binary;
+pub(crate) mod faure4;
+pub(crate) mod halton;
+pub(crate) mod hammersley;
+mod radical_inverse;
 mod random;
-mod sobol;
+pub(crate) mod sobol;
 
+pub(crate) use binary::BinaryMatrices;
+pub use radical_inverse::radical_inverse;
 pub(crate) use random::random_digits;
-pub(crate) use sobol::SobolMatrices;
 
 /// A sequence of points in the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -12,20 +18,60 @@ pub enum Sequence {
     /// Sobol's sequence (LP-tau): each aligned block of 2^m points fills the cells of a grid
     /// evenly.
     Sobol,
+    /// Halton's sequence: the radical inverse in another prime base for each dimension.
+    Halton,
+    /// Halton's sequence behind an axis of equal steps, for a number of points that is known ahead.
+    ///
+    /// The points are those of the indices 0 .. `points`, *all* of them: any part of them leaves
+    /// part of the first dimension out. Past them the first dimension begins again. No points count
+    /// as one.
+    Hammersley {
+        /// How many points there are.
+        points: u64,
+    },
+    /// The sequence of Faure and Niederreiter over the field of four elements: each aligned block
+    /// of 4^m points is as even as can be in four dimensions at once, and pairs of blocks of four
+    /// dimensions are independent.
+    Faure4,
     /// Pseudo-random points, by a counter-based generator.
     Random,
 }
 
 impl Sequence {
-    /// Every sequence by the name that users write.
-    pub const NAMES: [(&'static str, Self); 2] = [("sobol", Self::Sobol), ("random", Self::Random)];
+    /// The sequences that need no number of points, by the name that users write.
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("sobol", Self::Sobol),
+        ("halton", Self::Halton),
+        ("faure4", Self::Faure4),
+        ("random", Self::Random),
+    ];
+
+    /// Every sequence for a known number of points, by the name that users write.
+    #[must_use]
+    pub fn names_for(points: u64) -> [(&'static str, Self); 5] {
+        let [sobol, halton, faure4, random] = Self::NAMES;
+        let hammersley = ("hammersley", Self::Hammersley { points });
+        [sobol, halton, hammersley, faure4, random]
+    }
 
     /// The name that users write.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Sobol => "sobol",
+            Self::Halton => "halton",
+            Self::Hammersley { .. } => "hammersley",
+            Self::Faure4 => "faure4",
             Self::Random => "random",
+        }
+    }
+
+    /// The number of points that the sequence is made for, if it must be known ahead.
+    #[must_use]
+    pub const fn points(self) -> Option<u64> {
+        match self {
+            Self::Hammersley { points } => Some(points),
+            Self::Sobol | Self::Halton | Self::Faure4 | Self::Random => None,
         }
     }
 }

@@ -11,49 +11,24 @@
 //! Points come in natural order: point 0 is the origin and is kept (A. B. Owen, "On dropping the
 //! first Sobol' point", 2020). Deviation from most libraries, which walk in Gray-code order.
 
+use super::binary::BinaryMatrices;
 use std::sync::LazyLock;
 
 const DIRECTION_NUMBERS: &str = include_str!("../../data/joe_kuo_1024.txt");
 
-/// The generator matrices in the form that makes random access fast.
-pub(crate) struct SobolMatrices {
-    /// `by_nibble[j][k][v]` is C_j times the digits v of 16^k, first digit in bit 0.
-    by_nibble: Vec<[[u64; 16]; 16]>,
-}
+/// How many dimensions there are before padding begins.
+pub(crate) const DIMENSIONS: u32 = 1024;
 
-impl SobolMatrices {
-    /// How many dimensions there are before padding begins.
-    pub(crate) const DIMENSIONS: u32 = 1024;
-
-    /// The matrices, built at the first call.
-    pub(crate) fn get() -> &'static Self {
-        static MATRICES: LazyLock<SobolMatrices> = LazyLock::new(SobolMatrices::build);
-        &MATRICES
-    }
-
-    /// The binary digits of a coordinate, the first (1/2) in bit 0.
-    #[inline]
-    pub(crate) fn digits(&self, index: u64, dimension: u32) -> u64 {
-        let mut rest = index;
-        let mut digits = 0;
-        for table in &self.by_nibble[dimension as usize] {
-            if rest == 0 {
-                break;
-            }
-            digits ^= table[(rest & 15) as usize];
-            rest >>= 4;
-        }
-        digits
-    }
-
-    fn build() -> Self {
-        let mut by_nibble = vec![nibble_tables(&identity_columns())];
-        for line in DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#')) {
-            by_nibble.push(nibble_tables(&columns(line)));
-        }
-        assert_eq!(by_nibble.len(), Self::DIMENSIONS as usize, "rows of the direction numbers");
-        Self { by_nibble }
-    }
+/// The matrices, built at the first call.
+pub(crate) fn matrices() -> &'static BinaryMatrices {
+    static MATRICES: LazyLock<BinaryMatrices> = LazyLock::new(|| {
+        let lines = DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#'));
+        let columns = std::iter::once(identity_columns()).chain(lines.map(columns));
+        let matrices = BinaryMatrices::new(columns.map(|columns| columns.map(u64::reverse_bits)));
+        assert_eq!(matrices.dimensions(), DIMENSIONS, "rows of the direction numbers");
+        matrices
+    });
+    &MATRICES
 }
 
 /// The first dimension: the radical inverse in base 2.
@@ -87,17 +62,6 @@ fn columns(line: &str) -> [u64; 64] {
     columns
 }
 
-fn nibble_tables(columns: &[u64; 64]) -> [[u64; 16]; 16] {
-    std::array::from_fn(|k| {
-        std::array::from_fn(|value| {
-            (0..4)
-                .filter(|bit| (value >> bit) & 1 == 1)
-                .fold(0, |sum, bit| sum ^ columns[4 * k + bit])
-        })
-    })
-    .map(|table: [u64; 16]| table.map(u64::reverse_bits))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,7 +74,7 @@ mod tests {
 
     #[test]
     fn tables_equal_the_bitwise_definition() {
-        let matrices = SobolMatrices::get();
+        let matrices = matrices();
         let lines = DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#'));
         for (line, dimension) in lines.zip(1..) {
             let columns = columns(line);

@@ -1,6 +1,6 @@
 //! The cursor: which coordinates, and how many.
 
-use quasilux_sampling::{Randomization, SampleCursor};
+use quasilux_sampling::{DimensionHistogram, Discrete, Randomization, SampleCursor};
 
 use crate::support::sobol;
 
@@ -23,4 +23,67 @@ fn skips_forward_only_and_counts_what_it_gives() {
     cursor.skip_to(2);
     assert_eq!(cursor.next_1d(), points.coordinate(5, 5));
     assert_eq!((cursor.used(), cursor.dimension()), (2, 6));
+}
+
+/// Choices of one coordinate are the digits of its superposition; a fresh one begins after eight
+/// bits, whatever was chosen.
+#[test]
+fn choices_share_a_coordinate_up_to_its_useful_bits() {
+    let points = sobol(Randomization::Owen, 2);
+    for index in 0..100 {
+        let mut cursor = SampleCursor::new(&points, index);
+        let mut digits = 0;
+        for _ in 0..8 {
+            digits = 2 * digits + u64::from(!cursor.choose_bool(0.5));
+        }
+        assert_eq!(cursor.used(), 1);
+        assert_eq!(digits, (points.coordinate(index, 0) * 256.0) as u64);
+        assert_eq!(cursor.choose_bool(0.5), points.coordinate(index, 1) < 0.5);
+        assert_eq!(cursor.next_1d(), points.coordinate(index, 2));
+        cursor.close();
+        assert!(cursor.choose_bool(1.0));
+        assert_eq!(cursor.used(), 4);
+    }
+}
+
+/// A choice among 1024 ends its coordinate; certain choices cost nothing; a choice without a choice
+/// consumes nothing.
+#[test]
+fn choices_are_charged_by_their_probability() {
+    let points = sobol(Randomization::Owen, 2);
+    let mut cursor = SampleCursor::new(&points, 3);
+    assert_eq!(cursor.choose([0.0].into_iter()), None);
+    assert_eq!((cursor.used(), cursor.dimension()), (0, 0));
+    for _ in 0..100 {
+        assert!(cursor.choose_bool(1.0));
+    }
+    let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
+    let luminaire = cursor.choose_from(&luminaires).index;
+    assert_eq!(luminaire, (points.coordinate(3, 0) * 1024.0) as usize);
+    assert_eq!(cursor.used(), 1);
+    let second = cursor.choose([1.0, 1.0].into_iter()).expect("weights").index;
+    assert_eq!(second, (points.coordinate(3, 1) * 2.0) as usize);
+    assert_eq!(cursor.used(), 2);
+}
+
+#[test]
+fn histograms_of_parts_merge_to_that_of_the_whole() {
+    let used = [3, 0, 7, 7, 5000, 2, 1024];
+    let record = |parts: &[u32]| {
+        let mut histogram = DimensionHistogram::new();
+        parts.iter().for_each(|used| histogram.record(*used));
+        histogram
+    };
+    let whole = record(&used);
+    for split in 0..=used.len() {
+        let mut merged = record(&used[split..]);
+        merged.merge(&record(&used[..split]));
+        assert_eq!(merged, whole);
+    }
+    assert_eq!(
+        (whole.samples(), whole.largest(), whole.count(7), whole.count(4000)),
+        (7, 5000, 2, 2)
+    );
+    assert_eq!(whole.mean(), 6043.0 / 7.0);
+    assert_eq!(DimensionHistogram::new().mean(), 0.0);
 }

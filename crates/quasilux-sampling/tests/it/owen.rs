@@ -16,15 +16,15 @@ fn scrambled(points: &PointSet, digits: u64) -> u64 {
     (points.coordinate((digits << 11).reverse_bits(), 0) * (1_u64 << 53) as f64) as u64
 }
 
-/// Three levels of the tree of flips are 1 + 2 + 4 random bits. All 2^7 states must be equally
-/// frequent over the keys; 2^20 of them find frequencies that are off by 2 % in half of the states.
+/// Four levels of the tree of flips are 1 + 2 + 4 + 8 random bits. All 2^15 states must be equally
+/// frequent over the keys; 2^20 of them find frequencies that are off by 10 % in half of the states.
 #[test]
 fn all_trees_of_flips_are_equally_likely() {
-    let mut counts = vec![0; 1 << 7];
+    let mut counts = vec![0; 1 << 15];
     for key in 0..1 << 20 {
         let points = owen(key);
         let mut state = 0;
-        for level in 0..3 {
+        for level in 0..4 {
             for parent in 0..1_u64 << level {
                 let digits = parent << (53 - level);
                 let flip = (scrambled(&points, digits) >> (52 - level)) & 1;

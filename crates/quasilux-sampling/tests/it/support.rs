@@ -1,6 +1,7 @@
 //! Statistical helpers and short names.
 
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
+use quasilux_stats::{CellCount, chi_square_test, normal_cdf};
 
 pub(crate) const SIGNIFICANCE: f64 = 1e-6;
 
@@ -32,25 +33,21 @@ pub(crate) fn assert_distributed(counts: &[u64], probabilities: &[f64], what: &s
     assert!(p_value > SIGNIFICANCE, "{what}: chi-square p-value {p_value:e}");
 }
 
-/// The probability of a statistic at least as large, by the cube-root approximation of Wilson and
-/// Hilferty (1931).
+/// The probability of a statistic at least as large.
 pub(crate) fn chi_square_p_value(counts: &[u64], probabilities: &[f64]) -> f64 {
     let total = counts.iter().sum::<u64>() as f64;
-    let mut statistic = 0.0;
-    for (count, probability) in counts.iter().zip(probabilities) {
-        let expected = total * probability;
-        assert!(expected >= 5.0, "too few samples: {expected} expected in a cell");
-        let excess = *count as f64 - expected;
-        statistic += excess * excess / expected;
-    }
-    let variance = 2.0 / (9.0 * (counts.len() - 1) as f64);
-    let root = libm::cbrt(statistic / (counts.len() - 1) as f64);
-    upper_tail((root - (1.0 - variance)) / variance.sqrt())
+    let cell = |(observed, probability): (&u64, &f64)| CellCount {
+        observed: *observed,
+        expected: total * probability,
+    };
+    let cells: Vec<CellCount> = counts.iter().zip(probabilities).map(cell).collect();
+    assert!(cells.iter().all(|cell| cell.expected >= 5.0), "too few samples for so many cells");
+    chi_square_test(&cells)
 }
 
 /// Two-sided z-test of a mean, given its standard error.
 pub(crate) fn assert_mean(mean: f64, expected: f64, standard_error: f64, what: &str) {
-    let p_value = 2.0 * upper_tail(((mean - expected) / standard_error).abs());
+    let p_value = 2.0 * normal_cdf(-((mean - expected) / standard_error).abs());
     assert!(
         p_value > SIGNIFICANCE,
         "{what}: {mean} instead of {expected} +- {standard_error:e}, p-value {p_value:e}"
@@ -63,10 +60,6 @@ pub(crate) fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let mean = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
     (mean, (squares / (n - 1.0) / n).sqrt())
-}
-
-fn upper_tail(z: f64) -> f64 {
-    0.5 * libm::erfc(z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
 /// The chi-square test must reject a density that is 2 % too high in one half and 2 % too low in

@@ -1,9 +1,11 @@
 //! One file a command.
 
 mod experiment;
+mod points;
 mod run;
 mod validate;
 
 pub(crate) use experiment::experiment;
+pub(crate) use points::points;
 pub(crate) use run::run;
 pub(crate) use validate::validate;

@@ -3,7 +3,9 @@
 mod bad_input;
 mod direct;
 mod limits;
+mod points;
 mod results;
 mod scenes;
+mod sequences;
 mod support;
 mod validation;

@@ -205,30 +205,3 @@ fn simulation() {
 }
 
 /// What the design promises and this version lacks.
-#[test]
-fn not_built_yet() {
-    check(
-        "later",
-        &[
-            Case::new("halton").replace("sequence = \"sobol\"", "sequence = \"halton\"").says(&[
-                "project.toml:30:12:",
-                "halton",
-                "not built yet",
-            ]),
-            Case::new("rotation")
-                .replace("randomization = \"owen\"", "randomization = \"rotation\"")
-                .says(&["project.toml:31:17:", "rotation", "not built yet"]),
-            Case::new("hammersley")
-                .replace("sequence = \"sobol\"", "sequence = \"hammersley\"")
-                .says(&["project.toml:30:12:", "hammersley", "not built yet"]),
-            Case::new("halton by option").with(&["--sequence", "halton"]).says(&[
-                "--sequence",
-                "halton",
-                "not built yet",
-            ]),
-            Case::new("hammersley by option")
-                .with(&["--sequence", "hammersley", "--samples", "64"])
-                .says(&["--sequence", "hammersley", "not built yet"]),
-        ],
-    );
-}

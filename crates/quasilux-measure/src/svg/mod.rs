@@ -1,0 +1,83 @@
+//! Drawings and plots as SVG 1.1 files (W3C 2011), for print and the web.
+//!
+//! [`scatter`] draws points of the unit square, [`figure`] a grid of line plots with a common legend.
+//! Both stand on [`Drawing`], which writes the elements. Text is text, so that it can be searched and
+//! read aloud. Colours are [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
+
+mod axis;
+mod drawing;
+mod figure;
+mod panel;
+mod scatter;
+mod style;
+
+pub use axis::{Axis, Scale, Tick};
+pub use drawing::{Drawing, Frame};
+pub use figure::{Figure, LegendEntry, figure};
+pub use panel::{Line, Panel};
+pub use scatter::{Scatter, scatter};
+pub use style::{Anchor, Dash, PALETTE, Stroke, TextStyle};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every element is closed in order, every attribute is quoted, and no number is missing: what a
+    /// reader of XML insists on. Our files have neither comments nor sections of other kinds.
+    fn assert_well_formed(file: &str) {
+        let body =
+            file.strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>").expect("a prolog");
+        let mut open: Vec<&str> = Vec::new();
+        for piece in body.split('<').skip(1) {
+            let (tag, text) = piece.split_once('>').expect("a tag ends");
+            assert!(tag.matches('"').count() % 2 == 0, "{tag}");
+            assert!(!text.contains("&") || text.contains(';'), "{text}");
+            if let Some(name) = tag.strip_prefix('/') {
+                assert_eq!(open.pop(), Some(name));
+            } else if !tag.ends_with('/') {
+                open.push(tag.split(' ').next().expect("a name"));
+            }
+        }
+        assert!(open.is_empty(), "{open:?} stay open");
+        assert!(!file.contains("NaN") && !file.contains("inf"), "a number is missing");
+    }
+
+    #[test]
+    fn a_scatter_is_well_formed_and_has_all_points_and_cells() {
+        let points = [[0.0, 0.0], [0.5, 0.25], [1.0, 1.0], [f64::NAN, 0.5]];
+        let file = scatter(&Scatter {
+            title: "a <b> & \"c\"",
+            subtitle: "",
+            labels: ["x", "y"],
+            points: &points,
+            cells: 8,
+        });
+        assert_well_formed(&file);
+        assert_eq!(file.matches("<circle").count(), 3);
+        assert_eq!(file.matches("#bbbbbb").count(), 14);
+        assert!(file.contains("cx=\"296\" cy=\"424\""));
+    }
+
+    #[test]
+    fn a_figure_is_well_formed_whatever_it_shows() {
+        let stroke = Stroke { colour: PALETTE[1], width_px: 1.0, dash: Dash::DashDot };
+        let panel = |values: &[f64]| Panel {
+            title: "N^{-1} < 2".to_owned(),
+            x: Axis::new("N", Scale::Log(2), [1.0, 8.0]),
+            y: Axis::around("error", Scale::Log(10), values.iter().copied()),
+            lines: vec![Line { points: values.iter().map(|y| [2.0, *y]).collect(), stroke }],
+        };
+        let panels = vec![panel(&[1.0, 0.1]), panel(&[]), panel(&[0.0, f64::NAN, 3.0, 4.0])];
+        let entry = LegendEntry { text: "a & b".to_owned(), stroke: Some(stroke) };
+        let file = figure(&Figure {
+            title: "three".to_owned(),
+            panels,
+            columns: 2,
+            legend: vec![vec![entry]],
+        });
+        assert_well_formed(&file);
+        assert_eq!(file.matches("<clipPath").count(), 3);
+        let none = Figure { title: String::new(), panels: vec![], columns: 0, legend: vec![] };
+        assert_well_formed(&figure(&none));
+    }
+}

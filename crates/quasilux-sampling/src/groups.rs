@@ -1,0 +1,253 @@
+//! Coherent groups: the indices below N, regrouped so that the points of a group lie close together.
+//!
+//! A. Voloboy, K. Dmitriev, E. Kopylov (2003), after K. Dmitriev, S. Brabec, K. Myszkowski, H.-P.
+//! Seidel, "Interactive global illumination using selective photon tracing" (EGWR 2002): the radical
+//! inverses of i and i + n b^k differ by less than b^-k, so photons whose indices agree modulo the
+//! product of b_j^k_j start at the same light in nearly the same direction: they visit the same
+//! nodes and cache lines. For a matrix over bits the same holds of the cosets of a subspace: the
+//! indices x with R x = 0, R the first k_j rows of the matrices C_j.
+
+use crate::point_set::{Generator, PointSet};
+use crate::sequence::BinaryMatrices;
+
+/// How many leading digits of a dimension the members of a group share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SharedDigits {
+    /// The dimension.
+    pub dimension: u32,
+    /// The number of digits, in the base of the dimension.
+    pub digits: u32,
+}
+
+/// A partition of the indices 0 .. N into groups of nearby points.
+///
+/// ```
+/// use quasilux_sampling::{CoherentGroups, PointSet, Randomization, Sequence};
+/// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 7);
+/// let groups = CoherentGroups::of_size(&points, 1 << 12, &[0, 1, 2], 64).unwrap();
+/// assert_eq!(groups.len(), 64);
+/// let close = |i, j| (points.coordinate(i, 0) - points.coordinate(j, 0)).abs() < 0.25;
+/// let first = groups.group(5).next().unwrap();
+/// assert!(groups.group(5).all(|index| close(index, first)));
+/// ```
+#[derive(Clone, Debug)]
+pub struct CoherentGroups {
+    count: u64,
+    shared: Vec<SharedDigits>,
+    bases: Vec<u32>,
+    partition: Partition,
+}
+
+#[derive(Clone, Debug)]
+enum Partition {
+    /// Indices that agree modulo `period`.
+    Residues { period: u64 },
+    /// Cosets of the span of `kernel`; `pivots` are the bits that number them, and no vector of the
+    /// kernel has more than its own of the other bits.
+    Cosets { kernel: Vec<u64>, pivots: Vec<u32> },
+}
+
+impl CoherentGroups {
+    /// Groups of the indices below `count` whose points agree in the leading digits of the given
+    /// dimensions.
+    ///
+    /// `None` for pseudo-random points, for dimensions past the sequence's own and for the first of
+    /// Hammersley's, and when the groups would be more than 2^63.
+    #[must_use]
+    pub fn new(points: &PointSet, count: u64, shared: &[SharedDigits]) -> Option<Self> {
+        let base = |shared: &SharedDigits| points.digit_base(shared.dimension);
+        let bases = shared.iter().map(base).collect::<Option<Vec<u32>>>()?;
+        let partition = match points.generator {
+            Generator::Binary(matrices) => cosets(matrices, count, shared),
+            Generator::Radical { .. } => residues(shared, &bases)?,
+            Generator::Random => return None,
+        };
+        Some(Self { count, shared: shared.to_vec(), bases, partition })
+    }
+
+    /// Groups of about `size` members (at least as many, where `count` is a multiple of the number
+    /// of groups) that are close in the given dimensions: the widest dimension is divided until
+    /// another division would make the groups smaller.
+    #[must_use]
+    pub fn of_size(points: &PointSet, count: u64, dimensions: &[u32], size: u64) -> Option<Self> {
+        let mut shared: Vec<SharedDigits> =
+            dimensions.iter().map(|&dimension| SharedDigits { dimension, digits: 0 }).collect();
+        let mut groups = Self::new(points, count, &shared)?;
+        loop {
+            let widths = (0..shared.len()).map(|place| groups.width(place));
+            let widest = widths.enumerate().max_by(|(i, a), (j, b)| a.total_cmp(b).then(j.cmp(i)));
+            let Some((widest, _)) = widest else { return Some(groups) };
+            shared[widest].digits += 1;
+            match Self::new(points, count, &shared) {
+                Some(finer)
+                    if finer.len() <= count / size.max(1) && shared[widest].digits <= 53 =>
+                {
+                    groups = finer;
+                }
+                _ => return Some(groups),
+            }
+        }
+    }
+
+    /// The number of groups; some are empty where `count` is no multiple of it.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "there is at least one group")]
+    pub fn len(&self) -> u64 {
+        match &self.partition {
+            Partition::Residues { period } => *period,
+            Partition::Cosets { pivots, .. } => 1 << pivots.len(),
+        }
+    }
+
+    /// The indices of one group, in a fixed order.
+    #[must_use]
+    pub fn group(&self, number: u64) -> Group<'_> {
+        let members = match &self.partition {
+            Partition::Residues { period } => Members::Residues { next: number, period: *period },
+            Partition::Cosets { kernel, pivots } => {
+                let bit = |(place, pivot): (usize, &u32)| ((number >> place) & 1) << pivot;
+                let first = pivots.iter().enumerate().map(bit).sum();
+                Members::Cosets { kernel, next: first, step: 0 }
+            }
+        };
+        Group { count: if number < self.len() { self.count } else { 0 }, members }
+    }
+
+    /// All indices below `count`, group by group, each once.
+    pub fn indices(&self) -> impl Iterator<Item = u64> + '_ {
+        (0..self.len()).flat_map(|number| self.group(number))
+    }
+
+    /// The dimensions, and how many digits the members of a group share in each.
+    #[must_use]
+    pub fn shared(&self) -> &[SharedDigits] {
+        &self.shared
+    }
+
+    /// The bound b^-k on the spread of each coordinate within a group, in the order of
+    /// [`shared`](Self::shared): any two members differ by less. Under
+    /// [`Rotation`](crate::Randomization::Rotation) they do so modulo 1.
+    #[must_use]
+    pub fn bounds(&self) -> Vec<f64> {
+        (0..self.shared.len()).map(|place| self.width(place)).collect()
+    }
+
+    /// What the bound promises, measured: the largest minus the smallest coordinate of the members
+    /// of a group, in the order of [`shared`](Self::shared); 0 for an empty group.
+    #[must_use]
+    pub fn spreads(&self, points: &PointSet, number: u64) -> Vec<f64> {
+        let spread = |shared: &SharedDigits| {
+            let coordinates =
+                self.group(number).map(|index| points.coordinate(index, shared.dimension));
+            let (low, high) =
+                coordinates.fold((1.0_f64, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
+            (high - low).max(0.0)
+        };
+        self.shared.iter().map(spread).collect()
+    }
+
+    fn width(&self, place: usize) -> f64 {
+        (0..self.shared[place].digits).fold(1.0, |width, _| width / f64::from(self.bases[place]))
+    }
+}
+
+/// The indices of one group.
+#[derive(Clone, Debug)]
+pub struct Group<'a> {
+    count: u64,
+    members: Members<'a>,
+}
+
+#[derive(Clone, Debug)]
+enum Members<'a> {
+    Residues { next: u64, period: u64 },
+    Cosets { kernel: &'a [u64], next: u64, step: u64 },
+}
+
+impl Iterator for Group<'_> {
+    type Item = u64;
+
+    fn next(&mut self) -> Option<u64> {
+        match &mut self.members {
+            Members::Residues { next, period } => {
+                let index = Some(*next).filter(|index| *index < self.count)?;
+                match next.checked_add(*period) {
+                    Some(following) => *next = following,
+                    None => self.count = 0,
+                }
+                Some(index)
+            }
+            Members::Cosets { kernel, next, step } => {
+                // Gray code: each member is the one before it plus one vector of the kernel.
+                while *step < 1 << kernel.len() {
+                    let index = *next;
+                    *step += 1;
+                    if let Some(vector) = kernel.get(step.trailing_zeros() as usize) {
+                        *next ^= vector;
+                    }
+                    if index < self.count {
+                        return Some(index);
+                    }
+                }
+                None
+            }
+        }
+    }
+}
+
+fn residues(shared: &[SharedDigits], bases: &[u32]) -> Option<Partition> {
+    let mut powers: Vec<(u32, u64)> = Vec::new();
+    for (shared, base) in shared.iter().zip(bases) {
+        let power = u64::from(*base).checked_pow(shared.digits)?;
+        match powers.iter_mut().find(|(other, _)| other == base) {
+            Some((_, other)) => *other = power.max(*other),
+            None => powers.push((*base, power)),
+        }
+    }
+    let period = powers.iter().try_fold(1_u64, |period, (_, power)| period.checked_mul(*power))?;
+    (period <= 1 << 63).then_some(Partition::Residues { period })
+}
+
+/// Solves R x = 0 for the indices x of as many bits as `count` - 1 has, at most 63.
+fn cosets(matrices: &BinaryMatrices, count: u64, shared: &[SharedDigits]) -> Partition {
+    let bits = (64 - count.saturating_sub(1).leading_zeros()).min(63);
+    // Rows in reduced echelon form: the pivot of a row is its lowest bit, in no other row.
+    let mut rows: Vec<u64> = Vec::new();
+    for row in shared.iter().flat_map(|shared| leading_rows(matrices, bits, *shared)) {
+        let reduced = rows
+            .iter()
+            .fold(row, |row, other| if row & lowest(*other) == 0 { row } else { row ^ other });
+        if reduced != 0 {
+            for other in &mut rows {
+                if *other & lowest(reduced) != 0 {
+                    *other ^= reduced;
+                }
+            }
+            rows.push(reduced);
+        }
+    }
+    rows.sort_unstable_by_key(|row| row.trailing_zeros());
+    let pivots: Vec<u32> = rows.iter().map(|row| row.trailing_zeros()).collect();
+    let kernel_vector = |free: u32| {
+        let hits = rows.iter().filter(|row| (*row >> free) & 1 == 1);
+        hits.fold(1 << free, |vector, row| vector | lowest(*row))
+    };
+    let kernel = (0..bits).filter(|bit| !pivots.contains(bit)).map(kernel_vector).collect();
+    Partition::Cosets { kernel, pivots }
+}
+
+/// The first rows of a matrix, column k in bit k.
+fn leading_rows(
+    matrices: &BinaryMatrices,
+    bits: u32,
+    shared: SharedDigits,
+) -> impl Iterator<Item = u64> + '_ {
+    (0..shared.digits.min(64)).map(move |r| {
+        let entry = |k| ((matrices.column(k, shared.dimension) >> r) & 1) << k;
+        (0..bits).map(entry).sum()
+    })
+}
+
+fn lowest(row: u64) -> u64 {
+    row & row.wrapping_neg()
+}

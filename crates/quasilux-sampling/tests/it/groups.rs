@@ -1,0 +1,88 @@
+//! Coherent groups: a partition of the indices whose members lie close together.
+
+use quasilux_sampling::{
+    CoherentGroups, PointSet, Randomization, Sequence, SharedDigits, stream_key,
+};
+
+const SEQUENCES: [Sequence; 3] = [Sequence::Sobol, Sequence::Halton, Sequence::Faure4];
+const RANDOMIZATIONS: [Randomization; 3] =
+    [Randomization::None, Randomization::Shift, Randomization::Owen];
+
+/// The inequality |Phi_b(i) - Phi_b(i + n b^k)| < b^-k and its like for matrices, measured; and each
+/// index once, whether or not the count is a multiple of the number of groups.
+#[test]
+fn groups_are_a_partition_within_the_bound() {
+    for sequence in SEQUENCES {
+        for randomization in RANDOMIZATIONS {
+            let points = PointSet::new(sequence, randomization, stream_key(1, 0, 0));
+            for (count, digits) in
+                [(4096, [3, 2, 2]), (5000, [2, 3, 1]), (1, [1, 1, 1]), (0, [2, 0, 0])]
+            {
+                let shared: Vec<SharedDigits> = (0..)
+                    .zip(digits)
+                    .map(|(dimension, digits)| SharedDigits { dimension, digits })
+                    .collect();
+                let groups = CoherentGroups::new(&points, count, &shared).expect("groups");
+                for number in 0..groups.len() {
+                    for (spread, bound) in
+                        groups.spreads(&points, number).iter().zip(groups.bounds())
+                    {
+                        assert!(*spread < bound, "{points:?}, group {number}: {spread} of {bound}");
+                    }
+                }
+                let mut indices: Vec<u64> = groups.indices().collect();
+                indices.sort_unstable();
+                assert_eq!(indices, (0..count).collect::<Vec<_>>(), "{points:?}");
+            }
+        }
+    }
+}
+
+/// The bound is sharp to a factor of two: nothing closer could be promised.
+#[test]
+fn the_bound_is_nearly_reached() {
+    for sequence in SEQUENCES {
+        let points = PointSet::new(sequence, Randomization::None, 0);
+        let shared = [0, 1].map(|dimension| SharedDigits { dimension, digits: 2 });
+        let groups = CoherentGroups::new(&points, 1 << 14, &shared).expect("groups");
+        let mut largest = [0.0_f64; 2];
+        for number in 0..groups.len() {
+            for (largest, spread) in largest.iter_mut().zip(groups.spreads(&points, number)) {
+                *largest = largest.max(spread);
+            }
+        }
+        println!("{}: spreads {largest:?} within {:?}", sequence.name(), groups.bounds());
+        assert!(largest.iter().zip(groups.bounds()).all(|(largest, bound)| *largest > 0.5 * bound));
+    }
+}
+
+/// Groups of a wanted size are at most the largest base larger, and narrower than chance.
+#[test]
+fn groups_have_the_size_that_was_asked_for() {
+    for sequence in SEQUENCES {
+        let points = PointSet::new(sequence, Randomization::Owen, stream_key(1, 0, 0));
+        for size in [1, 16, 100, 1 << 14, 1 << 20] {
+            let groups =
+                CoherentGroups::of_size(&points, 1 << 14, &[0, 1, 2], size).expect("groups");
+            let members = (1 << 14) / groups.len();
+            assert!(members >= size.min(1 << 14), "{sequence:?}, {size}: {members}");
+            assert!(members <= 10 * size, "{sequence:?}, {size}: {members}");
+            assert_eq!(groups.indices().count(), 1 << 14);
+        }
+    }
+}
+
+#[test]
+fn what_has_no_digits_has_no_groups() {
+    let groups = |sequence, dimension, digits| {
+        let points = PointSet::new(sequence, Randomization::None, 0);
+        CoherentGroups::new(&points, 100, &[SharedDigits { dimension, digits }])
+    };
+    assert!(groups(Sequence::Random, 0, 1).is_none());
+    assert!(groups(Sequence::Hammersley { points: 100 }, 0, 1).is_none());
+    assert!(groups(Sequence::Hammersley { points: 100 }, 1, 1).is_some());
+    assert!(groups(Sequence::Halton, 1, 64).is_none());
+    assert!(groups(Sequence::Sobol, 1024, 1).is_none());
+    let far = groups(Sequence::Sobol, 0, u32::MAX).expect("groups");
+    assert_eq!(far.group(u64::MAX).count(), 0);
+}
