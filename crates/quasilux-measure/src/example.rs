@@ -4,7 +4,7 @@ use crate::{Report, RunFacts};
 use glam::DVec3;
 use quasilux_scene::{Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
-    Estimates, Estimator, FluxBalance, MeanDimension, SensorEstimates, Settings,
+    DimensionHistogram, Dimensions, Estimates, Estimator, FluxBalance, SensorEstimates, Settings,
 };
 
 /// A grid in the xy plane.
@@ -126,7 +126,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
             lost_lm: 0.0,
             cut_lm: 0.0,
         },
-        mean_dimension: MeanDimension { photon: Some(13.25), path: None },
+        dimensions: Dimensions { photon: photon_dimensions(), path: DimensionHistogram::new() },
         invalid_contributions: 0,
         confidence: 0.95,
         miss_probability: 0.025,
@@ -140,6 +140,13 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         ..Scene::default()
     };
     (scene, estimates)
+}
+
+/// Three photons of 2, 5 and 2 coordinates.
+fn photon_dimensions() -> DimensionHistogram {
+    let mut dimensions = DimensionHistogram::new();
+    [2, 5, 2].into_iter().for_each(|used| dimensions.record(used));
+    dimensions
 }
 
 /// Sixteen replicates of given means: replicate r and point p are off by a fixed pattern whose sum

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 use quasilux_scene::{Grid, Scene, SensorShape};
-use quasilux_transport::{Estimates, FluxBalance, Interval, MeanDimension, Settings};
+use quasilux_transport::{Dimensions, Estimates, FluxBalance, Interval, Settings};
 
 /// What the program that ran the simulation knows and the simulation does not.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -103,8 +103,8 @@ pub struct Run {
     pub confidence: f64,
     /// Whether every sensor point reached the wanted tolerance.
     pub tolerance_reached: bool,
-    /// Mean number of coordinates that one photon and one path used.
-    pub mean_dimension: MeanDimension,
+    /// Numbers of coordinates that photons and paths used.
+    pub dimensions: Dimensions,
     /// Where the photons' flux went.
     pub flux: FluxBalance,
     /// Contributions that were not finite, negative or out of range; they are not in the results.
@@ -142,7 +142,7 @@ impl Report {
                 threads: facts.threads,
                 confidence: estimates.confidence,
                 tolerance_reached: estimates.tolerance_reached,
-                mean_dimension: estimates.mean_dimension,
+                dimensions: estimates.dimensions.clone(),
                 flux: estimates.flux,
                 invalid_contributions: estimates.invalid_contributions,
             },

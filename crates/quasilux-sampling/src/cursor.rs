@@ -113,6 +113,25 @@ impl<'a> SampleCursor<'a> {
         choice
     }
 
+    /// What choices left of their coordinate, for a decision that is not discrete; a fresh one where
+    /// they took too much of it, by the rule of this module. Ends the shared coordinate.
+    ///
+    /// ```
+    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+    /// let mut cursor = SampleCursor::new(&points, 7);
+    /// let survives = cursor.choose_bool(0.5);
+    /// let direction = [cursor.rest_1d(), cursor.next_1d()];
+    /// assert_eq!(cursor.used(), 2);
+    /// # let _ = (survives, direction);
+    /// ```
+    #[inline]
+    pub fn rest_1d(&mut self) -> f64 {
+        let rest = self.open_coordinate();
+        self.close();
+        rest
+    }
+
     /// Ends the coordinate that choices share: the next takes a fresh one.
     #[inline]
     pub fn close(&mut self) {

@@ -3,7 +3,7 @@
 //! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
 
-use crate::estimates::{Estimates, MeanDimension};
+use crate::estimates::{Dimensions, Estimates};
 use crate::map::MapLayout;
 use crate::photon::{PhotonCounts, PhotonReceiver};
 use crate::photons::trace_photons;
@@ -120,7 +120,10 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
             samples: self.samples,
             rays: self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
-            mean_dimension: MeanDimension { photon: self.photons.mean_dimension(), path: None },
+            dimensions: Dimensions {
+                photon: self.photons.dimensions.clone(),
+                ..Dimensions::default()
+            },
             biased: self.photons.endless > 0,
             warnings: self.photons.warnings(),
             ..Estimates::default()

@@ -2,6 +2,7 @@
 
 use crate::Interval;
 use crate::interval::jackknife;
+use quasilux_sampling::DimensionHistogram;
 
 /// The state of a simulation at a checkpoint that all replicates have completed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,8 +15,8 @@ pub struct Estimates {
     pub rays: u64,
     /// Where the photons' flux went.
     pub flux: FluxBalance,
-    /// Mean number of coordinates that one photon and one path used.
-    pub mean_dimension: MeanDimension,
+    /// Numbers of coordinates that photons and paths used.
+    pub dimensions: Dimensions,
     /// Contributions that were not finite, negative, or out of the tally's range; not in the sums.
     pub invalid_contributions: u64,
     /// Nominal confidence level of the intervals.
@@ -58,13 +59,13 @@ pub struct FluxBalance {
     pub cut_lm: f64,
 }
 
-/// Mean number of coordinates used, the constructive dimension; `None` where nothing was traced.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MeanDimension {
-    /// Of a photon.
-    pub photon: Option<f64>,
-    /// Of a path from a sensor.
-    pub path: Option<f64>,
+/// How many coordinates samples used, the constructive dimension; empty where nothing was traced.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Dimensions {
+    /// Of the photons.
+    pub photon: DimensionHistogram,
+    /// Of the paths from sensors.
+    pub path: DimensionHistogram,
 }
 
 impl Estimates {

@@ -1,7 +1,7 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
 use crate::end::{End, Growth};
-use crate::estimates::{Estimates, MeanDimension};
+use crate::estimates::{Dimensions, Estimates};
 use crate::path::{Gathered, PathWork, Rest, trace_path};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::settings::Settings;
@@ -11,7 +11,7 @@ use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::targets::{Target, by_sensor, targets};
 use crate::watch::Watch;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::{DimensionHistogram, SampleCursor};
 use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::ops::{AddAssign, Range};
@@ -52,11 +52,11 @@ struct PathSums {
     reflected: u64,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct WorkCounts {
     paths: u64,
     rays: u64,
-    coordinates: u64,
+    dimensions: DimensionHistogram,
     endless: u64,
 }
 
@@ -119,16 +119,16 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let rest = self.end.rest(block.replicate);
         let mut sums = PathSums::default();
         let mut work = PathWork::default();
-        let (mut coordinates, mut endless) = (0, 0);
+        let (mut dimensions, mut endless) = (DimensionHistogram::new(), 0);
         for index in block.indices.clone() {
             let mut cursor = SampleCursor::new(&points, index);
             let found = self.trace_one(self.targets[block.target], &rest, &mut cursor, &mut work);
             sums.add(found, self.quantum);
-            coordinates += u64::from(cursor.used());
+            dimensions.record(cursor.used());
             endless += u64::from(found.endless);
         }
         let paths = block.indices.end - block.indices.start;
-        (sums, WorkCounts { paths, rays: work.rays, coordinates, endless })
+        (sums, WorkCounts { paths, rays: work.rays, dimensions, endless })
     }
 
     fn trace_one(
@@ -203,13 +203,13 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 .into_par_iter()
                 .map(|block| self.trace_block(&self.block(block, &indices)))
                 .collect();
-            let before = self.work;
+            let (paths_before, rays_before) = (self.work.paths, self.work.rays);
             for (block, (sums, work)) in round.clone().zip(found) {
                 self.sums[(block / blocks_each) as usize] += sums;
                 self.work += work;
             }
             done = round.end;
-            let (paths, rays) = (self.work.paths - before.paths, self.work.rays - before.rays);
+            let (paths, rays) = (self.work.paths - paths_before, self.work.rays - rays_before);
             if !watch.tick(0, paths, rays, done as f64 / blocks as f64) {
                 return false;
             }
@@ -237,16 +237,15 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 exact_lx + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
             })
             .collect();
-        let mean_dimension = MeanDimension {
-            photon: self.photons.mean_dimension(),
-            path: Some(self.work.coordinates as f64 / self.work.paths as f64),
-        };
         Estimates {
             sensors: by_sensor(self.scene, &rows, &direct_lx, &self.resolved()),
             samples: self.samples,
             rays: self.work.rays + self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
-            mean_dimension,
+            dimensions: Dimensions {
+                photon: self.photons.dimensions.clone(),
+                path: self.work.dimensions.clone(),
+            },
             invalid_contributions: self.invalid_points
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
             biased: self.work.endless > 0,
@@ -302,7 +301,7 @@ impl AddAssign for WorkCounts {
     fn add_assign(&mut self, other: Self) {
         self.paths += other.paths;
         self.rays += other.rays;
-        self.coordinates += other.coordinates;
+        self.dimensions.merge(&other.dimensions);
         self.endless += other.endless;
     }
 }

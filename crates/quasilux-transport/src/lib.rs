@@ -30,8 +30,9 @@ mod watch;
 mod world;
 
 pub use check::{CheckError, check};
-pub use estimates::{Estimates, FluxBalance, MeanDimension, SensorEstimates};
+pub use estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates};
 pub use interval::Interval;
 pub use observer::{Control, Observer, Progress};
+pub use quasilux_sampling::DimensionHistogram;
 pub use settings::{Estimator, Settings};
 pub use simulate::simulate;

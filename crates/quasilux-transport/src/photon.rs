@@ -10,14 +10,14 @@ use crate::stage::Stage;
 use crate::world::{Interaction, Scattering, mirrored, to_world};
 use glam::DVec3;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
-use quasilux_sampling::{SampleCursor, choose_bool};
+use quasilux_sampling::{DimensionHistogram, SampleCursor};
 use std::ops::AddAssign;
 
 /// After this many events a photon or path is cut: only halls of perfect mirrors get there.
 pub(crate) const MOST_EVENTS: u32 = 4096;
 
 /// How photons ended, and what they cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PhotonCounts {
     pub(crate) emitted: u64,
     pub(crate) absorbed: u64,
@@ -27,8 +27,8 @@ pub(crate) struct PhotonCounts {
     /// Cut after [`MOST_EVENTS`].
     pub(crate) endless: u64,
     pub(crate) rays: u64,
-    /// Coordinates used by all of them together.
-    pub(crate) coordinates: u64,
+    /// Coordinates that each of them used.
+    pub(crate) dimensions: DimensionHistogram,
 }
 
 /// What sees photons on their way.
@@ -64,7 +64,7 @@ pub(crate) fn trace_photon<S: Spectrum>(
         End::Cut => counts.cut += 1,
         End::Endless => counts.endless += 1,
     }
-    counts.coordinates += u64::from(cursor.used());
+    counts.dimensions.record(cursor.used());
 }
 
 fn fly<S: Spectrum>(
@@ -88,8 +88,7 @@ fn fly<S: Spectrum>(
         }
         let reflected = weight * scattering.reflectance();
         let survival = reflected.luminance();
-        let event = choose_bool(cursor.next_1d(), survival);
-        if !event.value {
+        if !cursor.choose_bool(survival) {
             return End::Absorbed;
         }
         if stage.max_bounces.is_some_and(|most| bounces >= most) {
@@ -99,7 +98,7 @@ fn fly<S: Spectrum>(
         direction = match scattering {
             Scattering::Mirror(_) => mirrored(direction, at.n),
             Scattering::Diffuse(_) => {
-                to_world(at.n, sample_cosine_hemisphere([event.rest, cursor.next_1d()]))
+                to_world(at.n, sample_cosine_hemisphere([cursor.rest_1d(), cursor.next_1d()]))
             }
         };
         from = stage.world.vantage(&at);
@@ -115,7 +114,7 @@ impl AddAssign for PhotonCounts {
         self.cut += other.cut;
         self.endless += other.endless;
         self.rays += other.rays;
-        self.coordinates += other.coordinates;
+        self.dimensions.merge(&other.dimensions);
     }
 }
 

@@ -43,8 +43,9 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
                 a += b;
                 a
             });
+        let (photons, rays) = (of_round.emitted, of_round.rays);
         counts += of_round;
-        if !watch.tick(of_round.emitted, 0, of_round.rays, done as f64 / blocks as f64) {
+        if !watch.tick(photons, 0, rays, done as f64 / blocks as f64) {
             return None;
         }
     }
@@ -89,10 +90,5 @@ impl PhotonCounts {
             "{photons} photons were cut after {MOST_EVENTS} bounces: light is trapped here, and \
              values are too low"
         )]
-    }
-
-    /// Mean number of coordinates of a photon.
-    pub(crate) fn mean_dimension(&self) -> Option<f64> {
-        (self.emitted > 0).then(|| self.coordinates as f64 / self.emitted as f64)
     }
 }

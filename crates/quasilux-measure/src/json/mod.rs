@@ -4,13 +4,15 @@
 //! one project write the same bytes but for `seconds` and `threads`. Unknown figures are `null`.
 //! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
 //! sensor its `counts` along u and v; and in `run` the rest of what makes a run repeatable
-//! (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`) and `flux_cut_lm`, the flux
-//! that `max_bounces` cut.
+//! (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`), `flux_cut_lm`, the flux
+//! that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
+//! coordinates, in one list each, all of more than 1023 together at its end.
 
 mod layout;
 
 use crate::{Figure, PointReport, Report, Run, SensorReport, Summary};
 use layout::Layout;
+use quasilux_transport::DimensionHistogram;
 use serde::{Serialize, Serializer};
 
 /// Name and version of the document's format.
@@ -88,6 +90,7 @@ struct RunEntry<'a> {
     max_bounces: Option<u32>,
     map_element_m: Option<f64>,
     mean_dimension: MeanDimensionEntry,
+    dimension_counts: DimensionCountsEntry<'a>,
     #[serde(serialize_with = "finite_or_null")]
     flux_emitted_lm: f64,
     #[serde(serialize_with = "finite_or_null")]
@@ -103,6 +106,13 @@ struct RunEntry<'a> {
 struct MeanDimensionEntry {
     photon: Option<f64>,
     path: Option<f64>,
+}
+
+/// How many photons and paths used 0, 1, 2, .. coordinates.
+#[derive(Serialize)]
+struct DimensionCountsEntry<'a> {
+    photon: &'a [u64],
+    path: &'a [u64],
 }
 
 impl<'a> Document<'a> {
@@ -172,8 +182,12 @@ impl<'a> RunEntry<'a> {
             max_bounces: run.settings.max_bounces,
             map_element_m: run.settings.map_element_m,
             mean_dimension: MeanDimensionEntry {
-                photon: run.mean_dimension.photon,
-                path: run.mean_dimension.path,
+                photon: mean(&run.dimensions.photon),
+                path: mean(&run.dimensions.path),
+            },
+            dimension_counts: DimensionCountsEntry {
+                photon: run.dimensions.photon.counts(),
+                path: run.dimensions.path.counts(),
             },
             flux_emitted_lm: run.flux.emitted_lm,
             flux_absorbed_lm: run.flux.absorbed_lm,
@@ -182,6 +196,11 @@ impl<'a> RunEntry<'a> {
             invalid_contributions: run.invalid_contributions,
         }
     }
+}
+
+/// The mean number of coordinates; `None` where nothing was traced.
+fn mean(dimensions: &DimensionHistogram) -> Option<f64> {
+    (dimensions.samples() > 0).then(|| dimensions.mean())
 }
 
 fn finite_or_null<S: Serializer>(x: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -237,7 +256,10 @@ mod tests {
         let average = &sensor["summary"]["average_lx"];
         assert_eq!(average["value"].as_f64(), report.sensors[0].summary.average_lx.value);
         assert_eq!(document["run"]["replicates"], 16);
+        assert_eq!(document["run"]["mean_dimension"]["photon"], 3.0);
         assert_eq!(document["run"]["mean_dimension"]["path"], Value::Null);
+        let counts = serde_json::json!({"photon": [0, 0, 2, 0, 0, 1], "path": []});
+        assert_eq!(document["run"]["dimension_counts"], counts);
         assert_eq!(document["run"]["max_bounces"], Value::Null);
         assert_eq!(document["warnings"], serde_json::json!(["a \"quoted\" warning"]));
     }

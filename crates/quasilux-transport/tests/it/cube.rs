@@ -73,6 +73,6 @@ fn photons_use_seven_coordinates() {
         rel_tol: 0.0,
         ..Settings::default()
     };
-    let dimension = run(&settings, &KNOWN[..1]).mean_dimension.photon.unwrap();
+    let dimension = run(&settings, &KNOWN[..1]).dimensions.photon.mean();
     assert!((dimension - 7.0).abs() < 0.02, "{dimension}");
 }

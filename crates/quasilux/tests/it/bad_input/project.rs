@@ -203,5 +203,3 @@ fn simulation() {
         ],
     );
 }
-
-/// What the design promises and this version lacks.
