@@ -72,7 +72,7 @@ pub(crate) struct SimulationArguments {
     /// photon, path, bidirectional or bidirectional-map
     #[arg(long, value_name = "NAME")]
     pub(crate) estimator: Option<String>,
-    /// sobol or random
+    /// sobol, halton, hammersley (with --samples), faure4 or random
     #[arg(long, value_name = "NAME")]
     pub(crate) sequence: Option<String>,
     /// Number of threads [default: all cores]

@@ -59,7 +59,7 @@ fn commands_and_paths() {
                 .file("results", "")
                 .with(&["--out", "results/of/today"])
                 .says(&["results/of/today: ", "cannot write"]),
-            Case::new("a command to come").instead(&["points", "sobol"]).says(&["not built yet"]),
+            Case::new("a command to come").instead(&["bsdf", "x.xml"]).says(&["not built yet"]),
             Case::new("an experiment to come")
                 .instead(&["experiment", "octant"])
                 .says(&["octant", "not built yet"]),
