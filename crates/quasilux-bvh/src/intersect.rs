@@ -58,7 +58,7 @@ impl PreparedRay {
     }
 
     /// A corner in the sheared frame: the ray runs along the third axis, scaled to its length.
-    #[inline]
+    #[inline(always)]
     fn sheared(&self, corner: DVec3) -> [f64; 3] {
         let [x, y, z] = self.axes;
         let p = (corner - self.origin).to_array();
@@ -68,7 +68,7 @@ impl PreparedRay {
 
 /// Intersects a ray with a triangle, from either side; `None` beyond `t_max` and for triangles seen
 /// exactly edge-on.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn intersect(ray: &PreparedRay, corners: &[DVec3; 3], triangle: u32) -> Option<Hit> {
     let [a, b, c] = [ray.sheared(corners[0]), ray.sheared(corners[1]), ray.sheared(corners[2])];

@@ -128,7 +128,7 @@ impl TriangleBvh {
         self.corners.is_empty()
     }
 
-    #[inline]
+    #[inline(always)]
     fn candidate(&self, ray: &PreparedRay, leaf: usize, excluded: &[u32]) -> Option<Hit> {
         let triangle = self.triangle_of[leaf];
         if excluded.contains(&triangle) {

@@ -1,12 +1,13 @@
 //! Handing out the coordinates of one sample.
 //!
-//! Discrete choices share a coordinate by modified superposition: each takes log2(1 / p) bits of it,
-//! p the probability of what was chosen, and leaves the rest to the next. Only the first digits of a
-//! coordinate are evenly spread, log2 N of N points, so the rest soon is no better than
-//! pseudo-random, or a constant where nothing is randomised. The rule: a choice opens a fresh
-//! coordinate when those before it took [`SHARED_BITS`](SampleCursor::SHARED_BITS) or more of the
-//! open one. It depends on the choices of the sample and not on N, so that a longer run extends a
-//! shorter one, and decisions keep their coordinates.
+//! Discrete choices share a coordinate by modified superposition: each takes some of its bits, and
+//! leaves the rest to the next. Only the first digits of a coordinate are evenly spread, log2 N of N
+//! points, so the rest soon is no better than pseudo-random, or a constant where nothing is
+//! randomised. The rule: a choice is charged the bits that its distribution needs on average (its
+//! entropy, rounded up), known before its outcome, and opens a fresh coordinate when it would bring
+//! the open one above [`SHARED_BITS`](SampleCursor::SHARED_BITS). It depends neither on N, so that a
+//! longer run extends a shorter one, nor on outcomes: decisions keep their coordinates as long as the
+//! distributions before them are the same.
 
 use crate::choice::{BoolChoice, Choice, choose_bool, choose_weights};
 use crate::{Discrete, PointSet};
@@ -29,32 +30,28 @@ pub struct SampleCursor<'a> {
     index: u64,
     dimension: u32,
     used: u32,
-    /// What choices left of their coordinate, and the probability of all of them.
-    open: Open,
+    open: Option<Open>,
 }
 
+/// What choices left of a coordinate.
 #[derive(Clone, Copy, Debug)]
 struct Open {
     rest: f64,
-    probability: f64,
-}
-
-impl Open {
-    /// Nothing is left.
-    const NONE: Self = Self { rest: 0.0, probability: 0.0 };
+    /// Bits that they were charged.
+    spent: u32,
 }
 
 impl<'a> SampleCursor<'a> {
-    /// A coordinate from which choices took as many bits is not used further. A run of a million
-    /// points has 20 even digits; a choice among a thousand luminaires takes ten and ends the
-    /// coordinate, events with two outcomes share one.
+    /// No coordinate is shared by choices that need more bits together. A run of a million points
+    /// has 20 even digits; a choice among a thousand luminaires takes ten and has its coordinate for
+    /// itself, events with two outcomes share one.
     pub const SHARED_BITS: u32 = 8;
 
     /// Starts at the first coordinate of point `index`.
     #[inline]
     #[must_use]
     pub const fn new(points: &'a PointSet, index: u64) -> Self {
-        Self { points, index, dimension: 0, used: 0, open: Open::NONE }
+        Self { points, index, dimension: 0, used: 0, open: None }
     }
 
     /// The next coordinate.
@@ -84,21 +81,25 @@ impl<'a> SampleCursor<'a> {
     /// ```
     #[inline]
     pub fn choose_bool(&mut self, p_true: f64) -> bool {
-        let u = self.open_coordinate();
+        let bits = u32::from(p_true > 0.0 && p_true < 1.0);
+        let u = self.shared_coordinate(bits);
         let BoolChoice { value, rest } = choose_bool(u, p_true);
-        let probability = if value { p_true.min(1.0) } else { 1.0 - p_true.max(0.0) };
-        self.leave(rest, probability);
+        self.leave(rest, bits);
         value
     }
 
     /// Chooses as [`choose_weights`] does, on a coordinate that other choices share; `None`, and
     /// nothing consumed, where it gives `None`.
     pub fn choose(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<Choice> {
+        let entries = weights.clone().filter(|weight| *weight > 0.0).count();
+        if entries == 0 {
+            return None;
+        }
         let before = self.clone();
-        let u = self.open_coordinate();
-        let choice = choose_weights(u, weights);
+        let bits = entries.next_power_of_two().trailing_zeros();
+        let choice = choose_weights(self.shared_coordinate(bits), weights);
         match choice {
-            Some(choice) => self.leave(choice.rest, choice.probability),
+            Some(choice) => self.leave(choice.rest, bits),
             None => *self = before,
         }
         choice
@@ -107,9 +108,9 @@ impl<'a> SampleCursor<'a> {
     /// Chooses from a table, on a coordinate that other choices share.
     #[inline]
     pub fn choose_from(&mut self, distribution: &Discrete) -> Choice {
-        let u = self.open_coordinate();
-        let choice = distribution.choose(u);
-        self.leave(choice.rest, choice.probability);
+        let bits = distribution.bits();
+        let choice = distribution.choose(self.shared_coordinate(bits));
+        self.leave(choice.rest, bits);
         choice
     }
 
@@ -127,29 +128,34 @@ impl<'a> SampleCursor<'a> {
     /// ```
     #[inline]
     pub fn rest_1d(&mut self) -> f64 {
-        let rest = self.open_coordinate();
-        self.close();
-        rest
+        match self.open.take() {
+            Some(open) if open.spent <= Self::SHARED_BITS => open.rest,
+            _ => self.next_1d(),
+        }
     }
 
     /// Ends the coordinate that choices share: the next takes a fresh one.
     #[inline]
     pub fn close(&mut self) {
-        self.open = Open::NONE;
+        self.open = None;
+    }
+
+    /// What is left of the open coordinate if `bits` more fit, else a fresh one.
+    #[inline]
+    fn shared_coordinate(&mut self, bits: u32) -> f64 {
+        let fits = |open: &Open| open.spent == 0 || open.spent + bits <= Self::SHARED_BITS;
+        let open = match self.open.filter(fits) {
+            Some(open) => open,
+            None => Open { rest: self.next_1d(), spent: 0 },
+        };
+        self.open = Some(open);
+        open.rest
     }
 
     #[inline]
-    fn open_coordinate(&mut self) -> f64 {
-        const SPENT: f64 = 1.0 / (1_u64 << SampleCursor::SHARED_BITS) as f64;
-        if self.open.probability <= SPENT {
-            self.open = Open { rest: self.next_1d(), probability: 1.0 };
-        }
-        self.open.rest
-    }
-
-    #[inline]
-    fn leave(&mut self, rest: f64, probability: f64) {
-        self.open = Open { rest, probability: self.open.probability * probability };
+    fn leave(&mut self, rest: f64, bits: u32) {
+        let spent = self.open.map_or(0, |open| open.spent) + bits;
+        self.open = Some(Open { rest, spent });
     }
 
     /// Goes on at `dimension`, for an assignment of coordinates to decisions that is fixed ahead;

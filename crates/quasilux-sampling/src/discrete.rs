@@ -22,6 +22,7 @@ pub struct Discrete {
     /// `guide[b]` is the first entry whose cumulative probability lies in bucket b or later.
     guide: Vec<u32>,
     total: f64,
+    bits: u32,
 }
 
 impl Discrete {
@@ -40,7 +41,14 @@ impl Discrete {
             *sum /= total;
         }
         let guide = guide_table(&cumulative);
-        Some(Self { cumulative, guide, total })
+        let bits = entropy(&cumulative).ceil() as u32;
+        Some(Self { cumulative, guide, total, bits })
+    }
+
+    /// The bits of a coordinate that a choice takes on average: the entropy, rounded up.
+    #[must_use]
+    pub const fn bits(&self) -> u32 {
+        self.bits
     }
 
     /// The entry at which the cumulative probability passes u: non-decreasing in u, and never one
@@ -94,6 +102,20 @@ impl Discrete {
 
 /// Non-decreasing sums with the rounding errors carried along (A. Neumaier, 1974); `None` on
 /// overflow.
+/// - sum of p log2 p (Shannon 1948), less a little so that 1024 equal entries have 10 bits.
+fn entropy(cumulative: &[f64]) -> f64 {
+    let mut below = 0.0;
+    let mut bits = -1e-9;
+    for &sum in cumulative {
+        let probability = sum - below;
+        if probability > 0.0 {
+            bits -= probability * libm::log2(probability);
+        }
+        below = sum;
+    }
+    bits
+}
+
 fn prefix_sums(weights: &[f64]) -> Option<Vec<f64>> {
     let (mut sum, mut carry, mut last) = (0.0_f64, 0.0, 0.0_f64);
     let next = |weight: &f64| {

@@ -7,6 +7,7 @@
 //! nodes and cache lines. For a matrix over bits the same holds of the cosets of a subspace: the
 //! indices x with R x = 0, R the first k_j rows of the matrices C_j.
 
+use crate::Randomization;
 use crate::point_set::{Generator, PointSet};
 use crate::sequence::BinaryMatrices;
 
@@ -52,9 +53,12 @@ impl CoherentGroups {
     /// dimensions.
     ///
     /// `None` for pseudo-random points, for dimensions past the sequence's own and for the first of
-    /// Hammersley's, and when the groups would be more than 2^63.
+    /// Hammersley's, and when the indices or the groups would be more than 2^63.
     #[must_use]
     pub fn new(points: &PointSet, count: u64, shared: &[SharedDigits]) -> Option<Self> {
+        if count > 1 << 63 {
+            return None;
+        }
         let base = |shared: &SharedDigits| points.digit_base(shared.dimension);
         let bases = shared.iter().map(base).collect::<Option<Vec<u32>>>()?;
         let partition = match points.generator {
@@ -133,15 +137,22 @@ impl CoherentGroups {
     }
 
     /// What the bound promises, measured: the largest minus the smallest coordinate of the members
-    /// of a group, in the order of [`shared`](Self::shared); 0 for an empty group.
+    /// of a group, in the order of [`shared`](Self::shared); 0 for an empty group. Under
+    /// [`Rotation`](crate::Randomization::Rotation), the length of the shortest arc of the circle of
+    /// length 1 that holds them.
     #[must_use]
     pub fn spreads(&self, points: &PointSet, number: u64) -> Vec<f64> {
         let spread = |shared: &SharedDigits| {
             let coordinates =
                 self.group(number).map(|index| points.coordinate(index, shared.dimension));
-            let (low, high) =
-                coordinates.fold((1.0_f64, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
-            (high - low).max(0.0)
+            match points.randomization() {
+                Randomization::Rotation => shortest_arc(coordinates.collect()),
+                Randomization::None | Randomization::Shift | Randomization::Owen => {
+                    let (low, high) = coordinates
+                        .fold((1.0_f64, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
+                    (high - low).max(0.0)
+                }
+            }
         };
         self.shared.iter().map(spread).collect()
     }
@@ -208,9 +219,9 @@ fn residues(shared: &[SharedDigits], bases: &[u32]) -> Option<Partition> {
     (period <= 1 << 63).then_some(Partition::Residues { period })
 }
 
-/// Solves R x = 0 for the indices x of as many bits as `count` - 1 has, at most 63.
+/// Solves R x = 0 for the indices x of as many bits as `count` - 1 has: at most 63.
 fn cosets(matrices: &BinaryMatrices, count: u64, shared: &[SharedDigits]) -> Partition {
-    let bits = (64 - count.saturating_sub(1).leading_zeros()).min(63);
+    let bits = 64 - count.saturating_sub(1).leading_zeros();
     // Rows in reduced echelon form: the pivot of a row is its lowest bit, in no other row.
     let mut rows: Vec<u64> = Vec::new();
     for row in shared.iter().flat_map(|shared| leading_rows(matrices, bits, *shared)) {
@@ -246,6 +257,14 @@ fn leading_rows(
         let entry = |k| ((matrices.column(k, shared.dimension) >> r) & 1) << k;
         (0..bits).map(entry).sum()
     })
+}
+
+/// All of the circle but the widest gap between neighbours.
+fn shortest_arc(mut coordinates: Vec<f64>) -> f64 {
+    coordinates.sort_unstable_by(f64::total_cmp);
+    let [first, .., last] = coordinates[..] else { return 0.0 };
+    let gaps = coordinates.windows(2).map(|pair| pair[1] - pair[0]);
+    1.0 - gaps.fold(first + 1.0 - last, f64::max)
 }
 
 fn lowest(row: u64) -> u64 {

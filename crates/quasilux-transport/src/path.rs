@@ -14,8 +14,8 @@ use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::world::{Interaction, Scattering, Vantage, mirrored, to_world};
 use glam::DVec3;
+use quasilux_sampling::SampleCursor;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
-use quasilux_sampling::{SampleCursor, choose_bool};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Bounces after which a path goes on for certain; after later ones by chance.
@@ -63,8 +63,6 @@ struct Onward {
     emitted: f64,
     /// On everything else; 0 ends the path there.
     everything: f64,
-    /// What is left of the coordinate that decided.
-    u: f64,
 }
 
 /// Estimates the illuminance on the side `n` of a sensor point by one path, the direct light of
@@ -113,11 +111,7 @@ pub(crate) fn trace_path<S: Spectrum>(
         from = world.vantage(&at);
         match world.facet(&at).scattering {
             Scattering::Mirror(_) => {
-                let factor = if bounces < CERTAIN_BOUNCES {
-                    1.0
-                } else {
-                    survive(cursor.next_1d(), bounces, reflectance).everything
-                };
+                let factor = survive(cursor, bounces, reflectance).everything;
                 if factor == 0.0 {
                     return gathered;
                 }
@@ -131,23 +125,22 @@ pub(crate) fn trace_path<S: Spectrum>(
                 let to_start = reflected * FRAC_1_PI;
                 let direct_lx = direct_here(stage, from, at.n, cursor, work);
                 gathered.indirect_lx += to_start.luminance() * direct_lx;
-                let [u, u1] = cursor.next_2d();
                 let map_stands = is_first_diffuse && (bounces == 0 || stage.max_bounces.is_none());
                 let onward = match rest {
                     Rest::Map(end) if map_stands => {
                         let from_map = (to_start * end.illuminance_lx(&at)).luminance();
-                        let onward = end.correct(u);
+                        let onward = end.correct(cursor);
                         gathered.indirect_lx += from_map * (1.0 - onward.everything);
                         onward
                     }
-                    _ => survive(u, bounces, reflectance),
+                    _ => survive(cursor, bounces, reflectance),
                 };
                 let seeks_emitters = onward.emitted != 0.0 && lights.emitters.is_some();
                 if onward.everything == 0.0 && !seeks_emitters {
                     return gathered;
                 }
                 is_first_diffuse = false;
-                let local = sample_cosine_hemisphere([onward.u, u1]);
+                let local = sample_cosine_hemisphere([cursor.rest_1d(), cursor.next_1d()]);
                 direction = to_world(at.n, local);
                 cos = Some(local[2]);
                 beta = to_start * (PI * onward.everything);
@@ -182,13 +175,13 @@ fn direct_here<S: Spectrum>(
 
 /// Russian roulette after the first bounces. `reflectance` is that of the channel that is left
 /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
-fn survive(u: f64, bounces: u32, reflectance: f64) -> Onward {
+fn survive(cursor: &mut SampleCursor<'_>, bounces: u32, reflectance: f64) -> Onward {
     if bounces < CERTAIN_BOUNCES {
-        return Onward { emitted: 1.0, everything: 1.0, u };
+        return Onward { emitted: 1.0, everything: 1.0 };
     }
-    let choice = choose_bool(u, reflectance);
-    let factor = if choice.value { 1.0 / reflectance } else { 0.0 };
-    Onward { emitted: factor, everything: factor, u: choice.rest }
+    let survives = cursor.choose_bool(reflectance);
+    let factor = if survives { 1.0 / reflectance } else { 0.0 };
+    Onward { emitted: factor, everything: factor }
 }
 
 impl<S: Spectrum> MapEnd<'_, S> {
@@ -198,12 +191,11 @@ impl<S: Spectrum> MapEnd<'_, S> {
 
     /// Whether this path corrects the map. The direction to a light that the next surface emits is
     /// part of the direct light here, so it counts in every path.
-    fn correct(&self, u: f64) -> Onward {
+    fn correct(&self, cursor: &mut SampleCursor<'_>) -> Onward {
         let Some(share) = self.corrected_share else {
-            return Onward { emitted: 1.0, everything: 0.0, u };
+            return Onward { emitted: 1.0, everything: 0.0 };
         };
-        let choice = choose_bool(u, share);
-        let everything = if choice.value { 1.0 / share } else { 0.0 };
-        Onward { emitted: 1.0, everything, u: choice.rest }
+        let corrects = cursor.choose_bool(share);
+        Onward { emitted: 1.0, everything: if corrects { 1.0 / share } else { 0.0 } }
     }
 }

@@ -10,7 +10,8 @@ pub enum PairMeasure {
     Star,
     /// A mean-square discrepancy of the projection.
     L2(L2Measure),
-    /// The share of empty cells of a grid with this many cells a side.
+    /// The share of empty cells of a grid with this many cells a side, 1 to
+    /// [`CellCounts::MOST_PER_SIDE`](super::CellCounts::MOST_PER_SIDE).
     EmptyCells(usize),
 }
 
@@ -24,6 +25,9 @@ pub struct PairQuality {
 }
 
 /// All pairs of dimensions, the worst first, equals by their numbers.
+///
+/// # Panics
+/// When there is a pair and [`PairMeasure::EmptyCells`] has a number of cells out of its range.
 #[must_use]
 pub fn worst_pairs(points: PointsView<'_>, measure: PairMeasure) -> Vec<PairQuality> {
     let dimensions = points.dimensions();

@@ -46,10 +46,10 @@ fn choices_share_a_coordinate_up_to_its_useful_bits() {
     }
 }
 
-/// A choice among 1024 ends its coordinate; certain choices cost nothing; a choice without a choice
-/// consumes nothing.
+/// A choice among 1024 has its coordinate for itself; certain choices cost nothing; a choice without
+/// a choice consumes nothing.
 #[test]
-fn choices_are_charged_by_their_probability() {
+fn choices_are_charged_by_their_distribution() {
     let points = sobol(Randomization::Owen, 2);
     let mut cursor = SampleCursor::new(&points, 3);
     assert_eq!(cursor.choose([0.0].into_iter()), None);
@@ -64,6 +64,41 @@ fn choices_are_charged_by_their_probability() {
     let second = cursor.choose([1.0, 1.0].into_iter()).expect("weights").index;
     assert_eq!(second, (points.coordinate(3, 1) * 2.0) as usize);
     assert_eq!(cursor.used(), 2);
+}
+
+/// Small choices before a large one leave it a coordinate that can tell all its entries apart, even
+/// of few points that are not randomised.
+#[test]
+fn a_large_choice_reaches_all_its_entries() {
+    let points = sobol(Randomization::None, 0);
+    let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
+    let mut reached = vec![false; 1024];
+    for index in 0..4096 {
+        let mut cursor = SampleCursor::new(&points, index);
+        for _ in 0..7 {
+            cursor.choose_bool(0.5);
+        }
+        reached[cursor.choose_from(&luminaires).index] = true;
+        let direction = cursor.rest_1d();
+        assert_eq!(direction, points.coordinate(index, 2), "ten bits are too many to share");
+    }
+    assert!(reached.iter().all(|reached| *reached));
+}
+
+/// Whatever comes out of the choices, the next decision has the same coordinate.
+#[test]
+fn outcomes_do_not_move_later_decisions() {
+    let points = sobol(Randomization::Owen, 3);
+    let skewed = Discrete::new(&[0.001, 0.999]).expect("weights");
+    for index in 0..2000 {
+        let mut cursor = SampleCursor::new(&points, index);
+        cursor.choose_bool(0.01);
+        cursor.choose_from(&skewed);
+        for _ in 0..3 {
+            cursor.choose_bool(0.5);
+        }
+        assert_eq!((cursor.used(), cursor.dimension()), (1, 1));
+    }
 }
 
 #[test]

@@ -5,20 +5,24 @@ use quasilux_sampling::{
 };
 
 const SEQUENCES: [Sequence; 3] = [Sequence::Sobol, Sequence::Halton, Sequence::Faure4];
-const RANDOMIZATIONS: [Randomization; 3] =
-    [Randomization::None, Randomization::Shift, Randomization::Owen];
+const RANDOMIZATIONS: [Randomization; 4] =
+    [Randomization::None, Randomization::Rotation, Randomization::Shift, Randomization::Owen];
 
 /// The inequality |Phi_b(i) - Phi_b(i + n b^k)| < b^-k and its like for matrices, measured; and each
-/// index once, whether or not the count is a multiple of the number of groups.
+/// index once, whether or not the count is a multiple of the number of groups. Of Hammersley's points
+/// the dimensions with digits, which begin at 1.
 #[test]
 fn groups_are_a_partition_within_the_bound() {
-    for sequence in SEQUENCES {
+    let hammersley = Sequence::Hammersley { points: 4096 };
+    for (sequence, first) in
+        SEQUENCES.map(|sequence| (sequence, 0)).into_iter().chain([(hammersley, 1)])
+    {
         for randomization in RANDOMIZATIONS {
             let points = PointSet::new(sequence, randomization, stream_key(1, 0, 0));
             for (count, digits) in
                 [(4096, [3, 2, 2]), (5000, [2, 3, 1]), (1, [1, 1, 1]), (0, [2, 0, 0])]
             {
-                let shared: Vec<SharedDigits> = (0..)
+                let shared: Vec<SharedDigits> = (first..)
                     .zip(digits)
                     .map(|(dimension, digits)| SharedDigits { dimension, digits })
                     .collect();
@@ -35,6 +39,39 @@ fn groups_are_a_partition_within_the_bound() {
                 assert_eq!(indices, (0..count).collect::<Vec<_>>(), "{points:?}");
             }
         }
+    }
+}
+
+/// Rotation carries groups over the end of the axis: there the smallest and the largest coordinate lie
+/// at either end, and the arc between them is short.
+#[test]
+fn spreads_under_rotation_wrap_around() {
+    for sequence in SEQUENCES {
+        let points = PointSet::new(sequence, Randomization::Rotation, stream_key(1, 0, 0));
+        let shared = [SharedDigits { dimension: 1, digits: 2 }];
+        let groups = CoherentGroups::new(&points, 1 << 12, &shared).expect("groups");
+        let wide = |number: &u64| {
+            let coordinates: Vec<f64> =
+                groups.group(*number).map(|index| points.coordinate(index, 1)).collect();
+            coordinates.iter().any(|u| *u < 0.1) && coordinates.iter().any(|u| *u > 0.9)
+        };
+        let wide: Vec<u64> = (0..groups.len()).filter(wide).collect();
+        assert_eq!(wide.len(), 1, "{sequence:?}");
+        let (spread, bound) = (groups.spreads(&points, wide[0])[0], groups.bounds()[0]);
+        assert!(spread < bound && spread > 0.9 * bound, "{sequence:?}: {spread} of {bound}");
+    }
+}
+
+/// 2^63 indices are the most: one more and none are given, rather than a part of them.
+#[test]
+fn more_indices_than_2_to_the_63_have_no_groups() {
+    for sequence in SEQUENCES {
+        let points = PointSet::new(sequence, Randomization::None, 0);
+        let shared = [SharedDigits { dimension: 0, digits: 1 }];
+        let groups = |count| CoherentGroups::new(&points, count, &shared);
+        assert_eq!(groups(1 << 63).expect("groups").group(1).take(3).count(), 3);
+        assert!(groups((1 << 63) + 1).is_none() && groups(u64::MAX).is_none());
+        assert!(CoherentGroups::of_size(&points, u64::MAX, &[0], 32).is_none());
     }
 }
 

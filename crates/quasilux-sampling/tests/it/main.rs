@@ -3,6 +3,7 @@
 //! All seeds are fixed. Significance of each statistical test: 1e-6, so that the family of a few
 //! hundred fails by chance once in some 3000 sets of seeds; what it detects stands beside it.
 
+mod assignment;
 mod block;
 mod choice;
 mod convergence;
@@ -15,6 +16,7 @@ mod integrands;
 mod owen;
 mod quality;
 mod random;
+mod randomised_points;
 mod sobol;
 mod support;
 mod warp;

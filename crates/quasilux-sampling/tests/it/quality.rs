@@ -33,6 +33,12 @@ fn views_are_whole_points_of_the_unit_cube() {
 }
 
 #[test]
+#[should_panic(expected = "0 cells a side")]
+fn pairs_need_cells() {
+    let _ = worst_pairs(view(&[0.5, 0.5], 2), PairMeasure::EmptyCells(0));
+}
+
+#[test]
 fn mean_square_discrepancies_equal_scipy() {
     let mut tables = 0;
     for line in GOLDEN.lines().filter(|line| !line.starts_with('#')) {
