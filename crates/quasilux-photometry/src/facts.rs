@@ -1,5 +1,14 @@
 //! What a photometric file says about its luminaire beside the intensities.
 
+/// The format of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standard {
+    /// ANSI/IES LM-63 (.ies), by edition.
+    Lm63(IesStandard),
+    /// EULUMDAT (.ldt).
+    Eulumdat,
+}
+
 /// The edition of ANSI/IES LM-63 that a file claims to follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum IesStandard {
@@ -59,9 +68,10 @@ pub enum Tilt {
 /// The facts of a file's header that the intensities do not show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LuminaireFacts {
-    /// The edition that the file claims.
-    pub standard: IesStandard,
-    /// Keywords and labels in the order of the file.
+    /// The format, and the edition that the file claims.
+    pub standard: Standard,
+    /// Keywords and labels in the order of the file; the text lines of an EULUMDAT file stand
+    /// under the keywords of LM-63 that mean the same.
     pub keywords: Vec<Keyword>,
     /// The tilt block.
     pub tilt: Tilt,
@@ -69,10 +79,10 @@ pub struct LuminaireFacts {
     pub lamp_count: f64,
     /// Luminous flux of one lamp; `None` for absolute photometry.
     pub lumens_per_lamp: Option<f64>,
-    /// The ballast factor.
+    /// The ballast factor; 1 in EULUMDAT, which has none.
     pub ballast_factor: f64,
     /// The field behind the ballast factor, as written: ballast-lamp photometric factor (1986,
-    /// 1991), reserved (1995, 2002), or file generation type (2019).
+    /// 1991), reserved (1995, 2002), or file generation type (2019); 1 in EULUMDAT.
     pub ballast_lamp_field: f64,
     /// Electrical input power in watts, as written.
     pub input_watts: f64,
@@ -80,6 +90,10 @@ pub struct LuminaireFacts {
     pub candela_factor: f64,
     /// The luminous opening.
     pub opening: LuminousOpening,
+    /// Flux of the luminaire over that of its lamps, as an EULUMDAT file claims it.
+    pub light_output_ratio: Option<f64>,
+    /// Tilt of the luminaire while it was measured, as an EULUMDAT file gives it.
+    pub measurement_tilt_rad: f64,
 }
 
 impl LuminaireFacts {

@@ -1,6 +1,6 @@
 //! Measured photometry: luminaire files, spherical tables, exact sampling.
 //!
-//! A file is read ([`read_ies`]) into a [`Photometry`]: intensities over directions, with the facts
+//! A file is read ([`read_ies`], [`read_ldt`]) into a [`Photometry`]: intensities over directions, with the facts
 //! of the header. Behind it stands a [`SphericalTable`], bilinear on a grid of spherical angles,
 //! with its integral in closed form and an inverse transform that turns two uniform coordinates
 //! into a direction, continuously and without rejection.
@@ -21,14 +21,18 @@
 //! What a reader tolerates beyond the standard is listed in [`Deviation`]; each case is reported as
 //! a [`Warning`].
 
+mod angles;
 mod facts;
 mod ies;
+mod ldt;
 mod photometry;
 mod report;
 mod table;
+mod text;
 
-pub use facts::{IesStandard, Keyword, LuminaireFacts, LuminousOpening, Tilt};
+pub use facts::{IesStandard, Keyword, LuminaireFacts, LuminousOpening, Standard, Tilt};
 pub use ies::read_ies;
+pub use ldt::read_ldt;
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};

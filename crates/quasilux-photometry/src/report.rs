@@ -93,8 +93,31 @@ pub enum Deviation {
     /// All candela values are zero: the luminaire gives no light.
     NoLight,
     /// The integrated flux differs from that of the lamps (with the ballast factor) by more than 1
-    /// %. Below it, this is the normal loss of a luminaire; the candela values count.
+    /// %. Below it, this is the normal loss of a luminaire; the candela values count. In EULUMDAT
+    /// it is compared with the lamps' flux times the light output ratio.
     FluxDiffers,
+    /// EULUMDAT: numbers are written with a decimal comma. It counts as a point.
+    DecimalComma,
+    /// EULUMDAT: the line of a number that no intensity depends on is empty. It counts as zero.
+    EmptyNumber,
+    /// EULUMDAT: a distance between planes or angles is not that of the angles listed. The listed
+    /// angles count.
+    AngleDistance,
+    /// EULUMDAT: a single plane is said to have no symmetry. It is read as rotationally symmetric.
+    SinglePlaneWithoutSymmetry,
+    /// EULUMDAT: the planes listed without symmetry include the closing one at 360. It is kept.
+    ClosingPlaneGiven,
+    /// EULUMDAT: there are several sets of lamps. The first one is taken.
+    SeveralLampSets,
+    /// EULUMDAT: the number of lamps is zero. It counts as one.
+    ZeroLampCount,
+    /// EULUMDAT: the conversion factor of the intensities is zero or empty. It counts as 1.
+    ZeroConversionFactor,
+    /// EULUMDAT: the light output ratio is zero or empty. The flux is not compared with it.
+    ZeroLightOutputRatio,
+    /// EULUMDAT: the luminaire was tilted while it was measured. It is taken in the position it
+    /// was measured in: the tilt is kept as a fact and turns nothing.
+    MeasurementTilt,
 }
 
 /// A place in a text, line and column counted from 1, columns in characters.

@@ -22,16 +22,16 @@ mod candela;
 mod header;
 mod numbers;
 mod planes;
-mod text;
 
+use crate::angles::{Number, gamma_rad};
 use crate::report::{Position, Warnings, quoted};
 use crate::{
     Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, Photometry, Read, ReadError,
-    SphericalTable, Tilt,
+    SphericalTable, Standard, Tilt, text,
 };
 use candela::Planes;
 use header::{Header, TiltLine, read_header};
-use numbers::{Number, Numbers};
+use numbers::Numbers;
 use std::f64::consts::PI;
 
 /// Metres in a foot (international foot, exact).
@@ -79,7 +79,7 @@ fn read_numbers(
 
     numbers.start_record("the vertical angles", warnings);
     let vertical = numbers.list(counts.verticals, "vertical angle", warnings)?;
-    let theta_rad = planes::gamma_rad(&vertical, warnings)?;
+    let theta_rad = gamma_rad(&vertical, warnings)?;
     numbers.start_record("the horizontal angles", warnings);
     let horizontal = numbers.list(counts.horizontals, "horizontal angle", warnings)?;
     let (phi_rad, symmetry) = planes::c_rad(&horizontal, warnings)?;
@@ -100,7 +100,7 @@ fn read_numbers(
         warnings.push(Deviation::NegativeLumens, lumens.at, lumens.value, expected);
     }
     let facts = LuminaireFacts {
-        standard: header.standard,
+        standard: Standard::Lm63(header.standard),
         keywords: header.keywords,
         tilt,
         lamp_count: counts.lamp_count,
@@ -110,6 +110,8 @@ fn read_numbers(
         input_watts,
         candela_factor: factor,
         opening: counts.opening,
+        light_output_ratio: None,
+        measurement_tilt_rad: 0.0,
     };
     check_flux(&table, &facts, lumens.at, warnings);
     Ok(Photometry::new(table, facts))

@@ -1,5 +1,6 @@
 //! The numbers behind the header: a stream of tokens with their places.
 
+use crate::angles::Number;
 use crate::report::{Position, Warnings, quoted};
 use crate::{Deviation, ReadError};
 
@@ -9,13 +10,6 @@ pub(super) struct Numbers<'t> {
     cursor: Cursor,
     /// The line of the number read last.
     last_line: Option<usize>,
-}
-
-/// A number and its place.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Number {
-    pub(super) value: f64,
-    pub(super) at: Position,
 }
 
 /// A place to read on from.

@@ -1,31 +1,8 @@
-//! The angles of a type C file: checks, and what symmetry the planes mean.
+//! The horizontal angles of a type C file: checks, and what symmetry the planes mean.
 
-use super::numbers::Number;
+use crate::angles::{Number, ROUNDING_DEG, check_ascending, radians, snapped};
 use crate::report::Warnings;
 use crate::{Deviation, ReadError, Symmetry};
-use std::f64::consts::PI;
-
-/// Written angles may miss a border by this much, in degrees.
-const ROUNDING_DEG: f64 = 1e-3;
-
-/// Polar angles gamma in radians: ascending within 0 to 180 degrees.
-pub(super) fn gamma_rad(angles: &[Number], warnings: &mut Warnings) -> Result<Vec<f64>, ReadError> {
-    check_ascending(angles, "vertical")?;
-    let degrees: Vec<f64> = angles.iter().map(|angle| snapped(angle.value, 90.0)).collect();
-    for (angle, degrees) in angles.iter().zip(&degrees) {
-        if !(0.0..=180.0).contains(degrees) {
-            let expected = "vertical angles between 0 and 180 degrees, as type C has them";
-            return Err(ReadError::new(angle.at, degrees, expected));
-        }
-    }
-    let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
-    if !matches!(first, 0.0 | 90.0) || !matches!(last, 90.0 | 180.0) {
-        let found = format_args!("vertical angles from {first} to {last}").to_string();
-        let expected = "0 to 90, 90 to 180 or 0 to 180 degrees (outside, the intensity is zero)";
-        warnings.push(Deviation::VerticalRange, angles[0].at, found, expected);
-    }
-    Ok(degrees.into_iter().map(radians).collect())
-}
 
 /// Azimuths C in radians, and the symmetry that their span stands for.
 pub(super) fn c_rad(
@@ -82,25 +59,4 @@ pub(super) fn c_rad(
         warnings.push(Deviation::FirstPlane, at, found, expected);
     }
     Ok((degrees.into_iter().map(radians).collect(), symmetry))
-}
-
-fn check_ascending(angles: &[Number], what: &str) -> Result<(), ReadError> {
-    match angles.windows(2).find(|pair| pair[1].value <= pair[0].value) {
-        Some(pair) => {
-            let found = format!("{} after {}", pair[1].value, pair[0].value);
-            Err(ReadError::new(pair[1].at, found, format_args!("{what} angles in ascending order")))
-        }
-        None => Ok(()),
-    }
-}
-
-/// The angle, or the multiple of `step` that it misses by rounding only.
-fn snapped(degrees: f64, step: f64) -> f64 {
-    let near = (degrees / step).round() * step;
-    if (degrees - near).abs() < ROUNDING_DEG { near } else { degrees }
-}
-
-/// Exact at multiples of 90 degrees.
-fn radians(degrees: f64) -> f64 {
-    degrees / 180.0 * PI
 }

@@ -78,20 +78,24 @@ fn published_fluxes_differ_only_with_a_warning() {
     }
 }
 
-fn name(file: &Path) -> String {
+pub(crate) fn name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The published files in the order of their names, or `None`, with a line that says so.
+/// The published IES files in the order of their names, or `None`, with a line that says so.
 pub(crate) fn published_files() -> Option<Vec<PathBuf>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ies");
+    published_files_of("ies")
+}
+
+/// The published files with that extension, which names their folder too.
+pub(crate) fn published_files_of(extension: &str) -> Option<Vec<PathBuf>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(extension);
     let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!("no published IES files at {}: nothing compared", folder.display());
+        println!("no published .{extension} files at {}: nothing compared", folder.display());
         return None;
     };
-    let is_ies = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ies"));
-    let mut files: Vec<PathBuf> =
-        entries.map(|entry| entry.unwrap().path()).filter(is_ies).collect();
+    let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(fits).collect();
     files.sort();
     Some(files)
 }

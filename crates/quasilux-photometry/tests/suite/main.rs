@@ -2,6 +2,8 @@
 
 mod closed_forms;
 mod corpus;
+mod ldt;
+mod ldt_corpus;
 mod mutation;
 mod reader;
 mod sampling;

@@ -67,7 +67,8 @@ fn damaged_files_never_panic() {
     assert!(read > 1000 && refused > 1000);
 }
 
-fn mutate(bytes: &mut Vec<u8>, generator: &mut Generator) {
+/// One change somewhere in the file.
+pub(crate) fn mutate(bytes: &mut Vec<u8>, generator: &mut Generator) {
     if bytes.is_empty() {
         return;
     }

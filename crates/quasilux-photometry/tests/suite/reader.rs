@@ -1,7 +1,7 @@
 //! The reader's rules: factors, editions, tolerated deviations, refusals with their places.
 
 use glam::DVec3;
-use quasilux_photometry::{Deviation, IesStandard, Read, Symmetry, Tilt, read_ies};
+use quasilux_photometry::{Deviation, IesStandard, Read, Standard, Symmetry, Tilt, read_ies};
 
 /// Header, records 1 and 2, and a table of two vertical angles in one plane.
 fn file(first_line: &str, record_1: &str, record_2: &str) -> String {
@@ -35,7 +35,7 @@ fn header_facts_are_kept() {
         2 1200 1 2 1 1 1 -1 0 2\n1 1 36.5\n0 180\n0\n100 100\n";
     let read = read(text);
     let facts = read.photometry.facts();
-    assert_eq!(facts.standard, IesStandard::Lm63Of2002);
+    assert_eq!(facts.standard, Standard::Lm63(IesStandard::Lm63Of2002));
     assert_eq!(facts.keyword("MANUFAC"), Some("A"));
     assert_eq!(facts.keyword("OTHER"), Some("one\ntwo"));
     assert_eq!(facts.input_watts, 36.5);

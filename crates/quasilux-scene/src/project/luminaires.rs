@@ -11,7 +11,7 @@ const KEYS: [&str; 6] = ["photometry", "position", "aim", "c0", "rotation_deg", 
 #[derive(Clone, Debug)]
 pub(crate) struct LuminaireEntry {
     pub(crate) place: Place,
-    /// Name of an IES file.
+    /// Name of an IES or EULUMDAT file.
     pub(crate) photometry: Placed<String>,
     pub(crate) position: DVec3,
     pub(crate) world_from_luminaire: DMat3,
@@ -24,7 +24,8 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<LuminaireEntry>, LoadError>
 
 fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
     section.only(&KEYS, &[])?;
-    let photometry = photometry(section.require("photometry", "the name of an .ies file")?)?;
+    let photometry =
+        photometry(section.require("photometry", "the name of an .ies or .ldt file")?)?;
     let position = "a position [x, y, z] in m";
     let position = section.require("position", position)?.vector(position)?;
     let dimming = section.get("dimming").map(|dimming| {
@@ -41,13 +42,14 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
 }
 
 fn photometry(value: Value<'_>) -> Result<Placed<String>, LoadError> {
-    let name = value.string("the name of an .ies file")?;
+    let name = value.string("the name of an .ies or .ldt file")?;
     let extension = name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
     match extension.as_deref() {
-        Some("ies") => Ok(value.placed(name.to_owned())),
-        Some("ldt") => Err(value.error("EULUMDAT files (.ldt) are not built yet; expected .ies")),
-        Some("xml") => Err(value.error("photometry in XML (.xml) is not built yet; expected .ies")),
-        _ => Err(value.unexpected("the name of an .ies file")),
+        Some("ies" | "ldt") => Ok(value.placed(name.to_owned())),
+        Some("xml") => {
+            Err(value.error("photometry in XML (.xml) is not built yet; expected .ies or .ldt"))
+        }
+        _ => Err(value.unexpected("the name of an .ies or .ldt file")),
     }
 }
 

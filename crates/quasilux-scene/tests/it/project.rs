@@ -1,6 +1,6 @@
 //! What a project file means.
 
-use crate::support::{MapFiles, PROJECT, load_text};
+use crate::support::{MapFiles, PROJECT, lamp_ldt, load_text, warnings_of};
 use glam::DVec3;
 use quasilux_scene::{Light, Quantity, SensorShape};
 use std::f64::consts::PI;
@@ -57,6 +57,23 @@ fn luminaires_share_their_photometry() {
     // 1000 cd over the lower half: 2 pi times 1000 lm.
     assert!((first.flux_lm() - 2000.0 * PI).abs() < 1e-6 * first.flux_lm());
     assert!((second.flux_lm() - 0.5 * first.flux_lm()).abs() < 1e-9);
+}
+
+#[test]
+fn eulumdat_is_known_by_its_extension_in_any_case() {
+    for name in ["lamp.ldt", "LAMP.LDT", "lamp.v2.Ldt"] {
+        let luminaire = format!("[[luminaires]]\nphotometry = \"{name}\"\nposition = [0, 0, 2]\n");
+        let files = MapFiles::room().with(name, lamp_ldt());
+        let loaded = load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap();
+        assert!(warnings_of(&loaded).is_empty(), "{:?}", warnings_of(&loaded));
+        let Light::Luminaire(light) = &loaded.scene.lights[0] else { panic!("a luminaire") };
+        assert!((light.flux_lm() / (2000.0 * PI) - 1.0).abs() < 1e-12, "{name}");
+    }
+    let tilted = lamp_ldt().replacen("314.159\n1\n0\n", "314.159\n1\n15\n", 1);
+    let luminaire = "[[luminaires]]\nphotometry = \"lamp.ldt\"\nposition = [0, 0, 2]\n";
+    let files = MapFiles::room().with("lamp.ldt", tilted);
+    let warnings = warnings_of(&load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap());
+    assert!(warnings[0].contains("lamp.ldt:25:1: found a tilt of 15 degrees"), "{warnings:?}");
 }
 
 #[test]

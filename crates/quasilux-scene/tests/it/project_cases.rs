@@ -227,9 +227,9 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     case("spacing = 0.25", "spacing = 0.25\nspacing = 0.5", 16, "duplicate key"),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ldt\"\nposition = [0, 0, 2]",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"none.ldt\"\nposition = [0, 0, 2]",
         17,
-        "not built yet",
+        "no such file",
     ),
     case(
         "spacing = 0.25",

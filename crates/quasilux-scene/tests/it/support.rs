@@ -31,6 +31,16 @@ pub(crate) const ROOM_MTL: &str = "newmtl wood\nKd 0.4 0.4 0.4\n";
 pub(crate) const LAMP_IES: &str = "IESNA:LM-63-2002\n[TEST] none\n[MANUFAC] none\nTILT=NONE\n\
     1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n1000 1000\n";
 
+/// EULUMDAT, absolute: 500 cd/klm of 2000 lm in all directions of the lower half.
+pub(crate) fn lamp_ldt() -> String {
+    let dimensions = "0\n".repeat(9);
+    let ratios = "1\n".repeat(10);
+    format!(
+        "none\n1\n1\n1\n0\n2\n90\n\n\n\n\n\n{dimensions}100\n314.159\n1\n0\n\
+        1\n-1\nLED\n2000\n\n\n10\n{ratios}0\n0\n90\n500\n500\n"
+    )
+}
+
 /// Files in a map.
 #[derive(Clone, Default)]
 pub(crate) struct MapFiles(pub(crate) HashMap<String, Vec<u8>>);

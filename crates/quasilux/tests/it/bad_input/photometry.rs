@@ -32,9 +32,12 @@ fn luminaire_files() {
             Case::new("a billion angles")
                 .file("lamp.ies", lamp("1 -1 1 3 1 1 2", "1 -1 1 1000000000 1 1 2"))
                 .says(&["lamp.ies:1", "expected"]),
-            Case::new("EULUMDAT")
-                .replace("lamp.ies", "lamp.ldt")
-                .file("lamp.ldt", "made-up")
+            Case::new("EULUMDAT of one line")
+                .replace("lamp.ies", "lamp.LDT")
+                .file("lamp.LDT", "made-up")
+                .says(&["lamp.LDT:2:1:", "the end of the file", "Ityp"]),
+            Case::new("TM-33")
+                .replace("lamp.ies", "lamp.xml")
                 .says(&["project.toml:8:14:", "not built yet"]),
             Case::new("neither")
                 .replace("lamp.ies", "lamp.png")

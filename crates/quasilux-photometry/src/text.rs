@@ -8,7 +8,7 @@ use std::borrow::Cow;
 const START: Position = Position { line: 1, column: 1 };
 
 /// The text of a file. Never fails: bytes that are no UTF-8 are Latin-1.
-pub(super) fn decode<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Cow<'a, str> {
+pub(crate) fn decode<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Cow<'a, str> {
     let utf_16 = |body: &[u8], unit: fn([u8; 2]) -> u16| {
         let units = body.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
         Cow::Owned(
@@ -60,7 +60,7 @@ fn eight_bit<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Cow<'a, str> {
 }
 
 /// The lines of a text; line feed, carriage return and both together end a line.
-pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = (!text.is_empty()).then_some(text);
     std::iter::from_fn(move || {
         let current = rest?;

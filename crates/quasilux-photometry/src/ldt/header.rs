@@ -1,0 +1,216 @@
+//! The fields before the angles: the luminaire, its dimensions, its lamps.
+
+use super::fields::Fields;
+use crate::angles::Number;
+use crate::report::{Position, Warnings};
+use crate::{Deviation, Keyword, LuminousOpening, ReadError};
+
+/// Metres in a millimetre.
+const METRES_PER_MM: f64 = 1e-3;
+
+/// Lines of one set of lamps.
+const LINES_PER_LAMP_SET: usize = 6;
+
+/// Direct ratios, for room indices from 0.6 to 5.
+const DIRECT_RATIOS: usize = 10;
+
+/// Fields 1 to 27.
+pub(super) struct Header {
+    pub(super) keywords: Vec<Keyword>,
+    /// `Isym`, 0 to 4.
+    pub(super) symmetry: usize,
+    /// `Mc`, and the place of `Isym`.
+    pub(super) planes: usize,
+    pub(super) symmetry_at: Position,
+    /// `Dc`, in degrees; 0 for planes at unequal distances.
+    pub(super) plane_distance: Number,
+    /// `Ng`.
+    pub(super) angles: usize,
+    /// `Dg`, in degrees; 0 for angles at unequal distances.
+    pub(super) angle_distance: Number,
+    pub(super) opening: LuminousOpening,
+    /// Of the luminaire's flux and its lamps', where the file gives it.
+    pub(super) light_output_ratio: Option<f64>,
+    pub(super) conversion_factor: f64,
+    pub(super) measurement_tilt_deg: f64,
+    pub(super) lamps: LampSet,
+}
+
+/// The set of lamps that is taken.
+pub(super) struct LampSet {
+    pub(super) count: f64,
+    /// Whether the number of lamps is negative, which stands for absolute photometry.
+    pub(super) is_absolute: bool,
+    /// Of all its lamps together.
+    pub(super) flux_lm: Number,
+    pub(super) input_watts: f64,
+}
+
+/// Reads up to the direct ratios.
+pub(super) fn read_header(
+    fields: &mut Fields<'_>,
+    warnings: &mut Warnings,
+) -> Result<Header, ReadError> {
+    let mut keywords = Vec::new();
+    keep(fields, "MANUFAC", "the company (field 1)", &mut keywords)?;
+    fields.text("the type indicator Ityp (field 2)")?;
+    let (symmetry, symmetry_at) = fields.count("the symmetry Isym (field 3)", 0, warnings)?;
+    if symmetry > 4 {
+        let expected = "a symmetry Isym between 0 and 4 (field 3)";
+        return Err(ReadError::new(symmetry_at, symmetry, expected));
+    }
+    let (planes, planes_at) = fields.count("the number of C-planes Mc (field 4)", 1, warnings)?;
+    let plane_distance = fields.number_or_zero("the distance Dc (field 5)", warnings)?;
+    let (angles, angles_at) = fields.count("the number of angles Ng (field 6)", 2, warnings)?;
+    let angle_distance = fields.number_or_zero("the distance Dg (field 7)", warnings)?;
+    fields.check_room(planes, planes_at, "planes")?;
+    fields.check_room(angles, angles_at, "angles")?;
+    for (name, what) in [
+        ("TEST", "the measurement report (field 8)"),
+        ("LUMINAIRE", "the luminaire's name (field 9)"),
+        ("LUMCAT", "the luminaire's number (field 10)"),
+        ("FILENAME", "the file's name (field 11)"),
+        ("ISSUEDATE", "date and user (field 12)"),
+    ] {
+        keep(fields, name, what, &mut keywords)?;
+    }
+    let opening = read_opening(fields, warnings)?;
+    fields.number_or_zero("the downward flux fraction in % (field 22)", warnings)?;
+    let light_output_ratio = read_ratio(fields, warnings)?;
+    let conversion_factor = read_conversion(fields, warnings)?;
+    let tilt = fields.number_or_zero("the tilt in degrees (field 25)", warnings)?;
+    if tilt.value != 0.0 {
+        let found = format_args!("a tilt of {} degrees during measurement", tilt.value).to_string();
+        let expected = "0 (the tilt is not applied: the luminaire is taken as measured)";
+        warnings.push(Deviation::MeasurementTilt, tilt.at, found, expected);
+    }
+    let lamps = read_lamp_sets(fields, &mut keywords, warnings)?;
+    for _ in 0..DIRECT_RATIOS {
+        fields.number_or_zero("a direct ratio (field 27)", warnings)?;
+    }
+    Ok(Header {
+        keywords,
+        symmetry,
+        planes,
+        symmetry_at,
+        plane_distance,
+        angles,
+        angle_distance,
+        opening,
+        light_output_ratio,
+        conversion_factor,
+        measurement_tilt_deg: tilt.value,
+        lamps,
+    })
+}
+
+/// Keeps a line of text under a keyword, unless it is empty.
+fn keep(
+    fields: &mut Fields<'_>,
+    name: &str,
+    what: &str,
+    keywords: &mut Vec<Keyword>,
+) -> Result<(), ReadError> {
+    let (value, at) = fields.text(what)?;
+    if !value.is_empty() {
+        let value = value.to_owned();
+        keywords.push(Keyword { name: name.to_owned(), value, line: at.line });
+    }
+    Ok(())
+}
+
+/// Fields 13 to 21. The length runs along C90-C270, which is y; the width along C0-C180. A round
+/// opening gets the signs that LM-63 gives it.
+fn read_opening(
+    fields: &mut Fields<'_>,
+    warnings: &mut Warnings,
+) -> Result<LuminousOpening, ReadError> {
+    for what in ["length (field 13)", "width (field 14)", "height (field 15)"] {
+        fields.number_or_zero(&format!("the luminaire's {what}, in mm"), warnings)?;
+    }
+    let mut dimension = |what: &str| {
+        let what = format!("the luminous area's {what}, in mm");
+        Ok(fields.number_or_zero(&what, warnings)?.value * METRES_PER_MM)
+    };
+    let length_m: f64 = dimension("length or diameter (field 16)")?;
+    let width_m = dimension("width, 0 if round (field 17)")?;
+    let mut height_m: f64 = 0.0;
+    for plane in ["C0 (field 18)", "C90 (field 19)", "C180 (field 20)", "C270 (field 21)"] {
+        height_m = height_m.max(dimension(&format!("height at {plane}"))?);
+    }
+    let is_round = width_m == 0.0 && length_m > 0.0;
+    Ok(if is_round {
+        LuminousOpening { width_m: -length_m, length_m: -length_m, height_m }
+    } else {
+        LuminousOpening { width_m: length_m, length_m: width_m, height_m }
+    })
+}
+
+/// Field 23.
+fn read_ratio(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<Option<f64>, ReadError> {
+    let percent = fields.number_or_zero("the light output ratio in % (field 23)", warnings)?;
+    if percent.value < 0.0 {
+        return Err(ReadError::new(percent.at, percent.value, "a light output ratio of 0 or more"));
+    }
+    if percent.value == 0.0 {
+        let expected = "a light output ratio in % (the flux is not compared with it)";
+        warnings.push(Deviation::ZeroLightOutputRatio, percent.at, percent.value, expected);
+        return Ok(None);
+    }
+    Ok(Some(percent.value / 100.0))
+}
+
+/// Field 24.
+fn read_conversion(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<f64, ReadError> {
+    let factor = fields.number_or_zero("the conversion factor (field 24)", warnings)?;
+    if factor.value < 0.0 {
+        let expected = "a conversion factor above 0 (1 if none)";
+        return Err(ReadError::new(factor.at, factor.value, expected));
+    }
+    if factor.value == 0.0 {
+        let expected = "a conversion factor above 0 (read as 1)";
+        warnings.push(Deviation::ZeroConversionFactor, factor.at, factor.value, expected);
+        return Ok(1.0);
+    }
+    Ok(factor.value)
+}
+
+/// Field 26: the first set, with the others read over.
+fn read_lamp_sets(
+    fields: &mut Fields<'_>,
+    keywords: &mut Vec<Keyword>,
+    warnings: &mut Warnings,
+) -> Result<LampSet, ReadError> {
+    let (sets, at) = fields.count("the number of lamp sets (field 26)", 1, warnings)?;
+    fields.check_room(sets.saturating_mul(LINES_PER_LAMP_SET), at, "lamp sets")?;
+    if sets > 1 {
+        let expected = "one set of lamps (the first one is taken)";
+        let found = format_args!("{sets} sets of lamps").to_string();
+        warnings.push(Deviation::SeveralLampSets, at, found, expected);
+    }
+    let count = fields.number("the number of lamps (field 26a)", warnings)?;
+    if count.value == 0.0 {
+        let expected = "at least one lamp, or a negative number for absolute photometry";
+        warnings.push(Deviation::ZeroLampCount, count.at, count.value, expected);
+    }
+    keep(fields, "LAMP", "the type of lamps (field 26b)", keywords)?;
+    let flux_lm = fields.number("the lamps' total flux in lm (field 26c)", warnings)?;
+    if flux_lm.value <= 0.0 {
+        let expected = "a total flux of the lamps above 0 lm (field 26c)";
+        return Err(ReadError::new(flux_lm.at, flux_lm.value, expected));
+    }
+    keep(fields, "COLORTEMP", "the colour of the light (field 26d)", keywords)?;
+    keep(fields, "CRI", "the colour rendering (field 26e)", keywords)?;
+    let input_watts = fields.number_or_zero("the power in W (field 26f)", warnings)?.value;
+    for _ in 1..sets {
+        for letter in ['a', 'b', 'c', 'd', 'e', 'f'] {
+            fields.text(&format!("field 26{letter} of a lamp set"))?;
+        }
+    }
+    Ok(LampSet {
+        count: if count.value == 0.0 { 1.0 } else { count.value.abs() },
+        is_absolute: count.value < 0.0,
+        flux_lm,
+        input_watts,
+    })
+}

@@ -1,0 +1,150 @@
+//! Reader of EULUMDAT files (Stockmar 1990, "EULUMDAT: ein Leuchtendatenformat fuer den
+//! europaeischen Beleuchtungsplaner", Licht '90, 641-644).
+//!
+//! One field a line, in this order:
+//!
+//! | field | content |
+//! |---|---|
+//! | 1, 2 | company; type indicator Ityp (not used: the planes say it all) |
+//! | 3 | symmetry Isym: 0 none, 1 rotational, 2 in C0-C180, 3 in C90-C270, 4 in both |
+//! | 4, 5 | number of C-planes Mc, their distance Dc in degrees (0: unequal) |
+//! | 6, 7 | number of angles gamma Ng, their distance Dg in degrees (0: unequal) |
+//! | 8 to 12 | report; luminaire's name; its number; file name; date and user |
+//! | 13 to 15 | luminaire in mm: length or diameter, width (0: round), height |
+//! | 16 to 21 | luminous area in mm: length or diameter, width (0: round), heights at C0, C90, C180, C270 |
+//! | 22, 23 | downward flux fraction, light output ratio, in % |
+//! | 24, 25 | conversion factor of the intensities; tilt during measurement in degrees |
+//! | 26 | number of lamp sets; for each: a number of lamps (negative: absolute photometry), b type, c total flux in lm, d colour, e rendering, f power in W |
+//! | 27 | ten direct ratios |
+//! | 28, 29 | Mc angles C; Ng angles gamma |
+//! | 30 | intensities in cd/klm, plane by plane: those that Isym leaves |
+//!
+//! Intensity = value x conversion factor x total flux of the lamps / 1000 lm. The flux of field 26c
+//! is that of all lamps of the set. In absolute photometry it is that of the luminaire, and the
+//! same product holds.
+//!
+//! What is tolerated beyond the format is listed, rule by rule, in [`Deviation`].
+
+mod fields;
+mod header;
+mod planes;
+
+use crate::angles::{gamma_rad, radians};
+use crate::report::{Position, Warnings, quoted};
+use crate::{
+    Deviation, Grid, LuminaireFacts, Photometry, Read, ReadError, SphericalTable, Standard, Tilt,
+    text,
+};
+use fields::Fields;
+use header::{Header, LampSet, read_header};
+use planes::{check_distance, stored_planes};
+
+/// Lumens that the written intensities refer to.
+const REFERENCE_FLUX_LM: f64 = 1000.0;
+
+/// No file means more; sums of intensities stay far from overflow.
+const LARGEST_INTENSITY_CD: f64 = 1e18;
+
+/// Integrated flux and lamps' flux times light output ratio may differ by this part without a
+/// warning.
+const FLUX_TOLERANCE: f64 = 0.01;
+
+/// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, and memory
+/// is bounded by a multiple of the file's length.
+pub fn read_ldt(bytes: &[u8]) -> Result<Read, ReadError> {
+    let mut warnings = Warnings::default();
+    let text = text::decode(bytes, &mut warnings);
+    let lines: Vec<&str> = text::lines(&text).collect();
+    let mut fields = Fields::new(&lines);
+    let header = read_header(&mut fields, &mut warnings)?;
+    let table = read_table(&header, &mut fields, &mut warnings)?;
+    if let Some((text, at)) = fields.rest() {
+        warnings.push(Deviation::TrailingText, at, quoted(text), "the end of the file");
+    }
+    check_flux(&table, &header, &mut warnings);
+    let photometry = Photometry::new(table, facts(header));
+    Ok(Read { photometry, warnings: warnings.into_vec() })
+}
+
+/// Fields 28 to 30.
+fn read_table(
+    header: &Header,
+    fields: &mut Fields<'_>,
+    warnings: &mut Warnings,
+) -> Result<SphericalTable, ReadError> {
+    let planes = fields.list(header.planes, "an angle C in degrees (field 28)", warnings)?;
+    let angles = fields.list(header.angles, "an angle gamma in degrees (field 29)", warnings)?;
+    check_distance(&header.plane_distance, &planes, "planes", warnings);
+    check_distance(&header.angle_distance, &angles, "angles", warnings);
+    let theta_rad = gamma_rad(&angles, warnings)?;
+    let stored = stored_planes(header.symmetry, header.symmetry_at, &planes, warnings)?;
+    let (rows, columns) = (theta_rad.len(), stored.phi_rad.len());
+    fields.check_room(rows.saturating_mul(columns), header.symmetry_at, "intensities")?;
+
+    let factor = candela_factor(header);
+    let mut values = vec![0.0; rows * columns];
+    for column in 0..columns {
+        for row in 0..rows {
+            let value = fields.number("an intensity in cd/klm (field 30)", warnings)?;
+            if value.value < 0.0 {
+                let expected = "intensities of 0 or more (read as 0)";
+                warnings.push(Deviation::NegativeCandela, value.at, value.value, expected);
+            }
+            let intensity_cd = value.value.max(0.0) * factor;
+            if intensity_cd > LARGEST_INTENSITY_CD {
+                let found = format!("an intensity of {intensity_cd:e} cd");
+                return Err(ReadError::new(value.at, found, "no more than 1e18 cd"));
+            }
+            values[row * columns + column] = intensity_cd;
+        }
+    }
+    SphericalTable::new(Grid {
+        theta_rad,
+        phi_rad: stored.phi_rad,
+        symmetry: stored.symmetry,
+        values,
+    })
+    .map_err(|error| ReadError::new(header.symmetry_at, error, "a photometric table"))
+}
+
+/// Candela of one written cd/klm.
+fn candela_factor(header: &Header) -> f64 {
+    header.conversion_factor * header.lamps.flux_lm.value / REFERENCE_FLUX_LM
+}
+
+fn facts(header: Header) -> LuminaireFacts {
+    let candela_factor = candela_factor(&header);
+    let LampSet { count, is_absolute, flux_lm, input_watts } = header.lamps;
+    LuminaireFacts {
+        standard: Standard::Eulumdat,
+        keywords: header.keywords,
+        tilt: Tilt::None,
+        lamp_count: count,
+        lumens_per_lamp: (!is_absolute).then_some(flux_lm.value / count),
+        ballast_factor: 1.0,
+        ballast_lamp_field: 1.0,
+        input_watts,
+        candela_factor,
+        opening: header.opening,
+        light_output_ratio: header.light_output_ratio,
+        measurement_tilt_rad: radians(header.measurement_tilt_deg),
+    }
+}
+
+fn check_flux(table: &SphericalTable, header: &Header, warnings: &mut Warnings) {
+    let (flux_lm, at): (f64, Position) = (table.integral(), header.lamps.flux_lm.at);
+    if flux_lm <= 0.0 {
+        warnings.push(Deviation::NoLight, at, "an integrated flux of 0 lm", "some light");
+        return;
+    }
+    let Some(ratio) = header.light_output_ratio else {
+        return;
+    };
+    let claimed_lm = header.lamps.flux_lm.value * ratio;
+    if (flux_lm / claimed_lm - 1.0).abs() > FLUX_TOLERANCE {
+        let found = format_args!("an integrated flux of {flux_lm:.1} lm").to_string();
+        let expected =
+            format!("{claimed_lm:.1} lm, lamps' flux x light output ratio (intensities count)");
+        warnings.push(Deviation::FluxDiffers, at, found, expected);
+    }
+}
