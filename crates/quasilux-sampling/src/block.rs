@@ -100,14 +100,7 @@ impl PointSet {
                     let digits = &mut digits[..block.len()];
                     shuffled_digits(level, &table, index, key, digits);
                     let base = matrices.digits(shuffle_index(index, key) & !255, original);
-                    let owen = self.owen(dimension);
-                    map_digits(
-                        level,
-                        digits,
-                        block,
-                        #[inline(always)]
-                        move |digits| unit_from_digits(owen.scramble(digits ^ base)),
-                    );
+                    self.scramble_block(level, digits, base, dimension, block);
                 }
             }
             index = index.wrapping_add(block.len() as u64);
@@ -151,17 +144,27 @@ impl PointSet {
                 #[inline(always)]
                 move |digits| unit_from_digits(shift(digits ^ base, key, dimension)),
             ),
-            Randomization::Owen => {
-                let owen = self.owen(dimension);
-                map_digits(
-                    level,
-                    digits,
-                    block,
-                    #[inline(always)]
-                    move |digits| unit_from_digits(owen.scramble(digits ^ base)),
-                );
-            }
+            Randomization::Owen => self.scramble_block(level, digits, base, dimension, block),
         }
+    }
+
+    #[inline]
+    fn scramble_block(
+        &self,
+        level: Level,
+        digits: &[u64],
+        base: u64,
+        dimension: u32,
+        block: &mut [f64],
+    ) {
+        let owen = self.owen(dimension);
+        map_digits(
+            level,
+            digits,
+            block,
+            #[inline(always)]
+            move |digits| unit_from_digits(owen.scramble(digits ^ base)),
+        );
     }
 }
 
