@@ -24,6 +24,17 @@ pub enum IesStandard {
     Lm63Of2019,
 }
 
+/// The web of angles that a luminaire was measured in: where its poles are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PhotometricType {
+    /// Poles along the luminaire's vertical axis, angles (C, gamma): indoor and road lighting.
+    C,
+    /// Poles along the luminaire's minor horizontal axis, angles (H, V): floodlights.
+    B,
+    /// Poles along the luminaire's major axis, angles (H, V): vehicle lamps.
+    A,
+}
+
 /// One `[NAME] value` line of a header, with its `[MORE]` lines joined by line feeds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keyword {
@@ -70,6 +81,8 @@ pub enum Tilt {
 pub struct LuminaireFacts {
     /// The format, and the edition that the file claims.
     pub standard: Standard,
+    /// The web of angles that the file's intensities are given in.
+    pub photometric_type: PhotometricType,
     /// Keywords and labels in the order of the file; the text lines of an EULUMDAT file stand
     /// under the keywords of LM-63 that mean the same.
     pub keywords: Vec<Keyword>,

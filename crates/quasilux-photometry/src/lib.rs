@@ -30,7 +30,9 @@ mod report;
 mod table;
 mod text;
 
-pub use facts::{IesStandard, Keyword, LuminaireFacts, LuminousOpening, Standard, Tilt};
+pub use facts::{
+    IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType, Standard, Tilt,
+};
 pub use ies::read_ies;
 pub use ldt::read_ldt;
 pub use photometry::Photometry;

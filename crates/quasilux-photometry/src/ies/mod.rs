@@ -26,8 +26,8 @@ mod planes;
 use crate::angles::{Number, gamma_rad};
 use crate::report::{Position, Warnings, quoted};
 use crate::{
-    Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, Photometry, Read, ReadError,
-    SphericalTable, Standard, Tilt, text,
+    Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, PhotometricType, Photometry,
+    Read, ReadError, SphericalTable, Standard, Tilt, text,
 };
 use candela::Planes;
 use header::{Header, TiltLine, read_header};
@@ -101,6 +101,7 @@ fn read_numbers(
     }
     let facts = LuminaireFacts {
         standard: Standard::Lm63(header.standard),
+        photometric_type: PhotometricType::C,
         keywords: header.keywords,
         tilt,
         lamp_count: counts.lamp_count,

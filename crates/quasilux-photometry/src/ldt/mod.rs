@@ -32,8 +32,8 @@ mod planes;
 use crate::angles::{gamma_rad, radians};
 use crate::report::{Position, Warnings, quoted};
 use crate::{
-    Deviation, Grid, LuminaireFacts, Photometry, Read, ReadError, SphericalTable, Standard, Tilt,
-    text,
+    Deviation, Grid, LuminaireFacts, PhotometricType, Photometry, Read, ReadError, SphericalTable,
+    Standard, Tilt, text,
 };
 use fields::Fields;
 use header::{Header, LampSet, read_header};
@@ -117,6 +117,7 @@ fn facts(header: Header) -> LuminaireFacts {
     let LampSet { count, is_absolute, flux_lm, input_watts } = header.lamps;
     LuminaireFacts {
         standard: Standard::Eulumdat,
+        photometric_type: PhotometricType::C,
         keywords: header.keywords,
         tilt: Tilt::None,
         lamp_count: count,
