@@ -24,14 +24,14 @@ pub enum IesStandard {
     Lm63Of2019,
 }
 
-/// The web of angles that a luminaire was measured in: where its poles are.
+/// The web of angles that a luminaire was measured in: where its poles are (see [`Web`](crate::Web)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PhotometricType {
-    /// Poles along the luminaire's vertical axis, angles (C, gamma): indoor and road lighting.
+    /// Poles along the vertical axis, angles (C, gamma): indoor and road lighting.
     C,
-    /// Poles along the luminaire's minor horizontal axis, angles (H, V): floodlights.
+    /// Poles along the horizontal axis across C0, angles (H, V): floodlights.
     B,
-    /// Poles along the luminaire's major axis, angles (H, V): vehicle lamps.
+    /// Poles along the vertical axis, angles (H, V) from a level beam along C0: vehicle lamps.
     A,
 }
 

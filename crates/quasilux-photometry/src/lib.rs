@@ -5,7 +5,8 @@
 //! with its integral in closed form and an inverse transform that turns two uniform coordinates
 //! into a direction, continuously and without rejection.
 //!
-//! The luminaire frame has gamma = 0 (nadir) along -z, C0 along +x and C90 along +y.
+//! The luminaire frame has gamma = 0 (nadir) along -z, C0 along +x and C90 along +y; [`Web`] says where
+//! the angles of each photometric type lie in it.
 //!
 //! ```
 //! use glam::DVec3;
@@ -29,6 +30,7 @@ mod photometry;
 mod report;
 mod table;
 mod text;
+mod web;
 
 pub use facts::{
     IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType, Standard, Tilt,
@@ -38,3 +40,4 @@ pub use ldt::read_ldt;
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};
+pub use web::{Web, WebAngles};

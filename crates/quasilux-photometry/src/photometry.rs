@@ -1,11 +1,12 @@
 //! One measured luminaire: a table of intensities in the luminaire frame, and header facts.
 
-use crate::{DirectionSample, LuminaireFacts, SphericalTable};
+use crate::{DirectionSample, LuminaireFacts, SphericalTable, Web};
 use glam::DVec3;
 
 /// A measured luminaire.
 ///
-/// Directions are in the luminaire frame: gamma = 0 along -z, C0 along +x, C90 along +y.
+/// Directions are in the luminaire frame: gamma = 0 along -z, C0 along +x, C90 along +y, whatever
+/// the photometric type: see [`Web`] for where the angles of types A and B lie in it.
 #[derive(Clone, Debug)]
 pub struct Photometry {
     table: SphericalTable,
@@ -13,14 +14,15 @@ pub struct Photometry {
 }
 
 impl Photometry {
-    /// A luminaire from a table of candela over (gamma, C): theta is gamma, phi is C.
+    /// A luminaire from a table of candela in the frame that [`Web`] gives the photometric type of
+    /// `facts`: for type C theta is gamma and phi is C.
     pub fn new(table: SphericalTable, facts: LuminaireFacts) -> Self {
         Self { table, facts }
     }
 
     /// Luminous intensity towards a unit direction of the luminaire frame, in candela.
     pub fn intensity_cd(&self, direction: DVec3) -> f64 {
-        self.table.value(across_horizon(direction))
+        self.table.value(self.web().table_from_luminaire(direction))
     }
 
     /// Luminous flux in lumens, integrated exactly from the table.
@@ -32,17 +34,17 @@ impl Photometry {
     /// the flux is zero.
     pub fn sample(&self, u: [f64; 2]) -> Option<DirectionSample> {
         let DirectionSample { direction, pdf_sr } = self.table.sample(u)?;
-        Some(DirectionSample { direction: across_horizon(direction), pdf_sr })
+        Some(DirectionSample { direction: self.web().luminaire_from_table(direction), pdf_sr })
     }
 
     /// Solid angle, sr^-1: the density of [`Self::sample`].
     pub fn pdf_sr(&self, direction: DVec3) -> f64 {
-        self.table.pdf(across_horizon(direction))
+        self.table.pdf(self.web().table_from_luminaire(direction))
     }
 
     /// The coordinates that [`Self::sample`] turns into `direction`.
     pub fn invert(&self, direction: DVec3) -> [f64; 2] {
-        self.table.invert(across_horizon(direction))
+        self.table.invert(self.web().table_from_luminaire(direction))
     }
 
     /// The file's own flux: lamp lumens times number of lamps; `None` for absolute photometry, and
@@ -56,14 +58,14 @@ impl Photometry {
         &self.facts
     }
 
-    /// The table of candela, theta = gamma from +z and phi = C.
+    /// The web of angles that the file's intensities are given in.
+    pub fn web(&self) -> Web {
+        Web::new(self.facts.photometric_type)
+    }
+
+    /// The table of candela, in its own frame. Only for type C are theta and phi gamma and C: ask
+    /// [`Web::table_angles`], or [`Self::intensity_cd`] at a [`Web::direction`], for any type.
     pub fn table(&self) -> &SphericalTable {
         &self.table
     }
-}
-
-/// Between the luminaire frame (gamma = 0 along -z) and the frame of the table (theta = 0 along
-/// +z): a reflection, its own inverse, which keeps solid angles.
-fn across_horizon(direction: DVec3) -> DVec3 {
-    DVec3::new(direction.x, direction.y, -direction.z)
 }

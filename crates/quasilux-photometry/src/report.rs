@@ -73,9 +73,14 @@ pub enum Deviation {
     /// The reserved field behind the ballast factor is not 1, in an edition where it must be. It is
     /// applied as a factor.
     BallastLampFactor,
-    /// The vertical angles do not start at 0 or 90 or do not end at 90 or 180. Outside them the
-    /// intensity is zero.
+    /// The vertical angles do not start at 0 or 90 or do not end at 90 or 180; those of types A and B
+    /// do not start at -90 or 0 or do not end at 90. Outside them the intensity is zero.
     VerticalRange,
+    /// Types A and B: the vertical angles start at 0. The half below mirrors the half above.
+    VerticalMirror,
+    /// Types A and B: the horizontal angles do not start at -90 or 0 or do not end at 90. Outside them
+    /// the intensity is zero.
+    HorizontalRange,
     /// The only horizontal plane is not at 0. The distribution is rotationally symmetric all the
     /// same.
     SinglePlane,

@@ -2,7 +2,7 @@
 
 use super::numbers::Numbers;
 use crate::report::{Position, Warnings};
-use crate::{Deviation, ReadError, Symmetry};
+use crate::{Deviation, Grid, ReadError, Symmetry};
 
 /// No file means more; sums of intensities stay far from overflow.
 const LARGEST_INTENSITY_CD: f64 = 1e18;
@@ -55,28 +55,24 @@ impl Planes {
         }
         Ok(intensities_cd)
     }
+}
 
-    /// Notes a plane at 360 that is not the plane at 0.
-    pub(super) fn check_closing(
-        &self,
-        intensities_cd: &[f64],
-        symmetry: Symmetry,
-        at: Position,
-        warnings: &mut Warnings,
-    ) {
-        if symmetry != Symmetry::None {
-            return;
-        }
-        let greatest = intensities_cd.iter().copied().fold(0.0, f64::max);
-        let difference = intensities_cd
-            .chunks_exact(self.horizontals)
-            .map(|row| (row[0] - row[self.horizontals - 1]).abs())
-            .fold(0.0, f64::max);
-        if difference > CLOSING_TOLERANCE * greatest {
-            let found =
-                format_args!("a closing plane that differs by up to {difference} cd").to_string();
-            let expected = "the values of the first plane (both are kept)";
-            warnings.push(Deviation::ClosingPlaneDiffers, at, found, expected);
-        }
+/// Notes a plane at the end of a full turn that is not the plane at its start.
+pub(super) fn check_closing(grid: &Grid, at: Position, warnings: &mut Warnings) {
+    if grid.symmetry != Symmetry::None {
+        return;
+    }
+    let columns = grid.phi_rad.len();
+    let greatest = grid.values.iter().copied().fold(0.0, f64::max);
+    let difference = grid
+        .values
+        .chunks_exact(columns)
+        .map(|row| (row[0] - row[columns - 1]).abs())
+        .fold(0.0, f64::max);
+    if difference > CLOSING_TOLERANCE * greatest {
+        let found =
+            format_args!("a closing plane that differs by up to {difference} cd").to_string();
+        let expected = "the values of the first plane (both are kept)";
+        warnings.push(Deviation::ClosingPlaneDiffers, at, found, expected);
     }
 }

@@ -1,4 +1,4 @@
-//! Reader of ANSI/IES LM-63 files (1986, 1991, 1995, 2002, 2019), photometric type C.
+//! Reader of ANSI/IES LM-63 files (1986, 1991, 1995, 2002, 2019), photometric types A, B and C.
 //!
 //! A file is a header up to the line `TILT=`, then numbers in records, and nothing else:
 //!
@@ -20,6 +20,7 @@
 
 mod candela;
 mod header;
+mod hv;
 mod numbers;
 mod planes;
 
@@ -29,8 +30,9 @@ use crate::{
     Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, PhotometricType, Photometry,
     Read, ReadError, SphericalTable, Standard, Tilt, text,
 };
-use candela::Planes;
+use candela::{Planes, check_closing};
 use header::{Header, TiltLine, read_header};
+use hv::HvAngles;
 use numbers::Numbers;
 use std::f64::consts::PI;
 
@@ -59,6 +61,7 @@ struct Counts {
     multiplier: Number,
     verticals: usize,
     horizontals: usize,
+    photometric_type: PhotometricType,
     opening: LuminousOpening,
 }
 
@@ -79,13 +82,21 @@ fn read_numbers(
 
     numbers.start_record("the vertical angles", warnings);
     let vertical = numbers.list(counts.verticals, "vertical angle", warnings)?;
-    let theta_rad = gamma_rad(&vertical, warnings)?;
     numbers.start_record("the horizontal angles", warnings);
     let horizontal = numbers.list(counts.horizontals, "horizontal angle", warnings)?;
-    let (phi_rad, symmetry) = planes::c_rad(&horizontal, warnings)?;
     let planes = Planes { verticals: counts.verticals, horizontals: counts.horizontals, factor };
-    let values = planes.read(numbers, warnings)?;
-    planes.check_closing(&values, symmetry, horizontal[horizontal.len() - 1].at, warnings);
+    let grid = match counts.photometric_type {
+        PhotometricType::C => {
+            let theta_rad = gamma_rad(&vertical, warnings)?;
+            let (phi_rad, symmetry) = planes::c_rad(&horizontal, warnings)?;
+            Grid { theta_rad, phi_rad, symmetry, values: planes.read(numbers, warnings)? }
+        }
+        a_or_b => {
+            let angles = HvAngles::check(a_or_b, &horizontal, &vertical, warnings)?;
+            angles.grid(counts.horizontals, &planes.read(numbers, warnings)?)
+        }
+    };
+    check_closing(&grid, horizontal[horizontal.len() - 1].at, warnings);
     if let Some((text, at)) = numbers.rest(warnings)
         && !text.trim_matches(['[', ']']).eq_ignore_ascii_case("END")
     {
@@ -93,7 +104,7 @@ fn read_numbers(
     }
 
     let lumens = counts.lumens_per_lamp;
-    let table = SphericalTable::new(Grid { theta_rad, phi_rad, symmetry, values })
+    let table = SphericalTable::new(grid)
         .map_err(|error| ReadError::new(lumens.at, error, "a photometric table"))?;
     if lumens.value < 0.0 && lumens.value != -1.0 {
         let expected = "-1 for absolute photometry (read as such)";
@@ -101,7 +112,7 @@ fn read_numbers(
     }
     let facts = LuminaireFacts {
         standard: Standard::Lm63(header.standard),
-        photometric_type: PhotometricType::C,
+        photometric_type: counts.photometric_type,
         keywords: header.keywords,
         tilt,
         lamp_count: counts.lamp_count,
@@ -177,7 +188,7 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
     let multiplier = numbers.next("the candela multiplier", warnings)?;
     let (verticals, vertical_at) = numbers.count("the number of vertical angles", 2, warnings)?;
     let (horizontals, at) = numbers.count("the number of horizontal angles", 1, warnings)?;
-    let (photometric_type, type_at) = numbers.count("the photometric type", 1, warnings)?;
+    let (type_number, type_at) = numbers.count("the photometric type", 1, warnings)?;
     let (units, units_at) = numbers.count("the units type", 1, warnings)?;
     let metres_per_unit = match units {
         1 => METRES_PER_FOOT,
@@ -186,20 +197,15 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
             return Err(ReadError::new(units_at, units, "a units type of 1 (feet) or 2 (metres)"));
         }
     };
-    let name = match photometric_type {
-        1 => None,
-        2 => Some("B"),
-        3 => Some("A"),
+    let photometric_type = match type_number {
+        1 => PhotometricType::C,
+        2 => PhotometricType::B,
+        3 => PhotometricType::A,
         _ => {
             let expected = "a photometric type of 1 (C), 2 (B) or 3 (A)";
-            return Err(ReadError::new(type_at, photometric_type, expected));
+            return Err(ReadError::new(type_at, type_number, expected));
         }
     };
-    if let Some(name) = name {
-        let found = format_args!("photometric type {name} ({photometric_type})").to_string();
-        let expected = "type C (1): types A and B are not read yet, convert the file to type C";
-        return Err(ReadError::new(type_at, found, expected));
-    }
     numbers.check_room(verticals, vertical_at, "vertical angles")?;
     numbers.check_room(horizontals, at, "horizontal angles")?;
     numbers.check_room(verticals.saturating_mul(horizontals), at, "candela")?;
@@ -209,7 +215,15 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
         length_m: dimension("the luminous length")?,
         height_m: dimension("the luminous height")?,
     };
-    Ok(Counts { lamp_count, lumens_per_lamp, multiplier, verticals, horizontals, opening })
+    Ok(Counts {
+        lamp_count,
+        lumens_per_lamp,
+        multiplier,
+        verticals,
+        horizontals,
+        photometric_type,
+        opening,
+    })
 }
 
 fn positive(number: &Number, expected: &str) -> Result<f64, ReadError> {

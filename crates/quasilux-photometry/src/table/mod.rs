@@ -1,8 +1,8 @@
 //! A non-negative function on the sphere: bilinear on a grid of spherical angles.
 //!
 //! In the frame of the table theta is measured from +z and phi from +x towards +y. Inside a cell
-//! the value is bilinear in (theta, phi), both in radians; outside the polar range of the grid it
-//! is zero. The integral over solid angle and the inverse transform are exact: see
+//! the value is bilinear in (theta, phi), both in radians; outside the polar range of the grid, and
+//! outside the azimuths of a sector, it is zero. The integral over solid angle and the inverse transform are exact: see
 //! [`SphericalTable::sample`].
 
 mod axis;
@@ -22,12 +22,13 @@ pub use unfold::{Grid, Symmetry, TableError};
 
 /// A bilinear function on a spherical grid, with its exact integral and inverse transform.
 ///
-/// Symmetries are unfolded on construction: the stored grid always closes around the azimuth.
+/// Symmetries are unfolded on construction: the stored grid closes around the azimuth, or is a
+/// sector.
 #[derive(Clone, Debug)]
 pub struct SphericalTable {
     symmetry: Symmetry,
     theta: Axis,
-    /// Offsets from `phi_start_rad`, from 0 to a full turn.
+    /// Offsets from `phi_start_rad`, from 0 to a full turn or to the end of a sector.
     phi: Axis,
     phi_start_rad: f64,
     /// Row by row, one row for each polar angle.
@@ -118,8 +119,12 @@ impl SphericalTable {
         if !(self.theta.first()..=self.theta.last()).contains(&angles.theta_rad) {
             return 0.0;
         }
+        let offset = self.phi_offset(angles.phi_rad);
+        if offset > self.phi.last() {
+            return 0.0;
+        }
         let row = self.theta.place(angles.theta_rad);
-        let column = self.phi.place(self.phi_offset(angles.phi_rad));
+        let column = self.phi.place(offset);
         let (at_start, at_end) = self.cell_edges(row, column.cell);
         lerp(at_start, at_end, column.fraction)
     }
@@ -139,7 +144,7 @@ impl SphericalTable {
         self.theta.knots()
     }
 
-    /// The azimuths of the unfolded grid, ascending over one full turn.
+    /// The azimuths of the unfolded grid, ascending over one full turn or over the sector.
     pub fn phi_rad(&self) -> impl Iterator<Item = f64> {
         self.phi.knots().iter().map(|offset| self.phi_start_rad + offset)
     }
@@ -158,7 +163,11 @@ impl SphericalTable {
     /// The azimuth as an offset from the first knot, in [0, one turn].
     fn phi_offset(&self, phi_rad: f64) -> f64 {
         let offset = phi_rad - self.phi_start_rad;
-        if (0.0..=TAU).contains(&offset) { offset } else { offset - (offset / TAU).floor() * TAU }
+        if (0.0..=TAU).contains(&offset) {
+            offset
+        } else {
+            (offset - (offset / TAU).floor() * TAU).clamp(0.0, TAU)
+        }
     }
 }
 

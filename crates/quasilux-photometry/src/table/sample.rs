@@ -45,7 +45,7 @@ impl SphericalTable {
 
     /// The coordinates that [`Self::sample`] turns into `direction`.
     ///
-    /// A direction outside the polar range is first moved to its border.
+    /// A direction outside the polar range, or outside the sector, is first moved to its border.
     pub fn invert(&self, direction: DVec3) -> [f64; 2] {
         let angles = Angles::of(direction);
         let theta_rad = angles.theta_rad.clamp(self.theta.first(), self.theta.last());
@@ -69,7 +69,7 @@ impl SphericalTable {
         let cells = self.phi.knots().len() - 1;
         let below = |knot| self.row_integral(row, knot);
         if below(cells) <= 0.0 {
-            return inside(u * TAU, 0.0, TAU);
+            return inside(u * self.phi.last(), 0.0, self.phi.last());
         }
         let target = u * below(cells);
         let cell = step(cells, target, below);
@@ -81,9 +81,16 @@ impl SphericalTable {
     }
 
     fn invert_phi_offset(&self, row: Place, offset: f64) -> f64 {
+        let last = self.phi.last();
+        // Beyond a sector, the border that is nearer around the azimuth.
+        let offset = match offset - last {
+            beyond if beyond <= 0.0 => offset,
+            beyond if beyond < TAU - offset => last,
+            _ => 0.0,
+        };
         let total = self.row_integral(row, self.phi.knots().len() - 1);
         if total <= 0.0 {
-            return offset / TAU;
+            return offset / last;
         }
         let Place { cell, fraction } = self.phi.place(offset);
         let (at_start, at_end) = self.cell_edges(row, cell);

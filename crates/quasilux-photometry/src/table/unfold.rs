@@ -1,4 +1,4 @@
-//! From a grid as measured to one that closes around the azimuth.
+//! From a grid as measured to one without symmetries.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,6 +21,8 @@ pub enum Symmetry {
     None,
     /// A full turn without its closing plane, which equals the first one.
     Open,
+    /// Part of a turn: elsewhere the value is zero, with a jump at both borders.
+    Sector,
 }
 
 /// Values on a grid of spherical angles, as measured.
@@ -69,7 +71,8 @@ pub enum TableError {
     Value(usize),
 }
 
-/// A grid that closes: azimuths as offsets from the first one, from 0 to a full turn.
+/// A grid with its symmetry unfolded: azimuths as offsets from the first one, from 0 to a full turn
+/// or to the end of a sector.
 pub(super) struct FullGrid {
     pub(super) theta_rad: Vec<f64>,
     pub(super) phi_start_rad: f64,
@@ -95,6 +98,7 @@ impl Grid {
                 open.push((TAU, 0));
                 open
             }
+            Symmetry::Sector => measured,
         };
         let values = self
             .values
@@ -130,7 +134,9 @@ impl Grid {
             Symmetry::Quadrant => near(FRAC_PI_2),
             Symmetry::Bilateral => near(PI),
             Symmetry::None => near(TAU),
-            Symmetry::Open => columns > 1 && span < TAU - ANGLE_TOLERANCE_RAD,
+            Symmetry::Open | Symmetry::Sector => {
+                columns > 1 && span < TAU - ANGLE_TOLERANCE_RAD
+            }
         };
         if !fits {
             return Err(TableError::Span { span_deg: span / PI * 180.0, symmetry: self.symmetry });

@@ -154,7 +154,7 @@ fn refusals_say_where_and_what() {
     let cases: &[(&str, &str, usize, usize, &str)] = &[
         ("TILT=NONE", "", 7, 8, "TILT=NONE"),
         ("TILT=NONE", "TILT=", 2, 1, "nothing behind"),
-        ("1 -1 1 2 1 1", "1 -1 1 2 1 3", 3, 12, "type A"),
+        ("1 -1 1 2 1 1", "1 -1 1 2 1 3", 5, 3, "between -90 and 90"),
         ("1 -1 1 2 1 1", "1 -1 1 2 1 7", 3, 12, "photometric type of"),
         ("1 1 2 0 0 0", "1 1 3 0 0 0", 3, 14, "units type"),
         ("1 2 1 1 2", "1 999999999 1 1 2", 3, 8, "complete file"),
