@@ -1,41 +1,44 @@
-//! The photometric web: where the poles and zeros of a file's angles lie in the luminaire frame.
+//! The photometric web: between the luminaire frame, a file's own angles, and the frame of the table.
 //!
-//! ANSI/IESNA LM-63-2002, clause 3.0, defines two directions from the photometric centre that all
-//! types share, and so ties them to one frame: *photometric zero*, straight down, is our -z, and
-//! *photometric horizontal* our +x. The luminous length lies along the latter, the width across it,
-//! the height along the former.
-//!
-//! | type | photometric zero, -z | photometric horizontal, +x | its poles | direction at (H, V) |
-//! |---|---|---|---|---|
-//! | C | V = 0 | H = 0, V = 90 | V = 0 and 180, at -z and +z | (sin V cos H, sin V sin H, -cos V) |
-//! | B | H = 0, V = 0 | H = 0, V = 90 | H = 90 and -90, at -y and +y | (cos H sin V, -sin H, -cos H cos V) |
-//! | A | H = 0, V = -90 | H = 0, V = 0 | V = -90 and 90, at -z and +z | (cos V cos H, -cos V sin H, sin V) |
-//!
-//! So a floodlight of type B shines along -z as a downlight does, and a vehicle lamp of type A
-//! along +x, level. In both +V is up and +H is to the right for somebody who looks along the beam
-//! from behind: horizontal angles of types A and B count clockwise, those of type C
-//! counterclockwise (the same clause).
-//!
-//! Where sources differ:
-//! - The clause says that the planes of type B share a horizontal axis, without naming it. By CIE
-//!   121:1996 (planes B, angles beta: `tan B = cos C tan gamma`, `sin beta = sin C sin gamma`) and by
-//!   I. Ashdown's notes on LM-63 (1998: the polar axis is the luminaire's width) it is the axis
-//!   across photometric horizontal, with V around it and H towards it. Some readers turn H around
-//!   the +x axis instead. A published floodlight decides: with the former its intensities
-//!   integrate to 100.9 % of the flux that its laboratory states, with the latter to 106.8 %.
-//! - CIE 121 counts beta towards C90, against LM-63's H. Radiance's `ies2rad` has our signs of H and V,
-//!   but takes both as angles of projections, which have no poles; it does not read type A.
-//! - Ashdown puts the poles of type A along the luminaire's length; LM-63-2002 makes its planes
-//!   vertical, as here and as vehicle lamps are measured.
+//! Each type of photometry has its poles elsewhere. A table that has its own where the web has them
+//! needs no resampling: what is left is a signed permutation of the axes, which is exact.
 
 use crate::{Angles, PhotometricType};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// The web of angles of a photometric type: between directions of the luminaire frame, the file's
-/// own angles, and the frame of the [`SphericalTable`](crate::SphericalTable).
+/// The web of angles of a photometric type: where its poles and zeros lie in the luminaire frame.
 ///
-/// The table has its poles where the web has them, so that no intensity is resampled:
+/// ANSI/IESNA LM-63-2002, clause 3.0, defines two directions from the photometric centre for all
+/// types, and so ties them to one frame: *photometric zero*, straight down, is our -z, and *photometric
+/// horizontal* our +x. The luminous length lies along photometric horizontal, the width across it, the
+/// height along photometric zero.
+///
+/// | type | photometric zero, -z | photometric horizontal, +x | poles | direction at (H, V) |
+/// |---|---|---|---|---|
+/// | C | V = 0 | H = 0, V = 90 | V = 0 at -z, V = 180 at +z | (sin V cos H, sin V sin H, -cos V) |
+/// | B | H = 0, V = 0 | H = 0, V = 90 | H = 90 at -y, H = -90 at +y | (cos H sin V, -sin H, -cos H cos V) |
+/// | A | H = 0, V = -90 | H = 0, V = 0 | V = -90 at -z, V = 90 at +z | (cos V cos H, -cos V sin H, sin V) |
+///
+/// So a floodlight of type B shines along -z as a downlight does, and a vehicle lamp of type A along
+/// +x, level. In both, +V is up and +H is to the right for somebody who looks along the beam from
+/// behind: horizontal angles count clockwise in types A and B, counterclockwise in type C (the same
+/// clause).
+///
+/// Where sources differ:
+/// - The clause says that the planes of type B share a horizontal axis, without naming it. By CIE
+///   121:1996 (`tan B = cos C tan gamma`, `sin beta = sin C sin gamma`) and Ashdown (1998: the polar
+///   axis is the luminaire's width) it is the axis across photometric horizontal: V turns around it, H
+///   rises towards it. Some readers turn H around +x instead. A published floodlight decides: its
+///   intensities integrate to 100.9 % of the flux that its laboratory states in the former way, to
+///   106.8 % in the latter.
+/// - CIE 121 counts beta towards C90, against the H of LM-63.
+/// - Radiance's `ies2rad` has the same V and the same sign of H, but measures H in the projection along
+///   x, so that it is the same only at V = 0; it does not read type A.
+/// - Ashdown (1998) lays the poles of type A along the luminaire's length; LM-63-2002 makes its
+///   planes vertical, as here and as vehicle lamps are measured.
+///
+/// The [`SphericalTable`](crate::SphericalTable) of a luminaire has its poles where the web has them:
 ///
 /// | type | theta of the table | phi of the table |
 /// |---|---|---|

@@ -80,7 +80,8 @@ impl Side {
         let measured = in_degrees(angles);
         for (angle, degrees) in angles.iter().zip(&measured) {
             if degrees.abs() > limit_deg {
-                let expected = format!("{what} angles between -{limit_deg} and {limit_deg} degrees");
+                let expected =
+                    format!("{what} angles between -{limit_deg} and {limit_deg} degrees");
                 return Err(ReadError::new(angle.at, degrees, expected));
             }
         }

@@ -39,11 +39,16 @@ mod tests {
     use super::*;
     use crate::{Angles, Grid, Symmetry};
 
-    fn coarse_table() -> SphericalTable {
+    /// The grid closed around the azimuth, and as a sector.
+    fn coarse_tables() -> [SphericalTable; 2] {
+        [Symmetry::Open, Symmetry::Sector].map(coarse_table)
+    }
+
+    fn coarse_table(symmetry: Symmetry) -> SphericalTable {
         SphericalTable::new(Grid {
             theta_rad: vec![0.0, 0.4, 1.1, 1.9, 3.0],
             phi_rad: vec![0.0, 1.0, 2.5, 4.0],
-            symmetry: Symmetry::Open,
+            symmetry,
             values: vec![
                 3.0, 3.0, 3.0, 3.0, 5.0, 0.0, 2.0, 8.0, 1.0, 4.0, 0.0, 0.0, 0.5, 7.0, 0.0, 0.0,
                 2.0, 2.0, 1.0, 3.0,
@@ -52,35 +57,34 @@ mod tests {
         .unwrap()
     }
 
+    /// The cells of a band.
+    fn cells(table: &SphericalTable, row: usize) -> impl Iterator<Item = Cell> {
+        (0..table.phi.knots().len() - 1).map(move |column| Cell::of(table, row, column))
+    }
+
     #[test]
     fn fluxes_of_the_cells_add_up_to_the_integral() {
-        let table = coarse_table();
-        let flux: f64 = (0..4)
-            .flat_map(|row| (0..4).map(move |column| (row, column)))
-            .map(|(row, column)| {
-                let cell = Cell::of(&table, row, column);
-                cell.flux_below(cell.theta[1])
-            })
-            .sum();
-        assert!((flux - table.integral()).abs() < 1e-12 * flux, "{flux} {}", table.integral());
+        for table in coarse_tables() {
+            let all = (0..4).flat_map(|row| cells(&table, row));
+            let flux: f64 = all.map(|cell| cell.flux_below(cell.theta[1])).sum();
+            assert!((flux - table.integral()).abs() < 1e-12 * flux, "{flux} {}", table.integral());
+        }
     }
 
     #[test]
     fn flux_below_a_parallel_is_that_of_the_per_cell_form() {
-        let table = coarse_table();
-        for i in 1..100 {
-            let theta_rad = 3.0 * f64::from(i) / 100.0;
-            let row = table.theta.place(theta_rad).cell;
-            let whole_rows = (0..row).flat_map(|row| (0..4).map(move |column| (row, column)));
-            let flux: f64 = whole_rows
-                .map(|(row, column)| {
-                    let cell = Cell::of(&table, row, column);
-                    cell.flux_below(cell.theta[1])
-                })
-                .chain((0..4).map(|column| Cell::of(&table, row, column).flux_below(theta_rad)))
-                .sum();
-            let u = table.invert(Angles { theta_rad, phi_rad: 0.3 }.direction());
-            assert!((u[0] - flux / table.integral()).abs() < 1e-12, "at {theta_rad}");
+        for table in coarse_tables() {
+            for i in 1..100 {
+                let theta_rad = 3.0 * f64::from(i) / 100.0;
+                let row = table.theta.place(theta_rad).cell;
+                let whole = (0..row).flat_map(|row| cells(&table, row));
+                let flux: f64 = whole
+                    .map(|cell| cell.flux_below(cell.theta[1]))
+                    .chain(cells(&table, row).map(|cell| cell.flux_below(theta_rad)))
+                    .sum();
+                let u = table.invert(Angles { theta_rad, phi_rad: 0.3 }.direction());
+                assert!((u[0] - flux / table.integral()).abs() < 1e-12, "at {theta_rad}");
+            }
         }
     }
 }

@@ -134,9 +134,7 @@ impl Grid {
             Symmetry::Quadrant => near(FRAC_PI_2),
             Symmetry::Bilateral => near(PI),
             Symmetry::None => near(TAU),
-            Symmetry::Open | Symmetry::Sector => {
-                columns > 1 && span < TAU - ANGLE_TOLERANCE_RAD
-            }
+            Symmetry::Open | Symmetry::Sector => columns > 1 && span < TAU - ANGLE_TOLERANCE_RAD,
         };
         if !fits {
             return Err(TableError::Span { span_deg: span / PI * 180.0, symmetry: self.symmetry });

@@ -5,6 +5,7 @@ mod corpus;
 mod ldt;
 mod ldt_corpus;
 mod mutation;
+mod photometric_types;
 mod reader;
 mod sampling;
 mod tables;

@@ -49,6 +49,17 @@ fn a_dark_table_has_no_directions() {
     assert!(dark.invert(DVec3::X).iter().all(|u| (0.0..=1.0).contains(u)));
 }
 
+/// A sector from 20 to 60 degrees ends at 60 for directions up to 220, and begins at 20 for those beyond.
+#[test]
+fn outside_a_sector_the_nearer_border_is_inverted() {
+    let sector = table(&[30.0, 150.0], &[20.0, 60.0], Symmetry::Sector, |_, p| p);
+    for (phi_deg, expected) in [(61.0, 1.0), (219.0, 1.0), (221.0, 0.0), (19.0, 0.0)] {
+        let angles = Angles { theta_rad: 1.0, phi_rad: phi_deg / 180.0 * PI };
+        assert_eq!(sector.value_at(angles), 0.0, "{phi_deg}");
+        assert_eq!(sector.invert(angles.direction())[1], expected, "{phi_deg}");
+    }
+}
+
 /// Central differences of half-width 1e-6 err by about 1e-9 relative; the bound finds a density
 /// that is wrong by 1e-4.
 #[test]

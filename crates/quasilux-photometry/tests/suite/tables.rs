@@ -122,6 +122,21 @@ pub(crate) fn hard_tables() -> Vec<(&'static str, SphericalTable)> {
             "single plane",
             table(&steps(0.0, 5.0, 180.0), &[0.0], Symmetry::Rotational, |t, _| (t - 60.0).abs()),
         ),
+        (
+            "half of the sphere",
+            table(&steps(0.0, 15.0, 180.0), &steps(-90.0, 15.0, 90.0), Symmetry::Sector, |t, p| {
+                50.0 + t + p.abs() + p / 3.0
+            }),
+        ),
+        (
+            "sector with dark ends",
+            table(
+                &[20.0, 50.0, 90.0, 110.0, 165.0],
+                &[100.0, 130.0, 200.0, 205.0, 330.0],
+                Symmetry::Sector,
+                |t, p| if t < 60.0 || p > 320.0 { 0.0 } else { t + p % 7.0 * 20.0 },
+            ),
+        ),
         ("two parallels", table(&[0.0, 180.0], &[0.0], Symmetry::Rotational, |t, _| t)),
     ]
 }
