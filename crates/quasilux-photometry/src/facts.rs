@@ -107,6 +107,27 @@ pub struct LuminaireFacts {
     pub light_output_ratio: Option<f64>,
     /// Tilt of the luminaire while it was measured, as an EULUMDAT file gives it.
     pub measurement_tilt_rad: f64,
+    /// What only an EULUMDAT file says; `None` for other formats.
+    pub eulumdat: Option<EulumdatFacts>,
+}
+
+/// Fields of an EULUMDAT file that other formats have not got, kept for writing it again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EulumdatFacts {
+    /// `Ityp` (field 2): 1 point source with rotational symmetry, 2 linear luminaire, 3 any other;
+    /// as written.
+    pub type_indicator: String,
+    /// Length or diameter, width (0: round) and height of the luminaire itself (fields 13 to 15).
+    pub housing_m: [f64; 3],
+    /// Heights of the luminous area at C0, C90, C180 and C270 (fields 18 to 21).
+    pub opening_heights_m: [f64; 4],
+    /// Factor of the intensities (field 24).
+    pub conversion_factor: f64,
+    /// Flux of all lamps of the first set (field 26c): that of the luminaire, in absolute
+    /// photometry.
+    pub lamps_flux_lm: f64,
+    /// The sets of lamps behind the first one, field by field (26a to 26f), as written.
+    pub further_lamp_sets: Vec<[String; 6]>,
 }
 
 impl LuminaireFacts {

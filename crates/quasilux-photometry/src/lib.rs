@@ -20,10 +20,12 @@
 //! ```
 //!
 //! What a reader tolerates beyond the standard is listed in [`Deviation`]; each case is reported as
-//! a [`Warning`].
+//! a [`Warning`]. [`write_ies`] and [`write_ldt`] write files that read back to the same table. The
+//! formats stand line by line in [`formats`].
 
 mod angles;
 mod facts;
+pub mod formats;
 mod ies;
 mod ldt;
 mod photometry;
@@ -31,13 +33,16 @@ mod report;
 mod table;
 mod text;
 mod web;
+mod write;
 
 pub use facts::{
-    IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType, Standard, Tilt,
+    EulumdatFacts, IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType,
+    Standard, Tilt,
 };
-pub use ies::read_ies;
-pub use ldt::read_ldt;
+pub use ies::{read_ies, write_ies};
+pub use ldt::{read_ldt, write_ldt};
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};
 pub use web::{Web, WebAngles};
+pub use write::{Note, Written};

@@ -23,6 +23,7 @@ mod header;
 mod hv;
 mod numbers;
 mod planes;
+mod write;
 
 use crate::angles::{Number, gamma_rad};
 use crate::report::{Position, Warnings, quoted};
@@ -35,6 +36,7 @@ use header::{Header, TiltLine, read_header};
 use hv::HvAngles;
 use numbers::Numbers;
 use std::f64::consts::PI;
+pub use write::write_ies;
 
 /// Metres in a foot (international foot, exact).
 const METRES_PER_FOOT: f64 = 0.3048;
@@ -124,6 +126,7 @@ fn read_numbers(
         opening: counts.opening,
         light_output_ratio: None,
         measurement_tilt_rad: 0.0,
+        eulumdat: None,
     };
     check_flux(&table, &facts, lumens.at, warnings);
     Ok(Photometry::new(table, facts))

@@ -3,10 +3,10 @@
 use super::fields::Fields;
 use crate::angles::Number;
 use crate::report::{Position, Warnings};
-use crate::{Deviation, Keyword, LuminousOpening, ReadError};
+use crate::{Deviation, EulumdatFacts, Keyword, LuminousOpening, ReadError};
 
 /// Metres in a millimetre.
-const METRES_PER_MM: f64 = 1e-3;
+pub(super) const METRES_PER_MM: f64 = 1e-3;
 
 /// Lines of one set of lamps.
 const LINES_PER_LAMP_SET: usize = 6;
@@ -34,6 +34,8 @@ pub(super) struct Header {
     pub(super) conversion_factor: f64,
     pub(super) measurement_tilt_deg: f64,
     pub(super) lamps: LampSet,
+    /// The rest.
+    pub(super) eulumdat: EulumdatFacts,
 }
 
 /// The set of lamps that is taken.
@@ -53,7 +55,8 @@ pub(super) fn read_header(
 ) -> Result<Header, ReadError> {
     let mut keywords = Vec::new();
     keep(fields, "MANUFAC", "the company (field 1)", &mut keywords)?;
-    fields.text("the type indicator Ityp (field 2)")?;
+    let mut eulumdat = EulumdatFacts::default();
+    fields.text("the type indicator Ityp (field 2)")?.0.clone_into(&mut eulumdat.type_indicator);
     let (symmetry, symmetry_at) = fields.count("the symmetry Isym (field 3)", 0, warnings)?;
     if symmetry > 4 {
         let expected = "a symmetry Isym between 0 and 4 (field 3)";
@@ -74,7 +77,7 @@ pub(super) fn read_header(
     ] {
         keep(fields, name, what, &mut keywords)?;
     }
-    let opening = read_opening(fields, warnings)?;
+    let opening = read_opening(fields, &mut eulumdat, warnings)?;
     fields.number_or_zero("the downward flux fraction in % (field 22)", warnings)?;
     let light_output_ratio = read_ratio(fields, warnings)?;
     let conversion_factor = read_conversion(fields, warnings)?;
@@ -84,7 +87,9 @@ pub(super) fn read_header(
         let expected = "0 (the tilt is not applied: the luminaire is taken as measured)";
         warnings.push(Deviation::MeasurementTilt, tilt.at, found, expected);
     }
-    let lamps = read_lamp_sets(fields, &mut keywords, warnings)?;
+    let lamps = read_lamp_sets(fields, &mut keywords, &mut eulumdat, warnings)?;
+    eulumdat.conversion_factor = conversion_factor;
+    eulumdat.lamps_flux_lm = lamps.flux_lm.value;
     for _ in 0..DIRECT_RATIOS {
         fields.number_or_zero("a direct ratio (field 27)", warnings)?;
     }
@@ -101,6 +106,7 @@ pub(super) fn read_header(
         conversion_factor,
         measurement_tilt_deg: tilt.value,
         lamps,
+        eulumdat,
     })
 }
 
@@ -123,10 +129,13 @@ fn keep(
 /// opening gets the signs that LM-63 gives it.
 fn read_opening(
     fields: &mut Fields<'_>,
+    eulumdat: &mut EulumdatFacts,
     warnings: &mut Warnings,
 ) -> Result<LuminousOpening, ReadError> {
-    for what in ["length (field 13)", "width (field 14)", "height (field 15)"] {
-        fields.number_or_zero(&format!("the luminaire's {what}, in mm"), warnings)?;
+    let housing = ["length (field 13)", "width (field 14)", "height (field 15)"];
+    for (what, size_m) in housing.iter().zip(&mut eulumdat.housing_m) {
+        let what = format!("the luminaire's {what}, in mm");
+        *size_m = fields.number_or_zero(&what, warnings)?.value * METRES_PER_MM;
     }
     let mut dimension = |what: &str| {
         let what = format!("the luminous area's {what}, in mm");
@@ -135,8 +144,10 @@ fn read_opening(
     let length_m: f64 = dimension("length or diameter (field 16)")?;
     let width_m = dimension("width, 0 if round (field 17)")?;
     let mut height_m: f64 = 0.0;
-    for plane in ["C0 (field 18)", "C90 (field 19)", "C180 (field 20)", "C270 (field 21)"] {
-        height_m = height_m.max(dimension(&format!("height at {plane}"))?);
+    let planes = ["C0 (field 18)", "C90 (field 19)", "C180 (field 20)", "C270 (field 21)"];
+    for (plane, at_plane_m) in planes.iter().zip(&mut eulumdat.opening_heights_m) {
+        *at_plane_m = dimension(&format!("height at {plane}"))?;
+        height_m = height_m.max(*at_plane_m);
     }
     let is_round = width_m == 0.0 && length_m > 0.0;
     Ok(if is_round {
@@ -175,10 +186,11 @@ fn read_conversion(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<f
     Ok(factor.value)
 }
 
-/// Field 26: the first set, with the others read over.
+/// Field 26: the first set; the others are kept as written.
 fn read_lamp_sets(
     fields: &mut Fields<'_>,
     keywords: &mut Vec<Keyword>,
+    eulumdat: &mut EulumdatFacts,
     warnings: &mut Warnings,
 ) -> Result<LampSet, ReadError> {
     let (sets, at) = fields.count("the number of lamp sets (field 26)", 1, warnings)?;
@@ -203,9 +215,11 @@ fn read_lamp_sets(
     keep(fields, "CRI", "the colour rendering (field 26e)", keywords)?;
     let input_watts = fields.number_or_zero("the power in W (field 26f)", warnings)?.value;
     for _ in 1..sets {
-        for letter in ['a', 'b', 'c', 'd', 'e', 'f'] {
-            fields.text(&format!("field 26{letter} of a lamp set"))?;
+        let mut set: [String; LINES_PER_LAMP_SET] = Default::default();
+        for (text, letter) in set.iter_mut().zip('a'..='f') {
+            fields.text(&format!("field 26{letter} of a lamp set"))?.0.clone_into(text);
         }
+        eulumdat.further_lamp_sets.push(set);
     }
     Ok(LampSet {
         count: if count.value == 0.0 { 1.0 } else { count.value.abs() },

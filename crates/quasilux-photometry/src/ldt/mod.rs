@@ -28,6 +28,8 @@
 mod fields;
 mod header;
 mod planes;
+mod ratios;
+mod write;
 
 use crate::angles::{gamma_rad, radians};
 use crate::report::{Position, Warnings, quoted};
@@ -38,6 +40,7 @@ use crate::{
 use fields::Fields;
 use header::{Header, LampSet, read_header};
 use planes::{check_distance, stored_planes};
+pub use write::write_ldt;
 
 /// Lumens that the written intensities refer to.
 const REFERENCE_FLUX_LM: f64 = 1000.0;
@@ -129,6 +132,7 @@ fn facts(header: Header) -> LuminaireFacts {
         opening: header.opening,
         light_output_ratio: header.light_output_ratio,
         measurement_tilt_rad: radians(header.measurement_tilt_deg),
+        eulumdat: Some(header.eulumdat),
     }
 }
 

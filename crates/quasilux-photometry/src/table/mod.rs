@@ -7,6 +7,7 @@
 
 mod axis;
 mod band;
+mod fold;
 mod linear;
 #[cfg(test)]
 mod per_cell;

@@ -9,3 +9,4 @@ mod photometric_types;
 mod reader;
 mod sampling;
 mod tables;
+mod writing;

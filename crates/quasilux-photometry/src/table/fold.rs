@@ -1,0 +1,39 @@
+//! Back from the table that closes around the azimuth to the grid as it was measured.
+
+use super::{Grid, SphericalTable, Symmetry};
+
+impl SphericalTable {
+    /// The grid as measured: the azimuths that the symmetry leaves, with their values.
+    ///
+    /// Values are those of the grid that the table was made of, bit for bit; an azimuth may differ
+    /// from it by the rounding of one subtraction and one addition.
+    pub fn grid(&self) -> Grid {
+        let closed = self.phi.knots().len();
+        let columns = match self.symmetry {
+            Symmetry::Rotational => 1,
+            Symmetry::Quadrant => (closed - 1) / 4 + 1,
+            Symmetry::Bilateral => (closed - 1) / 2 + 1,
+            Symmetry::Open => closed - 1,
+            Symmetry::None => closed,
+        };
+        self.columns(columns, self.symmetry)
+    }
+
+    /// The unfolded grid: a whole turn with its closing azimuth, whatever the symmetry.
+    pub fn unfolded_grid(&self) -> Grid {
+        self.columns(self.phi.knots().len(), Symmetry::None)
+    }
+
+    fn columns(&self, columns: usize, symmetry: Symmetry) -> Grid {
+        let rows = self.values.chunks_exact(self.phi.knots().len());
+        Grid {
+            theta_rad: self.theta.knots().to_vec(),
+            phi_rad: self.phi.knots()[..columns]
+                .iter()
+                .map(|offset| self.phi_start_rad + offset)
+                .collect(),
+            symmetry,
+            values: rows.flat_map(|row| row[..columns].iter().copied()).collect(),
+        }
+    }
+}
