@@ -3,8 +3,9 @@
 //! - [`lm63`], ANSI/IES LM-63 (`.ies`)
 //! - [`eulumdat`], EULUMDAT (`.ldt`)
 //!
-//! Each page lists what stands on which line, with its clause, and then every deviation that the
-//! reader tolerates.
+//! Each page lists what stands on which line, with its clause where one is known, and then every
+//! deviation that the reader tolerates: the rule, what is made of it, and the warning that it
+//! gives. A test holds the pages to the variants of [`Deviation`](crate::Deviation).
 
 pub mod eulumdat;
 pub mod lm63;

@@ -1,8 +1,11 @@
 //! Writer of ANSI/IES LM-63 files.
 
+use crate::angles::snapped;
 use crate::write::{Half, Note, Writer, Written, aligned, before, degrees, number};
-use crate::{Grid, IesStandard, Keyword, LuminaireFacts, Photometry, Standard, Tilt};
-use std::f64::consts::{FRAC_PI_2, PI};
+use crate::{
+    IesStandard, Keyword, LuminaireFacts, PhotometricType, Photometry, Standard, Symmetry, Tilt,
+};
+use std::f64::consts::FRAC_PI_2;
 
 /// The file generation type that says nothing: "Undefined" (LM-63-2019, 5.13, table 2).
 const UNDEFINED_GENERATION: f64 = 1.00001;
@@ -18,28 +21,32 @@ const NO_FACT: &str = "(not given)";
 /// last place. Angles that are multiples of 1e-9 degrees come back bit for bit; others within
 /// 4e-15 rad.
 ///
-/// - Planes: one at 0 for rotational symmetry, 0 to 90, 0 to 180, 90 to 270 or 0 to 360 with the
-///   closing plane. A half or a quarter on another side is mirrored to the one that LM-63 stores. A
-///   table without its closing plane gets it. Photometry of types A and B is resampled to type C.
+/// - Type C has one plane at 0 for rotational symmetry, or planes from 0 to 90, 0 to 180, 90 to 270 or
+///   0 to 360, the closing plane included. A half or a quarter on another side is mirrored to the one that LM-63 stores. A
+///   table without its closing plane gets it.
+/// - Types A and B keep their poles and all their angles (H, V), mirror images written out. A table
+///   with symmetries of its own in one of these types is resampled to type C.
 /// - Facts: all of LM-63 are kept. The dimensions are in metres, with their signs. The multiplier
 ///   holds what the ballast factor does not, for a luminaire that came from an LM-63 file, and is
 ///   1 for others.
 /// - Keywords keep their names and order. Those that the edition requires are added at the end:
-///   `[TEST]` and `[MANUFAC]` in 1991 and 1995, `[TESTLAB]` and `[ISSUEDATE]` too from 2002 on.
+///   `[TEST]` and `[MANUFAC]` in 1991; these, `[TESTLAB]` and `[ISSUEDATE]` from 2002 on.
 /// - The field behind the ballast factor is 1, but for two: in 1986 and 1991 it stays a factor that
 ///   a file of those editions gave, and in 2019 it is the file generation type, 1.00001
 ///   ("Undefined") if the luminaire did not come from a file of that edition.
-/// - Lines have at most 132 characters, 256 from 2002 on.
+/// - Lines have at most 80 characters up to `TILT=` and 132 behind it, 254 from 2002 on.
 ///
 /// Whatever else had to be changed is in [`Written::notes`].
 pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Written {
     let mut writer = Writer::default();
     let facts = photometry.facts();
-    let grid = aligned(photometry, Half::Back, &mut writer);
+    let web = Angles::of(photometry, &mut writer);
     let factors = Factors::of(facts, edition);
-    let limit = if edition >= IesStandard::Lm63Of2002 { 256 } else { 132 };
+    // Without the two characters that end a line, which the limit of 2002 counts.
+    let (text_limit, limit) =
+        if edition >= IesStandard::Lm63Of2002 { (254, 254) } else { (80, 132) };
 
-    write_header(facts, edition, limit, &mut writer);
+    write_header(facts, edition, text_limit, &mut writer);
     write_tilt(&facts.tilt, edition, limit, &mut writer);
     let opening = facts.opening;
     let lumens = facts.lumens_per_lamp.map_or("-1".to_owned(), number);
@@ -47,9 +54,9 @@ pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Written {
         number(facts.lamp_count),
         lumens,
         number(factors.multiplier),
-        grid.theta_rad.len().to_string(),
-        grid.phi_rad.len().to_string(),
-        "1".to_owned(),
+        web.vertical_deg.len().to_string(),
+        web.horizontal_deg.len().to_string(),
+        web.type_number.to_owned(),
         "2".to_owned(),
         number(opening.width_m),
         number(opening.length_m),
@@ -58,8 +65,50 @@ pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Written {
     write_numbers(counts, limit, &mut writer);
     let last = [number(factors.ballast), factors.field_text(edition), number(facts.input_watts)];
     write_numbers(last, limit, &mut writer);
-    write_table(&grid, &factors, limit, &mut writer);
+    write_table(&web, &factors, limit, &mut writer);
     writer.finish()
+}
+
+/// The angles of a file, and the values by them.
+struct Angles {
+    type_number: &'static str,
+    vertical_deg: Vec<f64>,
+    horizontal_deg: Vec<f64>,
+    /// Intensities plane by plane: all vertical angles at the first horizontal one, then the next.
+    values: Vec<f64>,
+}
+
+impl Angles {
+    fn of(photometry: &Photometry, writer: &mut Writer) -> Self {
+        let own = photometry.table().grid();
+        let has_symmetry = matches!(
+            own.symmetry,
+            Symmetry::Rotational | Symmetry::Quadrant | Symmetry::Bilateral | Symmetry::Open
+        );
+        let kind = match photometry.facts().photometric_type {
+            _ if has_symmetry => PhotometricType::C,
+            kind => kind,
+        };
+        let grid =
+            if kind == PhotometricType::C { aligned(photometry, Half::Back, writer) } else { own };
+        // The poles of types A and B are at the ends of a latitude.
+        let latitude = |theta: &f64| degrees(theta - FRAC_PI_2);
+        let (rows, columns) = (grid.theta_rad.len(), grid.phi_rad.len());
+        let row_deg: Vec<f64> = match kind {
+            PhotometricType::C => grid.theta_rad.iter().map(|&theta| degrees(theta)).collect(),
+            _ => grid.theta_rad.iter().map(latitude).collect(),
+        };
+        let column_deg: Vec<f64> = grid.phi_rad.iter().map(|&phi| degrees(phi)).collect();
+        if kind == PhotometricType::B {
+            // The latitude is the horizontal angle: its rows are the file's planes.
+            let (vertical_deg, horizontal_deg) = (column_deg, row_deg);
+            return Self { type_number: "2", vertical_deg, horizontal_deg, values: grid.values };
+        }
+        let by_plane = (0..columns).flat_map(|column| (0..rows).map(move |row| (row, column)));
+        let values = by_plane.map(|(row, column)| grid.values[row * columns + column]).collect();
+        let type_number = if kind == PhotometricType::A { "3" } else { "1" };
+        Self { type_number, vertical_deg: row_deg, horizontal_deg: column_deg, values }
+    }
 }
 
 /// Factors of the written candela values, in the order in which a reader multiplies them.
@@ -122,7 +171,7 @@ fn write_header(facts: &LuminaireFacts, edition: IesStandard, limit: usize, writ
     let (first, required): (_, &[&'static str]) = match edition {
         IesStandard::Lm63Of1986 => (None, &[]),
         IesStandard::Lm63Of1991 => (Some("IESNA91"), &["TEST", "MANUFAC"]),
-        IesStandard::Lm63Of1995 => (Some("IESNA:LM-63-1995"), &["TEST", "MANUFAC"]),
+        IesStandard::Lm63Of1995 => (Some("IESNA:LM-63-1995"), &[]),
         IesStandard::Lm63Of2002 => {
             (Some("IESNA:LM-63-2002"), &["TEST", "TESTLAB", "ISSUEDATE", "MANUFAC"])
         }
@@ -147,19 +196,16 @@ fn write_header(facts: &LuminaireFacts, edition: IesStandard, limit: usize, writ
 fn write_keyword(keyword: &Keyword, edition: IesStandard, limit: usize, writer: &mut Writer) {
     let is_label = keyword.name.is_empty();
     let lines = keyword.value.split('\n').map(|line| line.replace(char::is_control, " "));
-    if is_label && edition == IesStandard::Lm63Of1986 {
-        lines.for_each(|line| writer.line(line.trim()));
-        return;
-    }
+    let is_bare = is_label && edition == IesStandard::Lm63Of1986;
     let mut name = keyword.name.as_str();
-    if is_label {
+    if is_label && !is_bare {
         writer.note(Note::LabelAsOther);
         name = "OTHER";
     }
     for line in lines {
         let mut rest = line.trim();
         loop {
-            let start = format!("[{name}] ");
+            let start = if is_bare { String::new() } else { format!("[{name}] ") };
             let (piece, tail) = split(rest, limit.saturating_sub(start.chars().count()).max(1));
             writer.line(format!("{start}{piece}").trim_end());
             name = "MORE";
@@ -201,23 +247,19 @@ fn write_tilt(tilt: &Tilt, edition: IesStandard, limit: usize, writer: &mut Writ
     }
 }
 
-fn write_table(grid: &Grid, factors: &Factors, limit: usize, writer: &mut Writer) {
-    let (first, last) = (grid.theta_rad[0], grid.theta_rad[grid.theta_rad.len() - 1]);
-    let is_at = |angle: f64, places: [f64; 2]| places.iter().any(|at| (angle - at).abs() < 1e-9);
-    if !is_at(first, [0.0, FRAC_PI_2]) || !is_at(last, [FRAC_PI_2, PI]) {
+fn write_table(web: &Angles, factors: &Factors, limit: usize, writer: &mut Writer) {
+    let (first, last) = (web.vertical_deg[0], web.vertical_deg[web.vertical_deg.len() - 1]);
+    if web.type_number == "1" && !(matches!(first, 0.0 | 90.0) && matches!(last, 90.0 | 180.0)) {
         writer.note(Note::PolarRange);
     }
-    for angles in [&grid.theta_rad, &grid.phi_rad] {
-        let angles: Vec<f64> = angles.iter().map(|&angle| degrees(angle)).collect();
-        if angles.iter().any(|&angle| crate::angles::snapped(angle, 90.0) != angle) {
+    for angles in [&web.vertical_deg, &web.horizontal_deg] {
+        if angles.iter().any(|&angle| snapped(angle, 90.0) != angle) {
             writer.note(Note::AngleNearAxis);
         }
-        write_numbers(angles.into_iter().map(number), limit, writer);
+        write_numbers(angles.iter().map(|&angle| number(angle)), limit, writer);
     }
-    let columns = grid.phi_rad.len();
-    for plane in 0..columns {
-        let values = grid.values.iter().skip(plane).step_by(columns);
-        write_numbers(values.map(|&intensity_cd| factors.candela(intensity_cd)), limit, writer);
+    for plane in web.values.chunks_exact(web.vertical_deg.len()) {
+        write_numbers(plane.iter().map(|&value| factors.candela(value)), limit, writer);
     }
 }
 

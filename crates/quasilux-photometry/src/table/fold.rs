@@ -14,7 +14,7 @@ impl SphericalTable {
             Symmetry::Quadrant => (closed - 1) / 4 + 1,
             Symmetry::Bilateral => (closed - 1) / 2 + 1,
             Symmetry::Open => closed - 1,
-            Symmetry::None => closed,
+            _ => closed,
         };
         self.columns(columns, self.symmetry)
     }

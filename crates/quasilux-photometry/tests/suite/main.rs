@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod corpus;
+mod format_pages;
 mod ldt;
 mod ldt_corpus;
 mod mutation;
