@@ -21,8 +21,8 @@ pub struct Written {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
-    /// The table has poles of its own. It was resampled to type C, with planes each 5 degrees and
-    /// angles each degree.
+    /// The table has poles of its own, or is a sector of type C. It was resampled to the whole
+    /// sphere in type C, with planes each 5 degrees and angles each degree.
     Resampled(PhotometricType),
     /// The axes of symmetry are not those of the luminaire: all planes around were written.
     Unfolded,
@@ -71,7 +71,7 @@ impl fmt::Display for Note {
         match self {
             Self::Resampled(kind) => write!(
                 f,
-                "photometric type {kind:?} was resampled to type C, planes each 5 degrees, angles each degree"
+                "photometric type {kind:?} was resampled to all of type C, planes each 5 degrees, angles each degree"
             ),
             Self::Unfolded => f.write_str(
                 "the axes of symmetry are not those of the luminaire: all planes were written",

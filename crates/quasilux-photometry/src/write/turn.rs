@@ -27,7 +27,7 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
     let kind = photometry.facts().photometric_type;
     if kind != PhotometricType::C {
         writer.note(Note::Resampled(kind));
-        return closed(resampled(photometry), writer);
+        return resampled(photometry);
     }
     let mut grid = photometry.table().grid();
     let start = grid.phi_rad[0];
@@ -59,7 +59,13 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
             closed(photometry.table().unfolded_grid(), writer)
         }
         _ => {
-            let mut grid = closed(photometry.table().unfolded_grid(), writer);
+            let whole = photometry.table().unfolded_grid();
+            let span = whole.phi_rad[whole.phi_rad.len() - 1] - whole.phi_rad[0];
+            if (span - TAU).abs() > TOLERANCE_RAD {
+                writer.note(Note::Resampled(kind));
+                return resampled(photometry);
+            }
+            let mut grid = closed(whole, writer);
             if half == Half::Front {
                 close_with_first(&mut grid, writer);
             }
