@@ -69,6 +69,8 @@
 //! | [`ZeroBallastLampFactor`] | counts as 1 | `4:3: found 0; expected 1 in the field behind the ballast factor (read as 1)` |
 //! | [`BallastLampFactor`] | as the warning says | `4:3: found 1.1; expected 1 in the reserved field behind the ballast factor (...)` |
 //! | [`VerticalRange`] | outside the angles given the intensity is zero | `5:1: found vertical angles from 0 to 170; expected 0 to 90, 90 to 180 or 0 to 180 degrees (outside, the intensity is zero)` |
+//! | [`HorizontalRange`] | types A and B: outside the angles given the intensity is zero | `6:1: found horizontal angles from -40 to 40; expected -90 or 0 to 90 degrees (elsewhere, the intensity is zero)` |
+//! | [`VerticalMirror`] | types A and B: the half below mirrors the half above | `5:1: found vertical angles that begin at 0; expected angles from -90 (the half below 0 is taken to mirror that above)` |
 //! | [`SinglePlane`] | the same all around | `6:1: found a single plane at 30; expected a single plane at 0 (read as rotationally symmetric)` |
 //! | [`FirstPlane`] | the symmetry is that of the span | `6:1: found planes from -90 to 90; expected planes from 0 to 90, 0 to 180, 90 to 270 or 0 to 360 (read by their span)` |
 //! | [`MissingClosingPlane`] | taken to equal the first one | `6:10: found planes that end at 270; expected a closing plane at 360 (taken to equal the first one)` |
@@ -94,6 +96,8 @@
 //! [`ZeroBallastLampFactor`]: crate::Deviation::ZeroBallastLampFactor
 //! [`BallastLampFactor`]: crate::Deviation::BallastLampFactor
 //! [`VerticalRange`]: crate::Deviation::VerticalRange
+//! [`HorizontalRange`]: crate::Deviation::HorizontalRange
+//! [`VerticalMirror`]: crate::Deviation::VerticalMirror
 //! [`SinglePlane`]: crate::Deviation::SinglePlane
 //! [`FirstPlane`]: crate::Deviation::FirstPlane
 //! [`MissingClosingPlane`]: crate::Deviation::MissingClosingPlane

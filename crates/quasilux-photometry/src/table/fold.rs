@@ -14,14 +14,19 @@ impl SphericalTable {
             Symmetry::Quadrant => (closed - 1) / 4 + 1,
             Symmetry::Bilateral => (closed - 1) / 2 + 1,
             Symmetry::Open => closed - 1,
-            _ => closed,
+            Symmetry::None | Symmetry::Sector => closed,
         };
         self.columns(columns, self.symmetry)
     }
 
-    /// The unfolded grid: a whole turn with its closing azimuth, whatever the symmetry.
+    /// The unfolded grid: a whole turn with its closing azimuth, whatever the symmetry; a sector as
+    /// it is.
     pub fn unfolded_grid(&self) -> Grid {
-        self.columns(self.phi.knots().len(), Symmetry::None)
+        let unfolded = match self.symmetry {
+            Symmetry::Sector => Symmetry::Sector,
+            _ => Symmetry::None,
+        };
+        self.columns(self.phi.knots().len(), unfolded)
     }
 
     fn columns(&self, columns: usize, symmetry: Symmetry) -> Grid {

@@ -58,13 +58,12 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
             writer.note(Note::Unfolded);
             closed(photometry.table().unfolded_grid(), writer)
         }
-        _ => {
+        Symmetry::Sector => {
+            writer.note(Note::Resampled(kind));
+            resampled(photometry)
+        }
+        Symmetry::None | Symmetry::Open => {
             let whole = photometry.table().unfolded_grid();
-            let span = whole.phi_rad[whole.phi_rad.len() - 1] - whole.phi_rad[0];
-            if (span - TAU).abs() > TOLERANCE_RAD {
-                writer.note(Note::Resampled(kind));
-                return resampled(photometry);
-            }
             let mut grid = closed(whole, writer);
             if half == Half::Front {
                 close_with_first(&mut grid, writer);

@@ -281,6 +281,11 @@ fn what_no_format_holds_is_noted() {
         assert!(difference(tilted.table(), read.photometry.table()) < 1e-14);
     }
 
+    let sector = built(&[-30.0, 0.0, 45.0], Symmetry::Sector);
+    for notes in [write_ies(&sector, IesStandard::Lm63Of2019).notes, write_ldt(&sector).notes] {
+        assert!(notes.contains(&Note::Resampled(PhotometricType::C)), "{notes:?}");
+    }
+
     let mut grid = built(&[0.0, 90.0, 360.0], Symmetry::None).table().grid();
     grid.values[2] += 1.5;
     let jump = Photometry::new(SphericalTable::new(grid).unwrap(), facts());
@@ -334,6 +339,7 @@ fn other_poles_keep_their_angles_in_lm63() {
         let opening = LuminousOpening { width_m: 0.3, length_m: 0.2, height_m: 0.0 };
         let facts = LuminaireFacts { photometric_type: kind, opening, ..facts() };
         let written = write_ies(&Photometry::new(table.clone(), facts), IesStandard::Lm63Of1995);
+        assert_eq!(ies(&written).photometry.table().grid(), table.grid());
         let lines: Vec<&str> = written.text.lines().skip(2).collect();
         let expected: Vec<&str> = angles_and_values.split(',').collect();
         assert_eq!((lines[0], lines[1]), (counts, "1 1 36.5"));
