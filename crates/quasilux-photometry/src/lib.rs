@@ -28,6 +28,7 @@ mod facts;
 pub mod formats;
 mod ies;
 mod ldt;
+mod memory;
 mod photometry;
 mod report;
 mod table;
@@ -41,6 +42,7 @@ pub use facts::{
 };
 pub use ies::{read_ies, write_ies};
 pub use ldt::{read_ldt, write_ldt};
+pub use memory::most_read_memory_bytes;
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};

@@ -8,6 +8,9 @@ const ANGLE_TOLERANCE_RAD: f64 = 1e-9;
 /// Greater values would overflow in sums and products.
 const LARGEST_VALUE: f64 = 1e100;
 
+/// Smaller values count as zero: their products would lose digits to underflow.
+const SMALLEST_VALUE: f64 = 1e-100;
+
 /// What the azimuths of a grid cover, and how the rest follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symmetry {
@@ -35,6 +38,7 @@ pub struct Grid {
     /// What the azimuths cover.
     pub symmetry: Symmetry,
     /// Non-negative values, row by row: all azimuths at the first polar angle, then the next.
+    /// Those below 1e-100 count as zero.
     pub values: Vec<f64>,
 }
 
@@ -104,6 +108,7 @@ impl Grid {
             .values
             .chunks_exact(columns)
             .flat_map(|row| full.iter().map(|&(_, column)| row[column]))
+            .map(|value| if value < SMALLEST_VALUE { 0.0 } else { value })
             .collect();
         Ok(FullGrid {
             theta_rad: self.theta_rad,

@@ -1,0 +1,18 @@
+//! How much memory a reader may take.
+
+/// Bytes for each byte of a file. A file of line ends alone comes near to it: each is a line to be
+/// remembered, in a list that doubles as it grows.
+const BYTES_PER_BYTE: usize = 160;
+
+/// Bytes for a file of any length: messages with pieces of the file, the first blocks of lists.
+const BYTES_BESIDES: usize = 32 * 1024;
+
+/// The most memory in bytes that any reader of this crate has allocated at one time for a file of
+/// `file_bytes` bytes, its result included: no file decides on more.
+///
+/// It holds for any bytes, not only for files as they should be. The bytes themselves, which are
+/// the caller's, are not counted.
+#[must_use]
+pub const fn most_read_memory_bytes(file_bytes: usize) -> usize {
+    BYTES_PER_BYTE.saturating_mul(file_bytes).saturating_add(BYTES_BESIDES)
+}

@@ -1,0 +1,88 @@
+//! Any bytes give a luminaire or an error with its place, in memory bounded by their number.
+//!
+//! A binary of its own, with one test: it counts what the whole process allocates.
+
+mod damage;
+
+use damage::{Format, Outcome, Seeds, examine, examine_damaged};
+
+/// Damaged files of each format. `examples/mutate.rs` runs any number of them.
+const FILES: u64 = 100_000;
+
+#[test]
+fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
+    for format in Format::ALL {
+        let seeds = Seeds::with_published(format);
+        for file in seeds.files() {
+            examine(format, file);
+        }
+        let mut read = 0;
+        for index in 0..FILES {
+            read += u64::from(examine_damaged(format, &seeds, index).is_read);
+        }
+        println!("{format:?}: {read} of {FILES} damaged files load, the others are refused");
+        assert!(read > FILES / 10 && read < FILES - FILES / 10, "{format:?}: {read} load");
+    }
+    for (name, bytes) in greedy_files() {
+        for format in Format::ALL {
+            let Outcome { is_read, peak_bytes } = examine(format, &bytes);
+            let ratio = peak_bytes as f64 / bytes.len() as f64;
+            println!("{name} as {format:?}: {ratio:.1} bytes a byte, loads: {is_read}");
+        }
+    }
+}
+
+/// Files that ask for much memory in few bytes.
+fn greedy_files() -> Vec<(&'static str, Vec<u8>)> {
+    const LENGTH: usize = 1 << 20;
+    let list = |count: usize, last: f64| -> String {
+        (0..count).map(|i| format!("{:.4} ", last * i as f64 / (count.max(2) - 1) as f64)).collect()
+    };
+    let table = |verticals: usize, planes: usize, last: f64| {
+        let (theta, phi) = (list(verticals, 90.0), list(planes, last));
+        let candela = "1 ".repeat(verticals * planes);
+        format!("TILT=NONE\n1 -1 1 {verticals} {planes} 1 2 0 0 0 1 1 1\n{theta}\n{phi}\n{candela}")
+    };
+    let claim = |count: &str| {
+        let blanks = " ".repeat(LENGTH);
+        format!("TILT=NONE\n1 -1 1 {count} {count} 1 2 0 0 0 1 1 1\n0 90\n0\n1 1{blanks}")
+    };
+    let labels = |label: &str| label.repeat(LENGTH / label.len()) + "TILT=NONE\n";
+    let claim_ldt = |count: &str| {
+        let before = format!("m\n2\n4\n{count}\n0\n{count}\n0\n");
+        before + &"1\n".repeat(LENGTH / 2)
+    };
+    // One row at each of two angles: planes are stored for a quarter turn and unfolded.
+    let planes = 50_000;
+    let quadrant_ldt = {
+        let angles = |quarter: usize| 90.0 * quarter as f64 / (planes / 4) as f64;
+        let all: String = (0..planes).map(|i| format!("{:.3}\n", angles(i))).collect();
+        let ones = "1\n".repeat(2 * (planes / 4 + 1));
+        let header = "m\n2\n4\n".to_owned() + &format!("{planes}\n0\n2\n0\nr\nn\nn\nf\nd\n");
+        let luminaire = "1\n".repeat(12) + "0\n1\n1\nT\n1000\n-\n-\n20\n" + &"1\n".repeat(10);
+        format!("{header}{luminaire}{all}0\n90\n{ones}")
+    };
+    let texts = vec![
+        ("line ends", "\n".repeat(LENGTH)),
+        ("empty labels", labels("a\n")),
+        ("keywords", labels("[]\n")),
+        ("continued keywords", labels("[MORE]\n")),
+        ("a long label", "a".repeat(LENGTH) + "\nTILT=NONE\n"),
+        ("many angles in one plane", table(100_000, 1, 0.0)),
+        ("two angles in many planes", table(2, 50_000, 90.0)),
+        ("a large table", table(700, 700, 90.0)),
+        ("tilt angles", format!("TILT=INCLUDE\n1 300000 {}", "1 ".repeat(600_000))),
+        ("a great count", claim("999999")),
+        ("an impossible count", claim("999999999999999")),
+        ("a great count of lines", claim_ldt("500000")),
+        ("an impossible count of lines", claim_ldt("4294967295")),
+        ("a quarter turn of planes", quadrant_ldt),
+    ];
+    let mut files: Vec<_> =
+        texts.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
+    files.push(("Latin-1", b"\xE9\n".repeat(LENGTH / 2)));
+    files.push(("Latin-1 in the last line", [&b"\n".repeat(LENGTH)[..], b"\xE9"].concat()));
+    files.push(("UTF-16 line ends", [&b"\xFF\xFE"[..], &b"\n\0".repeat(LENGTH / 2)].concat()));
+    files.push(("UTF-16", [&b"\xFF\xFE"[..], &b"\x11\x11".repeat(LENGTH / 2)].concat()));
+    files
+}
