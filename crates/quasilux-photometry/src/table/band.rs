@@ -98,7 +98,9 @@ impl Band {
         } else {
             self.start_rad + self.quantile(fraction)
         };
-        inside(theta_rad, self.start_rad, self.end_rad)
+        let (low, high) =
+            (self.start_rad + polar_edge(self.start_rad), self.end_rad - polar_edge(self.end_rad));
+        if low < high { theta_rad.clamp(low, high) } else { self.start_rad.midpoint(self.end_rad) }
     }
 
     /// Newton's method inside a bracket that shrinks at each step, by bisection where Newton leaves
@@ -186,6 +188,12 @@ impl Moments {
 /// `1 - r0 y (1 - r1 y (1 - ...))`.
 fn alternating(y: f64, ratios: [f64; 6]) -> f64 {
     ratios.iter().rev().fold(1.0, |tail, ratio| 1.0 - ratio * y * tail)
+}
+
+/// How far from a parallel directions are kept. Near theta = 0 a direction keeps its polar angle to
+/// a part of itself; at 0 the distance still is not zero, for the density may be.
+fn polar_edge(theta_rad: f64) -> f64 {
+    EDGE_RAD * theta_rad.clamp(1e-16, 1.0)
 }
 
 /// `x` kept [`EDGE_RAD`] inside `start..end`, or halfway where that leaves no room.

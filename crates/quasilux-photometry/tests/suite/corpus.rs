@@ -1,6 +1,5 @@
 //! Files as manufacturers and other programs publish them, read where they are present.
 
-use crate::tables::Generator;
 use quasilux_photometry::{Deviation, read_ies};
 use std::path::{Path, PathBuf};
 
@@ -32,29 +31,6 @@ fn published_files_load_or_are_refused_for_a_known_reason() {
     }
     println!("{loaded} published files load, {refused} are refused as listed");
     assert!(loaded > 60);
-}
-
-#[test]
-fn published_files_sample_their_own_density() {
-    let Some(files) = published_files() else {
-        return;
-    };
-    let mut generator = Generator(11);
-    for file in &files {
-        let Ok(read) = read_ies(&std::fs::read(file).unwrap()) else {
-            continue;
-        };
-        let photometry = read.photometry;
-        for _ in 0..2000 {
-            let u = [generator.uniform(), generator.uniform()];
-            let sample = photometry.sample(u).unwrap();
-            let back = photometry.invert(sample.direction);
-            let error = (back[0] - u[0]).abs().max((back[1] - u[1]).abs());
-            assert!(error < 1e-9, "{}: {u:?} became {back:?}", name(file));
-            let flux_lm = photometry.intensity_cd(sample.direction) / sample.pdf_sr;
-            assert!((flux_lm / photometry.flux_lm() - 1.0).abs() < 1e-14, "{}", name(file));
-        }
-    }
 }
 
 /// Fluxes of relative files against their lamps: more light than the lamps give needs a warning.

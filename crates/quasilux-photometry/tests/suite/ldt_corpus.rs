@@ -1,8 +1,6 @@
-//! EULUMDAT files as manufacturers and other programs publish them, whole and damaged.
+//! EULUMDAT files as manufacturers and other programs publish them.
 
 use crate::corpus::{name, published_files_of};
-use crate::mutation::mutate;
-use crate::tables::Generator;
 use quasilux_photometry::{Deviation, read_ldt};
 
 /// Files whose integrated flux is not lamps' flux times light output ratio, by the start of their
@@ -31,51 +29,4 @@ fn published_eulumdat_files_load() {
     }
     println!("{} published EULUMDAT files load, none is refused", files.len());
     assert!(files.len() > 70);
-}
-
-/// A file with two sets of lamps and unequal angles, of our own.
-fn own() -> Vec<u8> {
-    let ratios = "0.5\n".repeat(10);
-    format!(
-        "Maker\r\n2\n4\n4\n90\n3\n0\nr\nn\nn\nf\nd\n1200\n300\n80\n1100\n200\n0\n0\n0\n0\n100\n\
-        80,5\n1\n0\n2\n1\nT\n1000\n-\n-\n20\n-1\nT\n2000\n-\n-\n40\n{ratios}0\n90\n180\n270\n\
-        0\n30\n90\n100\n80\n20.5\n90\n70\n0\n"
-    )
-    .into_bytes()
-}
-
-#[test]
-fn damaged_eulumdat_files_never_panic() {
-    let mut seeds = vec![own()];
-    let small = |bytes: &Vec<u8>| bytes.len() < 3000;
-    if let Some(files) = published_files_of("ldt") {
-        seeds.extend(files.iter().map(|file| std::fs::read(file).unwrap()).filter(small));
-    }
-    let mut generator = Generator(13);
-    let (mut read, mut refused) = (0, 0);
-    for _ in 0..20_000 {
-        let mut bytes = seeds[generator.below(seeds.len())].clone();
-        for _ in 0..=generator.below(4) {
-            mutate(&mut bytes, &mut generator);
-        }
-        match read_ldt(&bytes) {
-            Ok(outcome) => {
-                read += 1;
-                let photometry = outcome.photometry;
-                assert!(photometry.flux_lm().is_finite() && photometry.flux_lm() >= 0.0);
-                let u = [generator.uniform(), generator.uniform()];
-                match photometry.sample(u) {
-                    Some(sample) => assert!(sample.pdf_sr > 0.0 && sample.pdf_sr.is_finite()),
-                    None => assert_eq!(photometry.flux_lm(), 0.0),
-                }
-            }
-            Err(error) => {
-                refused += 1;
-                assert!(error.line() > 0 && error.line() <= bytes.len() + 1, "{error}");
-                assert!(error.column() > 0 && error.to_string().len() < 400, "{error}");
-            }
-        }
-    }
-    println!("of 20000 damaged files {read} load and {refused} are refused");
-    assert!(read > 1000 && refused > 1000);
 }

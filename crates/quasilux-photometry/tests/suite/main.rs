@@ -3,10 +3,13 @@
 mod closed_forms;
 mod corpus;
 mod format_pages;
+mod goodness;
 mod ldt;
 mod ldt_corpus;
-mod mutation;
 mod photometric_types;
+mod poles;
+mod published;
+mod quadrature;
 mod reader;
 mod sampling;
 mod tables;

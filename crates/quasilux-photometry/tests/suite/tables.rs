@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 pub(crate) struct Generator(pub(crate) u64);
 
 impl Generator {
-    pub(crate) fn bits(&mut self) -> u64 {
+    fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -18,11 +18,6 @@ impl Generator {
     /// Uniform in [0, 1).
     pub(crate) fn uniform(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Uniform in 0..n.
-    pub(crate) fn below(&mut self, n: usize) -> usize {
-        (self.bits() % n as u64) as usize
     }
 }
 
@@ -138,5 +133,31 @@ pub(crate) fn hard_tables() -> Vec<(&'static str, SphericalTable)> {
             ),
         ),
         ("two parallels", table(&[0.0, 180.0], &[0.0], Symmetry::Rotational, |t, _| t)),
+        (
+            "two planes",
+            table(&steps(0.0, 10.0, 180.0), &[0.0, 180.0], Symmetry::Bilateral, |t, p| {
+                (t - 60.0).abs() + p
+            }),
+        ),
+        (
+            "beam of one degree at the nadir",
+            table(&steps(0.0, 0.1, 90.0), &[0.0], Symmetry::Rotational, |t, _| {
+                1e5 * libm::exp(-2.77 * t * t) + if t < 45.0 { 0.0 } else { 1e-6 }
+            }),
+        ),
+        (
+            "light at the horizon only",
+            table(&steps(0.0, 30.0, 180.0), &steps(0.0, 30.0, 360.0), Symmetry::None, |t, p| {
+                if t == 90.0 { p % 90.0 } else { 0.0 }
+            }),
+        ),
     ]
+}
+
+/// A tenth of a degree both ways: 300 by 3600 cells.
+pub(crate) fn fine_table() -> SphericalTable {
+    let (theta, phi) = (steps(0.0, 0.1, 30.0), steps(0.0, 0.1, 90.0));
+    table(&theta, &phi, Symmetry::Quadrant, |t, p| {
+        libm::exp(-t / 10.0) * (2.0 + libm::cos(0.4 * p) + (10.0 * t).round() % 7.0)
+    })
 }
