@@ -20,6 +20,7 @@ The project's own commands.
 cargo xtask test           everything that CI checks, in this order
 cargo xtask test fmt       formatting
 cargo xtask test clippy    lints, warnings denied
+cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test examples  every example runs and gives the numbers it promises

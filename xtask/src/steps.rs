@@ -10,12 +10,13 @@ struct Step {
     run: fn() -> Result<(), Failure>,
 }
 
-const STEPS: [Step; 5] = [
+const STEPS: [Step; 6] = [
     Step { name: "fmt", run: || cargo(&["fmt", "--all", "--check"], &[]) },
     Step {
         name: "clippy",
         run: || cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[]),
     },
+    Step { name: "fuzz", run: check_fuzz_targets },
     Step { name: "tests", run: || cargo(&["test", "--workspace"], &[]) },
     Step {
         name: "docs",
@@ -53,6 +54,14 @@ fn run(step: &Step) -> Result<Duration, Failure> {
     let took = start.elapsed();
     println!("xtask: {} passed in {:.0} s", step.name, took.as_secs_f64());
     Ok(took)
+}
+
+/// The fuzz targets are a workspace of their own: formats and lints them without the fuzzer, which
+/// needs a nightly compiler and a C++ one.
+fn check_fuzz_targets() -> Result<(), Failure> {
+    const MANIFEST: &str = "--manifest-path=fuzz/Cargo.toml";
+    cargo(&["fmt", MANIFEST, "--check"], &[])?;
+    cargo(&["clippy", MANIFEST, "--no-default-features", "--", "-D", "warnings"], &[])
 }
 
 /// Runs cargo in the workspace with further environment variables.

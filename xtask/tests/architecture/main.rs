@@ -42,7 +42,7 @@ fn rust_files() -> Vec<RustFile> {
     let root = workspace();
     let mut files = Vec::new();
     let mut folders: Vec<PathBuf> =
-        ["crates", "xtask", "benches"].iter().map(|name| root.join(name)).collect();
+        ["crates", "xtask", "benches", "fuzz"].iter().map(|name| root.join(name)).collect();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else {
             continue;
