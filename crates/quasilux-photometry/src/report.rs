@@ -138,12 +138,7 @@ pub(crate) struct Warnings(Vec<Warning>);
 
 impl ReadError {
     pub(crate) fn new(at: Position, found: impl fmt::Display, expected: impl fmt::Display) -> Self {
-        Self {
-            line: at.line,
-            column: at.column,
-            found: found.to_string(),
-            expected: expected.to_string(),
-        }
+        Self { line: at.line, column: at.column, found: shown(&found), expected: shown(&expected) }
     }
 
     /// The line, counted from 1.
@@ -221,8 +216,8 @@ impl Warnings {
                 deviation,
                 position,
                 count: 1,
-                found: found.to_string(),
-                expected: expected.to_string(),
+                found: shown(&found),
+                expected: shown(&expected),
             }),
         }
     }
@@ -230,6 +225,17 @@ impl Warnings {
     pub(crate) fn into_vec(self) -> Vec<Warning> {
         self.0
     }
+}
+
+/// The text of a part of a message. Numbers such as 1e300 are written with all their digits: cut.
+fn shown(part: &impl fmt::Display) -> String {
+    const LONGEST: usize = 200;
+    let mut text = part.to_string();
+    if let Some((end, _)) = text.char_indices().nth(LONGEST) {
+        text.truncate(end);
+        text.push_str("...");
+    }
+    text
 }
 
 /// A piece of the file in quotation marks, cut to a length that fits a message.

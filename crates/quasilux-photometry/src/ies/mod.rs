@@ -44,8 +44,8 @@ const METRES_PER_FOOT: f64 = 0.3048;
 /// Integrated and rated flux may differ by this part without a warning.
 const FLUX_TOLERANCE: f64 = 0.01;
 
-/// Reads an LM-63 file. Total: any bytes give a luminaire or an error with its place, and memory is
-/// bounded by a multiple of the file's length.
+/// Reads an LM-63 file. Total: any bytes give a luminaire or an error with its place, in
+/// no more memory than [`crate::most_read_memory_bytes`].
 pub fn read_ies(bytes: &[u8]) -> Result<Read, ReadError> {
     let mut warnings = Warnings::default();
     let text = text::decode(bytes, &mut warnings);

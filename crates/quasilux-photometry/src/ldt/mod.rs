@@ -52,8 +52,8 @@ const LARGEST_INTENSITY_CD: f64 = 1e18;
 /// warning.
 const FLUX_TOLERANCE: f64 = 0.01;
 
-/// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, and memory
-/// is bounded by a multiple of the file's length.
+/// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, in
+/// no more memory than [`crate::most_read_memory_bytes`].
 pub fn read_ldt(bytes: &[u8]) -> Result<Read, ReadError> {
     let mut warnings = Warnings::default();
     let text = text::decode(bytes, &mut warnings);
