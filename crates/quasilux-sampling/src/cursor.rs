@@ -43,7 +43,7 @@ struct Open {
 
 impl<'a> SampleCursor<'a> {
     /// No coordinate is shared by choices that need more bits together. A run of a million points
-    /// has 20 even digits; a choice among a thousand luminaires takes ten and has its coordinate for
+    /// has 20 even digits; a choice among a thousand facets takes ten and has its coordinate for
     /// itself, events with two outcomes share one.
     pub const SHARED_BITS: u32 = 8;
 
@@ -69,7 +69,8 @@ impl<'a> SampleCursor<'a> {
         [self.next_1d(), self.next_1d()]
     }
 
-    /// True with probability `p_true`, on a coordinate that other choices share.
+    /// True with probability `p_true`, on a coordinate that other choices share; none is consumed
+    /// where the outcome is certain.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
@@ -81,10 +82,11 @@ impl<'a> SampleCursor<'a> {
     /// ```
     #[inline]
     pub fn choose_bool(&mut self, p_true: f64) -> bool {
-        let bits = u32::from(p_true > 0.0 && p_true < 1.0);
-        let u = self.shared_coordinate(bits);
-        let BoolChoice { value, rest } = choose_bool(u, p_true);
-        self.leave(rest, bits);
+        if p_true <= 0.0 || p_true >= 1.0 {
+            return p_true > 0.0;
+        }
+        let BoolChoice { value, rest } = choose_bool(self.shared_coordinate(1), p_true);
+        self.leave(rest, 1);
         value
     }
 
@@ -111,6 +113,33 @@ impl<'a> SampleCursor<'a> {
         let bits = distribution.bits();
         let choice = distribution.choose(self.shared_coordinate(bits));
         self.leave(choice.rest, bits);
+        choice
+    }
+
+    /// Chooses from a table on a fresh coordinate that goes on, renormalised, to what hangs on the
+    /// choice, however many bits the choice takes: a photon's light, and then the direction from it.
+    ///
+    /// The rule of this module is for chains of choices. Here a single one cuts its coordinate into
+    /// intervals, and where a net's first coordinate falls into a dyadic interval, its points are a
+    /// net again: the rest is even for each light, and the sample one dimension shorter. What is
+    /// lost is evenness across the lights: in a hall of 1000 lamps the direct light of photons has
+    /// 1.3 times the error that a third coordinate would give, with walls of reflectance 0.5 and
+    /// 0.8 it has 1.1 and 1.0 times (2^16 photons).
+    ///
+    /// ```
+    /// use quasilux_sampling::{Discrete, PointSet, Randomization, SampleCursor, Sequence};
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+    /// let mut cursor = SampleCursor::new(&points, 7);
+    /// let light = cursor.choose_leading(&Discrete::new(&[1.0; 1000]).unwrap()).index;
+    /// let direction = [cursor.rest_1d(), cursor.next_1d()];
+    /// assert_eq!(cursor.used(), 2);
+    /// # let _ = (light, direction);
+    /// ```
+    #[inline]
+    pub fn choose_leading(&mut self, distribution: &Discrete) -> Choice {
+        let choice = distribution.choose(self.next_1d());
+        let spent = distribution.bits().min(Self::SHARED_BITS);
+        self.open = Some(Open { rest: choice.rest, spent });
         choice
     }
 

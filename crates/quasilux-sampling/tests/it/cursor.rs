@@ -41,8 +41,8 @@ fn choices_share_a_coordinate_up_to_its_useful_bits() {
         assert_eq!(cursor.choose_bool(0.5), points.coordinate(index, 1) < 0.5);
         assert_eq!(cursor.next_1d(), points.coordinate(index, 2));
         cursor.close();
-        assert!(cursor.choose_bool(1.0));
-        assert_eq!(cursor.used(), 4);
+        assert!(cursor.choose_bool(1.0) && !cursor.choose_bool(0.0));
+        assert_eq!(cursor.used(), 3);
     }
 }
 
@@ -57,6 +57,7 @@ fn choices_are_charged_by_their_distribution() {
     for _ in 0..100 {
         assert!(cursor.choose_bool(1.0));
     }
+    assert_eq!(cursor.used(), 0);
     let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
     let luminaire = cursor.choose_from(&luminaires).index;
     assert_eq!(luminaire, (points.coordinate(3, 0) * 1024.0) as usize);
@@ -83,6 +84,24 @@ fn a_large_choice_reaches_all_its_entries() {
         assert_eq!(direction, points.coordinate(index, 2), "ten bits are too many to share");
     }
     assert!(reached.iter().all(|reached| *reached));
+}
+
+/// A leading choice among 1024 goes on, renormalised, to what hangs on it; what follows has another
+/// coordinate.
+#[test]
+fn a_leading_choice_goes_on_whatever_its_bits() {
+    let points = sobol(Randomization::Owen, 2);
+    let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
+    for index in 0..100 {
+        let mut cursor = SampleCursor::new(&points, index);
+        let scaled = points.coordinate(index, 0) * 1024.0;
+        assert_eq!(cursor.choose_leading(&luminaires).index, scaled as usize);
+        assert!((cursor.rest_1d() - scaled.fract()).abs() < 1e-12);
+        assert_eq!(cursor.used(), 1);
+        cursor.choose_leading(&luminaires);
+        assert_eq!(cursor.choose_bool(0.5), points.coordinate(index, 2) < 0.5);
+        assert_eq!(cursor.used(), 3);
+    }
 }
 
 /// Whatever comes out of the choices, the next decision has the same coordinate.

@@ -58,14 +58,14 @@ impl<'a> Lights<'a> {
     /// One photon of equal flux: the light in proportion to its flux, place and direction from the
     /// light's own distribution. `None` only where nothing emits.
     ///
-    /// The first two coordinates choose the light and its direction by superposition, unless the
-    /// choice alone takes too much of one; a photon of an area light takes two more.
+    /// The first two coordinates choose the light and its direction by superposition, however many
+    /// lights there are; a photon of an area light takes two more.
     pub(crate) fn emit<S: Spectrum>(
         &self,
         world: &World<S>,
         cursor: &mut SampleCursor<'_>,
     ) -> Option<Emission> {
-        let choice = cursor.choose_from(self.by_flux.as_ref()?);
+        let choice = cursor.choose_leading(self.by_flux.as_ref()?);
         let u = [cursor.rest_1d(), cursor.next_1d()];
         if let Some(light) = self.pointlikes.get(choice.index) {
             let (position, direction) = match light {

@@ -5,5 +5,6 @@ mod balance;
 mod coverage;
 mod cube;
 mod furnace;
+mod hall;
 mod scenes;
 mod traps;
