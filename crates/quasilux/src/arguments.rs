@@ -97,6 +97,12 @@ pub(crate) struct ExperimentArguments {
     /// Folder for tables and pictures [default: out/NAME]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Largest number of photons or points compared [default: the experiment's own]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(64..=1 << 30))]
+    pub(crate) max_n: Option<u64>,
+    /// Seed of all randomisations
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
 }
 
 #[derive(Debug, Args)]

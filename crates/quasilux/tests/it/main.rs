@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod direct;
+mod experiment;
 mod limits;
 mod points;
 mod results;

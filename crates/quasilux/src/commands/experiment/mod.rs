@@ -1,0 +1,78 @@
+//! `quasilux experiment NAME`: the experiments of the paper, each a folder of its own once built.
+
+mod rejection;
+
+use crate::arguments::ExperimentArguments;
+use crate::exit::{Exit, Refusal};
+use crate::results;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Experiments that can be run, with what they show.
+const BUILT: [Experiment; 1] = [Experiment {
+    name: "rejection",
+    shows: "inverse transform against rejection",
+    run: rejection::run,
+}];
+
+/// Experiments that are planned, with what they show.
+const PLANNED: [(&str, &str); 7] = [
+    ("cube", "the diffuse cube, tables 4 and 5 of the paper"),
+    ("octant", "the mirror octant, table 3"),
+    ("neumann", "pictures of the Neumann terms, table 1"),
+    ("points", "figures 5 and 6"),
+    ("periodicity", "coherent groups, table 2"),
+    ("dimension", "what superposition and inverse transform save"),
+    ("first-shot", "direct light taken out of the integral"),
+];
+
+/// An experiment.
+struct Experiment {
+    name: &'static str,
+    shows: &'static str,
+    run: fn(&ExperimentArguments) -> Outcome,
+}
+
+/// What an experiment found, as files.
+struct Outcome {
+    /// All figures, for programs.
+    csv: String,
+    /// The same for people, with what is seen in them.
+    markdown: String,
+    /// The plot.
+    svg: String,
+}
+
+/// Runs an experiment, writes its files and prints its table.
+pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusal> {
+    let name = arguments.name.as_str();
+    let Some(experiment) = BUILT.iter().find(|experiment| experiment.name == name) else {
+        return Err(refused(name));
+    };
+    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(name));
+    results::prepare(&folder)?;
+    let outcome = (experiment.run)(arguments);
+    let file = |ending: &str| -> PathBuf { folder.join(format!("{name}.{ending}")) };
+    results::write_whole(&file("csv"), outcome.csv.as_bytes())?;
+    results::write_whole(&file("md"), outcome.markdown.as_bytes())?;
+    results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
+    let mut stdout = std::io::stdout().lock();
+    let printed =
+        write!(stdout, "{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display());
+    match printed {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Refusal::new(format!("cannot write to stdout: {error}")))
+        }
+        _ => Ok(Exit::Done),
+    }
+}
+
+fn refused(name: &str) -> Refusal {
+    if let Some((_, shows)) = PLANNED.iter().find(|(planned, _)| *planned == name) {
+        return Refusal::not_built(format!("the experiment \"{name}\" ({shows})"));
+    }
+    let list = |names: &mut dyn Iterator<Item = String>| names.collect::<Vec<_>>().join(", ");
+    let built = list(&mut BUILT.iter().map(|built| format!("{} ({})", built.name, built.shows)));
+    let planned = list(&mut PLANNED.iter().map(|(name, _)| (*name).to_owned()));
+    Refusal::new(format!("unknown experiment \"{name}\"; there is {built}; planned are {planned}"))
+}

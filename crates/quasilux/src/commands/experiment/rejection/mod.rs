@@ -1,0 +1,145 @@
+//! `quasilux experiment rejection`: photons of a measured luminaire by inverse transform and by
+//! rejection, each with random and with Sobol' points.
+//!
+//! Voloboy, Dmitriev and Kopylov (2003) hold that rejection spoils quasi-Monte Carlo points: each
+//! trial takes coordinates of its own, and the test of acceptance is a jump in the integrand. Here
+//! one batwing luminaire lights a floor and nothing is reflected, so that the error is all of the
+//! photons' directions.
+
+mod batwing;
+mod floor;
+mod method;
+mod picture;
+mod report;
+
+use super::Outcome;
+use crate::arguments::ExperimentArguments;
+use batwing::Luminaire;
+use floor::Floor;
+use method::Method;
+use quasilux_sampling::quality::fit_power_law;
+use quasilux_sampling::{
+    DimensionHistogram, PointSet, Randomization, SampleCursor, Sequence, stream_key,
+};
+use rayon::prelude::*;
+
+/// Randomisations of each setup.
+const REPLICATES: u32 = 32;
+/// The smallest number of photons.
+const LEAST: u64 = 1 << 6;
+/// The largest one, unless the command line says otherwise.
+const MOST: u64 = 1 << 18;
+/// Slopes are fitted from here on: below, cells of the floor are empty.
+const FIT_FROM: f64 = 1024.0;
+
+/// A way to make directions, with points of a kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Setup {
+    method: Method,
+    sequence: Sequence,
+}
+
+/// What one setup did.
+struct Curve {
+    setup: Setup,
+    /// (N, root mean square over floor cells and replicates of the error over the floor's mean).
+    points: Vec<[f64; 2]>,
+    /// The order of convergence, where there are points enough for it.
+    slope: Option<f64>,
+    /// Coordinates that photons used.
+    dimensions: DimensionHistogram,
+}
+
+/// One replicate of one setup.
+struct Replicate {
+    /// Mean of the squared errors, for each number of photons.
+    mean_squares: Vec<f64>,
+    dimensions: DimensionHistogram,
+}
+
+impl Setup {
+    /// The four setups, those of the paper's claim last.
+    const ALL: [Self; 4] = [
+        Self { method: Method::Rejection, sequence: Sequence::Random },
+        Self { method: Method::InverseTransform, sequence: Sequence::Random },
+        Self { method: Method::Rejection, sequence: Sequence::Sobol },
+        Self { method: Method::InverseTransform, sequence: Sequence::Sobol },
+    ];
+
+    fn points(self, seed: u64, replicate: u32) -> PointSet {
+        let randomization = match self.sequence {
+            Sequence::Random => Randomization::None,
+            _ => Randomization::Owen,
+        };
+        PointSet::new(self.sequence, randomization, stream_key(seed, replicate, 0))
+    }
+}
+
+/// Measures the four curves.
+pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
+    let counts = counts(arguments.max_n.unwrap_or(MOST));
+    let luminaire = Luminaire::batwing();
+    let floor = Floor::under(&luminaire.photometry);
+    let curves = Setup::ALL.map(|setup| curve(setup, &luminaire, &floor, &counts, arguments.seed));
+    Outcome {
+        csv: report::csv(&curves),
+        markdown: report::markdown(&curves, &luminaire, &floor),
+        svg: picture::svg(&curves),
+    }
+}
+
+/// Powers of two.
+fn counts(most: u64) -> Vec<u64> {
+    std::iter::successors(Some(LEAST), |count| Some(2 * count))
+        .take_while(|count| *count <= most.max(LEAST))
+        .collect()
+}
+
+fn curve(setup: Setup, luminaire: &Luminaire, floor: &Floor, counts: &[u64], seed: u64) -> Curve {
+    let replicates: Vec<Replicate> = (0..REPLICATES)
+        .into_par_iter()
+        .map(|number| {
+            replicate(setup.method, &setup.points(seed, number), luminaire, floor, counts)
+        })
+        .collect();
+    let mut dimensions = DimensionHistogram::new();
+    for replicate in &replicates {
+        dimensions.merge(&replicate.dimensions);
+    }
+    let points: Vec<[f64; 2]> = counts
+        .iter()
+        .enumerate()
+        .map(|(k, count)| {
+            let sum: f64 = replicates.iter().map(|replicate| replicate.mean_squares[k]).sum();
+            [*count as f64, (sum / f64::from(REPLICATES)).sqrt()]
+        })
+        .collect();
+    let fitted: Vec<[f64; 2]> = points.iter().copied().filter(|[n, _]| *n >= FIT_FROM).collect();
+    let slope = fit_power_law(&fitted).map(|law| law.exponent);
+    Curve { setup, points, slope, dimensions }
+}
+
+fn replicate(
+    method: Method,
+    points: &PointSet,
+    luminaire: &Luminaire,
+    floor: &Floor,
+    counts: &[u64],
+) -> Replicate {
+    let mut hits = floor.hits();
+    let mut dimensions = DimensionHistogram::new();
+    let mut index = 0;
+    let mean_squares = counts
+        .iter()
+        .map(|count| {
+            while index < *count {
+                let mut cursor = SampleCursor::new(points, index);
+                hits.record(method.direction(luminaire, &mut cursor));
+                dimensions.record(cursor.used());
+                index += 1;
+            }
+            hits.mean_square_error(*count)
+        })
+        .collect();
+    Replicate { mean_squares, dimensions }
+}
