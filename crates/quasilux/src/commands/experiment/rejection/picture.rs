@@ -24,7 +24,7 @@ pub(super) fn svg(curves: &[Curve]) -> String {
         lines: guides(curves).into_iter().chain(lines).collect(),
     };
     figure(&Figure {
-        title: "Inverse transform against rejection".to_owned(),
+        title: "Directions of a batwing luminaire".to_owned(),
         panels: vec![panel],
         columns: 1,
         legend: legend(curves),
