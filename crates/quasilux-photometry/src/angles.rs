@@ -1,18 +1,12 @@
 //! Angles as files write them, in degrees: checks, rounding, and the polar axis of type C.
 
-use crate::report::{Position, Warnings};
+use crate::number::Number;
+use crate::report::Warnings;
 use crate::{Deviation, ReadError};
 use std::f64::consts::PI;
 
 /// Written angles may miss a border by this much, in degrees.
 pub(crate) const ROUNDING_DEG: f64 = 1e-3;
-
-/// A number and its place.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Number {
-    pub(crate) value: f64,
-    pub(crate) at: Position,
-}
 
 /// Polar angles gamma in radians: ascending within 0 to 180 degrees.
 pub(crate) fn gamma_rad(angles: &[Number], warnings: &mut Warnings) -> Result<Vec<f64>, ReadError> {

@@ -25,11 +25,13 @@
 //! table. The formats stand line by line in [`formats`].
 
 mod angles;
+mod candela;
 mod facts;
 pub mod formats;
 mod ies;
 mod ldt;
 mod memory;
+mod number;
 mod photometry;
 mod report;
 mod table;

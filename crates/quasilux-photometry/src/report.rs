@@ -141,6 +141,11 @@ impl ReadError {
         Self { line: at.line, column: at.column, found: shown(&found), expected: shown(&expected) }
     }
 
+    /// The same error, where something else was expected.
+    pub(crate) fn expecting(self, expected: impl fmt::Display) -> Self {
+        Self { expected: expected.to_string(), ..self }
+    }
+
     /// The line, counted from 1.
     pub fn line(&self) -> usize {
         self.line

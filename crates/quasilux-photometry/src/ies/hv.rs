@@ -6,7 +6,8 @@
 //! measured the intensity is zero; the standard's sector is the half of the sphere that the beam
 //! lies in.
 
-use crate::angles::{Number, check_ascending, radians, snapped};
+use crate::angles::{check_ascending, radians, snapped};
+use crate::number::Number;
 use crate::report::Warnings;
 use crate::{Deviation, Grid, PhotometricType, ReadError, Symmetry};
 use std::f64::consts::FRAC_PI_2;

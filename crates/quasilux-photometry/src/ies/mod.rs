@@ -25,13 +25,15 @@ mod numbers;
 mod planes;
 mod write;
 
-use crate::angles::{Number, gamma_rad};
+use crate::angles::gamma_rad;
+use crate::candela::check_closing;
+use crate::number::Number;
 use crate::report::{Position, Warnings, quoted};
 use crate::{
     Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, PhotometricType, Photometry,
     Read, ReadError, SphericalTable, Standard, Tilt, text,
 };
-use candela::{Planes, check_closing};
+use candela::Planes;
 use header::{Header, TiltLine, read_header};
 use hv::HvAngles;
 use numbers::Numbers;

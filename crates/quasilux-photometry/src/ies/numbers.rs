@@ -1,6 +1,6 @@
 //! The numbers behind the header: a stream of tokens with their places.
 
-use crate::angles::Number;
+use crate::number::{self, Number, Written};
 use crate::report::{Position, Warnings, quoted};
 use crate::{Deviation, ReadError};
 
@@ -23,11 +23,6 @@ struct Cursor {
     characters: usize,
 }
 
-struct Token<'t> {
-    text: &'t str,
-    at: Position,
-}
-
 impl<'t> Numbers<'t> {
     /// Starts at the line with index `line`.
     pub(super) fn new(lines: &'t [&'t str], line: usize) -> Self {
@@ -41,27 +36,7 @@ impl<'t> Numbers<'t> {
         what: &str,
         warnings: &mut Warnings,
     ) -> Result<Number, ReadError> {
-        let Some(token) = self.token(warnings) else {
-            return Err(ReadError::new(self.end(), "the end of the file", what));
-        };
-        let at = token.at;
-        let wrong = || ReadError::new(at, quoted(token.text), format_args!("{what} (a number)"));
-        // Of what Rust reads as a number, words such as "inf" and "nan" are not meant.
-        let plausible = token.text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
-        let value: f64 = if plausible {
-            token.text.parse().map_err(|_| wrong())?
-        } else {
-            return Err(wrong());
-        };
-        if !value.is_finite() {
-            return Err(ReadError::new(
-                at,
-                quoted(token.text),
-                format_args!("{what}, a finite number"),
-            ));
-        }
-        self.last_line = Some(token.at.line);
-        Ok(Number { value, at })
+        self.written(what, warnings)?.number(what)
     }
 
     /// The next number, which is a count of at least `least`.
@@ -71,23 +46,8 @@ impl<'t> Numbers<'t> {
         least: usize,
         warnings: &mut Warnings,
     ) -> Result<(usize, Position), ReadError> {
-        let Number { value, at } = self.next(what, warnings)?;
-        // Far above what any file holds, far below where an f64 skips integers.
-        let whole = value.fract() == 0.0 && value >= least as f64 && value <= 1e15;
-        if !whole {
-            let expected = format_args!("{what}: an integer, {least} or more").to_string();
-            return Err(ReadError::new(at, value, expected));
-        }
-        let as_written = self.lines[at.line - 1].chars().skip(at.column - 1);
-        if as_written.take_while(|c| !is_separator(*c)).any(|c| c == '.') {
-            warnings.push(
-                Deviation::CountWithPoint,
-                at,
-                value,
-                format_args!("{what} without a decimal point"),
-            );
-        }
-        Ok((value as usize, at))
+        let written = self.written(what, warnings)?;
+        Ok((written.count(written.number(what)?, what, least, warnings)?, written.at))
     }
 
     /// `count` numbers in a row, none of them above what the rest of the file has room for.
@@ -98,19 +58,7 @@ impl<'t> Numbers<'t> {
         warnings: &mut Warnings,
     ) -> Result<Vec<Number>, ReadError> {
         self.check_room(count, self.here(), what)?;
-        let mut list = Vec::with_capacity(count);
-        for index in 0..count {
-            let number = self.next(what, warnings).map_err(|error| {
-                let expected = format!("{} {} of {count}", error.expected(), index + 1);
-                ReadError::new(
-                    Position { line: error.line(), column: error.column() },
-                    error.found(),
-                    expected,
-                )
-            })?;
-            list.push(number);
-        }
-        Ok(list)
+        number::list(count, what, || self.next(what, warnings))
     }
 
     /// An error unless `count` numbers fit into the rest of the file: each takes a digit and a
@@ -122,11 +70,7 @@ impl<'t> Numbers<'t> {
         what: &str,
     ) -> Result<(), ReadError> {
         let room: usize = self.lines.iter().skip(self.cursor.line).map(|line| line.len() + 1).sum();
-        if count <= room / 2 + 1 {
-            return Ok(());
-        }
-        let found = format!("a file that ends before {count} values of {what} fit");
-        Err(ReadError::new(at, found, "a complete file, or smaller numbers of angles"))
+        number::check_room(count, room / 2 + 1, at, what)
     }
 
     /// Notes a record that starts on the line of the number before it.
@@ -147,7 +91,15 @@ impl<'t> Numbers<'t> {
         Some((token.text, token.at))
     }
 
-    fn token(&mut self, warnings: &mut Warnings) -> Option<Token<'t>> {
+    fn written(&mut self, what: &str, warnings: &mut Warnings) -> Result<Written<'t>, ReadError> {
+        let Some(token) = self.token(warnings) else {
+            return Err(ReadError::new(self.end(), "the end of the file", what));
+        };
+        self.last_line = Some(token.at.line);
+        Ok(token)
+    }
+
+    fn token(&mut self, warnings: &mut Warnings) -> Option<Written<'t>> {
         while let Some(&line) = self.lines.get(self.cursor.line) {
             let rest = &line[self.cursor.byte..];
             let skipped = rest.find(|c| !is_separator(c)).unwrap_or(rest.len());
@@ -163,7 +115,7 @@ impl<'t> Numbers<'t> {
                 self.cursor.advance(&line[self.cursor.byte..][..skipped]);
                 let at = self.cursor.position();
                 self.cursor.advance(text);
-                return Some(Token { text, at });
+                return Some(Written { text, at });
             }
             self.cursor = Cursor { line: self.cursor.line + 1, byte: 0, characters: 0 };
         }

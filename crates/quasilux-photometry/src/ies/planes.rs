@@ -1,6 +1,7 @@
 //! The horizontal angles of a type C file: checks, and what symmetry the planes mean.
 
-use crate::angles::{Number, ROUNDING_DEG, check_ascending, radians, snapped};
+use crate::angles::{ROUNDING_DEG, check_ascending, radians, snapped};
+use crate::number::Number;
 use crate::report::Warnings;
 use crate::{Deviation, ReadError, Symmetry};
 

@@ -1,11 +1,8 @@
 //! One field a line: texts, counts and numbers with their places.
 
-use crate::angles::Number;
-use crate::report::{Position, Warnings, quoted};
+use crate::number::{self, Number, Written};
+use crate::report::{Position, Warnings};
 use crate::{Deviation, ReadError};
-
-/// Greatest magnitude of a number: products of three stay finite.
-const LARGEST_NUMBER: f64 = 1e18;
 
 /// Reads a file line by line.
 pub(super) struct Fields<'t> {
@@ -36,19 +33,7 @@ impl<'t> Fields<'t> {
         warnings: &mut Warnings,
     ) -> Result<Number, ReadError> {
         let (text, at) = self.text(what)?;
-        let value = match text.split_once(',') {
-            Some((whole, part)) => parse(&format!("{whole}.{part}")),
-            None => parse(text),
-        };
-        let Some(value) = value else {
-            let found = if text.is_empty() { "an empty line".to_owned() } else { quoted(text) };
-            return Err(ReadError::new(at, found, what));
-        };
-        if text.contains(',') {
-            let expected = "a decimal point (read as one)";
-            warnings.push(Deviation::DecimalComma, at, quoted(text), expected);
-        }
-        Ok(Number { value, at })
+        Written { text, at }.number_with_comma(what, warnings)
     }
 
     /// The next line as a number, where an empty one counts as zero.
@@ -72,18 +57,10 @@ impl<'t> Fields<'t> {
         least: usize,
         warnings: &mut Warnings,
     ) -> Result<(usize, Position), ReadError> {
-        let number = self.number(what, warnings)?;
-        let (line, at) = (self.lines[self.next - 1].trim(), number.at);
-        let fits = number.value.floor() == number.value
-            && (least as f64..=f64::from(u32::MAX)).contains(&number.value);
-        if !fits {
-            let expected = format_args!("{what}, an integer of at least {least}").to_string();
-            return Err(ReadError::new(at, quoted(line), expected));
-        }
-        if line.contains(['.', ',', 'e', 'E']) {
-            warnings.push(Deviation::CountWithPoint, at, quoted(line), "an integer");
-        }
-        Ok((number.value as usize, at))
+        let (text, at) = self.text(what)?;
+        let written = Written { text, at };
+        let number = written.number_with_comma(what, warnings)?;
+        Ok((written.count(number, what, least, warnings)?, at))
     }
 
     /// The next `count` lines as numbers.
@@ -93,7 +70,7 @@ impl<'t> Fields<'t> {
         what: &str,
         warnings: &mut Warnings,
     ) -> Result<Vec<Number>, ReadError> {
-        (0..count).map(|_| self.number(what, warnings)).collect()
+        number::list(count, what, || self.number(what, warnings))
     }
 
     /// Refuses a count of lines that the file has not got, before anything is made of it.
@@ -103,12 +80,7 @@ impl<'t> Fields<'t> {
         at: Position,
         what: &str,
     ) -> Result<(), ReadError> {
-        let left = self.lines.len() - self.next;
-        if count <= left {
-            return Ok(());
-        }
-        let found = format!("a count that asks for {count} lines of {what}");
-        Err(ReadError::new(at, found, format_args!("no more than the {left} lines that follow")))
+        number::check_room(count, self.lines.len() - self.next, at, what)
     }
 
     /// The first line with text on it among those that are left.
@@ -121,11 +93,4 @@ impl<'t> Fields<'t> {
     fn end(&self) -> Position {
         Position { line: self.lines.len() + 1, column: 1 }
     }
-}
-
-/// A finite number of usual size; no words such as `inf`.
-fn parse(text: &str) -> Option<f64> {
-    let is_numeric = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E');
-    let value: f64 = text.chars().all(is_numeric).then(|| text.parse().ok())??;
-    (value.abs() <= LARGEST_NUMBER).then_some(value)
 }

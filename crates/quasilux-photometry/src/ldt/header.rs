@@ -1,7 +1,7 @@
 //! The fields before the angles: the luminaire, its dimensions, its lamps.
 
 use super::fields::Fields;
-use crate::angles::Number;
+use crate::number::Number;
 use crate::report::{Position, Warnings};
 use crate::{Deviation, EulumdatFacts, Keyword, LuminousOpening, ReadError};
 

@@ -32,6 +32,7 @@ mod ratios;
 mod write;
 
 use crate::angles::{gamma_rad, radians};
+use crate::candela::intensity_cd;
 use crate::report::{Position, Warnings, quoted};
 use crate::{
     Deviation, Grid, LuminaireFacts, PhotometricType, Photometry, Read, ReadError, SphericalTable,
@@ -44,9 +45,6 @@ pub use write::write_ldt;
 
 /// Lumens that the written intensities refer to.
 const REFERENCE_FLUX_LM: f64 = 1000.0;
-
-/// No file means more; sums of intensities stay far from overflow.
-const LARGEST_INTENSITY_CD: f64 = 1e18;
 
 /// Integrated flux and lamps' flux times light output ratio may differ by this part without a
 /// warning.
@@ -89,16 +87,7 @@ fn read_table(
     for column in 0..columns {
         for row in 0..rows {
             let value = fields.number("an intensity in cd/klm (field 30)", warnings)?;
-            if value.value < 0.0 {
-                let expected = "intensities of 0 or more (read as 0)";
-                warnings.push(Deviation::NegativeCandela, value.at, value.value, expected);
-            }
-            let intensity_cd = value.value.max(0.0) * factor;
-            if intensity_cd > LARGEST_INTENSITY_CD {
-                let found = format!("an intensity of {intensity_cd:e} cd");
-                return Err(ReadError::new(value.at, found, "no more than 1e18 cd"));
-            }
-            values[row * columns + column] = intensity_cd;
+            values[row * columns + column] = intensity_cd(value, factor, warnings)?;
         }
     }
     SphericalTable::new(Grid {

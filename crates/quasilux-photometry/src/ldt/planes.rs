@@ -1,6 +1,7 @@
 //! Which C-planes a symmetry stores, and the azimuths they stand at.
 
-use crate::angles::{Number, ROUNDING_DEG, check_ascending, radians, snapped};
+use crate::angles::{ROUNDING_DEG, check_ascending, radians, snapped};
+use crate::number::Number;
 use crate::report::{Position, Warnings};
 use crate::{Deviation, ReadError, Symmetry};
 
