@@ -7,6 +7,19 @@ pub enum Standard {
     Lm63(IesStandard),
     /// EULUMDAT (.ldt).
     Eulumdat,
+    /// ANSI/IES TM-33 (.xml), by edition.
+    Tm33(Tm33Edition),
+}
+
+/// The edition of ANSI/IES TM-33 that a file claims to follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Tm33Edition {
+    /// ATLA S001, from which TM-33 was made: root element `ATLA_S001` or `ATLA_S001_A`.
+    AtlaS001,
+    /// TM-33-18: root element `IESTM33`.
+    Of2018,
+    /// TM-33-23: root element `IESTM33-22`.
+    Of2023,
 }
 
 /// The edition of ANSI/IES LM-63 that a file claims to follow.
@@ -83,23 +96,25 @@ pub struct LuminaireFacts {
     pub standard: Standard,
     /// The web of angles that the file's intensities are given in.
     pub photometric_type: PhotometricType,
-    /// Keywords and labels in the order of the file; the text lines of an EULUMDAT file stand
-    /// under the keywords of LM-63 that mean the same.
+    /// Keywords and labels in the order of the file; the texts of EULUMDAT and TM-33
+    /// files stand under the keywords of LM-63 that mean the same.
     pub keywords: Vec<Keyword>,
     /// The tilt block.
     pub tilt: Tilt,
-    /// Number of lamps.
+    /// Number of lamps; in TM-33 of all emitters together.
     pub lamp_count: f64,
     /// Luminous flux of one lamp; `None` for absolute photometry.
     pub lumens_per_lamp: Option<f64>,
-    /// The ballast factor; 1 in EULUMDAT, which has none.
+    /// The ballast factor; 1 in EULUMDAT, which has none; of the first emitter in TM-33.
     pub ballast_factor: f64,
     /// The field behind the ballast factor, as written: ballast-lamp photometric factor (1986,
-    /// 1991), reserved (1995, 2002), or file generation type (2019); 1 in EULUMDAT.
+    /// 1991), reserved (1995, 2002), or file generation type (2019); 1 in EULUMDAT and
+    /// TM-33.
     pub ballast_lamp_field: f64,
     /// Electrical input power in watts, as written.
     pub input_watts: f64,
-    /// Product of all factors that the file's candela values were multiplied by.
+    /// Product of all factors that the file's candela values were multiplied by; of the first
+    /// emitter in TM-33.
     pub candela_factor: f64,
     /// The luminous opening.
     pub opening: LuminousOpening,

@@ -1,6 +1,6 @@
 //! Measured photometry: luminaire files, spherical tables, exact sampling.
 //!
-//! A file is read ([`read_ies`], [`read_ldt`]) into a [`Photometry`]: intensities over directions, with the facts
+//! A file is read ([`read_ies`], [`read_ldt`], [`read_tm33`]) into a [`Photometry`]: intensities over directions, with the facts
 //! of the header. Behind it stands a [`SphericalTable`], bilinear on a grid of spherical angles,
 //! with its integral in closed form and an inverse transform that turns two uniform coordinates
 //! into a direction, continuously and without rejection.
@@ -36,12 +36,14 @@ mod photometry;
 mod report;
 mod table;
 mod text;
+mod tm33;
 mod web;
 mod write;
+mod xml;
 
 pub use facts::{
     EulumdatFacts, IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType,
-    Standard, Tilt,
+    Standard, Tilt, Tm33Edition,
 };
 pub use ies::{read_ies, write_ies};
 pub use ldt::{read_ldt, write_ldt};
@@ -49,5 +51,6 @@ pub use memory::most_read_memory_bytes;
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};
+pub use tm33::read_tm33;
 pub use web::{Web, WebAngles};
 pub use write::{Note, Written};

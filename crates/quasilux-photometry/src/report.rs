@@ -48,7 +48,9 @@ pub enum Deviation {
     /// The identifying line has blanks or spelling of its own. The edition is taken from its
     /// number.
     IdentifyingLine,
-    /// The identifying line names no known edition. The file is read as LM-63-2002.
+    /// The identifying line names no known edition. The file is read as LM-63-2002. TM-33: the root
+    /// element is none of the standard's. The file is read as ATLA S001 if the root is
+    /// `LuminaireOpticalData`, else as TM-33-23.
     UnknownStandard,
     /// A header line has no keyword, in an edition that asks for one. It is kept as a label.
     LabelWithoutKeyword,
@@ -99,11 +101,13 @@ pub enum Deviation {
     NoLight,
     /// The integrated flux differs from that of the lamps (with the ballast factor) by more than 1
     /// %. Below it, this is the normal loss of a luminaire; the candela values count. In EULUMDAT
-    /// it is compared with the lamps' flux times the light output ratio.
+    /// it is compared with the lamps' flux times the light output ratio, in TM-33 with the luminous
+    /// flux of each emitter where that is given.
     FluxDiffers,
     /// EULUMDAT: numbers are written with a decimal comma. It counts as a point.
     DecimalComma,
     /// EULUMDAT: the line of a number that no intensity depends on is empty. It counts as zero.
+    /// TM-33: the element of a number is empty. It counts as missing.
     EmptyNumber,
     /// EULUMDAT: a distance between planes or angles is not that of the angles listed. The listed
     /// angles count.
@@ -114,7 +118,7 @@ pub enum Deviation {
     ClosingPlaneGiven,
     /// EULUMDAT: there are several sets of lamps. The first one is taken.
     SeveralLampSets,
-    /// EULUMDAT: the number of lamps is zero. It counts as one.
+    /// EULUMDAT and TM-33: the number of lamps is zero. It counts as one.
     ZeroLampCount,
     /// EULUMDAT: the conversion factor of the intensities is zero or empty. It counts as 1.
     ZeroConversionFactor,
@@ -123,6 +127,31 @@ pub enum Deviation {
     /// EULUMDAT: the luminaire was tilted while it was measured. It is taken in the position it
     /// was measured in: the tilt is kept as a fact and turns nothing.
     MeasurementTilt,
+    /// TM-33: an element that the standard requires, and that no intensity depends on, is missing or
+    /// empty. The file is read without it.
+    MissingElement,
+    /// TM-33: an element or attribute has the name that another writer uses, such as
+    /// `IntensityData` with `horz` and `vert` for `IntData` with `h` and `v`. It is read as the one
+    /// that is meant.
+    ForeignElement,
+    /// TM-33: a word of a list is spelt with blanks, small letters or without its prefix, such as
+    /// `Symm _ Full` or `C`. It is read as the word that is meant.
+    WordSpelling,
+    /// TM-33: the symmetry is not that of the planes. The planes count.
+    SymmetryDiffers,
+    /// TM-33: a number of intensities or angles is not that of those given. Those given count.
+    CountDiffers,
+    /// TM-33: there are several emitters. Their intensities are added, as if they stood in one
+    /// place.
+    SeveralEmitters,
+    /// TM-33: an emitter beside others has no luminous intensities. It is left out.
+    EmitterWithoutLight,
+    /// TM-33: a ballast factor other than 1 stands with absolute photometry. It is not applied: the
+    /// intensities were measured with the ballast.
+    AbsoluteBallastFactor,
+    /// TM-33: the luminous opening is an element `LuminousOpening` of the luminaire, which the
+    /// standard has not. It is read in millimetres, as its writers mean it.
+    OpeningInMillimetres,
 }
 
 /// A place in a text, line and column counted from 1, columns in characters.
@@ -227,6 +256,11 @@ impl Warnings {
         }
     }
 
+    /// Takes over the warnings of one rule, and drops the others.
+    pub(crate) fn keep(&mut self, others: Self, deviation: Deviation) {
+        self.0.extend(others.0.into_iter().filter(|warning| warning.deviation == deviation));
+    }
+
     pub(crate) fn into_vec(self) -> Vec<Warning> {
         self.0
     }
@@ -245,10 +279,14 @@ fn shown(part: &impl fmt::Display) -> String {
 
 /// A piece of the file in quotation marks, cut to a length that fits a message.
 pub(crate) fn quoted(text: &str) -> String {
-    const LONGEST: usize = 40;
-    let mut shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
-    if text.chars().nth(LONGEST).is_some() {
+    format!("\"{}\"", shortened(text, 40))
+}
+
+/// A text without control characters, cut after so many characters.
+pub(crate) fn shortened(text: &str, longest: usize) -> String {
+    let mut shown: String = text.chars().take(longest).flat_map(char::escape_debug).collect();
+    if text.chars().nth(longest).is_some() {
         shown.push_str("...");
     }
-    format!("\"{shown}\"")
+    shown
 }

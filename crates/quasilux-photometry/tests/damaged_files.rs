@@ -62,7 +62,35 @@ fn greedy_files() -> Vec<(&'static str, Vec<u8>)> {
         let luminaire = "1\n".repeat(12) + "0\n1\n1\nT\n1000\n-\n-\n20\n" + &"1\n".repeat(10);
         format!("{header}{luminaire}{all}0\n90\n{ones}")
     };
+    // Elements and attributes of little text, and two emitters whose grids have a large product.
+    let attributes: String = (0..26).map(|i| format!(" {}=\"\"", (b'a' + i) as char)).collect();
+    let xml = |inside: &str| {
+        let count = LENGTH / inside.len();
+        format!("<IESTM33-22>{}</IESTM33-22>", inside.repeat(count))
+    };
+    let emitter = |planes: usize, angles: usize| {
+        let pairs = (0..planes).flat_map(|c| (0..angles).map(move |gamma| (c, gamma)));
+        let share = |i: usize, count: usize| i as f64 / (count - 1) as f64;
+        let data: String = pairs
+            .map(|(c, gamma)| {
+                let (h, v) = (360.0 * share(c, planes), 180.0 * share(gamma, angles));
+                format!("<IntData h=\"{h:.3}\" v=\"{v:.3}\">1</IntData>")
+            })
+            .collect();
+        format!(
+            "<Emitter><Quantity>1</Quantity><LuminousData><LuminousIntensity>\
+             {data}</LuminousIntensity></LuminousData></Emitter>"
+        )
+    };
+    let unlike =
+        |n: usize| format!("<IESTM33-22>{}{}</IESTM33-22>", emitter(2 * n, 8), emitter(9, 2 * n));
     let texts = vec![
+        ("elements", xml("<b/>")),
+        ("elements of one letter", xml("<b>x</b>")),
+        ("attributes", xml(&format!("<b{attributes}/>"))),
+        ("references", xml("&lt;")),
+        ("a deep tree", xml("<b>")),
+        ("emitters on unlike grids", unlike(500)),
         ("line ends", "\n".repeat(LENGTH)),
         ("empty labels", labels("a\n")),
         ("keywords", labels("[]\n")),

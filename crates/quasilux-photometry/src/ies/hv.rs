@@ -13,7 +13,7 @@ use crate::{Deviation, Grid, PhotometricType, ReadError, Symmetry};
 use std::f64::consts::FRAC_PI_2;
 
 /// The angles of a type A or B file, checked.
-pub(super) struct HvAngles {
+pub(crate) struct HvAngles {
     photometric_type: PhotometricType,
     horizontal: Side,
     vertical: Side,
@@ -28,7 +28,7 @@ struct Side {
 
 impl HvAngles {
     /// The lists of horizontal and of vertical angles of a file.
-    pub(super) fn check(
+    pub(crate) fn check(
         photometric_type: PhotometricType,
         horizontal: &[Number],
         vertical: &[Number],
@@ -53,7 +53,7 @@ impl HvAngles {
 
     /// The grid of the table, from the file's values: those of all horizontal angles at the first
     /// vertical one, then the next.
-    pub(super) fn grid(&self, horizontals: usize, values: &[f64]) -> Grid {
+    pub(crate) fn grid(&self, horizontals: usize, values: &[f64]) -> Grid {
         let (latitude, longitude, row_stride, column_stride) = match self.photometric_type {
             PhotometricType::A => (&self.vertical, &self.horizontal, horizontals, 1),
             _ => (&self.horizontal, &self.vertical, 1, horizontals),

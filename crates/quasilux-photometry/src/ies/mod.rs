@@ -35,8 +35,9 @@ use crate::{
 };
 use candela::Planes;
 use header::{Header, TiltLine, read_header};
-use hv::HvAngles;
+pub(crate) use hv::HvAngles;
 use numbers::Numbers;
+pub(crate) use planes::c_rad;
 use std::f64::consts::PI;
 pub use write::write_ies;
 
@@ -92,7 +93,7 @@ fn read_numbers(
     let grid = match counts.photometric_type {
         PhotometricType::C => {
             let theta_rad = gamma_rad(&vertical, warnings)?;
-            let (phi_rad, symmetry) = planes::c_rad(&horizontal, warnings)?;
+            let (phi_rad, symmetry) = c_rad(&horizontal, warnings)?;
             Grid { theta_rad, phi_rad, symmetry, values: planes.read(numbers, warnings)? }
         }
         a_or_b => {

@@ -6,7 +6,7 @@ use crate::report::Warnings;
 use crate::{Deviation, ReadError, Symmetry};
 
 /// Azimuths C in radians, and the symmetry that their span stands for.
-pub(super) fn c_rad(
+pub(crate) fn c_rad(
     angles: &[Number],
     warnings: &mut Warnings,
 ) -> Result<(Vec<f64>, Symmetry), ReadError> {

@@ -11,7 +11,7 @@ mod samples;
 
 pub(crate) use mutator::mutate;
 use peak_alloc::PeakAlloc;
-use quasilux_photometry::{Read, ReadError, most_read_memory_bytes, read_ies, read_ldt};
+use quasilux_photometry::{Read, ReadError, most_read_memory_bytes, read_ies, read_ldt, read_tm33};
 pub(crate) use random::Random;
 use std::path::Path;
 
@@ -26,6 +26,7 @@ const LONGEST_SEED_BYTES: usize = 4000;
 pub(crate) enum Format {
     Ies,
     Ldt,
+    Tm33,
 }
 
 /// What became of one file.
@@ -40,20 +41,22 @@ pub(crate) struct Outcome {
 pub(crate) struct Seeds(Vec<Vec<u8>>);
 
 impl Format {
-    pub(crate) const ALL: [Self; 2] = [Self::Ies, Self::Ldt];
+    pub(crate) const ALL: [Self; 3] = [Self::Ies, Self::Ldt, Self::Tm33];
 
     pub(crate) fn read(self, bytes: &[u8]) -> Result<Read, ReadError> {
         match self {
             Self::Ies => read_ies(bytes),
             Self::Ldt => read_ldt(bytes),
+            Self::Tm33 => read_tm33(bytes),
         }
     }
 
-    /// The files' extension, which names their folder too.
-    pub(crate) fn extension(self) -> &'static str {
+    /// The files' extension, and their folder.
+    fn published(self) -> (&'static str, &'static str) {
         match self {
-            Self::Ies => "ies",
-            Self::Ldt => "ldt",
+            Self::Ies => ("ies", "ies"),
+            Self::Ldt => ("ldt", "ldt"),
+            Self::Tm33 => ("xml", "ies/tm33"),
         }
     }
 }
@@ -64,15 +67,16 @@ impl Seeds {
         Self(match format {
             Format::Ies => samples::ies(),
             Format::Ldt => samples::ldt(),
+            Format::Tm33 => samples::tm33(),
         })
     }
 
     /// The same, with the published files where they are present.
     pub(crate) fn with_published(format: Format) -> Self {
         let Self(mut files) = Self::built(format);
-        let extension = format.extension();
+        let (extension, folder) = format.published();
         let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-        let folder = data.join(extension);
+        let folder = data.join(folder);
         let Ok(entries) = std::fs::read_dir(&folder) else {
             println!("no published .{extension} files at {}", folder.display());
             return Self(files);

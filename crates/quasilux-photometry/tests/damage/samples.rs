@@ -50,3 +50,47 @@ pub(crate) fn ldt() -> Vec<Vec<u8>> {
     };
     files.into_iter().map(file).collect()
 }
+
+/// TM-33 files: several emitters on unlike grids, names of other writers, and type B.
+pub(crate) fn tm33() -> Vec<Vec<u8>> {
+    let intensities =
+        |horizontal: &[u32], vertical: &[i32], [element, h, v]: [&str; 3]| -> String {
+            let pairs =
+                horizontal.iter().flat_map(|c| vertical.iter().map(move |gamma| (c, gamma)));
+            pairs
+                .enumerate()
+                .map(|(i, (c, gamma))| {
+                    format!("<{element} {h}=\"{c}\" {v}=\"{gamma}\">{}.5</{element}>\n", i % 9)
+                })
+                .collect()
+        };
+    let standard = ["IntData", "h", "v"];
+    let emitter = |symmetry: &str, data: &str| {
+        format!(
+            "<Emitter><Description>LED &amp; lens</Description><Quantity>2</Quantity>\
+             <RatedLumens>1000</RatedLumens><BallastFactor>0.9</BallastFactor>\
+             <InputWattage>12</InputWattage><LuminousData><LuminousIntensity>\
+             <AbsolutePhotometry>false</AbsolutePhotometry><Symm>{symmetry}</Symm>\
+             <Multiplier>2</Multiplier><NumberHorz>2</NumberHorz><NumberVert>3</NumberVert>\n\
+             {data}</LuminousIntensity></LuminousData></Emitter>\n"
+        )
+    };
+    let file = |root: &str, emitters: String| {
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<{root}><Version>1.0</Version>\n<Header>\
+             <Description>made up</Description><Laboratory>none</Laboratory></Header><Luminaire>\
+             <Dimensions><Length>1.2</Length><Width>0.3</Width></Dimensions></Luminaire>\n\
+             <!-- light --><Equipment/>{emitters}</{root}>\n"
+        )
+        .into_bytes()
+    };
+    let quarter = emitter("Symm_Quad", &intensities(&[0, 90], &[0, 45, 90], standard));
+    let half = emitter("Symm_Bi0", &intensities(&[0, 60, 180], &[0, 30, 90], standard));
+    let foreign = ["IntensityData", "horz", "vert"];
+    let round = emitter("None", &intensities(&[0], &[0, 90, 180], foreign));
+    vec![
+        file("IESTM33-22", quarter.clone() + &half),
+        file("IESTM33", quarter),
+        file("ATLA_S001", round),
+    ]
+}

@@ -13,4 +13,6 @@ mod quadrature;
 mod reader;
 mod sampling;
 mod tables;
+mod tm33;
+mod tm33_corpus;
 mod writing;

@@ -5,7 +5,7 @@ use crate::geometry::{self, Geometry};
 use crate::light::{AreaLight, Luminaire};
 use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
 use crate::{Files, Light, LoadError, Place, Placed, Warning};
-use quasilux_photometry::{Photometry, read_ies, read_ldt};
+use quasilux_photometry::{Photometry, read_ies, read_ldt, read_tm33};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ fn luminaire(entry: &LuminaireEntry, photometry: Arc<Photometry>) -> Luminaire {
     }
 }
 
-/// Reads an IES or EULUMDAT file, as its extension says, passing its warnings on.
+/// Reads an IES, EULUMDAT or TM-33 file, as its extension says, passing its warnings on.
 fn photometry(
     project: &Project,
     name: &Placed<String>,
@@ -77,8 +77,12 @@ fn photometry(
 ) -> Result<Photometry, LoadError> {
     let bytes = geometry::read_file(project, name, files)?;
     let file = name.value.as_str();
-    let is_ldt = file.rsplit_once('.').is_some_and(|(_, end)| end.eq_ignore_ascii_case("ldt"));
-    let read = if is_ldt { read_ldt(&bytes) } else { read_ies(&bytes) };
+    let extension = file.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
+    let read = match extension.as_deref() {
+        Some("ldt") => read_ldt(&bytes),
+        Some("xml") => read_tm33(&bytes),
+        _ => read_ies(&bytes),
+    };
     let read = read.map_err(|error| {
         let place = Place { line: error.line(), column: error.column() };
         LoadError::new(file, Some(place), without_place(&error.to_string(), place))

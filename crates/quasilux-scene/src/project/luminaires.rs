@@ -7,11 +7,14 @@ use glam::{DMat3, DVec3};
 
 const KEYS: [&str; 6] = ["photometry", "position", "aim", "c0", "rotation_deg", "dimming"];
 
+/// What `photometry` is.
+const FILE_NAME: &str = "the name of an .ies, .ldt or .xml (TM-33) file";
+
 /// One luminaire.
 #[derive(Clone, Debug)]
 pub(crate) struct LuminaireEntry {
     pub(crate) place: Place,
-    /// Name of an IES or EULUMDAT file.
+    /// Name of an IES, EULUMDAT or TM-33 file.
     pub(crate) photometry: Placed<String>,
     pub(crate) position: DVec3,
     pub(crate) world_from_luminaire: DMat3,
@@ -24,8 +27,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<LuminaireEntry>, LoadError>
 
 fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
     section.only(&KEYS, &[])?;
-    let photometry =
-        photometry(section.require("photometry", "the name of an .ies or .ldt file")?)?;
+    let photometry = photometry(section.require("photometry", FILE_NAME)?)?;
     let position = "a position [x, y, z] in m";
     let position = section.require("position", position)?.vector(position)?;
     let dimming = section.get("dimming").map(|dimming| {
@@ -42,14 +44,11 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
 }
 
 fn photometry(value: Value<'_>) -> Result<Placed<String>, LoadError> {
-    let name = value.string("the name of an .ies or .ldt file")?;
+    let name = value.string(FILE_NAME)?;
     let extension = name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
     match extension.as_deref() {
-        Some("ies" | "ldt") => Ok(value.placed(name.to_owned())),
-        Some("xml") => {
-            Err(value.error("photometry in XML (.xml) is not built yet; expected .ies or .ldt"))
-        }
-        _ => Err(value.unexpected("the name of an .ies or .ldt file")),
+        Some("ies" | "ldt" | "xml") => Ok(value.placed(name.to_owned())),
+        _ => Err(value.unexpected(FILE_NAME)),
     }
 }
 

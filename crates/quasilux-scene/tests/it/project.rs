@@ -1,6 +1,6 @@
 //! What a project file means.
 
-use crate::support::{MapFiles, PROJECT, lamp_ldt, load_text, warnings_of};
+use crate::support::{LAMP_TM33, MapFiles, PROJECT, lamp_ldt, load_text, warnings_of};
 use glam::DVec3;
 use quasilux_scene::{Light, Quantity, SensorShape};
 use std::f64::consts::PI;
@@ -74,6 +74,23 @@ fn eulumdat_is_known_by_its_extension_in_any_case() {
     let files = MapFiles::room().with("lamp.ldt", tilted);
     let warnings = warnings_of(&load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap());
     assert!(warnings[0].contains("lamp.ldt:25:1: found a tilt of 15 degrees"), "{warnings:?}");
+}
+
+#[test]
+fn tm33_is_known_by_its_extension_in_any_case() {
+    for name in ["lamp.xml", "LAMP.XML"] {
+        let luminaire = format!("[[luminaires]]\nphotometry = \"{name}\"\nposition = [0, 0, 2]\n");
+        let files = MapFiles::room().with(name, LAMP_TM33);
+        let loaded = load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap();
+        assert!(warnings_of(&loaded).is_empty(), "{:?}", warnings_of(&loaded));
+        let Light::Luminaire(light) = &loaded.scene.lights[0] else { panic!("a luminaire") };
+        assert!((light.flux_lm() / (200.0 * PI) - 1.0).abs() < 1e-12, "{name}");
+    }
+    let luminaire = "[[luminaires]]\nphotometry = \"lamp.xml\"\nposition = [0, 0, 2]\n";
+    let spaced = LAMP_TM33.replacen("Symm_Full", "Symm _ Full", 1);
+    let files = MapFiles::room().with("lamp.xml", spaced);
+    let warnings = warnings_of(&load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap());
+    assert!(warnings[0].contains("lamp.xml:8:42: found \"Symm _ Full\""), "{warnings:?}");
 }
 
 #[test]

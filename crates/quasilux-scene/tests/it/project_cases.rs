@@ -233,9 +233,9 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.xml\"\nposition = [0, 0, 2]",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.png\"\nposition = [0, 0, 2]",
         17,
-        "not built yet",
+        "an .ies, .ldt or .xml (TM-33) file",
     ),
     case(
         "spacing = 0.25",

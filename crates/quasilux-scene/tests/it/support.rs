@@ -41,6 +41,19 @@ pub(crate) fn lamp_ldt() -> String {
     )
 }
 
+/// TM-33, absolute: 100 cd in all directions of the lower half.
+pub(crate) const LAMP_TM33: &str = "<?xml version=\"1.0\"?>
+<IESTM33-22><Version>1.1</Version>
+<Header><Description>lamp</Description><Laboratory>none</Laboratory>
+<ReportNumber>0</ReportNumber><ReportDate>2024-01-01</ReportDate></Header>
+<Emitter><Quantity>1</Quantity><Description>LED</Description><InputWattage>9</InputWattage>
+<LuminousData><LuminousIntensity>
+<NumberMeasured>2</NumberMeasured><NumberHorz>1</NumberHorz><NumberVert>2</NumberVert>
+<Multiplier>100</Multiplier>       <Symm>Symm_Full</Symm>
+<IntData h=\"0\" v=\"0\">1</IntData><IntData h=\"0\" v=\"90\">1</IntData>
+</LuminousIntensity></LuminousData></Emitter></IESTM33-22>
+";
+
 /// Files in a map.
 #[derive(Clone, Default)]
 pub(crate) struct MapFiles(pub(crate) HashMap<String, Vec<u8>>);

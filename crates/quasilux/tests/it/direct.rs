@@ -48,6 +48,28 @@ fn straight_down() {
     );
 }
 
+/// The same table as TM-33: the same result to the last bit.
+#[test]
+fn tm33_is_like_ies() {
+    let placement = Placement {
+        position: [0.3, -0.2, 3.0],
+        aim: [0.5, -0.9, -3.0],
+        c0: [1.0, 0.0, 0.0],
+        rotation_deg: 0.0,
+    };
+    let folder = Folder::new("direct_tm33");
+    folder.write("floor.obj", FLOOR_OBJ);
+    folder.write("lamp.ies", ies());
+    folder.write("lamp.xml", tm33());
+    let results = ["lamp.ies", "lamp.xml"].map(|lamp| {
+        folder.write("project.toml", project(&placement).replace("lamp.ies", lamp));
+        let document = parsed(&folder.document("project.toml", lamp, &[], 0));
+        document["sensors"].clone()
+    });
+    assert!(results[0].is_array());
+    assert_eq!(results[0], results[1]);
+}
+
 #[test]
 fn tilted_and_turned() {
     check(
@@ -159,5 +181,20 @@ fn project(placement: &Placement) -> String {
          photometry = \"lamp.ies\"\nposition = {position:?}\naim = {aim:?}\nc0 = {c0:?}\n\
          rotation_deg = {rotation_deg}\n[[sensors]]\nname = \"points\"\nkind = \"points\"\npoints = \
          {points:?}\nnormals = {normals:?}\n"
+    )
+}
+
+fn tm33() -> String {
+    let mut points = String::new();
+    for (plane, values) in CANDELAS.iter().enumerate() {
+        for (angle, value) in values.iter().enumerate() {
+            let (h, v) = (C_STEP_DEG * plane as f64, GAMMA_STEP_DEG * angle as f64);
+            points += &format!("<IntData h=\"{h}\" v=\"{v}\">{value}</IntData>\n");
+        }
+    }
+    format!(
+        "<IESTM33-22><Emitter><Quantity>1</Quantity><LuminousData><LuminousIntensity>\n\
+         <Multiplier>{FACTOR}</Multiplier>\n{points}\
+         </LuminousIntensity></LuminousData></Emitter></IESTM33-22>\n"
     )
 }

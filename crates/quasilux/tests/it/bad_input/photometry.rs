@@ -36,9 +36,18 @@ fn luminaire_files() {
                 .replace("lamp.ies", "lamp.LDT")
                 .file("lamp.LDT", "made-up")
                 .says(&["lamp.LDT:2:1:", "the end of the file", "Ityp"]),
-            Case::new("TM-33")
+            Case::new("XML that is no luminaire")
+                .replace("lamp.ies", "lamp.XML")
+                .file("lamp.XML", "<?xml version=\"1.0\"?>\n<svg/>\n")
+                .says(&["lamp.XML:2:1:", "\"svg\"", "TM-33"]),
+            Case::new("TM-33 for plants only")
                 .replace("lamp.ies", "lamp.xml")
-                .says(&["project.toml:8:14:", "not built yet"]),
+                .file("lamp.xml", "<IESTM33-22>\n <Emitter><PhotonData/></Emitter></IESTM33-22>")
+                .says(&["lamp.xml:2:2:", "PhotonData", "LuminousData"]),
+            Case::new("XML with a document type")
+                .replace("lamp.ies", "lamp.xml")
+                .file("lamp.xml", "<!DOCTYPE a [<!ENTITY b \"&b;&b;\">]>\n<a>&b;</a>\n")
+                .says(&["lamp.xml:1:1:", "DOCTYPE"]),
             Case::new("neither")
                 .replace("lamp.ies", "lamp.png")
                 .says(&["project.toml:8:14:", ".ies"]),
