@@ -78,14 +78,14 @@ pub enum Tilt {
     None,
     /// `TILT=INCLUDE`: factors by tilt angle, in the file itself.
     Include {
-        /// Lamp-to-luminaire geometry, 1 to 3.
+        /// Lamp-to-luminaire geometry, 1 to 3: see [`Tilt::factor`].
         lamp_geometry: u8,
         /// Tilt angles in radians.
         angles_rad: Vec<f64>,
         /// Output relative to the untilted lamp, one for each angle.
         factors: Vec<f64>,
     },
-    /// `TILT=NAME`: factors in another file, which is not read.
+    /// `TILT=NAME`: factors in another file, which has not been read.
     File(String),
 }
 

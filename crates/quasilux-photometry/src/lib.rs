@@ -36,6 +36,7 @@ mod photometry;
 mod report;
 mod table;
 mod text;
+mod tilt;
 mod tm33;
 mod web;
 mod write;
@@ -45,12 +46,13 @@ pub use facts::{
     EulumdatFacts, IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType,
     Standard, Tilt, Tm33Edition,
 };
-pub use ies::{read_ies, write_ies};
+pub use ies::{ReadTilt, read_ies, read_tilt, write_ies};
 pub use ldt::{read_ldt, write_ldt};
 pub use memory::most_read_memory_bytes;
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};
+pub use tilt::{TiltFactor, TiltSupport};
 pub use tm33::read_tm33;
 pub use web::{Web, WebAngles};
 pub use write::{Note, Written};

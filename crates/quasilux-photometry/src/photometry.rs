@@ -1,6 +1,6 @@
 //! One measured luminaire: a table of intensities in the luminaire frame, and header facts.
 
-use crate::{DirectionSample, LuminaireFacts, SphericalTable, Web};
+use crate::{DirectionSample, LuminaireFacts, SphericalTable, Tilt, TiltFactor, Web};
 use glam::DVec3;
 
 /// A measured luminaire.
@@ -51,6 +51,21 @@ impl Photometry {
     /// where the file gives no positive number.
     pub fn rated_flux_lm(&self) -> Option<f64> {
         self.facts.rated_flux_lm()
+    }
+
+    /// The same luminaire with tilt factors that stand in another file: see
+    /// [`read_tilt`](crate::read_tilt).
+    #[must_use]
+    pub fn with_tilt(mut self, tilt: Tilt) -> Self {
+        self.facts.tilt = tilt;
+        self
+    }
+
+    /// The factor on all intensities when straight down is the unit vector `down` of the luminaire
+    /// frame: the lamps' output at that tilt. Intensities, flux and density here are those at
+    /// factor 1.
+    pub fn tilt_factor(&self, down: DVec3) -> TiltFactor {
+        self.facts.tilt.factor(down)
     }
 
     /// What the file's header says.

@@ -56,10 +56,11 @@ pub enum Deviation {
     LabelWithoutKeyword,
     /// The `TILT=` line is in small letters or has blanks inside. It is read all the same.
     TiltSpelling,
-    /// `TILT=INCLUDE` gives factors other than 1. They are kept as facts and the luminaire is taken
-    /// in the position it was measured in: no factor is applied.
+    /// The tilt angles do not run from 0 to 90 or 180 degrees. Outside them the factor of the
+    /// nearest one holds.
     TiltFactors,
-    /// `TILT=` names a file. That file is not read, no factor is applied.
+    /// `TILT=` names a file. Until it is read ([`read_tilt`](crate::read_tilt),
+    /// [`Photometry::with_tilt`]) the factor is 1.
     TiltFile,
     /// Semicolons separate numbers. They count as blanks.
     Semicolon,
@@ -72,8 +73,8 @@ pub enum Deviation {
     NegativeLumens,
     /// The reserved field behind the ballast factor is zero. It counts as 1.
     ZeroBallastLampFactor,
-    /// The reserved field behind the ballast factor is not 1, in an edition where it must be. It is
-    /// applied as a factor.
+    /// The reserved field behind the ballast factor is not 1, in an edition where it must be. It has
+    /// no meaning there and is not applied.
     BallastLampFactor,
     /// The vertical angles do not start at 0 or 90 or do not end at 90 or 180; those of types A and B
     /// do not start at -90 or 0 or do not end at 90. Outside them the intensity is zero.

@@ -12,9 +12,19 @@
 //! | 3, 4 | vertical angles, horizontal angles, in degrees |
 //! | 5 ... | candela values of all vertical angles, for each horizontal angle |
 //!
-//! Intensity = candela x multiplier x ballast factor x ballast-lamp factor. The last was a factor
-//! in LM-63-1986 and 1991, is reserved (1) in 1995 and 2002, and became the file generation type in
-//! 2019, which is never multiplied by. Lamp lumens scale nothing: they serve the flux check.
+//! Intensity = candela x multiplier x ballast factor x ballast-lamp factor. The field of the last
+//! one changed its meaning:
+//!
+//! | edition | the field behind the ballast factor | multiplied by |
+//! |---|---|---|
+//! | 1986, 1991 | ballast-lamp photometric factor | yes |
+//! | 1995, 2002 | reserved, 1 | no |
+//! | 2019 | file generation type, 1.00001 to 1.11100 (LM-63-19, 5.13, table 2) | no |
+//!
+//! Radiance's `ies2rad` reads it the same way. Lamp lumens scale nothing: they serve the flux check.
+//!
+//! The luminous length lies along C0-C180, the width along C90-C270: the horizontal angle 0 is parallel
+//! to the length (`ies2rad` puts the length along x, and C0 too).
 //!
 //! What is tolerated beyond the standard is listed, rule by rule, in [`Deviation`].
 
@@ -23,6 +33,7 @@ mod header;
 mod hv;
 mod numbers;
 mod planes;
+mod tilt;
 mod write;
 
 use crate::angles::gamma_rad;
@@ -38,7 +49,7 @@ use header::{Header, TiltLine, read_header};
 pub(crate) use hv::HvAngles;
 use numbers::Numbers;
 pub(crate) use planes::c_rad;
-use std::f64::consts::PI;
+pub use tilt::{ReadTilt, read_tilt};
 pub use write::write_ies;
 
 /// Metres in a foot (international foot, exact).
@@ -75,7 +86,11 @@ fn read_numbers(
     numbers: &mut Numbers<'_>,
     warnings: &mut Warnings,
 ) -> Result<Photometry, ReadError> {
-    let tilt = read_tilt(&header.tilt, header.next_line, numbers, warnings)?;
+    let tilt = match header.tilt {
+        TiltLine::None => Tilt::None,
+        TiltLine::Include => tilt::read_factors(numbers, warnings)?,
+        TiltLine::File(name) => tilt::in_another_file(name, header.next_line, warnings),
+    };
     let counts = read_counts(numbers, warnings)?;
     numbers.start_record("the ballast factor", warnings);
     let ballast = numbers.next("the ballast factor", warnings)?;
@@ -135,58 +150,6 @@ fn read_numbers(
     Ok(Photometry::new(table, facts))
 }
 
-fn read_tilt(
-    line: &TiltLine<'_>,
-    line_number: usize,
-    numbers: &mut Numbers<'_>,
-    warnings: &mut Warnings,
-) -> Result<Tilt, ReadError> {
-    match line {
-        TiltLine::None => Ok(Tilt::None),
-        TiltLine::File(name) => {
-            let at = Position { line: line_number, column: 1 };
-            let expected =
-                "TILT=NONE or TILT=INCLUDE (the file is not read, no tilt factor is applied)";
-            warnings.push(
-                Deviation::TiltFile,
-                at,
-                format_args!("a tilt file {}", quoted(name)),
-                expected,
-            );
-            Ok(Tilt::File((*name).to_owned()))
-        }
-        TiltLine::Include => {
-            let (lamp_geometry, at) =
-                numbers.count("the lamp-to-luminaire geometry", 1, warnings)?;
-            if lamp_geometry > 3 {
-                return Err(ReadError::new(
-                    at,
-                    lamp_geometry,
-                    "a lamp-to-luminaire geometry of 1, 2 or 3",
-                ));
-            }
-            let (pairs, _) = numbers.count("the number of tilt angles", 1, warnings)?;
-            let angles = numbers.list(pairs, "tilt angle", warnings)?;
-            let factors = numbers.list(pairs, "tilt factor", warnings)?;
-            if let Some(other) = factors.iter().find(|factor| factor.value != 1.0) {
-                let expected =
-                    "1 (tilt factors are not applied: the luminaire is taken as measured)";
-                warnings.push(
-                    Deviation::TiltFactors,
-                    other.at,
-                    format_args!("a tilt factor of {}", other.value),
-                    expected,
-                );
-            }
-            Ok(Tilt::Include {
-                lamp_geometry: lamp_geometry as u8,
-                angles_rad: angles.iter().map(|angle| angle.value / 180.0 * PI).collect(),
-                factors: factors.iter().map(|factor| factor.value).collect(),
-            })
-        }
-    }
-}
-
 fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Counts, ReadError> {
     numbers.start_record("the number of lamps", warnings);
     let lamp_count = numbers.next("the number of lamps", warnings)?.value;
@@ -240,7 +203,7 @@ fn positive(number: &Number, expected: &str) -> Result<f64, ReadError> {
     }
 }
 
-/// The factor that the field behind the ballast factor stands for.
+/// The factor that the field behind the ballast factor stands for: see the table of the module.
 fn ballast_lamp_factor(
     field: &Number,
     standard: IesStandard,
@@ -254,9 +217,12 @@ fn ballast_lamp_factor(
         warnings.push(Deviation::ZeroBallastLampFactor, field.at, field.value, expected);
         return Ok(1.0);
     }
-    if field.value != 1.0 && standard >= IesStandard::Lm63Of1995 {
-        let expected = "1 in the reserved field behind the ballast factor (applied as a factor)";
-        warnings.push(Deviation::BallastLampFactor, field.at, field.value, expected);
+    if standard >= IesStandard::Lm63Of1995 {
+        if field.value != 1.0 {
+            let expected = "1 in the reserved field behind the ballast factor (not applied)";
+            warnings.push(Deviation::BallastLampFactor, field.at, field.value, expected);
+        }
+        return Ok(1.0);
     }
     positive(field, "a ballast-lamp photometric factor above 0 (1 if unknown)")
 }

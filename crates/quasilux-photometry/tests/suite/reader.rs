@@ -24,7 +24,7 @@ fn factors_follow_the_edition() {
     };
     assert_eq!(nadir_cd("a label", "0.5 0.9 10"), 90.0);
     assert_eq!(nadir_cd("IESNA91", "0.5 0.9 10"), 90.0);
-    assert_eq!(nadir_cd("IESNA:LM-63-1995", "0.5 0.9 10"), 90.0);
+    assert_eq!(nadir_cd("IESNA:LM-63-1995", "0.5 0.9 10"), 100.0);
     assert_eq!(nadir_cd("IESNA:LM-63-2002", "0.5 0 10"), 100.0);
     assert_eq!(nadir_cd("IES:LM-63-2019", "0.5 1.10000 10"), 100.0);
 }
@@ -101,7 +101,7 @@ fn each_deviation_is_tolerated_and_named() {
         (Deviation::UnknownStandard, "2002", "2031"),
         (Deviation::LabelWithoutKeyword, "TILT", "no keyword\nTILT"),
         (Deviation::TiltSpelling, "TILT=NONE", "Tilt = none"),
-        (Deviation::TiltFactors, "NONE", "INCLUDE\n1 2 0 90 1 0.8"),
+        (Deviation::TiltFactors, "NONE", "INCLUDE\n1 2 0 60 1 0.8"),
         (Deviation::TiltFile, "NONE", "lamp.tlt"),
         (Deviation::Semicolon, "1 1 10", "1;1;10"),
         (Deviation::RecordStart, "0 0 0\n", "0 0 0 "),

@@ -100,7 +100,7 @@ pub(crate) fn reason(error: &std::io::Error) -> String {
 }
 
 /// The path of a file that `of` names relative to itself.
-fn beside(of: &str, name: &str) -> String {
+pub(crate) fn beside(of: &str, name: &str) -> String {
     let name = name.replace('\\', "/");
     match of.rsplit_once('/') {
         Some((folder, _)) if !name.starts_with('/') => format!("{folder}/{name}"),

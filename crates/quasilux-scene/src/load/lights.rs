@@ -1,11 +1,12 @@
-//! The lights of a project: luminaire files read, emitting triangles collected.
+//! The lights of a project: luminaires placed, emitting triangles collected.
 
-use super::materials::listed;
-use crate::geometry::{self, Geometry};
+use super::{materials::listed, photometry};
+use crate::geometry::Geometry;
 use crate::light::{AreaLight, Luminaire};
 use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
 use crate::{Files, Light, LoadError, Place, Placed, Warning};
-use quasilux_photometry::{Photometry, read_ies, read_ldt, read_tm33};
+use glam::DVec3;
+use quasilux_photometry::{Photometry, TiltSupport};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -24,12 +25,13 @@ pub(super) fn place(
         let photometry = match read.get(name) {
             Some(known) => Arc::clone(known),
             None => {
-                let photometry = Arc::new(photometry(project, &entry.photometry, files, warnings)?);
+                let photometry = photometry::read(project, &entry.photometry, files, warnings)?;
+                let photometry = Arc::new(photometry);
                 read.insert(name, Arc::clone(&photometry));
                 photometry
             }
         };
-        lights.push(Light::Luminaire(luminaire(entry, photometry)));
+        lights.push(Light::Luminaire(luminaire(project, entry, photometry, warnings)));
     }
     let mut emitting: HashMap<u32, Place> = HashMap::new();
     for entry in &project.lights {
@@ -59,45 +61,37 @@ pub(super) fn place(
     Ok(lights)
 }
 
-fn luminaire(entry: &LuminaireEntry, photometry: Arc<Photometry>) -> Luminaire {
+/// Places a luminaire; a lamp that feels the tilt dims it.
+fn luminaire(
+    project: &Project,
+    entry: &LuminaireEntry,
+    photometry: Arc<Photometry>,
+    warnings: &mut Vec<Warning>,
+) -> Luminaire {
+    let down = entry.world_from_luminaire.transpose() * DVec3::NEG_Z;
+    let tilt = photometry.tilt_factor(down);
+    let degrees = tilt.angle_rad.to_degrees();
+    let odd = match tilt.support {
+        // Factors that have not been read are warned of once, at their file.
+        TiltSupport::Listed | TiltSupport::NotRead => None,
+        TiltSupport::EndHeld => {
+            Some(format!("a tilt of {degrees:.1} degrees is outside the file's tilt angles"))
+        }
+        TiltSupport::OtherAxis => Some(
+            "the lamp lies, and the file has tilt factors for a turn about the C0-C180 axis only"
+                .to_owned(),
+        ),
+    };
+    if let Some(odd) = odd {
+        let message = format!("{odd}; the factor {} is taken", tilt.factor);
+        warnings.push(Warning::new(&project.file, Some(entry.place), message));
+    }
     Luminaire {
         photometry,
         position: entry.position,
         world_from_luminaire: entry.world_from_luminaire,
-        dimming: entry.dimming,
+        dimming: entry.dimming * tilt.factor,
     }
-}
-
-/// Reads an IES, EULUMDAT or TM-33 file, as its extension says, passing its warnings on.
-fn photometry(
-    project: &Project,
-    name: &Placed<String>,
-    files: &dyn Files,
-    warnings: &mut Vec<Warning>,
-) -> Result<Photometry, LoadError> {
-    let bytes = geometry::read_file(project, name, files)?;
-    let file = name.value.as_str();
-    let extension = file.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
-    let read = match extension.as_deref() {
-        Some("ldt") => read_ldt(&bytes),
-        Some("xml") => read_tm33(&bytes),
-        _ => read_ies(&bytes),
-    };
-    let read = read.map_err(|error| {
-        let place = Place { line: error.line(), column: error.column() };
-        LoadError::new(file, Some(place), without_place(&error.to_string(), place))
-    })?;
-    warnings.extend(read.warnings.iter().map(|warning| {
-        let place = Place { line: warning.line(), column: warning.column() };
-        Warning::new(file, Some(place), without_place(&warning.to_string(), place))
-    }));
-    Ok(read.photometry)
-}
-
-/// The message without the `line:column: ` that it starts with.
-fn without_place(message: &str, place: Place) -> String {
-    let prefix = format!("{}:{}: ", place.line, place.column);
-    message.strip_prefix(&prefix).unwrap_or(message).to_owned()
 }
 
 fn area_light(

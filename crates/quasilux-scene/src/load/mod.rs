@@ -2,6 +2,7 @@
 
 mod lights;
 mod materials;
+mod photometry;
 
 use crate::project::{Project, SimulationSection};
 use crate::{LoadError, Scene, Warning, checks, geometry};

@@ -1,0 +1,70 @@
+//! Luminaire files, and the tilt files that they name.
+
+use crate::geometry::{beside, read_file, reason};
+use crate::project::Project;
+use crate::{Files, LoadError, Place, Placed, Warning};
+use quasilux_photometry::{
+    Deviation, Photometry, ReadError, Tilt, read_ies, read_ldt, read_tilt, read_tm33,
+};
+
+/// Reads an IES, EULUMDAT or TM-33 file, as its extension says, passing its warnings on.
+pub(super) fn read(
+    project: &Project,
+    name: &Placed<String>,
+    files: &dyn Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<Photometry, LoadError> {
+    let bytes = read_file(project, name, files)?;
+    let file = name.value.as_str();
+    let extension = file.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
+    let read = match extension.as_deref() {
+        Some("ldt") => read_ldt(&bytes),
+        Some("xml") => read_tm33(&bytes),
+        _ => read_ies(&bytes),
+    };
+    let read = read.map_err(|error| load_error(file, &error))?;
+    for warning in &read.warnings {
+        // Whether that file is there is found out below.
+        if warning.deviation() != Deviation::TiltFile {
+            warnings.push(passed_on(file, warning));
+        }
+    }
+    let Tilt::File(tilt_file) = &read.photometry.facts().tilt else {
+        return Ok(read.photometry);
+    };
+    let tilt_path = beside(file, tilt_file);
+    match files.read(&tilt_path) {
+        Ok(bytes) => {
+            let tilt = read_tilt(&bytes).map_err(|error| load_error(&tilt_path, &error))?;
+            warnings.extend(tilt.warnings.iter().map(|warning| passed_on(&tilt_path, warning)));
+            Ok(read.photometry.with_tilt(tilt.tilt))
+        }
+        Err(error) => {
+            let at = read.warnings.iter().find(|w| w.deviation() == Deviation::TiltFile);
+            let place = at.map(|warning| Place { line: warning.line(), column: warning.column() });
+            let reason = reason(&error);
+            let message = format!(
+                "cannot read the tilt file \"{tilt_path}\": {reason}; the lamps count as giving \
+                 the same light at every tilt (factor 1)"
+            );
+            warnings.push(Warning::new(file, place, message));
+            Ok(read.photometry)
+        }
+    }
+}
+
+fn load_error(file: &str, error: &ReadError) -> LoadError {
+    let place = Place { line: error.line(), column: error.column() };
+    LoadError::new(file, Some(place), without_place(&error.to_string(), place))
+}
+
+fn passed_on(file: &str, warning: &quasilux_photometry::Warning) -> Warning {
+    let place = Place { line: warning.line(), column: warning.column() };
+    Warning::new(file, Some(place), without_place(&warning.to_string(), place))
+}
+
+/// The message without the `line:column: ` that it starts with.
+fn without_place(message: &str, place: Place) -> String {
+    let prefix = format!("{}:{}: ", place.line, place.column);
+    message.strip_prefix(&prefix).unwrap_or(message).to_owned()
+}
