@@ -1,55 +1,57 @@
 //! Files as manufacturers and other programs publish them, read where they are present.
 
-use quasilux_photometry::{Deviation, read_ies};
+use quasilux_photometry::read_ies;
 use std::path::{Path, PathBuf};
 
-/// Files that are refused, the line of the error, and why by hand.
-const REFUSED: [(&str, usize, &str); 1] = [
-    // All vertical angles are 25.
-    ("gldf-lampsets.ies", 13, "25 after 25"),
+/// A file that is refused.
+struct Refusal {
+    file: &'static str,
+    /// The line of the error.
+    line: usize,
+    /// A part of its message.
+    message: &'static str,
+    /// The rule of LM-63 that the file breaks, as seen in it by hand; empty where the file is valid.
+    breaks: &'static str,
+}
+
+const REFUSED: [Refusal; 1] = [
+    // All 47 vertical angles are 25, the only horizontal angle is 205, and of the 47 candela values
+    // 28 are 0: angles of several planes got mixed when the file was written.
+    Refusal {
+        file: "gldf-lampsets.ies",
+        line: 13,
+        message: "25 after 25",
+        breaks: "LM-63-19, 5.15: vertical angles ascend, from 0 or 90 to 90 or 180",
+    },
 ];
+
+/// Share of the valid files that must load.
+const LEAST_SHARE: f64 = 0.97;
 
 #[test]
 fn published_files_load_or_are_refused_for_a_known_reason() {
     let Some(files) = published_files() else {
         return;
     };
-    let (mut loaded, mut refused) = (0, 0);
+    let (mut loaded, mut refused, mut invalid) = (0, 0, 0);
     for file in &files {
         let name = name(file);
-        let expected = REFUSED.iter().find(|(refused, ..)| *refused == name);
+        let expected = REFUSED.iter().find(|refusal| refusal.file == name);
         match (read_ies(&std::fs::read(file).unwrap()), expected) {
             (Ok(_), None) => loaded += 1,
-            (Err(error), Some((_, line, reason))) => {
-                assert_eq!(error.line(), *line, "{name}:{error}");
-                assert!(error.to_string().contains(reason), "{name}:{error}");
+            (Err(error), Some(refusal)) => {
+                assert_eq!(error.line(), refusal.line, "{name}:{error}");
+                assert!(error.to_string().contains(refusal.message), "{name}:{error}");
                 refused += 1;
+                invalid += usize::from(!refusal.breaks.is_empty());
             }
             (Ok(_), Some(_)) => panic!("{name} loads, but is listed as refused"),
             (Err(error), None) => panic!("{name}:{error}"),
         }
     }
-    println!("{loaded} published files load, {refused} are refused as listed");
-    assert!(loaded > 60);
-}
-
-/// Fluxes of relative files against their lamps: more light than the lamps give needs a warning.
-#[test]
-fn published_fluxes_differ_only_with_a_warning() {
-    let Some(files) = published_files() else {
-        return;
-    };
-    for file in &files {
-        let Ok(read) = read_ies(&std::fs::read(file).unwrap()) else {
-            continue;
-        };
-        let Some(rated_flux_lm) = read.photometry.rated_flux_lm() else {
-            continue;
-        };
-        let differs = (read.photometry.flux_lm() / rated_flux_lm - 1.0).abs() > 0.01;
-        let warned = read.warnings.iter().any(|w| w.deviation() == Deviation::FluxDiffers);
-        assert_eq!(differs, warned, "{}", name(file));
-    }
+    println!("{loaded} published files load, {refused} are refused as listed, {invalid} invalid");
+    assert_eq!(refused, REFUSED.len(), "a file that is listed is not there");
+    assert!(f64::from(loaded) >= LEAST_SHARE * (files.len() - invalid) as f64);
 }
 
 pub(crate) fn name(file: &Path) -> String {

@@ -2,6 +2,8 @@
 
 mod closed_forms;
 mod corpus;
+mod flux_causes;
+mod fluxes;
 mod format_pages;
 mod goodness;
 mod ldt;

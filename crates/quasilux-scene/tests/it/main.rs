@@ -8,4 +8,5 @@ mod obj;
 mod project;
 mod project_cases;
 mod support;
+mod tilt;
 mod walls;

@@ -9,4 +9,5 @@ mod results;
 mod scenes;
 mod sequences;
 mod support;
+mod tilt;
 mod validation;

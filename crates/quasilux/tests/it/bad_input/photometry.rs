@@ -25,7 +25,7 @@ fn luminaire_files() {
                 .says(&["lamp.ies:14:5:", "eighty"]),
             Case::new("type B")
                 .file("lamp.ies", lamp("1 -1 1 3 1 1 2", "1 -1 1 3 1 2 2"))
-                .says(&["lamp.ies:10:", "type C"]),
+                .says(&["lamp.ies:13:1:", "two or more, as types A and B"]),
             Case::new("angles that descend")
                 .file("lamp.ies", lamp("0 45 90", "0 90 45"))
                 .says(&["lamp.ies:12:", "45"]),
