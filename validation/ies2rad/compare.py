@@ -10,8 +10,8 @@ cylcorr; src_phi, src_phi2, src_phi4, src_theta). The radiance that a ray meets,
 the source shows in that direction, times 179 lm/W is an intensity in candela. It is compared with what
 `cargo run --example intensities` prints.
 
-Without files, only the three that this script makes itself are compared: planes 90 to 270, the factors of
-LM-63-1991, and a reserved field of LM-63-2002 that is not 1.
+Behind the given files come five that this script makes itself: planes 90 to 270, the factors of LM-63-1991, a
+reserved field of LM-63-2002 that is not 1, a file generation type of LM-63-2019, and light at the last angle.
 """
 
 import math
@@ -50,59 +50,56 @@ def dot(a, b):
     return sum(x * y for x, y in zip(a, b))
 
 
-def shown_areas(rad_text):
-    """Functions from a direction to the area that each primitive of the source shows in it, in m^2."""
+def primitives(rad_text):
+    """The surfaces of the source: for each its centre, and its area in m^2 as seen from a direction."""
     lines = [line for line in rad_text.splitlines() if not line.startswith("#")]
     tokens = " ".join(lines).replace("'", " ").split()
-    areas = []
     for index, token in enumerate(tokens):
-        if token not in ("polygon", "ring", "sphere", "cylinder"):
-            continue
-        count = int(tokens[index + 4])
-        numbers = [float(number) for number in tokens[index + 5:index + 5 + count]]
-        areas.append(primitive(token, numbers))
-    return areas
+        if token in ("polygon", "ring", "sphere", "cylinder"):
+            count = int(tokens[index + 4])
+            yield primitive(token, [float(number) for number in tokens[index + 5:index + 5 + count]])
 
 
 def primitive(kind, numbers):
     points = [numbers[i:i + 3] for i in range(0, len(numbers) - len(numbers) % 3, 3)]
     if kind == "sphere":
-        return lambda d: math.pi * numbers[3] ** 2
+        return points[0], lambda d: math.pi * numbers[3] ** 2
     if kind == "cylinder":
-        height = abs(points[1][2] - points[0][2])
-        return lambda d: 2 * numbers[6] * height * math.hypot(d[0], d[1])
+        (bottom, top), radius = points[:2], numbers[6]
+        middle = [(x + y) / 2 for x, y in zip(bottom, top)]
+        return middle, lambda d: 2 * radius * math.dist(bottom, top) * math.hypot(d[0], d[1])
     if kind == "ring":
         area = math.pi * (max(numbers[6:8]) ** 2 - min(numbers[6:8]) ** 2)
-        return lambda d: area * max(0.0, dot(points[1], d))
+        return points[0], lambda d: area * max(0.0, dot(points[1], d))
     # Polygon: half the sum of cross products of its corners is area times normal.
     normal = [0.0, 0.0, 0.0]
     for a, b in zip(points, points[1:] + points[:1]):
         cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
         normal = [n + 0.5 * x for n, x in zip(normal, cross)]
-    return lambda d: max(0.0, dot(normal, d))
+    middle = [sum(x) / len(points) for x in zip(*points)]
+    return middle, lambda d: max(0.0, dot(normal, d))
 
 
 def by_radiance(path, folder):
-    name = "luminaire"
-    # White, whatever lamp the file names: the colours of lamp.tab are normalised to their luminance anyway.
-    run(["ies2rad", "-t", "default", "-o", name, str(path)], folder)
-    octree = run(["oconv", f"{name}.rad"], folder)
-    (folder / "scene.oct").write_bytes(octree)
-    directions = [toward(*angles) for angles in DIRECTIONS]
-    rays = "".join(
-        " ".join(f"{FAR_M * x:.12g}" for x in d) + " " + " ".join(f"{-x:.12g}" for x in d) + "\n" for d in directions
-    )
-    out = run(["rtrace", "-h", "-ab", "0", "scene.oct"], folder, input=rays.encode())
-    areas = shown_areas((folder / f"{name}.rad").read_text(encoding="latin-1"))
-    intensities = []
-    for direction, line in zip(directions, out.decode().splitlines()):
-        radiance = float(line.split()[1])
-        intensities.append(LUMENS_PER_WATT * radiance * sum(area(direction) for area in areas))
-    return intensities
+    run(["ies2rad", "-t", "default", "-o", "luminaire", str(path)], folder)
+    (folder / "scene.oct").write_bytes(run(["oconv", "luminaire.rad"], folder))
+    surfaces = list(primitives((folder / "luminaire.rad").read_text(encoding="latin-1")))
+    rays, areas = [], []
+    for angles in DIRECTIONS:
+        direction = toward(*angles)
+        shown = [area(direction) for _, area in surfaces]
+        areas.append(sum(shown))
+        # Aimed at the surface that shows most of itself.
+        middle = surfaces[shown.index(max(shown))][0]
+        origin = [m + FAR_M * x for m, x in zip(middle, direction)]
+        rays.append(" ".join(f"{x:.12g}" for x in [*origin, *(-x for x in direction)]))
+    out = run(["rtrace", "-h", "-ab", "0", "scene.oct"], folder, input="\n".join(rays).encode())
+    radiances = [float(line.split()[1]) for line in out.decode().splitlines()]
+    return [LUMENS_PER_WATT * radiance * area for radiance, area in zip(radiances, areas)]
 
 
-def by_quasilux(path):
-    angles = [f"{c},{gamma}" for c, gamma in DIRECTIONS]
+def by_quasilux(path, turn_deg=0):
+    angles = [f"{(c + turn_deg) % 360},{gamma}" for c, gamma in DIRECTIONS]
     command = ["cargo", "run", "--quiet", "-p", "quasilux-photometry", "--example", "intensities", "--", str(path), *angles]
     out = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if out.returncode != 0:
@@ -110,16 +107,21 @@ def by_quasilux(path):
     return [float(line) for line in out.stdout.split()]
 
 
+TURNED = "made: planes 90 to 270"
+
+
 def made_files(folder):
-    """Files of our own for what the given ones may lack."""
-    angles = "0 45 90\n90 180 270\n100 200 300\n100 400 500\n100 600 700\n"
-    first = {
-        "made: planes 90 to 270": ("IESNA:LM-63-2002", "1 -1 1 3 3 1 2 0 0 0\n1 1 10\n" + angles),
-        "made: 1991, factors 2, 0.8, 0.9": ("IESNA91", "1 -1 2 3 1 1 2 0.1 0.2 0\n0.8 0.9 10\n0 45 90\n0\n100 80 20\n"),
-        "made: 2002, reserved field 1.2": ("IESNA:LM-63-2002", "1 -1 1 3 1 1 1 0.5 0.5 0.25\n1 1.2 10\n0 90 180\n0\n100 80 20\n"),
-    }
-    for name, (standard, numbers) in first.items():
-        path = folder / (name.split()[1].strip(",") + ".ies")
+    """Files of our own for what the given ones may lack: name, edition, numbers."""
+    planes = "0 45 90 180\n90 180 270\n100 200 0 0\n100 400 0 0\n100 600 0 0\n"
+    first = [
+        (TURNED, "IESNA:LM-63-2002", "1 -1 1 4 3 1 2 0 0 0\n1 1 10\n" + planes),
+        ("made: 1991, factors 2, 0.8, 0.9", "IESNA91", "1 -1 2 3 1 1 2 0.1 0.2 0\n0.8 0.9 10\n0 45 90\n0\n100 80 20\n"),
+        ("made: 2002, reserved field 1.2", "IESNA:LM-63-2002", "1 -1 1 3 1 1 1 0.5 0.5 0.25\n1 1.2 10\n0 90 180\n0\n100 80 20\n"),
+        ("made: 2019, file generation 1.1", "IES:LM-63-2019", "1 -1 1 3 1 1 2 -0.1 -0.1 0\n1 1.10000 10\n0 45 90\n0\n100 80 20\n"),
+        ("made: 20 cd at the last angle, 90", "IESNA:LM-63-2002", "1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 80 20\n"),
+    ]
+    for index, (name, standard, numbers) in enumerate(first):
+        path = folder / f"made-{index}.ies"
         path.write_text(f"{standard}\n[TEST] none\nTILT=NONE\n{numbers}")
         yield name, path
 
@@ -141,9 +143,15 @@ def main():
         given = [(pathlib.Path(name).name, pathlib.Path(name).resolve()) for name in sys.argv[1:]]
         for name, path in [*given, *made_files(folder)]:
             try:
-                print(row(name, by_quasilux(path), by_radiance(path, folder)))
-            except (ValueError, subprocess.CalledProcessError) as error:
-                print(f"| {name} | refused: {error} | | |")
+                theirs = by_radiance(path, folder)
+                print(row(name, by_quasilux(path), theirs))
+                if name == TURNED:
+                    print(row(name + ", ours turned by 180 degrees", by_quasilux(path, 180), theirs))
+            except ValueError as error:
+                print(f"| {name} | refused by quasilux: {error} | | |")
+            except subprocess.CalledProcessError as error:
+                reason = error.stderr.decode(errors="replace").strip().splitlines()[-2:]
+                print(f"| {name} | refused by {pathlib.Path(error.cmd[0]).name}: {'; '.join(reason)} | | |")
 
 
 if __name__ == "__main__":
