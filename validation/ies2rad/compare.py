@@ -98,10 +98,22 @@ def by_radiance(path, folder):
     return [LUMENS_PER_WATT * radiance * area for radiance, area in zip(radiances, areas)]
 
 
-def by_quasilux(path, turn_deg=0):
-    angles = [f"{(c + turn_deg) % 360},{gamma}" for c, gamma in DIRECTIONS]
-    command = ["cargo", "run", "--quiet", "-p", "quasilux-photometry", "--example", "intensities", "--", str(path), *angles]
-    out = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+def turned(c_deg, gamma_deg):
+    return (c_deg + 180) % 360, gamma_deg
+
+
+def projected(c_deg, gamma_deg):
+    """The direction whose H of type B is the angle that source.cal takes for it: that of the projection along x."""
+    x, y, z = toward(c_deg, gamma_deg)
+    v, h = math.atan2(x, -z), math.atan2(-y, abs(z))
+    x, y, z = math.cos(h) * math.sin(v), -math.sin(h), -math.cos(h) * math.cos(v)
+    return math.degrees(math.atan2(y, x)) % 360, math.degrees(math.atan2(math.hypot(x, y), -z))
+
+
+def by_quasilux(path, instead=lambda *angles: angles):
+    angles = [f"{c!r},{gamma!r}" for c, gamma in (instead(*angles) for angles in DIRECTIONS)]
+    cargo = ["cargo", "run", "--quiet", "-p", "quasilux-photometry", "--example", "intensities", "--"]
+    out = subprocess.run([*cargo, str(path), *angles], cwd=ROOT, capture_output=True, text=True)
     if out.returncode != 0:
         raise ValueError(out.stderr.strip().splitlines()[-1])
     return [float(line) for line in out.stdout.split()]
@@ -146,7 +158,9 @@ def main():
                 theirs = by_radiance(path, folder)
                 print(row(name, by_quasilux(path), theirs))
                 if name == TURNED:
-                    print(row(name + ", ours turned by 180 degrees", by_quasilux(path, 180), theirs))
+                    print(row(name + ", ours turned by 180 degrees", by_quasilux(path, turned), theirs))
+                if "srcB_" in (folder / "luminaire.rad").read_text(encoding="latin-1"):
+                    print(row(name + ", ours at H as projected", by_quasilux(path, projected), theirs))
             except ValueError as error:
                 print(f"| {name} | refused by quasilux: {error} | | |")
             except subprocess.CalledProcessError as error:

@@ -17,4 +17,5 @@ mod sampling;
 mod tables;
 mod tm33;
 mod tm33_corpus;
+mod tilt;
 mod writing;
