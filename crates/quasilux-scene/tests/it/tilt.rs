@@ -54,7 +54,7 @@ fn lying_lamps_feel_the_turn_about_c0_c180() {
     let across = load_luminaire(&ies, "aim = [0, 1, -1]\nc0 = [0, 0, 1]", &MapFiles::room());
     assert!((dimming(&across) - 1.0).abs() < 1e-12);
     let [warning] = &warnings_of(&across)[..] else { panic!("{:?}", across.warnings) };
-    assert!(warning.starts_with("room.toml:17:1: the lamp lies"), "{warning}");
+    assert!(warning.starts_with("room.toml:16:1: the lamp lies"), "{warning}");
 }
 
 #[test]
