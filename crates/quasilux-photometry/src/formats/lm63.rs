@@ -60,14 +60,14 @@
 //! | [`UnknownStandard`] | read as LM-63-2002 | `1:1: found "IESNA:LM-63-2031"; expected an edition between IESNA91 and IES:LM-63-2019 (read as LM-63-2002)` |
 //! | [`LabelWithoutKeyword`] | kept as a label | `2:1: found "no keyword"; expected a keyword in brackets (kept as a label)` |
 //! | [`TiltSpelling`] | read all the same | `2:1: found "Tilt = none"; expected TILT= in capitals, without blanks` |
-//! | [`TiltFactors`] | kept as facts | `3:12: found a tilt factor of 0.8; expected 1 (...)` |
-//! | [`TiltFile`] | the file is not read | `2:1: found a tilt file "lamp.tlt"; expected TILT=NONE or TILT=INCLUDE (...)` |
+//! | [`TiltFactors`] | outside, the nearest factor holds | `3:5: found tilt angles from 0 to 60; expected 0 to 90 or 0 to 180 degrees (...)` |
+//! | [`TiltFile`] | factor 1 until [`read_tilt`](crate::read_tilt) has read it | `2:1: found a tilt file "lamp.tlt"; expected TILT=NONE or TILT=INCLUDE (...)` |
 //! | [`Semicolon`] | counts as a blank | `4:2: found a semicolon; expected blanks or a comma between numbers (and 1 more)` |
 //! | [`RecordStart`] | line ends inside the numbers have no meaning | `3:22: found "1"; expected the ballast factor to begin on a new line` |
 //! | [`CountWithPoint`] | the integer that it is | `3:8: found 2; expected the number of vertical angles without a decimal point` |
 //! | [`NegativeLumens`] | absolute photometry | `3:3: found -2; expected -1 for absolute photometry (read as such)` |
 //! | [`ZeroBallastLampFactor`] | counts as 1 | `4:3: found 0; expected 1 in the field behind the ballast factor (read as 1)` |
-//! | [`BallastLampFactor`] | as the warning says | `4:3: found 1.1; expected 1 in the reserved field behind the ballast factor (...)` |
+//! | [`BallastLampFactor`] | not applied | `4:3: found 1.1; expected 1 in the reserved field behind the ballast factor (...)` |
 //! | [`VerticalRange`] | outside the angles given the intensity is zero | `5:1: found vertical angles from 0 to 170; expected 0 to 90, 90 to 180 or 0 to 180 degrees (outside, the intensity is zero)` |
 //! | [`HorizontalRange`] | types A and B: outside the angles given the intensity is zero | `6:1: found horizontal angles from -40 to 40; expected -90 or 0 to 90 degrees (elsewhere, the intensity is zero)` |
 //! | [`VerticalMirror`] | types A and B: the half below mirrors the half above | `5:1: found vertical angles that begin at 0; expected angles from -90 (the half below 0 is taken to mirror that above)` |
