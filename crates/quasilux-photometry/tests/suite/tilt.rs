@@ -1,6 +1,5 @@
 //! Tilt factors: in the file and beside it, right and wrong.
 
-use crate::mutation::mutate;
 use crate::tables::Generator;
 use glam::DVec3;
 use quasilux_photometry::{Deviation, Tilt, TiltSupport, read_ies, read_tilt};
@@ -65,14 +64,30 @@ fn oddities_are_reported_and_nonsense_is_refused() {
     }
 }
 
+fn below(n: usize, generator: &mut Generator) -> usize {
+    (generator.uniform() * n as f64) as usize
+}
+
+/// Loses, changes or gains a byte.
+fn damage(bytes: &mut Vec<u8>, generator: &mut Generator) {
+    const ALPHABET: &[u8] = b"0123456789 .-e,;\n\r\xFF\0x";
+    let at = below(bytes.len() + 1, generator);
+    let byte = ALPHABET[below(ALPHABET.len(), generator)];
+    match below(3, generator) {
+        0 if at < bytes.len() => drop(bytes.remove(at)),
+        1 if at < bytes.len() => bytes[at] = byte,
+        _ => bytes.insert(at, byte),
+    }
+}
+
 #[test]
 fn damaged_tilt_files_never_panic() {
     let mut generator = Generator(17);
     let (mut read, mut refused) = (0, 0);
     for _ in 0..20_000 {
         let mut bytes = TILT.as_bytes().to_vec();
-        for _ in 0..=generator.below(4) {
-            mutate(&mut bytes, &mut generator);
+        for _ in 0..=below(4, &mut generator) {
+            damage(&mut bytes, &mut generator);
         }
         match read_tilt(&bytes) {
             Ok(outcome) => {
