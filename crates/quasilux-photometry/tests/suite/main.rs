@@ -15,7 +15,7 @@ mod quadrature;
 mod reader;
 mod sampling;
 mod tables;
+mod tilt;
 mod tm33;
 mod tm33_corpus;
-mod tilt;
 mod writing;
