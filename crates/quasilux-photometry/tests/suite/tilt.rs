@@ -48,8 +48,8 @@ fn oddities_are_reported_and_nonsense_is_refused() {
     let cases = [
         ("", 1, 1, "geometry"),
         ("4\n1\n0\n1", 1, 1, "1, 2 or 3"),
-        ("1\n0\n", 2, 1, "1 or more"),
-        ("1\n999999999\n0 90\n1 1", 2, 10, "complete file"),
+        ("1\n0\n", 2, 1, "an integer"),
+        ("1\n999999999\n0 90\n1 1", 2, 10, "fit into the rest"),
         ("1\n2\n0 90\n1", 4, 2, "tilt factor"),
         ("1\n2\n90 0\n1 1", 3, 4, "ascending"),
         ("1\n2\n0 200\n1 1", 3, 3, "between 0 and 180"),
