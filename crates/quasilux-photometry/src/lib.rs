@@ -24,6 +24,7 @@
 //! [`most_read_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
 //! table. The formats stand line by line in [`formats`].
 
+pub mod analysis;
 mod angles;
 mod candela;
 mod facts;
@@ -42,6 +43,7 @@ mod web;
 mod write;
 mod xml;
 
+pub use analysis::Analysis;
 pub use facts::{
     EulumdatFacts, IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType,
     Standard, Tilt, Tm33Edition,
@@ -51,7 +53,7 @@ pub use ldt::{read_ldt, write_ldt};
 pub use memory::most_read_memory_bytes;
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
-pub use table::{Angles, DirectionSample, Grid, SphericalTable, Symmetry, TableError};
+pub use table::{Angles, DirectionSample, Grid, Maximum, SphericalTable, Symmetry, TableError};
 pub use tilt::{TiltFactor, TiltSupport};
 pub use tm33::read_tm33;
 pub use web::{Web, WebAngles};

@@ -41,6 +41,15 @@ pub struct SphericalTable {
     integral_before: Vec<f64>,
 }
 
+/// The greatest value of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Maximum {
+    /// The value.
+    pub value: f64,
+    /// Where it is.
+    pub angles: Angles,
+}
+
 /// Spherical angles of a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angles {
@@ -133,6 +142,30 @@ impl SphericalTable {
     /// Integral of the value over solid angle.
     pub fn integral(&self) -> f64 {
         self.integral_before[self.bands.len()]
+    }
+
+    /// Integral of the value over the solid angle between the pole +z and the parallel `theta_rad`.
+    pub fn integral_below(&self, theta_rad: f64) -> f64 {
+        let theta_rad = theta_rad.clamp(self.theta.first(), self.theta.last());
+        let cell = self.theta.place(theta_rad).cell;
+        let band = &self.bands[cell];
+        self.integral_before[cell]
+            + band.integral() * band.fraction_below(theta_rad).clamp(0.0, 1.0)
+    }
+
+    /// The greatest value: a bilinear function has it at a knot. Of several the first in the order of
+    /// the polar angle, then of the azimuth from the first plane on.
+    pub fn maximum(&self) -> Maximum {
+        let columns = self.phi.knots().len();
+        let mut greatest = 0;
+        for (index, value) in self.values.iter().enumerate() {
+            if *value > self.values[greatest] {
+                greatest = index;
+            }
+        }
+        let theta_rad = self.theta.knots()[greatest / columns];
+        let phi_rad = self.phi_start_rad + self.phi.knots()[greatest % columns];
+        Maximum { value: self.values[greatest], angles: Angles { theta_rad, phi_rad } }
     }
 
     /// The symmetry that the table was measured with.

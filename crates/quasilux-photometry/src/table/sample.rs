@@ -50,9 +50,7 @@ impl SphericalTable {
         let angles = Angles::of(direction);
         let theta_rad = angles.theta_rad.clamp(self.theta.first(), self.theta.last());
         let row = self.theta.place(theta_rad);
-        let band = &self.bands[row.cell];
-        let below = self.integral_before[row.cell]
-            + band.integral() * band.fraction_below(theta_rad).clamp(0.0, 1.0);
+        let below = self.integral_below(theta_rad);
         let u0 = if self.integral() > 0.0 { below / self.integral() } else { 0.0 };
         [u0.min(1.0), self.invert_phi_offset(row, self.phi_offset(angles.phi_rad))]
     }
