@@ -28,6 +28,7 @@ pub mod analysis;
 mod angles;
 mod candela;
 mod facts;
+mod file_format;
 pub mod formats;
 mod ies;
 mod ldt;
@@ -48,6 +49,7 @@ pub use facts::{
     EulumdatFacts, IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType,
     Standard, Tilt, Tm33Edition,
 };
+pub use file_format::Format;
 pub use ies::{ReadTilt, read_ies, read_tilt, write_ies};
 pub use ldt::{read_ldt, write_ldt};
 pub use memory::most_read_memory_bytes;

@@ -1,7 +1,9 @@
 //! What can be said on the command line.
 
+mod photometry;
 mod points;
 
+pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
 
 use clap::{Args, Parser, Subcommand};
@@ -26,8 +28,8 @@ pub(crate) enum Command {
     Experiment(ExperimentArguments),
     /// Print or draw points of a sequence, or compare all sequences
     Points(PointsArguments),
-    /// Summarise, draw or convert luminaire files (not built yet)
-    Photometry(NotBuilt),
+    /// Summarise, draw or convert luminaire files
+    Photometry(PhotometryArguments),
     /// Summarise or draw measured surfaces (not built yet)
     Bsdf(NotBuilt),
     /// Freeze map, importance and allocation of a project (not built yet)

@@ -25,7 +25,7 @@ fn main() -> ExitCode {
         Command::Validate(arguments) => commands::validate(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
         Command::Points(arguments) => commands::points(&arguments),
-        Command::Photometry(_) => Err(Refusal::not_built("quasilux photometry")),
+        Command::Photometry(arguments) => commands::photometry(&arguments),
         Command::Bsdf(_) => Err(Refusal::not_built("quasilux bsdf")),
         Command::Plan(_) => Err(Refusal::not_built("quasilux plan")),
         Command::Shard(_) => Err(Refusal::not_built("quasilux shard")),

@@ -36,13 +36,19 @@ pub(crate) fn open(path: &Path) -> Result<Project, Refusal> {
     Ok(Project { name, loaded })
 }
 
-fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
+/// The bytes of a file, up to a bound.
+pub(crate) fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
     let file = std::fs::File::open(path)?;
     if file.metadata()?.is_dir() {
         return Err(std::io::ErrorKind::IsADirectory.into());
     }
+    read_all(file)
+}
+
+/// All bytes of a reader, up to the same bound.
+pub(crate) fn read_all(reader: impl Read) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    reader.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MOST_BYTES {
         return Err(std::io::ErrorKind::FileTooLarge.into());
     }

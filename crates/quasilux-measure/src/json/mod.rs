@@ -21,9 +21,19 @@ pub const FORMAT: &str = "quasilux-result/1";
 /// The result document, one line a sensor point, ending in a line feed.
 #[must_use]
 pub fn json(report: &Report) -> String {
+    text(&Document::of(report))
+}
+
+/// Any document in the same layout: outer levels indented, inner ones on one line. What is not
+/// finite is written as `null`.
+///
+/// # Panics
+/// When the document has a map whose keys are not strings.
+#[must_use]
+pub fn text(document: &impl Serialize) -> String {
     let mut bytes = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Layout::default());
-    Document::of(report).serialize(&mut serializer).expect("memory takes every finite number");
+    document.serialize(&mut serializer).expect("a document has strings as keys");
     bytes.push(b'\n');
     String::from_utf8(bytes).expect("JSON is UTF-8")
 }

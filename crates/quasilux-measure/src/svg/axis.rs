@@ -21,6 +21,8 @@ pub struct Axis {
     pub scale: Scale,
     low: f64,
     high: f64,
+    /// Distance of the ticks, where it is not chosen by the range.
+    step: Option<f64>,
 }
 
 /// A mark on an axis.
@@ -41,7 +43,13 @@ impl Axis {
     pub fn new(label: &str, scale: Scale, [low, high]: [f64; 2]) -> Self {
         let allowed = low < high && (low > 0.0 || scale == Scale::Linear);
         assert!(allowed && (high - low).is_finite(), "no axis from {low} to {high}");
-        Self { label: label.to_owned(), scale, low, high }
+        Self { label: label.to_owned(), scale, low, high, step: None }
+    }
+
+    /// The same axis with ticks at the multiples of a positive step; only for [`Scale::Linear`].
+    #[must_use]
+    pub fn with_step(self, step: f64) -> Self {
+        Self { step: Some(step), ..self }
     }
 
     /// An axis that holds all values that it can show, and ends a little outside them; where there
@@ -70,6 +78,7 @@ impl Axis {
     #[must_use]
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
+            Scale::Linear if self.step.is_some_and(|step| step > 0.0) => self.multiples(),
             Scale::Linear => {
                 let ticks = Ticks::within(self.low, self.high, most, 0.0);
                 let tick = |value: &f64| Tick {
@@ -80,6 +89,14 @@ impl Axis {
             }
             Scale::Log(base) => self.powers(base, most),
         }
+    }
+
+    /// The multiples of the step.
+    fn multiples(&self) -> Vec<Tick> {
+        let step = self.step.unwrap_or(f64::INFINITY);
+        let (first, last) = ((self.low / step).ceil() as i64, (self.high / step).floor() as i64);
+        let tick = |value: f64| Tick { share: self.share(value), label: Some(brief(value, 6)) };
+        (first..=last).map(|i| tick(i as f64 * step)).collect()
     }
 
     /// Whole powers of the base; of many, each second, third .. has its text.
@@ -161,6 +178,15 @@ mod tests {
         };
         assert_eq!(labels([0.02, 0.6]), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
         assert_eq!(labels([30.0, 41.0]), ["30", "35", "40"]);
+    }
+
+    #[test]
+    fn a_step_can_be_given() {
+        let axis = Axis::new("gamma", Scale::Linear, [-90.0, 90.0]).with_step(30.0);
+        let ticks = axis.ticks(3);
+        let labels: Vec<&str> = ticks.iter().filter_map(|tick| tick.label.as_deref()).collect();
+        assert_eq!(labels, ["-90", "-60", "-30", "0", "30", "60", "90"]);
+        assert_eq!(ticks[3].share, 0.5);
     }
 
     #[test]

@@ -1,19 +1,22 @@
 //! Drawings and plots as SVG 1.1 files (W3C 2011), for print and the web.
 //!
-//! [`scatter`] draws points of the unit square, [`figure`] a grid of line plots with a common legend.
-//! Both stand on [`Drawing`], which writes the elements. Text is text, so that it can be searched and
+//! [`scatter`] draws points of the unit square, [`figure`] a grid of line plots with a common legend,
+//! [`intensities`] what a luminaire sends where. All stand on [`Drawing`], which writes the elements. Text is text, so that it can be searched and
 //! read aloud. Colours are [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
 
 mod axis;
 mod drawing;
 mod figure;
+mod intensities;
 mod panel;
+mod polar;
 mod scatter;
 mod style;
 
 pub use axis::{Axis, Scale, Tick};
 pub use drawing::{Drawing, Frame};
 pub use figure::{Figure, LegendEntry, figure};
+pub use intensities::{Diagram, Intensities, IntensityCurve, intensities};
 pub use panel::{Line, Panel};
 pub use scatter::{Scatter, scatter};
 pub use style::{Anchor, Dash, PALETTE, Stroke, TextStyle};
@@ -56,6 +59,37 @@ mod tests {
         assert_eq!(file.matches("<circle").count(), 3);
         assert_eq!(file.matches("#bbbbbb").count(), 14);
         assert!(file.contains("cx=\"296\" cy=\"424\""));
+    }
+
+    #[test]
+    fn intensities_are_well_formed_in_every_diagram() {
+        let curve = |points: &[[f64; 2]]| IntensityCurve {
+            name: "C0\u{2013}C180".to_owned(),
+            points: points.to_vec(),
+            stroke: Stroke::solid(PALETTE[0], 2.0),
+        };
+        let down = curve(&[[-180.0, 0.0], [-90.0, 0.0], [0.0, 300.0], [90.0, 0.0], [180.0, 0.0]]);
+        let up = curve(&[[-180.0, 20.0], [0.0, 0.0], [0.0, 0.0], [180.0, 20.0]]);
+        for curves in [vec![down.clone()], vec![up.clone()], vec![down, up], vec![curve(&[])]] {
+            for diagram in [Diagram::Polar, Diagram::Cartesian, Diagram::Both] {
+                for per_klm in [Some(2.0), None] {
+                    let file = intensities(&Intensities {
+                        title: "a < b",
+                        subtitle: "",
+                        curves: &curves,
+                        per_klm,
+                        sides: ["C180, C270", "C0, C90"],
+                        diagram,
+                    });
+                    assert_well_formed(&file);
+                    assert!(file.contains("a &lt; b"));
+                    assert_eq!(
+                        file.contains("cd/klm"),
+                        per_klm.is_some() && diagram != Diagram::Cartesian
+                    );
+                }
+            }
+        }
     }
 
     #[test]

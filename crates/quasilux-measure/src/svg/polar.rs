@@ -1,0 +1,214 @@
+//! The polar diagram of luminous intensities, as European data sheets have it (EN 13032-2): gamma = 0
+//! points down, distance from the centre is the intensity.
+
+use super::drawing::{Drawing, Frame};
+use super::intensities::IntensityCurve;
+use super::style::{Anchor, GREY, INK, Stroke, TEXT_PX, TextStyle};
+use crate::ticks::Ticks;
+use std::f64::consts::PI;
+
+/// Which directions are worth drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Below the horizon.
+    Down,
+    /// Above it.
+    Up,
+    /// All around.
+    Full,
+}
+
+/// A polar diagram to be drawn.
+pub(super) struct Polar<'a> {
+    pub(super) curves: &'a [IntensityCurve],
+    /// Factor from the curves' values to the scale's.
+    pub(super) factor: f64,
+    /// Unit of the scale.
+    pub(super) unit: &'static str,
+    /// What lies on the left and on the right side.
+    pub(super) sides: [&'a str; 2],
+}
+
+const RADIUS_PX: f64 = 205.0;
+/// Room for the angles around the outermost ring.
+const RIM_PX: f64 = 34.0;
+/// Room beyond the horizon, where it is a straight border, for the scale.
+const SCALE_PX: f64 = 26.0;
+/// Light below this share of the greatest intensity does not show.
+const VISIBLE: f64 = 0.005;
+const MOST_RINGS: usize = 6;
+const RAYS_DEG: u32 = 30;
+/// Curves are straight in gamma, so bent in the diagram: drawn in steps of a degree.
+const STEP_DEG: f64 = 1.0;
+const GRID: Stroke = Stroke::solid("#cccccc", 0.9);
+
+impl Extent {
+    pub(super) fn of(curves: &[IntensityCurve]) -> Self {
+        let greatest = |is_below: bool| {
+            let points = curves.iter().flat_map(|curve| &curve.points);
+            let side = points.filter(|[gamma_deg, _]| {
+                if is_below { gamma_deg.abs() < 90.0 } else { gamma_deg.abs() > 90.0 }
+            });
+            side.map(|[_, value]| *value).fold(0.0, f64::max)
+        };
+        let (below, above) = (greatest(true), greatest(false));
+        match (above > VISIBLE * below, below > VISIBLE * above) {
+            (false, _) => Self::Down,
+            (true, false) => Self::Up,
+            (true, true) => Self::Full,
+        }
+    }
+
+    /// Room above and below the centre.
+    fn heights_px(self) -> [f64; 2] {
+        let round = RADIUS_PX + RIM_PX;
+        match self {
+            Self::Down => [SCALE_PX, round],
+            Self::Up => [round, SCALE_PX],
+            Self::Full => [round, round],
+        }
+    }
+
+    /// Gamma at both ends of a ring, in degrees.
+    fn ends_deg(self) -> [f64; 2] {
+        match self {
+            Self::Down => [-90.0, 90.0],
+            Self::Up => [90.0, 270.0],
+            Self::Full => [-180.0, 180.0],
+        }
+    }
+}
+
+impl Polar<'_> {
+    /// Width and height of the diagram.
+    pub(super) fn size_px(&self) -> [f64; 2] {
+        let [above, below] = Extent::of(self.curves).heights_px();
+        [2.0 * (RADIUS_PX + RIM_PX), above + below]
+    }
+
+    /// Draws the diagram with its top left corner at `corner_px`.
+    pub(super) fn draw(&self, drawing: &mut Drawing, [left, top]: [f64; 2]) {
+        let extent = Extent::of(self.curves);
+        let centre = [left + RADIUS_PX + RIM_PX, top + extent.heights_px()[0]];
+        let rings = self.rings();
+        let outermost = rings.values.last().copied().unwrap_or(1.0);
+        self.draw_rays(drawing, centre, extent);
+        for value in rings.values.iter().filter(|value| **value > 0.0) {
+            let stroke = if *value < outermost { GRID } else { Stroke::solid(GREY, 1.0) };
+            drawing.line(&arc(centre, RADIUS_PX * value / outermost, extent.ends_deg()), stroke);
+        }
+        self.draw_scale(drawing, centre, extent, &rings);
+        self.draw_sides(drawing, [left, top], extent);
+        for curve in self.curves {
+            let scale_px = self.factor * RADIUS_PX / outermost;
+            drawing.line(&bent(centre, scale_px, &curve.points, extent), curve.stroke);
+        }
+    }
+
+    /// Round values from 0 to the first one that no curve passes.
+    fn rings(&self) -> Ticks {
+        let values = self.curves.iter().flat_map(|curve| &curve.points).map(|[_, value]| *value);
+        let greatest = values.fold(0.0, f64::max) * self.factor;
+        let greatest = if greatest > 0.0 && greatest.is_finite() { greatest } else { 1.0 };
+        let step = Ticks::within(0.0, greatest, MOST_RINGS, 0.0).step;
+        let last = (greatest / step - 1e-9).ceil() * step;
+        Ticks::within(0.0, last, MOST_RINGS + 1, step)
+    }
+
+    fn draw_rays(&self, drawing: &mut Drawing, centre: [f64; 2], extent: Extent) {
+        let [first, last] = extent.ends_deg();
+        let style = TextStyle { size_px: TEXT_PX - 1.0, ..TextStyle::plain(Anchor::Middle) };
+        let count = (last - first) as u32 / RAYS_DEG;
+        // The ray to zenith is both the first and the last one of a full turn.
+        let start = u32::from(extent == Extent::Full);
+        for i in start..=count {
+            let gamma_deg = first + f64::from(i * RAYS_DEG);
+            drawing.line(&[centre, place(centre, RADIUS_PX, gamma_deg)], GRID);
+            let [x, y] = place(centre, RADIUS_PX + 16.0, gamma_deg);
+            let named = if gamma_deg > 180.0 { 360.0 - gamma_deg } else { gamma_deg.abs() };
+            drawing.text([x, y + 4.0], style, &format!("{named}\u{b0}"));
+        }
+    }
+
+    /// The rings' values along the horizon, and their unit.
+    fn draw_scale(&self, drawing: &mut Drawing, [x, y]: [f64; 2], extent: Extent, rings: &Ticks) {
+        let outermost = rings.values.last().copied().unwrap_or(1.0);
+        let style =
+            TextStyle { size_px: TEXT_PX - 1.0, colour: INK, ..TextStyle::plain(Anchor::Middle) };
+        let base = match extent {
+            Extent::Down => y - 7.0,
+            Extent::Up => y + 17.0,
+            Extent::Full => y + 4.0,
+        };
+        for value in rings.values.iter().filter(|value| **value > 0.0 && **value < outermost) {
+            let label = rings.label(*value);
+            let x = x + RADIUS_PX * value / outermost;
+            if extent == Extent::Full {
+                let width = 7.0 * label.chars().count() as f64 + 2.0;
+                let frame = Frame { corner_px: [x - 0.5 * width, y - 7.0], size_px: [width, 14.0] };
+                drawing.fill(frame, "#ffffff");
+            }
+            drawing.text([x, base], style, &label);
+        }
+        let style = TextStyle { colour: GREY, ..style };
+        match extent {
+            Extent::Down | Extent::Up => drawing.text([x, base], style, self.unit),
+            Extent::Full => {
+                let [right, _] = place([x, y], RADIUS_PX, 90.0);
+                let style = TextStyle { anchor: Anchor::End, ..style };
+                drawing.text([right - 6.0, base - 10.0], style, self.unit);
+            }
+        }
+    }
+
+    fn draw_sides(&self, drawing: &mut Drawing, [left, top]: [f64; 2], extent: Extent) {
+        let [width, height] = self.size_px();
+        let y = if extent == Extent::Up { top + 12.0 } else { top + height - 6.0 };
+        for (anchor, x, text) in [
+            (Anchor::Start, left + 4.0, self.sides[0]),
+            (Anchor::End, left + width - 4.0, self.sides[1]),
+        ] {
+            let style = TextStyle { colour: GREY, ..TextStyle::plain(anchor) };
+            drawing.text([x, y], style, text);
+        }
+    }
+}
+
+/// Gamma = 0 is down, positive gamma to the right.
+fn place([x, y]: [f64; 2], radius_px: f64, gamma_deg: f64) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(gamma_deg / 180.0 * PI);
+    [x + radius_px * sin, y + radius_px * cos]
+}
+
+fn arc(centre: [f64; 2], radius_px: f64, [first, last]: [f64; 2]) -> Vec<[f64; 2]> {
+    let steps = (last - first) as u32;
+    (0..=steps).map(|i| place(centre, radius_px, first + f64::from(i))).collect()
+}
+
+/// A curve that is linear in gamma between its points; where it lies outside the extent it is left
+/// out.
+fn bent(centre: [f64; 2], scale_px: f64, points: &[[f64; 2]], extent: Extent) -> Vec<[f64; 2]> {
+    let mut places = Vec::new();
+    let is_shown = |gamma_deg: f64| match extent {
+        Extent::Down => gamma_deg.abs() <= 90.0,
+        Extent::Up => gamma_deg.abs() >= 90.0,
+        Extent::Full => true,
+    };
+    for pair in points.windows(2) {
+        let [[from_deg, from], [to_deg, to]] = [pair[0], pair[1]];
+        let steps = ((to_deg - from_deg) / STEP_DEG).ceil().clamp(1.0, 360.0) as u32;
+        let first = u32::from(!places.is_empty());
+        for i in first..=steps {
+            let share = f64::from(i) / f64::from(steps);
+            let gamma_deg = from_deg + share * (to_deg - from_deg);
+            let value = (1.0 - share) * from + share * to;
+            let shown = is_shown(gamma_deg);
+            places.push(if shown {
+                place(centre, scale_px * value, gamma_deg)
+            } else {
+                [f64::NAN; 2]
+            });
+        }
+    }
+    places
+}

@@ -1,0 +1,108 @@
+//! Which format a file has, told by its content.
+
+use crate::report::Warnings;
+use crate::{Read, ReadError, read_ies, read_ldt, read_tm33, text};
+
+/// The formats of luminaire files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// ANSI/IES LM-63.
+    Lm63,
+    /// EULUMDAT.
+    Eulumdat,
+    /// ANSI/IES TM-33, an XML format.
+    Tm33,
+}
+
+/// The mark of a format stands within so many bytes.
+const MOST_SEARCHED: usize = 1 << 16;
+/// EULUMDAT: lines 3 to 7 hold the symmetry and the numbers and distances of planes and angles.
+const LDT_NUMBERS: std::ops::Range<usize> = 2..7;
+
+impl Format {
+    /// The format that the content shows: a line `TILT=` or an identifying line makes it LM-63, an
+    /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT. `None` where there is no such
+    /// mark.
+    pub fn of_content(bytes: &[u8]) -> Option<Self> {
+        let start = &bytes[..bytes.len().min(MOST_SEARCHED)];
+        let text = text::decode(start, &mut Warnings::default());
+        let lines: Vec<&str> = text::lines(&text).collect();
+        let first = lines.iter().map(|line| line.trim()).find(|line| !line.is_empty())?;
+        let begins = |line: &str, mark: &str| {
+            line.get(..mark.len()).is_some_and(|head| head.eq_ignore_ascii_case(mark))
+        };
+        let is_tilt = |line: &&str| {
+            begins(line.trim_start(), "TILT")
+                && line.trim_start()[4..].trim_start().starts_with('=')
+        };
+        let is_number =
+            |line: &&str| line.trim().replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite);
+        if first.starts_with('<') {
+            Some(Self::Tm33)
+        } else if begins(first, "IESNA") || begins(first, "IES:LM-63") || lines.iter().any(is_tilt)
+        {
+            Some(Self::Lm63)
+        } else if lines.get(LDT_NUMBERS).is_some_and(|lines| lines.iter().all(is_number)) {
+            Some(Self::Eulumdat)
+        } else {
+            None
+        }
+    }
+
+    /// The format that a file's name promises: `.ies`, `.ldt` or `.xml`, in letters of any case.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let (_, extension) = name.rsplit_once('.')?;
+        [("ies", Self::Lm63), ("ldt", Self::Eulumdat), ("xml", Self::Tm33)]
+            .into_iter()
+            .find(|(known, _)| extension.eq_ignore_ascii_case(known))
+            .map(|(_, format)| format)
+    }
+
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lm63 => "LM-63",
+            Self::Eulumdat => "EULUMDAT",
+            Self::Tm33 => "TM-33",
+        }
+    }
+
+    /// Reads a file of this format.
+    pub fn read(self, bytes: &[u8]) -> Result<Read, ReadError> {
+        match self {
+            Self::Lm63 => read_ies(bytes),
+            Self::Eulumdat => read_ldt(bytes),
+            Self::Tm33 => read_tm33(bytes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn content_tells_the_format() {
+        for (content, format) in [
+            ("IESNA:LM-63-2002\n[TEST]", Some(Format::Lm63)),
+            ("ies:lm-63-2019\n", Some(Format::Lm63)),
+            ("\n\nold label\nanother\n tilt = NONE\n1 2 3", Some(Format::Lm63)),
+            ("\u{feff}  <?xml version=\"1.0\"?>", Some(Format::Tm33)),
+            ("maker\n1\n0\n24\n15,0\n19\n5.0\nreport\n", Some(Format::Eulumdat)),
+            ("maker\n1\n0\n24\n15,0\nnineteen\n5.0\nreport\n", None),
+            ("TILTED lamps\nTIL\u{e4}=\nTILT", None),
+            ("1\n2\n3", None),
+            (" \n\n", None),
+            ("", None),
+        ] {
+            assert_eq!(Format::of_content(content.as_bytes()), format, "{content:?}");
+        }
+    }
+
+    #[test]
+    fn names_tell_it_by_their_extension() {
+        assert_eq!(Format::of_name("a.b.IES"), Some(Format::Lm63));
+        assert_eq!(Format::of_name("a.Ldt"), Some(Format::Eulumdat));
+        assert_eq!(Format::of_name("ies"), None);
+    }
+}

@@ -1,0 +1,35 @@
+//! What can be said to `quasilux photometry`.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct PhotometryArguments {
+    /// Luminaire files (IES LM-63, EULUMDAT, TM-33), told apart by their content; - is stdin
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Draw the planes C0-C180 and C90-C270: a file that ends in .svg, or a folder for one drawing of
+    /// each FILE
+    #[arg(long, value_name = "PATH")]
+    pub(crate) svg: Option<PathBuf>,
+    /// What to draw
+    #[arg(long, value_name = "KIND", default_value = "both", requires = "svg")]
+    pub(crate) diagram: DiagramName,
+    /// Print a document in JSON, format "quasilux-photometry/1", and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Exit with code 1 where a file has warnings
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+/// Kinds of diagrams.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiagramName {
+    /// As in data sheets, gamma = 0 down
+    Polar,
+    /// Candela over gamma
+    Cartesian,
+    /// Side by side
+    Both,
+}

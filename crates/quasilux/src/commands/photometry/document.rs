@@ -1,0 +1,183 @@
+//! The document in JSON, format "quasilux-photometry/1", for programs.
+//!
+//! `files` has an entry for each file, in the order of the command line: its name in `file`, and
+//! either `luminaire` with its `warnings`, or `error`; the other is `null`. Units stand in the names
+//! of the keys, shares run from 0 to 1, unknown figures are `null`. Angles are those of the luminaire
+//! frame; in planes gamma is negative on the side of C180 or C270, and above 180 where an arc passes
+//! zenith. `zones_lm` are 18 zones of 10 degrees from nadir to zenith.
+
+use super::input::{Input, Luminaire};
+use super::words::{self, degrees};
+use quasilux_measure::json;
+use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
+use serde::Serialize;
+
+/// Name and version of the document's format.
+const FORMAT: &str = "quasilux-photometry/1";
+
+/// The document, ending in a line feed.
+pub(super) fn document(inputs: &[Input]) -> String {
+    json::text(&Document { format: FORMAT, files: inputs.iter().map(FileEntry::of).collect() })
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format: &'static str,
+    files: Vec<FileEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct FileEntry<'a> {
+    file: &'a str,
+    error: Option<ErrorEntry<'a>>,
+    luminaire: Option<LuminaireEntry>,
+    warnings: Vec<WarningEntry>,
+}
+
+#[derive(Serialize)]
+struct ErrorEntry<'a> {
+    line: Option<usize>,
+    column: Option<usize>,
+    message: &'a str,
+}
+
+#[derive(Serialize)]
+struct WarningEntry {
+    rule: String,
+    line: usize,
+    column: usize,
+    count: usize,
+    message: String,
+}
+
+#[derive(Serialize)]
+struct LuminaireEntry {
+    name: Option<String>,
+    manufacturer: Option<String>,
+    catalog_number: Option<String>,
+    standard: &'static str,
+    photometric_type: &'static str,
+    symmetry: &'static str,
+    planes: usize,
+    angles: usize,
+    flux_lm: f64,
+    downward_flux_lm: f64,
+    rated_flux_lm: Option<f64>,
+    light_output_ratio: Option<f64>,
+    input_watts: f64,
+    efficacy_lm_w: Option<f64>,
+    maximum: Option<MaximumEntry>,
+    principal_planes: [PlaneEntry; 2],
+    flux_code: FluxCodeEntry,
+    zones_lm: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct MaximumEntry {
+    intensity_cd: f64,
+    c_deg: f64,
+    gamma_deg: f64,
+}
+
+#[derive(Serialize)]
+struct PlaneEntry {
+    plane: &'static str,
+    maximum_cd: f64,
+    centre_cd: f64,
+    beam: Option<SpreadEntry>,
+    centre_beam: Option<SpreadEntry>,
+    field: Option<SpreadEntry>,
+}
+
+#[derive(Serialize)]
+struct SpreadEntry {
+    angle_deg: f64,
+    start_deg: f64,
+    end_deg: f64,
+}
+
+#[derive(Serialize)]
+struct FluxCodeEntry {
+    percent: [f64; 5],
+    upper: [f64; 3],
+    upward: f64,
+}
+
+impl<'a> FileEntry<'a> {
+    fn of(input: &'a Input) -> Self {
+        let luminaire = input.luminaire.as_ref();
+        let error = luminaire.err().map(|failure| ErrorEntry {
+            line: failure.place.map(|[line, _]| line),
+            column: failure.place.map(|[_, column]| column),
+            message: &failure.message,
+        });
+        let warnings = luminaire.map_or(&[][..], |luminaire| &luminaire.warnings);
+        let warning = |warning: &quasilux_photometry::Warning| WarningEntry {
+            rule: words::rule(warning),
+            line: warning.line(),
+            column: warning.column(),
+            count: warning.count(),
+            message: words::message(warning),
+        };
+        Self {
+            file: &input.name,
+            error,
+            luminaire: luminaire.ok().map(LuminaireEntry::of),
+            warnings: warnings.iter().map(warning).collect(),
+        }
+    }
+}
+
+impl LuminaireEntry {
+    fn of(luminaire: &Luminaire) -> Self {
+        let Luminaire { photometry, analysis, .. } = luminaire;
+        let (facts, table) = (photometry.facts(), photometry.table());
+        let maximum = |maximum: MaximumIntensity| MaximumEntry {
+            intensity_cd: maximum.intensity_cd,
+            c_deg: degrees(maximum.angles.c_rad),
+            gamma_deg: degrees(maximum.angles.gamma_rad),
+        };
+        Self {
+            name: words::keyword_line(facts, "LUMINAIRE"),
+            manufacturer: words::keyword_line(facts, "MANUFAC"),
+            catalog_number: words::keyword_line(facts, "LUMCAT"),
+            standard: words::standard(facts.standard),
+            photometric_type: words::photometric_type(facts.photometric_type),
+            symmetry: words::symmetry(table.symmetry()),
+            planes: analysis.measured_planes,
+            angles: table.theta_rad().len(),
+            flux_lm: analysis.flux_lm,
+            downward_flux_lm: analysis.downward_flux_lm,
+            rated_flux_lm: photometry.rated_flux_lm(),
+            light_output_ratio: analysis.light_output_ratio,
+            input_watts: facts.input_watts,
+            efficacy_lm_w: analysis.efficacy_lm_w,
+            maximum: analysis.maximum.map(maximum),
+            principal_planes: analysis.planes.map(PlaneEntry::of),
+            flux_code: FluxCodeEntry {
+                percent: analysis.flux_code.percent(),
+                upper: analysis.flux_code.upper,
+                upward: analysis.flux_code.upward,
+            },
+            zones_lm: analysis.zones_lm.to_vec(),
+        }
+    }
+}
+
+impl PlaneEntry {
+    fn of(plane: PlaneAnalysis) -> Self {
+        let spread = |spread: Spread| SpreadEntry {
+            angle_deg: degrees(spread.angle_rad()),
+            start_deg: degrees(spread.start_rad),
+            end_deg: degrees(spread.end_rad),
+        };
+        Self {
+            plane: words::plane(plane.plane),
+            maximum_cd: plane.maximum_cd,
+            centre_cd: plane.centre_cd,
+            beam: plane.beam.map(spread),
+            centre_beam: plane.centre_beam.map(spread),
+            field: plane.field.map(spread),
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! `quasilux photometry FILE...`: what luminaire files say, as a summary, a document or drawings.
+//!
+//! A file that cannot be read does not keep the others from being reported; the exit code is 2 all
+//! the same. Warnings leave it at 0, or make it 1 with `--strict`.
+
+mod document;
+mod drawing;
+mod input;
+mod outputs;
+mod summary;
+mod words;
+
+use crate::arguments::PhotometryArguments;
+use crate::exit::{Exit, Refusal};
+use crate::print::print;
+use crate::results;
+use input::{Input, Luminaire};
+use outputs::Outputs;
+
+/// Reads and reports all files.
+pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, Refusal> {
+    let outputs = Outputs::prepare(arguments)?;
+    let inputs: Vec<Input> = arguments.files.iter().map(|path| Input::read(path)).collect();
+    for input in &inputs {
+        if let Err(failure) = &input.luminaire {
+            eprintln!("error: {failure}");
+        }
+    }
+    if arguments.json {
+        print(&document::document(&inputs));
+    } else {
+        let summaries: Vec<String> =
+            read(&inputs).map(|(input, luminaire)| summary::summary(input, luminaire)).collect();
+        print(&summaries.join("\n"));
+    }
+    for (i, input) in inputs.iter().enumerate() {
+        if let Ok(luminaire) = &input.luminaire
+            && let Some(path) = outputs.drawing(i)
+        {
+            let drawing = drawing::drawing(input, luminaire, arguments.diagram);
+            results::write_whole(path, drawing.as_bytes())?;
+        }
+    }
+    Ok(exit(&inputs, arguments.strict))
+}
+
+fn read(inputs: &[Input]) -> impl Iterator<Item = (&Input, &Luminaire)> {
+    inputs.iter().filter_map(|input| input.luminaire.as_ref().ok().map(|lamp| (input, lamp)))
+}
+
+fn exit(inputs: &[Input], strict: bool) -> Exit {
+    let is_odd = |(_, luminaire): (&Input, &Luminaire)| !luminaire.warnings.is_empty();
+    if inputs.iter().any(|input| input.luminaire.is_err()) {
+        Exit::BadInput
+    } else if strict && read(inputs).any(is_odd) {
+        Exit::CheckFailed
+    } else {
+        Exit::Done
+    }
+}

@@ -1,0 +1,168 @@
+//! The summary of a luminaire, for people.
+
+use super::input::{Input, Luminaire};
+use super::words::{self, degrees};
+use quasilux_measure::number::brief;
+use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
+use quasilux_photometry::{Analysis, PhotometricType, Symmetry};
+
+/// Digits of fluxes and intensities.
+const DIGITS: i32 = 5;
+
+/// A line for the file, a line for each fact, and a line for each warning.
+pub(super) fn summary(input: &Input, luminaire: &Luminaire) -> String {
+    let mut text = format!("{}\n", printable(&input.name));
+    for (name, value) in facts(luminaire) {
+        text += &format!("  {name:<15} {}\n", printable(&value));
+    }
+    for warning in &luminaire.warnings {
+        let line = format!(
+            "warning: {}:{}:{}: {} [{}]",
+            input.name,
+            warning.line(),
+            warning.column(),
+            words::message(warning),
+            words::rule(warning)
+        );
+        text += &printable(&line);
+        text.push('\n');
+    }
+    text
+}
+
+fn facts(luminaire: &Luminaire) -> Vec<(&'static str, String)> {
+    let Luminaire { photometry, analysis, .. } = luminaire;
+    let facts = photometry.facts();
+    let mut rows = Vec::new();
+    if let Some(name) = words::luminaire(facts) {
+        rows.push(("luminaire", name));
+    }
+    if let Some(name) = words::keyword_line(facts, "MANUFAC") {
+        rows.push(("manufacturer", name));
+    }
+    rows.push(("standard", standard(luminaire)));
+    rows.push(("symmetry", symmetry(luminaire)));
+    rows.push(("flux", flux(luminaire)));
+    if let Some(ratio) = analysis.light_output_ratio {
+        rows.push(("output ratio", percent(ratio)));
+    }
+    if let Some(efficacy_lm_w) = analysis.efficacy_lm_w {
+        let watts = brief(facts.input_watts, DIGITS);
+        rows.push(("efficacy", format!("{} lm/W at {watts} W", brief(efficacy_lm_w, 4))));
+    }
+    rows.push(("maximum", maximum(luminaire)));
+    for plane in &analysis.planes {
+        rows.push((words::plane(plane.plane), in_plane(plane)));
+    }
+    rows.push(("CIE flux code", flux_code(analysis)));
+    rows
+}
+
+fn standard(luminaire: &Luminaire) -> String {
+    let facts = luminaire.photometry.facts();
+    let kind = words::photometric_type(facts.photometric_type);
+    let name = format!("{}, type {kind}", words::standard(facts.standard));
+    match luminaire.misnamed {
+        Some(promised) => format!("{name} (the file's name says {})", promised.name()),
+        None => name,
+    }
+}
+
+fn symmetry(luminaire: &Luminaire) -> String {
+    let table = luminaire.photometry.table();
+    let planes = luminaire.analysis.measured_planes;
+    let angles = table.theta_rad();
+    let counts = format!("{} x {}", many(planes, "plane"), many(angles.len(), "angle"));
+    let symmetry = words::symmetry(table.symmetry());
+    if luminaire.photometry.facts().photometric_type != PhotometricType::C {
+        return format!("{symmetry}; {counts}");
+    }
+    let [first, last] = [angles[0], angles[angles.len() - 1]].map(|x| brief(degrees(x), 6));
+    format!("{symmetry}; {counts}, gamma {first}\u{b0} to {last}\u{b0}")
+}
+
+fn flux(luminaire: &Luminaire) -> String {
+    let analysis = &luminaire.analysis;
+    let integrated = format!("{} lm integrated", brief(analysis.flux_lm, DIGITS));
+    let rated = match luminaire.photometry.rated_flux_lm() {
+        Some(rated_lm) => format!("{} lm of the lamps", brief(rated_lm, DIGITS)),
+        None => "absolute photometry".to_owned(),
+    };
+    let upward = percent(analysis.flux_code.upward);
+    format!("{integrated} ({upward} upward); {rated}")
+}
+
+fn maximum(luminaire: &Luminaire) -> String {
+    let Some(MaximumIntensity { intensity_cd, angles }) = luminaire.analysis.maximum else {
+        return "no light".to_owned();
+    };
+    let cd = brief(intensity_cd, DIGITS);
+    let gamma = brief(degrees(angles.gamma_rad), 4);
+    let is_pole = matches!(gamma.as_str(), "0" | "180");
+    let is_round = luminaire.photometry.table().symmetry() == Symmetry::Rotational
+        && luminaire.photometry.facts().photometric_type == PhotometricType::C;
+    if is_pole {
+        format!("{cd} cd at gamma {gamma}\u{b0}")
+    } else if is_round {
+        format!("{cd} cd at gamma {gamma}\u{b0}, every C")
+    } else {
+        let c = brief(degrees(angles.c_rad), 4);
+        format!("{cd} cd at C {c}\u{b0}, gamma {gamma}\u{b0}")
+    }
+}
+
+/// Beam and field angle; where the two ends are not symmetric, they are told.
+fn in_plane(plane: &PlaneAnalysis) -> String {
+    let (Some(beam), Some(field)) = (plane.beam, plane.field) else {
+        return "no light".to_owned();
+    };
+    let mut text = format!("beam {}, field {}", spread(beam), spread(field));
+    if plane.centre_beam != plane.beam {
+        text += &match plane.centre_beam {
+            Some(centre) => format!("; beam by centre intensity {}", spread(centre)),
+            None => "; centre dark".to_owned(),
+        };
+    }
+    text
+}
+
+fn spread(spread: Spread) -> String {
+    let [start, end] = [spread.start_rad, spread.end_rad].map(degrees);
+    let angle = angle_text(degrees(spread.angle_rad()));
+    if (start + end).abs() < 0.05 || (start + end - 360.0).abs() < 0.05 {
+        format!("{angle}\u{b0}")
+    } else {
+        format!("{angle}\u{b0} ({}\u{b0} to {}\u{b0})", angle_text(start), angle_text(end))
+    }
+}
+
+fn angle_text(degrees: f64) -> String {
+    let text = format!("{degrees:.1}");
+    let text = text.strip_suffix(".0").unwrap_or(&text);
+    (if text == "-0" { "0" } else { text }).to_owned()
+}
+
+fn flux_code(analysis: &Analysis) -> String {
+    let code = &analysis.flux_code;
+    let join = |shares: &[f64]| {
+        let numbers: Vec<String> = shares.iter().map(|share| format!("{share:.0}")).collect();
+        numbers.join(" ")
+    };
+    let lower = join(&code.percent());
+    let [u1, u2, u3] = code.upper;
+    let upper = [u1, u2, u3, code.upward].map(|share| 100.0 * share);
+    if code.upward >= 0.005 { format!("{lower}; upward {}", join(&upper)) } else { lower }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", brief((share * 1000.0).round() / 10.0, 4))
+}
+
+fn many(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Text without control characters: names come from files, and the terminal obeys what it is sent.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}

@@ -1,0 +1,70 @@
+//! What things are called, in the summary and in the document.
+
+use quasilux_photometry::analysis::Plane;
+use quasilux_photometry::{
+    IesStandard, LuminaireFacts, PhotometricType, Standard, Symmetry, Tm33Edition, Warning,
+};
+use std::f64::consts::PI;
+
+pub(super) fn standard(standard: Standard) -> &'static str {
+    match standard {
+        Standard::Lm63(IesStandard::Lm63Of1986) => "LM-63-1986",
+        Standard::Lm63(IesStandard::Lm63Of1991) => "LM-63-1991",
+        Standard::Lm63(IesStandard::Lm63Of1995) => "LM-63-1995",
+        Standard::Lm63(IesStandard::Lm63Of2002) => "LM-63-2002",
+        Standard::Lm63(IesStandard::Lm63Of2019) => "LM-63-2019",
+        Standard::Eulumdat => "EULUMDAT",
+        Standard::Tm33(Tm33Edition::AtlaS001) => "ATLA S001",
+        Standard::Tm33(Tm33Edition::Of2018) => "TM-33-18",
+        Standard::Tm33(Tm33Edition::Of2023) => "TM-33-23",
+    }
+}
+
+pub(super) fn photometric_type(kind: PhotometricType) -> &'static str {
+    match kind {
+        PhotometricType::A => "A",
+        PhotometricType::B => "B",
+        PhotometricType::C => "C",
+    }
+}
+
+pub(super) fn symmetry(symmetry: Symmetry) -> &'static str {
+    match symmetry {
+        Symmetry::Rotational => "rotational",
+        Symmetry::Quadrant => "quadrant",
+        Symmetry::Bilateral => "bilateral",
+        Symmetry::None | Symmetry::Open => "none",
+    }
+}
+
+pub(super) fn plane(plane: Plane) -> &'static str {
+    if plane == Plane::C0_C180 { "C0-C180" } else { "C90-C270" }
+}
+
+/// The rule's name, as `quasilux_photometry::Deviation` lists it.
+pub(super) fn rule(warning: &Warning) -> String {
+    format!("{:?}", warning.deviation())
+}
+
+/// What the warning says, without its place.
+pub(super) fn message(warning: &Warning) -> String {
+    let place = format!("{}:{}: ", warning.line(), warning.column());
+    let text = warning.to_string();
+    text.strip_prefix(&place).unwrap_or(&text).to_owned()
+}
+
+/// What the file calls the luminaire, on one line.
+pub(super) fn luminaire(facts: &LuminaireFacts) -> Option<String> {
+    ["LUMINAIRE", "LUMCAT"].into_iter().find_map(|keyword| keyword_line(facts, keyword))
+}
+
+/// The value of a keyword on one line; `None` where it is empty.
+pub(super) fn keyword_line(facts: &LuminaireFacts, keyword: &str) -> Option<String> {
+    let words: Vec<&str> = facts.keyword(keyword)?.split_whitespace().collect();
+    (!words.is_empty()).then(|| words.join(" "))
+}
+
+/// Degrees, rounded to the billionth: what a file writes as 50 stays 50.
+pub(super) fn degrees(angle_rad: f64) -> f64 {
+    (angle_rad / PI * 180.0 * 1e9).round() / 1e9
+}
