@@ -75,7 +75,7 @@ pub fn intensities(intensities: &Intensities<'_>) -> String {
     draw_head(&mut drawing, intensities, width);
     let mut x = MARGIN_PX;
     if diagram != Diagram::Cartesian {
-        polar.draw(&mut drawing, [x, HEAD_PX]);
+        polar.draw(&mut drawing, [x, HEAD_PX + 0.5 * (height - polar_height)]);
         x += polar_width;
     }
     if diagram != Diagram::Polar {

@@ -45,11 +45,11 @@ const GRID: Stroke = Stroke::solid("#cccccc", 0.9);
 impl Extent {
     pub(super) fn of(curves: &[IntensityCurve]) -> Self {
         let greatest = |is_below: bool| {
-            let points = curves.iter().flat_map(|curve| &curve.points);
+            let points = curves.iter().flat_map(|curve| refined(&curve.points));
             let side = points.filter(|[gamma_deg, _]| {
-                if is_below { gamma_deg.abs() < 90.0 } else { gamma_deg.abs() > 90.0 }
+                if is_below { gamma_deg.abs() < 89.0 } else { gamma_deg.abs() > 91.0 }
             });
-            side.map(|[_, value]| *value).fold(0.0, f64::max)
+            side.map(|[_, value]| value).fold(0.0, f64::max)
         };
         let (below, above) = (greatest(true), greatest(false));
         match (above > VISIBLE * below, below > VISIBLE * above) {
@@ -185,30 +185,31 @@ fn arc(centre: [f64; 2], radius_px: f64, [first, last]: [f64; 2]) -> Vec<[f64; 2
     (0..=steps).map(|i| place(centre, radius_px, first + f64::from(i))).collect()
 }
 
-/// A curve that is linear in gamma between its points; where it lies outside the extent it is left
-/// out.
+/// The curve's places; where it lies outside the extent it is left out.
 fn bent(centre: [f64; 2], scale_px: f64, points: &[[f64; 2]], extent: Extent) -> Vec<[f64; 2]> {
-    let mut places = Vec::new();
     let is_shown = |gamma_deg: f64| match extent {
         Extent::Down => gamma_deg.abs() <= 90.0,
         Extent::Up => gamma_deg.abs() >= 90.0,
         Extent::Full => true,
     };
+    let shown = |[gamma_deg, value]: [f64; 2]| {
+        if is_shown(gamma_deg) { place(centre, scale_px * value, gamma_deg) } else { [f64::NAN; 2] }
+    };
+    refined(points).into_iter().map(shown).collect()
+}
+
+/// Points of a curve that is linear in gamma, so close that straight lines between their places show
+/// how it is bent.
+fn refined(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut refined: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
     for pair in points.windows(2) {
         let [[from_deg, from], [to_deg, to]] = [pair[0], pair[1]];
         let steps = ((to_deg - from_deg) / STEP_DEG).ceil().clamp(1.0, 360.0) as u32;
-        let first = u32::from(!places.is_empty());
-        for i in first..=steps {
+        for i in 1..=steps {
             let share = f64::from(i) / f64::from(steps);
             let gamma_deg = from_deg + share * (to_deg - from_deg);
-            let value = (1.0 - share) * from + share * to;
-            let shown = is_shown(gamma_deg);
-            places.push(if shown {
-                place(centre, scale_px * value, gamma_deg)
-            } else {
-                [f64::NAN; 2]
-            });
+            refined.push([gamma_deg, (1.0 - share) * from + share * to]);
         }
     }
-    places
+    refined
 }

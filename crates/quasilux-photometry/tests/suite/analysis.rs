@@ -2,7 +2,7 @@
 
 use crate::corpus::{name, published_files, published_files_of};
 use quasilux_photometry::analysis::{Plane, PlaneCurve, Spread, ZonalFlux};
-use quasilux_photometry::{Analysis, Photometry, read_ies, read_ldt};
+use quasilux_photometry::{Analysis, PhotometricType, Photometry, read_ies, read_ldt};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
 
@@ -165,6 +165,39 @@ fn an_uplight_shines_about_zenith() {
     assert!(analysis.planes[0].centre_beam.is_none());
 }
 
+/// The half of the sphere about the beam, evenly lit: for type B below the horizon, for type A on the
+/// side of +x.
+#[test]
+fn webs_with_other_poles_are_analysed_in_the_luminaire_frame() {
+    let half_sphere = |kind: u8| {
+        let file = format!(
+            "IESNA:LM-63-2002\n[TEST] even\nTILT=NONE\n1 -1 1 3 3 {kind} 2 0 0 0\n1 1 10\n\
+             -90 0 90\n-90 0 90\n{}",
+            "100 100 100\n".repeat(3)
+        );
+        Analysis::of(&read_ies(file.as_bytes()).expect("a file").photometry)
+    };
+    let down = half_sphere(2);
+    assert_near(down.flux_lm, 200.0 * PI, 1e-10, "flux");
+    assert_near(down.downward_flux_lm, 200.0 * PI, 1.0, "all of it down");
+    for (cone, share) in [0.25, 0.5, 0.75].into_iter().enumerate() {
+        assert_near(down.flux_code.lower[cone], share, 2e-3, "lower");
+    }
+    for plane in down.planes {
+        assert_near(degrees(plane.beam), 180.0, 0.2, "sampled to 0.1 degrees at each end");
+    }
+    let sideways = half_sphere(3);
+    assert_near(sideways.flux_lm, 200.0 * PI, 1e-10, "flux");
+    assert_near(sideways.downward_flux_lm, 100.0 * PI, 1e-10, "half of it down");
+    for (cone, share) in [0.25, 0.5, 0.75].into_iter().enumerate() {
+        assert_near(sideways.flux_code.lower[cone], share, 1e-12, "lower");
+        assert_near(sideways.flux_code.upper[cone], share, 1e-12, "upper");
+    }
+    let beam = sideways.planes[0].beam.expect("a beam");
+    assert_near(beam.start_rad, 0.0, 1e-12, "from nadir");
+    assert_near(beam.end_rad, PI, 1e-12, "to zenith on the side of C0");
+}
+
 /// Each point of a curve is the intensity in its direction; on the sides of a jump too.
 #[test]
 fn curves_pass_through_the_intensities() {
@@ -204,16 +237,19 @@ fn published_files_divide_their_flux_as_they_sample_it() {
         let zones = ZonalFlux::of(&photometry);
         let flux_lm = photometry.flux_lm();
         assert_near(zones.total_lm(), flux_lm, 1e-12 * flux_lm, &name);
+        // Cones are no parallels of type B: they cut its cells of coordinates in both directions.
+        let is_cut = photometry.facts().photometric_type == PhotometricType::B;
+        let columns = if is_cut { 256 } else { 16 };
+        let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
         let directions: Vec<glam::DVec3> = (0..256)
-            .flat_map(|i| {
-                (0..16).map(move |j| [(f64::from(i) + 0.5) / 256.0, (f64::from(j) + 0.5) / 16.0])
-            })
+            .flat_map(|i| (0..columns).map(move |j| [middle(i, 256), middle(j, columns)]))
             .filter_map(|u| photometry.sample(u))
             .map(|sample| sample.direction)
             .collect();
         for gamma_rad in [0.5, 1.0, FRAC_PI_2, 2.0] {
             let is_below = |direction: &&glam::DVec3| -direction.z > libm::cos(gamma_rad);
-            let sampled = directions.iter().filter(is_below).count() as f64 / 4096.0;
+            let sampled =
+                directions.iter().filter(is_below).count() as f64 / directions.len() as f64;
             let share = zones.below_lm(gamma_rad) / flux_lm;
             assert_near(sampled, share, 1.0 / 256.0, &name);
         }

@@ -4,6 +4,7 @@ mod bad_input;
 mod direct;
 mod experiment;
 mod limits;
+mod photometry;
 mod points;
 mod results;
 mod scenes;

@@ -33,7 +33,7 @@ pub(super) fn symmetry(symmetry: Symmetry) -> &'static str {
         Symmetry::Rotational => "rotational",
         Symmetry::Quadrant => "quadrant",
         Symmetry::Bilateral => "bilateral",
-        Symmetry::None | Symmetry::Open => "none",
+        Symmetry::None | Symmetry::Open | Symmetry::Sector => "none",
     }
 }
 
