@@ -15,6 +15,10 @@ pub(crate) struct PhotometryArguments {
     /// What to draw
     #[arg(long, value_name = "KIND", default_value = "both", requires = "svg")]
     pub(crate) diagram: DiagramName,
+    /// Write the luminaire of one FILE in the format that this name ends in: .ies (LM-63-2002; 2019
+    /// stays 2019) or .ldt
+    #[arg(long, value_name = "OUT")]
+    pub(crate) convert: Option<PathBuf>,
     /// Print a document in JSON, format "quasilux-photometry/1", and nothing else
     #[arg(long)]
     pub(crate) json: bool,

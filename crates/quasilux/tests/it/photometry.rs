@@ -196,6 +196,10 @@ fn outputs_that_cannot_be_are_refused_before_anything_is_written() {
         (&["disk.ies", "other/disk.ies", "--svg", "out"], "folders of their own"),
         (&["disk.ies", "--svg", "plain/disk.svg"], "plain"),
         (&["trap.svg", "--svg", "trap.svg"], "would replace the luminaire file"),
+        (&["disk.ies", "--convert", "disk.ies"], "would replace the luminaire file"),
+        (&["disk.ies", "--convert", "disk.txt"], ".ies or .ldt"),
+        (&["disk.ies", "ball.ldt", "--convert", "new.ldt"], "one by one"),
+        (&["disk.ies", "--convert", "plain/new.ldt"], "plain"),
         (&["disk.ies", "--diagram", "polar"], "--svg"),
         (&["disk.ies", "--svg", "a.svg", "--diagram", "round"], "polar"),
         (&[], "FILE"),
@@ -206,6 +210,33 @@ fn outputs_that_cannot_be_are_refused_before_anything_is_written() {
     }
     assert_eq!(folder.read("trap.svg"), lambertian());
     assert!(!folder.path("out/disk.svg").exists());
+}
+
+/// There and back: the figures of both formats are the same but for the rounding of cd/klm.
+#[test]
+fn a_luminaire_can_change_its_format() {
+    let folder = folder("convert");
+    photometry(&folder, &["disk.ies", "--convert", "new/disk.ldt"], 0);
+    photometry(&folder, &["new/disk.ldt", "--convert", "new/disk.ies"], 0);
+    let files = ["disk.ies", "new/disk.ldt", "new/disk.ies"];
+    let document = parsed(&photometry(&folder, &[&files[..], &["--json"]].concat(), 0).stdout);
+    let standards: Vec<&str> =
+        (0..3).filter_map(|i| document["files"][i]["luminaire"]["standard"].as_str()).collect();
+    assert_eq!(standards, ["LM-63-2002", "EULUMDAT", "LM-63-2002"]);
+    for figure in ["flux_lm", "rated_flux_lm", "maximum/intensity_cd", "input_watts"] {
+        let value = |i: usize| number(&document, &format!("/files/{i}/luminaire/{figure}"));
+        for i in 1..3 {
+            assert!(
+                (value(i) / value(0) - 1.0).abs() < 1e-9,
+                "{figure}: {} {}",
+                value(i),
+                value(0)
+            );
+        }
+    }
+    assert_eq!(document["files"][2]["luminaire"]["name"], "even disk");
+    photometry(&folder, &["gone.ies", "--convert", "never.ldt"], 2);
+    assert!(!folder.path("never.ldt").exists());
 }
 
 /// The README shows what the example prints.

@@ -1,8 +1,10 @@
-//! `quasilux photometry FILE...`: what luminaire files say, as a summary, a document or drawings.
+//! `quasilux photometry FILE...`: what luminaire files say, as a summary, a document, drawings
+//! or a file of another format.
 //!
 //! A file that cannot be read does not keep the others from being reported; the exit code is 2 all
 //! the same. Warnings leave it at 0, or make it 1 with `--strict`.
 
+mod conversion;
 mod document;
 mod drawing;
 mod input;
@@ -40,6 +42,9 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, Refusa
             let drawing = drawing::drawing(input, luminaire, arguments.diagram);
             results::write_whole(path, drawing.as_bytes())?;
         }
+    }
+    if let (Some(wanted), Some((_, luminaire))) = (&outputs.conversion, read(&inputs).next()) {
+        conversion::convert(luminaire, wanted)?;
     }
     Ok(exit(&inputs, arguments.strict))
 }

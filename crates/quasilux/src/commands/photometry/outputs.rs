@@ -1,14 +1,23 @@
-//! Where drawings go; checked before anything is read or written.
+//! Where drawings and converted files go; checked before anything is read or written.
 
 use crate::arguments::PhotometryArguments;
 use crate::exit::Refusal;
 use crate::results;
+use quasilux_photometry::Format;
 use std::path::{Path, PathBuf};
 
 /// The files to be written.
 pub(super) struct Outputs {
     /// One for each input, or none at all.
     drawings: Vec<PathBuf>,
+    /// The converted file.
+    pub(super) conversion: Option<Conversion>,
+}
+
+/// A luminaire file to be written.
+pub(super) struct Conversion {
+    pub(super) path: PathBuf,
+    pub(super) format: Format,
 }
 
 impl Outputs {
@@ -31,7 +40,11 @@ impl Outputs {
             }
             refuse_input(path, &arguments.files)?;
         }
-        Ok(Self { drawings })
+        let conversion = match &arguments.convert {
+            Some(path) => Some(conversion(path, &arguments.files)?),
+            None => None,
+        };
+        Ok(Self { drawings, conversion })
     }
 
     /// Where the drawing of an input goes.
@@ -62,6 +75,20 @@ fn drawings(path: &Path, files: &[PathBuf]) -> Result<Vec<PathBuf>, Refusal> {
             Ok(files.iter().map(drawing).collect())
         }
     }
+}
+
+fn conversion(path: &Path, files: &[PathBuf]) -> Result<Conversion, Refusal> {
+    let refuse = |what: String| Err(Refusal::new(format!("--convert {}: {what}", path.display())));
+    let format = match Format::of_name(&path.to_string_lossy()) {
+        Some(format @ (Format::Lm63 | Format::Eulumdat)) => format,
+        _ => return refuse("expected a name that ends in .ies or .ldt".to_owned()),
+    };
+    if files.len() > 1 {
+        return refuse(format!("one name for {} files; convert them one by one", files.len()));
+    }
+    results::prepare_file(path)?;
+    refuse_input(path, files)?;
+    Ok(Conversion { path: path.to_owned(), format })
 }
 
 /// Whether a path stands for the standard input.
