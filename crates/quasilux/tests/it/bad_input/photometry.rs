@@ -23,7 +23,7 @@ fn luminaire_files() {
             Case::new("a word for a number")
                 .file("lamp.ies", lamp("100 80 20", "100 eighty 20"))
                 .says(&["lamp.ies:14:5:", "eighty"]),
-            Case::new("type B")
+            Case::new("type B with one plane")
                 .file("lamp.ies", lamp("1 -1 1 3 1 1 2", "1 -1 1 3 1 2 2"))
                 .says(&["lamp.ies:13:1:", "two or more, as types A and B"]),
             Case::new("angles that descend")
