@@ -105,6 +105,11 @@ pub enum Deviation {
     /// it is compared with the lamps' flux times the light output ratio, in TM-33 with the luminous
     /// flux of each emitter where that is given.
     FluxDiffers,
+    /// The signs of the luminous dimensions stand for a shape in another edition only. It is read as
+    /// that shape.
+    OpeningOfOtherEdition,
+    /// The signs of the luminous dimensions stand for no shape. It is read as a point.
+    UnknownOpening,
     /// EULUMDAT: numbers are written with a decimal comma. It counts as a point.
     DecimalComma,
     /// EULUMDAT: the line of a number that no intensity depends on is empty. It counts as zero.

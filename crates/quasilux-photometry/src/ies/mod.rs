@@ -40,6 +40,7 @@ use crate::angles::gamma_rad;
 use crate::candela::check_closing;
 use crate::number::Number;
 use crate::report::{Position, Warnings, quoted};
+use crate::shape::check_signs;
 use crate::{
     Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, PhotometricType, Photometry,
     Read, ReadError, SphericalTable, Standard, Tilt, text,
@@ -79,6 +80,7 @@ struct Counts {
     horizontals: usize,
     photometric_type: PhotometricType,
     opening: LuminousOpening,
+    opening_at: Position,
 }
 
 fn read_numbers(
@@ -92,6 +94,8 @@ fn read_numbers(
         TiltLine::File(name) => tilt::in_another_file(name, header.next_line, warnings),
     };
     let counts = read_counts(numbers, warnings)?;
+    let standard = Standard::Lm63(header.standard);
+    check_signs(standard, &counts.opening, counts.opening_at, warnings);
     numbers.start_record("the ballast factor", warnings);
     let ballast = numbers.next("the ballast factor", warnings)?;
     let reserved = numbers.next("the ballast-lamp photometric factor", warnings)?;
@@ -131,7 +135,7 @@ fn read_numbers(
         warnings.push(Deviation::NegativeLumens, lumens.at, lumens.value, expected);
     }
     let facts = LuminaireFacts {
-        standard: Standard::Lm63(header.standard),
+        standard,
         photometric_type: counts.photometric_type,
         keywords: header.keywords,
         tilt,
@@ -178,9 +182,10 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
     numbers.check_room(verticals, vertical_at, "vertical angles")?;
     numbers.check_room(horizontals, at, "horizontal angles")?;
     numbers.check_room(verticals.saturating_mul(horizontals), at, "candela")?;
+    let width = numbers.next("the luminous width", warnings)?;
     let mut dimension = |what| Ok(numbers.next(what, warnings)?.value * metres_per_unit);
     let opening = LuminousOpening {
-        width_m: dimension("the luminous width")?,
+        width_m: width.value * metres_per_unit,
         length_m: dimension("the luminous length")?,
         height_m: dimension("the luminous height")?,
     };
@@ -192,6 +197,7 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
         horizontals,
         photometric_type,
         opening,
+        opening_at: width.at,
     })
 }
 

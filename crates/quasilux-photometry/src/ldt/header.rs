@@ -3,7 +3,8 @@
 use super::fields::Fields;
 use crate::number::Number;
 use crate::report::{Position, Warnings};
-use crate::{Deviation, EulumdatFacts, Keyword, LuminousOpening, ReadError};
+use crate::shape::check_signs;
+use crate::{Deviation, EulumdatFacts, Keyword, LuminousOpening, ReadError, Standard};
 
 /// Metres in a millimetre.
 pub(super) const METRES_PER_MM: f64 = 1e-3;
@@ -137,11 +138,13 @@ fn read_opening(
         let what = format!("the luminaire's {what}, in mm");
         *size_m = fields.number_or_zero(&what, warnings)?.value * METRES_PER_MM;
     }
+    let what = "the luminous area's length or diameter (field 16), in mm";
+    let length = fields.number_or_zero(what, warnings)?;
+    let length_m = length.value * METRES_PER_MM;
     let mut dimension = |what: &str| {
         let what = format!("the luminous area's {what}, in mm");
         Ok(fields.number_or_zero(&what, warnings)?.value * METRES_PER_MM)
     };
-    let length_m: f64 = dimension("length or diameter (field 16)")?;
     let width_m = dimension("width, 0 if round (field 17)")?;
     let mut height_m: f64 = 0.0;
     let planes = ["C0 (field 18)", "C90 (field 19)", "C180 (field 20)", "C270 (field 21)"];
@@ -150,11 +153,13 @@ fn read_opening(
         height_m = height_m.max(*at_plane_m);
     }
     let is_round = width_m == 0.0 && length_m > 0.0;
-    Ok(if is_round {
+    let opening = if is_round {
         LuminousOpening { width_m: -length_m, length_m: -length_m, height_m }
     } else {
         LuminousOpening { width_m: length_m, length_m: width_m, height_m }
-    })
+    };
+    check_signs(Standard::Eulumdat, &opening, length.at, warnings);
+    Ok(opening)
 }
 
 /// Field 23.

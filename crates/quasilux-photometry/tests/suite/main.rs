@@ -15,6 +15,8 @@ mod published;
 mod quadrature;
 mod reader;
 mod sampling;
+mod shapes;
+mod silhouettes;
 mod tables;
 mod tilt;
 mod tm33;

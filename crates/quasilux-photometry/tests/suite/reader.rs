@@ -32,7 +32,7 @@ fn factors_follow_the_edition() {
 #[test]
 fn header_facts_are_kept() {
     let text = "IESNA:LM-63-2002\n[MANUFAC] A\n[OTHER] one\n[MORE] two\nTILT=NONE\n\
-        2 1200 1 2 1 1 1 -1 0 2\n1 1 36.5\n0 180\n0\n100 100\n";
+        2 1200 1 2 1 1 1 -1 -1 2\n1 1 36.5\n0 180\n0\n100 100\n";
     let read = read(text);
     let facts = read.photometry.facts();
     assert_eq!(facts.standard, Standard::Lm63(IesStandard::Lm63Of2002));
@@ -40,7 +40,7 @@ fn header_facts_are_kept() {
     assert_eq!(facts.keyword("OTHER"), Some("one\ntwo"));
     assert_eq!(facts.input_watts, 36.5);
     assert_eq!(facts.opening.width_m, -0.3048);
-    assert_eq!(facts.opening.length_m, 0.0);
+    assert_eq!(facts.opening.length_m, -0.3048);
     assert_eq!(facts.opening.height_m, 0.6096);
     assert_eq!(facts.tilt, Tilt::None);
     assert_eq!(read.photometry.rated_flux_lm(), Some(2400.0));

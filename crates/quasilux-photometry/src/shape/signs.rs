@@ -1,0 +1,114 @@
+//! From the signs of a file's dimensions to a shape, by format and edition.
+
+use super::{Axis, EQUAL, LuminousShape, Solid};
+use crate::report::{Position, Warnings};
+use crate::{Deviation, IesStandard, LuminousOpening, Standard};
+use glam::DVec3;
+use std::cmp::Ordering::{Equal as Zero, Greater as Plus, Less as Minus};
+
+/// Dimensions below this are zero.
+const LEAST_M: f64 = 1e-6;
+
+/// A shape, and which table gave it.
+pub(super) struct Found {
+    pub(super) shape: LuminousShape,
+    table: Option<Table>,
+}
+
+/// The tables of shapes; editions that are not named share the one before them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Table {
+    Of1986,
+    Of1995,
+    Of2002,
+}
+
+/// The shape by the file's own table, else by the latest other one that has it, else a point.
+pub(super) fn shape(standard: Standard, opening: &LuminousOpening) -> Found {
+    let own = Table::of(standard);
+    let by = |table: Table| table.shape(opening).map(|shape| Found { shape, table: Some(table) });
+    by(own)
+        .or_else(|| [Table::Of2002, Table::Of1995, Table::Of1986].into_iter().find_map(by))
+        .unwrap_or(Found { shape: LuminousShape::POINT, table: None })
+}
+
+/// Warns of dimensions whose signs are not in the table of the file's edition.
+pub(crate) fn check_signs(
+    standard: Standard,
+    opening: &LuminousOpening,
+    at: Position,
+    warnings: &mut Warnings,
+) {
+    let Found { shape, table } = shape(standard, opening);
+    let LuminousOpening { width_m, length_m, height_m } = opening;
+    let found =
+        format_args!("a luminous width, length and height of {width_m}, {length_m}, {height_m} m")
+            .to_string();
+    let own = "signs that stand for a shape in the file's edition";
+    match table {
+        None => {
+            let expected = format_args!("{own} (read as a point)").to_string();
+            warnings.push(Deviation::UnknownOpening, at, found, expected);
+        }
+        Some(table) if table != Table::of(standard) => {
+            let expected = format_args!("{own} (read as a {}, as in LM-63-{table})", shape.name());
+            warnings.push(Deviation::OpeningOfOtherEdition, at, found, expected.to_string());
+        }
+        Some(_) => {}
+    }
+}
+
+impl Table {
+    fn of(standard: Standard) -> Self {
+        match standard {
+            Standard::Lm63(IesStandard::Lm63Of1986 | IesStandard::Lm63Of1991) => Self::Of1986,
+            Standard::Lm63(IesStandard::Lm63Of1995) => Self::Of1995,
+            _ => Self::Of2002,
+        }
+    }
+
+    fn shape(self, opening: &LuminousOpening) -> Option<LuminousShape> {
+        let LuminousOpening { width_m, length_m, height_m } = *opening;
+        let [w, l, h] = [width_m, length_m, height_m].map(f64::abs);
+        let sign = |size_m: f64| {
+            if size_m.abs() < LEAST_M { Zero } else { size_m.partial_cmp(&0.0).unwrap_or(Zero) }
+        };
+        let signs = [width_m, length_m, height_m].map(sign);
+        let of = |solid, size: [f64; 3]| Some(LuminousShape::new(solid, DVec3::from_array(size)));
+        let vertical = Solid::Cylinder(Axis::Z);
+        if signs.iter().all(|sign| *sign != Minus) {
+            return of(Solid::Cuboid, [l, w, h]);
+        }
+        match (self, signs) {
+            (Self::Of1986, [Minus, Plus, Plus]) => of(Solid::Ellipsoid, [l, w, h]),
+            (Self::Of1986, [Minus, Plus, Zero]) => of(vertical, [l, w, 0.0]),
+            (Self::Of1986 | Self::Of1995, [Minus, Zero, Zero | Plus]) => of(vertical, [w, w, h]),
+            (Self::Of1995, [Minus, Zero, Minus]) if (w - h).abs() <= EQUAL * w.max(h) => {
+                of(Solid::Ellipsoid, [w, w, w])
+            }
+            (Self::Of1995, [Minus, Plus, Zero | Plus] | [Plus, Minus, Zero | Plus]) => {
+                of(vertical, [l, w, h])
+            }
+            (Self::Of1995, [Zero, Plus, Minus]) => of(Solid::Cylinder(Axis::X), [l, h, h]),
+            (Self::Of1995, [Plus, Zero, Minus]) => of(Solid::Cylinder(Axis::Y), [h, w, h]),
+            (Self::Of1995, [Minus, Plus, Minus] | [Plus, Minus, Minus]) => {
+                of(Solid::Ellipsoid, [l, w, h])
+            }
+            (Self::Of2002, [Minus, Minus, Zero | Plus]) => of(vertical, [l, w, h]),
+            (Self::Of2002, [Minus, Minus, Minus]) => of(Solid::Ellipsoid, [l, w, h]),
+            (Self::Of2002, [Minus, Zero | Plus, Minus]) => of(Solid::Cylinder(Axis::X), [l, w, h]),
+            (Self::Of2002, [Plus, Minus, Minus]) => of(Solid::Cylinder(Axis::Y), [l, w, h]),
+            _ => None,
+        }
+    }
+}
+
+impl std::fmt::Display for Table {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Of1986 => "1986",
+            Self::Of1995 => "1995",
+            Self::Of2002 => "2002",
+        })
+    }
+}
