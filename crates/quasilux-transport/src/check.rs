@@ -111,7 +111,7 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
     let has_mirror = scene.materials.iter().any(|m| matches!(m.bsdf, Bsdf::Mirror(_)));
     if has_pointlike && has_mirror && settings.estimator != Estimator::Photon {
         caveats.push(
-            "light of point-like sources that mirrors send straight to a diffuse surface or a \
+            "light of points and luminaires that mirrors send straight to a diffuse surface or a \
              sensor is not counted by paths yet; the estimator \"photon\" counts it"
                 .to_owned(),
         );

@@ -41,7 +41,7 @@ pub(crate) struct Gathering<'a, S> {
     /// Targets whose direct light is not finite.
     invalid_points: u64,
     /// Whether direct light is sampled too.
-    seeks_emitters: bool,
+    samples_direct: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,7 +98,8 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             work,
             photons,
             invalid_points,
-            seeks_emitters: stage.lights.emitters.is_some(),
+            samples_direct: stage.lights.emitters.is_some()
+                || !stage.lights.area_luminaires.is_empty(),
         }
     }
 
@@ -159,7 +160,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 impl<S> Gathering<'_, S> {
     /// Whether the paths of each target found light where they came to surfaces that reflect.
     fn resolved(&self) -> Vec<bool> {
-        let seeks_emitters = self.seeks_emitters;
+        let samples_direct = self.samples_direct;
         self.sums
             .chunks_exact(self.replicates as usize)
             .map(|own| {
@@ -167,7 +168,7 @@ impl<S> Gathering<'_, S> {
                 let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
                 (found_indirect || !reflected)
-                    && (found_direct || found_indirect || !seeks_emitters)
+                    && (found_direct || found_indirect || !samples_direct)
             })
             .collect()
     }

@@ -40,7 +40,7 @@ pub(crate) struct MapEnd<'m, S> {
 /// What one path found, in lx.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Gathered {
-    /// Straight from area lights.
+    /// Straight from area lights and luminaires with an area.
     pub(crate) direct_lx: f64,
     /// After at least one bounce; may be negative where a map is corrected.
     pub(crate) indirect_lx: f64,
@@ -84,6 +84,7 @@ pub(crate) fn trace_path<S: Spectrum>(
     if let Some(emitters) = &lights.emitters {
         gathered.direct_lx += emitters.one(world, from, n, cursor.next_2d(), &mut work.rays);
     }
+    gathered.direct_lx += from_area_luminaires(stage, from, n, cursor, work);
     // Factors from radiance along the path to illuminance at its start.
     let mut beta = S::white() * PI;
     let mut beta_emitted = beta;
@@ -152,8 +153,8 @@ pub(crate) fn trace_path<S: Spectrum>(
     gathered
 }
 
-/// Light that comes straight from the lights to a surface on the way, in lx: one point-like light,
-/// one point on the area lights.
+/// Light that comes straight from the lights to a surface on the way, in lx: one place on the
+/// luminaires with an area, one point-like light, one point on the area lights.
 fn direct_here<S: Spectrum>(
     stage: &Stage<'_, S>,
     from: Vantage,
@@ -162,8 +163,8 @@ fn direct_here<S: Spectrum>(
     work: &mut PathWork,
 ) -> f64 {
     let Stage { world, lights, .. } = stage;
+    let mut direct_lx = from_area_luminaires(stage, from, n, cursor, work);
     let PathWork { rays, seen } = work;
-    let mut direct_lx = 0.0;
     if !lights.pointlikes.is_empty() {
         direct_lx += lights.pointlikes.one(world, from, n, cursor.next_1d(), seen, rays);
     }
@@ -171,6 +172,22 @@ fn direct_here<S: Spectrum>(
         direct_lx += emitters.one(world, from, n, cursor.next_2d(), rays);
     }
     direct_lx
+}
+
+/// Light that comes straight from the luminaires with an area, in lx: one place on one of them.
+fn from_area_luminaires<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    from: Vantage,
+    n: DVec3,
+    cursor: &mut SampleCursor<'_>,
+    work: &mut PathWork,
+) -> f64 {
+    let Stage { world, lights, .. } = stage;
+    let PathWork { rays, seen } = work;
+    if lights.area_luminaires.is_empty() {
+        return 0.0;
+    }
+    lights.area_luminaires.one(world, from, n, cursor.next_2d(), seen, rays)
 }
 
 /// Russian roulette after the first bounces. `reflectance` is that of the channel that is left

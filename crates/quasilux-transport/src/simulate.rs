@@ -67,6 +67,7 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
         estimates.miss_probability = schedule.miss_probability();
         estimates.biased |= is_biased(scene, settings);
         estimates.warnings.extend(caveats(scene, settings));
+        estimates.warnings.extend(stage.warning.clone());
         let convergence = Convergence::of(&estimates);
         estimates.unresolved_points = convergence.unresolved;
         estimates.warnings.extend(warnings_of_values(&estimates));

@@ -12,6 +12,8 @@ pub(crate) struct Stage<'a, S> {
     pub(crate) world: World<S>,
     pub(crate) lights: Lights<'a>,
     pub(crate) max_bounces: Option<u32>,
+    /// What a reader of the results must know of the lights' places.
+    pub(crate) warning: Option<String>,
     settings: &'a Settings,
 }
 
@@ -30,7 +32,15 @@ impl<'a, S: Spectrum> Stage<'a, S> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
         let world = World::new(scene);
         let lights = Lights::new(scene, &world);
-        Self { world, lights, max_bounces: settings.max_bounces, settings }
+        let cut = lights.area_luminaires.cut_by_surfaces(&world);
+        let warning = (cut > 0).then(|| {
+            format!(
+                "surfaces pass through the luminous shapes of {cut} luminaires, and light that \
+                 starts behind them stays there; a shape is centred on `position`, so on a ceiling \
+                 it belongs half its height lower"
+            )
+        });
+        Self { world, lights, max_bounces: settings.max_bounces, warning, settings }
     }
 
     /// The randomised point set of one stream in one replicate.

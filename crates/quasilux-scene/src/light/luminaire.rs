@@ -3,24 +3,32 @@
 //! The luminaire frame: gamma = 0 (nadir) along local -z, C0 along local +x, C90 along local +y.
 
 use glam::{DMat3, DVec3};
-use quasilux_photometry::Photometry;
+use quasilux_photometry::{LuminousShape, Photometry};
 use std::sync::Arc;
 
-/// A luminaire at a place: a point light with a measured intensity distribution.
+/// A luminaire at a place: a measured intensity distribution, from a point or a luminous shape.
 #[derive(Clone, Debug)]
 pub struct Luminaire {
     /// The measured distribution, shared between all luminaires of one file.
     pub photometry: Arc<Photometry>,
-    /// World position in m.
+    /// World position in m: the centre of the shape.
     pub position: DVec3,
     /// Rotation from the luminaire frame to the world.
     pub world_from_luminaire: DMat3,
     /// Factor on all intensities, at least 0: what the project asks for times what the lamps give at
     /// this tilt ([`Photometry::tilt_factor`]).
     pub dimming: f64,
+    /// What of it shines; [`LuminousShape::POINT`] where it stands for a point.
+    pub shape: LuminousShape,
 }
 
 impl Luminaire {
+    /// Whether it shines from more than a point.
+    #[must_use]
+    pub fn is_area(&self) -> bool {
+        !self.shape.is_point()
+    }
+
     /// Luminous intensity in cd toward the unit world direction `direction`.
     #[must_use]
     pub fn intensity_cd(&self, direction: DVec3) -> f64 {

@@ -13,7 +13,7 @@ pub use point::PointLight;
 pub enum Light {
     /// An isotropic point.
     Point(PointLight),
-    /// A placed luminaire: a point with a measured intensity distribution.
+    /// A placed luminaire: a measured intensity distribution, from a point or a luminous shape.
     Luminaire(Luminaire),
     /// Emitting triangles.
     Area(AreaLight),

@@ -6,7 +6,7 @@ use crate::light::{AreaLight, Luminaire};
 use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
 use crate::{Files, Light, LoadError, Place, Placed, Warning};
 use glam::DVec3;
-use quasilux_photometry::{Photometry, TiltSupport};
+use quasilux_photometry::{LuminousShape, Photometry, TiltSupport};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -68,6 +68,22 @@ fn luminaire(
     photometry: Arc<Photometry>,
     warnings: &mut Vec<Warning>,
 ) -> Luminaire {
+    Luminaire {
+        position: entry.position,
+        world_from_luminaire: entry.world_from_luminaire,
+        dimming: entry.dimming * tilt_factor(project, entry, &photometry, warnings),
+        shape: shape(project, entry, &photometry, warnings),
+        photometry,
+    }
+}
+
+/// What the lamps give at the luminaire's tilt.
+fn tilt_factor(
+    project: &Project,
+    entry: &LuminaireEntry,
+    photometry: &Photometry,
+    warnings: &mut Vec<Warning>,
+) -> f64 {
     let down = entry.world_from_luminaire.transpose() * DVec3::NEG_Z;
     let tilt = photometry.tilt_factor(down);
     let degrees = tilt.angle_rad.to_degrees();
@@ -86,12 +102,28 @@ fn luminaire(
         let message = format!("{odd}; the factor {} is taken", tilt.factor);
         warnings.push(Warning::new(&project.file, Some(entry.place), message));
     }
-    Luminaire {
-        photometry,
-        position: entry.position,
-        world_from_luminaire: entry.world_from_luminaire,
-        dimming: entry.dimming * tilt.factor,
+    tilt.factor
+}
+
+/// What of the luminaire shines: a point, unless the project asks for the file's own shape.
+fn shape(
+    project: &Project,
+    entry: &LuminaireEntry,
+    photometry: &Photometry,
+    warnings: &mut Vec<Warning>,
+) -> LuminousShape {
+    let Some(place) = entry.as_area else {
+        return LuminousShape::POINT;
+    };
+    let shape = photometry.facts().shape();
+    if shape.is_point() {
+        let message = format!(
+            "\"as\" is \"area\", but the luminous opening of \"{}\" is a point; it stays one",
+            entry.photometry.value
+        );
+        warnings.push(Warning::new(&project.file, Some(place), message));
     }
+    shape
 }
 
 fn area_light(

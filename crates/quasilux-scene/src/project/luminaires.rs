@@ -5,7 +5,7 @@ use crate::light::{Placement, PlacementError};
 use crate::{LoadError, Place, Placed};
 use glam::{DMat3, DVec3};
 
-const KEYS: [&str; 6] = ["photometry", "position", "aim", "c0", "rotation_deg", "dimming"];
+const KEYS: [&str; 7] = ["photometry", "position", "as", "aim", "c0", "rotation_deg", "dimming"];
 
 /// What `photometry` is.
 const FILE_NAME: &str = "the name of an .ies, .ldt or .xml (TM-33) file";
@@ -19,6 +19,8 @@ pub(crate) struct LuminaireEntry {
     pub(crate) position: DVec3,
     pub(crate) world_from_luminaire: DMat3,
     pub(crate) dimming: f64,
+    /// Where `as = "area"` asks for the luminous shape of the file; a point else.
+    pub(crate) as_area: Option<Place>,
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Vec<LuminaireEntry>, LoadError> {
@@ -34,12 +36,19 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
         dimming
             .number("a factor of at least 0, where 1 is full light", |x| (0.0..=1e9).contains(&x))
     });
+    let form =
+        section.get("as").map(|form| Ok((form.name(&["point", "area"], &[])?, form.place())));
+    let as_area = match form.transpose()? {
+        Some(("area", place)) => Some(place),
+        _ => None,
+    };
     Ok(LuminaireEntry {
         place: section.place(),
         photometry,
         position,
         world_from_luminaire: rotation(section)?,
         dimming: dimming.transpose()?.unwrap_or(1.0),
+        as_area,
     })
 }
 

@@ -1,13 +1,16 @@
 //! The lights of a scene as transport uses them: photons leave them, surfaces see them.
 
+mod area_luminaires;
 mod emitters;
 mod pointlike;
 
+pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
 pub(crate) use pointlike::PointLikes;
 
 use crate::spectrum::Spectrum;
 use crate::world::{Vantage, World, to_world};
+use area_luminaires::place_m;
 use glam::DVec3;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 use quasilux_sampling::{Discrete, SampleCursor};
@@ -17,8 +20,10 @@ use std::f64::consts::PI;
 /// All lights of a scene.
 pub(crate) struct Lights<'a> {
     pub(crate) pointlikes: PointLikes<'a>,
+    pub(crate) area_luminaires: AreaLuminaires<'a>,
     pub(crate) emitters: Option<Emitters>,
-    /// Over the point-like lights, and past them all emitting facets together.
+    /// Over the point-like lights, the luminaires with an area, and past them all emitting facets
+    /// together.
     by_flux: Option<Discrete>,
     /// Sum of their fluxes in lm.
     pub(crate) flux_lm: f64,
@@ -34,32 +39,35 @@ pub(crate) struct Emission {
 impl<'a> Lights<'a> {
     pub(crate) fn new<S: Spectrum>(scene: &'a Scene, world: &World<S>) -> Self {
         let pointlikes = PointLikes::new(scene);
+        let area_luminaires = AreaLuminaires::new(scene);
         let emitters = Emitters::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
-        let fluxes: Vec<f64> =
-            pointlikes.iter().map(|(_, flux_lm)| flux_lm).chain([emitters_lm]).collect();
-        Self { pointlikes, emitters, by_flux: Discrete::new(&fluxes), flux_lm: fluxes.iter().sum() }
+        let centred = pointlikes.iter().chain(area_luminaires.iter());
+        let fluxes: Vec<f64> = centred.map(|(_, flux_lm)| flux_lm).chain([emitters_lm]).collect();
+        let (by_flux, flux_lm) = (Discrete::new(&fluxes), fluxes.iter().sum());
+        Self { pointlikes, area_luminaires, emitters, by_flux, flux_lm }
     }
 
     /// An illuminance in lx that is large for this scene: what each light gives, on average over
     /// directions, at a hundredth of the scene's size from it, or where the scene comes nearest.
     pub(crate) fn reference_lx<S: Spectrum>(&self, world: &World<S>) -> f64 {
         let near_m = 0.01 * world.size_m();
-        let pointlikes = self.pointlikes.iter().map(|(position, flux_lm)| {
+        let centred = self.pointlikes.iter().chain(self.area_luminaires.iter());
+        let centred = centred.map(|(position, flux_lm)| {
             let to_box_m = world
                 .bounds()
                 .map_or(0.0, |[low, high]| (position - position.clamp(low, high)).length());
             let distance_m = to_box_m.max(near_m);
             flux_lm / (4.0 * PI * distance_m * distance_m)
         });
-        pointlikes.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
+        centred.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
     }
 
     /// One photon of equal flux: the light in proportion to its flux, place and direction from the
     /// light's own distribution. `None` only where nothing emits.
     ///
     /// The first two coordinates choose the light and its direction by superposition, however many
-    /// lights there are; a photon of an area light takes two more.
+    /// lights there are; a photon of an area light or luminaire takes two more.
     pub(crate) fn emit<S: Spectrum>(
         &self,
         world: &World<S>,
@@ -79,6 +87,13 @@ impl<'a> Lights<'a> {
                 Light::Area(_) => return None,
             };
             return Some(Emission { from: world.vantage_of_light(position, direction), direction });
+        }
+        if let Some(luminaire) = self.area_luminaires.get(choice.index - self.pointlikes.len()) {
+            let towards = luminaire.photometry.sample(u)?.direction;
+            let place = luminaire.shape.sample_silhouette(towards, cursor.next_2d());
+            let direction = luminaire.world_from_luminaire * towards;
+            let from = world.vantage_of_light(place_m(luminaire, &place), direction);
+            return Some(Emission { from, direction });
         }
         let place = self.emitters.as_ref()?.place(world, u);
         let n = world.facets[place.facet as usize].front_normal;

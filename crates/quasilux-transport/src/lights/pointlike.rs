@@ -6,7 +6,7 @@ use glam::DVec3;
 use quasilux_sampling::choose_weights;
 use quasilux_scene::{Light, Scene};
 
-/// The lights without extent: points and luminaires.
+/// The lights without extent: points, and luminaires without a luminous area.
 pub(crate) struct PointLikes<'a>(Vec<&'a Light>);
 
 /// What one of them gives to a surface, were nothing in the way.
@@ -18,7 +18,16 @@ struct Unshadowed {
 
 impl<'a> PointLikes<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
-        Self(scene.lights.iter().filter(|light| !matches!(light, Light::Area(_))).collect())
+        let is_pointlike = |light: &&Light| match light {
+            Light::Point(_) => true,
+            Light::Luminaire(luminaire) => !luminaire.is_area(),
+            Light::Area(_) => false,
+        };
+        Self(scene.lights.iter().filter(is_pointlike).collect())
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
     }
 
     pub(crate) fn is_empty(&self) -> bool {

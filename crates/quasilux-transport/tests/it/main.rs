@@ -1,6 +1,7 @@
 //! Simulations against closed forms.
 
 mod agreement;
+mod area_luminaires;
 mod balance;
 mod coverage;
 mod cube;

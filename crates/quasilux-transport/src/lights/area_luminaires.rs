@@ -1,0 +1,162 @@
+//! Luminaires with a luminous area, seen from a surface: their direct light is sampled.
+//!
+//! The light that the shape S of a luminaire gives to a point x with normal n is
+//! `E = integral over S of I(w) p(w, y) (n.-w) / |x - y|^2 dy`, with w from y to x and p(w, y) the
+//! part of the intensity I(w) that leaves around y (`quasilux_photometry::LuminousShape`). A place y
+//! drawn from the silhouette along w0, from the centre to x, has density p(w0, y), so one place
+//! estimates E by `I(w) p(w, y) / p(w0, y) (n.-w) / |x - y|^2`. The ratio is 1 on flat shapes and at
+//! most |x - c| / |x - y| on others; from afar the estimate is that of a point, without noise.
+//!
+//! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
+//! running into one.
+
+use crate::spectrum::Spectrum;
+use crate::world::{Vantage, World};
+use glam::DVec3;
+use quasilux_photometry::SurfacePoint;
+use quasilux_sampling::choose_weights;
+use quasilux_scene::light::Luminaire;
+use quasilux_scene::{Light, Scene};
+use std::f64::consts::PI;
+
+/// Share of a luminaire's weight that does not trust the direction of its centre.
+const DEFENSIVE_SHARE: f64 = 0.1;
+/// Places along each coordinate from which a shape is probed for surfaces that cut it.
+const PROBES: u32 = 4;
+
+/// The luminaires with a luminous area.
+pub(crate) struct AreaLuminaires<'a>(Vec<AreaLuminaire<'a>>);
+
+struct AreaLuminaire<'a> {
+    luminaire: &'a Luminaire,
+    flux_lm: f64,
+    radius_m: f64,
+}
+
+/// What one place on a shape gives to a surface, were nothing in the way.
+struct Unshadowed {
+    direction: DVec3,
+    distance_m: f64,
+    illuminance_lx: f64,
+}
+
+impl<'a> AreaLuminaires<'a> {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        let luminaires = scene.lights.iter().filter_map(|light| match light {
+            Light::Luminaire(luminaire) if luminaire.is_area() => Some(AreaLuminaire {
+                luminaire,
+                flux_lm: luminaire.flux_lm(),
+                radius_m: luminaire.shape.radius_m(),
+            }),
+            _ => None,
+        });
+        Self(luminaires.collect())
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(crate) fn get(&self, index: usize) -> Option<&'a Luminaire> {
+        self.0.get(index).map(|light| light.luminaire)
+    }
+
+    /// Their centres in m and fluxes in lm.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (DVec3, f64)> {
+        self.0.iter().map(|light| (light.luminaire.position, light.flux_lm))
+    }
+
+    /// An estimate of the illuminance in lx from all of them on the side `n` of a surface, by one
+    /// place on one of them. `seen` is scratch space.
+    pub(crate) fn one<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        from: Vantage,
+        n: DVec3,
+        u: [f64; 2],
+        seen: &mut Vec<f64>,
+        rays: &mut u64,
+    ) -> f64 {
+        let position = from.position();
+        seen.clear();
+        seen.extend(self.0.iter().map(|light| light.importance_lx(position, n)));
+        let Some(choice) = choose_weights(u[0], seen.iter().copied()) else {
+            // Nothing shines here, or a figure that the tally must refuse came out.
+            return if seen.iter().sum::<f64>() == 0.0 { 0.0 } else { f64::NAN };
+        };
+        let place = self.0[choice.index].unshadowed(position, n, [choice.rest, u[1]]);
+        if place.illuminance_lx == 0.0 {
+            return 0.0;
+        }
+        *rays += 1;
+        let visible = world.is_visible(from, place.direction, place.distance_m, u32::MAX);
+        if visible { place.illuminance_lx / choice.probability } else { 0.0 }
+    }
+
+    /// How many have a shape that encloses a volume which surfaces pass through: part of their light
+    /// starts behind these.
+    pub(crate) fn cut_by_surfaces<S: Spectrum>(&self, world: &World<S>) -> usize {
+        self.0.iter().filter(|light| is_cut(light.luminaire, world)).count()
+    }
+}
+
+impl AreaLuminaire<'_> {
+    /// About what it gives to the side `n` of a surface unshadowed, in lx: the light of a point, the
+    /// distance softened by the shape's extent, and a share for what the shape has beside its
+    /// centre. 0 only where all of the shape is behind the surface.
+    fn importance_lx(&self, position: DVec3, n: DVec3) -> f64 {
+        let toward = self.luminaire.position - position;
+        if n.dot(toward) <= -self.radius_m {
+            return 0.0;
+        }
+        let square_m2 = toward.length_squared() + self.radius_m * self.radius_m;
+        let direction = toward.normalize_or_zero();
+        let intensity_cd = self.luminaire.intensity_cd(-direction);
+        let mean_cd = self.flux_lm / (4.0 * PI);
+        (intensity_cd * n.dot(direction).max(0.0) + DEFENSIVE_SHARE * mean_cd) / square_m2
+    }
+
+    /// One place on the shape, with the estimator at the head of this module.
+    fn unshadowed(&self, position: DVec3, n: DVec3, u: [f64; 2]) -> Unshadowed {
+        let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
+        let luminaire_from_world = world_from_luminaire.transpose();
+        let from_centre = luminaire_from_world * (position - self.luminaire.position);
+        let centre_direction = from_centre.normalize_or(DVec3::NEG_Z);
+        let place = shape.sample_silhouette(centre_direction, u);
+
+        let toward = place_m(self.luminaire, &place) - position;
+        let distance_m = toward.length();
+        let direction = toward / distance_m;
+        let cos = n.dot(direction);
+        let share = shape.pdf_silhouette(luminaire_from_world * -direction, &place);
+        let illuminance_lx = if cos <= 0.0 || share <= 0.0 {
+            0.0
+        } else {
+            let ratio = share / shape.pdf_silhouette(centre_direction, &place);
+            self.luminaire.intensity_cd(-direction) * ratio * cos / (distance_m * distance_m)
+        };
+        Unshadowed { direction, distance_m, illuminance_lx }
+    }
+}
+
+/// A place of a luminaire's shape in the world, in m.
+pub(crate) fn place_m(luminaire: &Luminaire, place: &SurfacePoint) -> DVec3 {
+    luminaire.position + luminaire.world_from_luminaire * place.position_m
+}
+
+/// Looks through a solid shape between places on opposite sides; flat ones may lie in a surface.
+fn is_cut<S: Spectrum>(luminaire: &Luminaire, world: &World<S>) -> bool {
+    let shape = luminaire.shape;
+    let parts = || (0..PROBES).map(|part| (f64::from(part) + 0.5) / f64::from(PROBES));
+    let is_open = |axis: DVec3, u: [f64; 2]| {
+        let [low_m, high_m] =
+            [-axis, axis].map(|toward| place_m(luminaire, &shape.sample_silhouette(toward, u)));
+        let direction = (high_m - low_m).normalize_or(DVec3::Z);
+        let from = world.vantage_of_light(low_m, direction);
+        // As far from the end as from the start.
+        let distance_m = (high_m - low_m).length() - 2.0 * (from.position() - low_m).length();
+        distance_m <= 0.0 || world.is_visible(from, direction, distance_m, u32::MAX)
+    };
+    shape.is_solid()
+        && DVec3::AXES.iter().any(|&axis| parts().any(|u| parts().any(|v| !is_open(axis, [u, v]))))
+}
