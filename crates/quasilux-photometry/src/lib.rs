@@ -5,6 +5,8 @@
 //! with its integral in closed form and an inverse transform that turns two uniform coordinates
 //! into a direction, continuously and without rejection.
 //!
+//! What of a luminaire shines is a [`LuminousShape`], by the signs of the file's dimensions.
+//!
 //! The luminaire frame has gamma = 0 (nadir) along -z, C0 along +x and C90 along +y; [`Web`] says where
 //! the angles of each photometric type lie in it.
 //!

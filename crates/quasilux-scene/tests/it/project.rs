@@ -1,6 +1,6 @@
 //! What a project file means.
 
-use crate::support::{LAMP_TM33, MapFiles, PROJECT, lamp_ldt, load_text, warnings_of};
+use crate::support::{LAMP_IES, LAMP_TM33, MapFiles, PROJECT, lamp_ldt, load_text, warnings_of};
 use glam::DVec3;
 use quasilux_scene::{Light, Quantity, SensorShape};
 use std::f64::consts::PI;
@@ -129,4 +129,29 @@ fn emission_in_a_geometry_file_needs_a_light() {
     let light = "[[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 1\n";
     let loaded = load_text(&format!("{PROJECT}{light}"), &files).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+}
+
+#[test]
+fn luminaires_are_points_unless_their_area_is_asked_for() {
+    let luminaire = |form: &str| {
+        format!(
+            "{PROJECT}[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n{form}\n"
+        )
+    };
+    let with_disk = LAMP_IES.replace("1 1 2 0 0 0", "1 1 2 -0.3 -0.3 0");
+    let shape_of = |form: &str, lamp: &str| {
+        let files = MapFiles::room().with("lamp.ies", lamp);
+        let loaded = load_text(&luminaire(form), &files).unwrap();
+        let Light::Luminaire(light) = &loaded.scene.lights[0] else { panic!("a luminaire") };
+        (light.shape.name(), light.is_area(), warnings_of(&loaded))
+    };
+    assert_eq!(shape_of("", &with_disk), ("point", false, vec![]));
+    assert_eq!(shape_of("as = \"point\"", &with_disk), ("point", false, vec![]));
+    assert_eq!(shape_of("as = \"area\"", &with_disk), ("disk", true, vec![]));
+    let (name, is_area, warnings) = shape_of("as = \"area\"", LAMP_IES);
+    assert_eq!((name, is_area, warnings.len()), ("point", false, 1));
+    let expected = "room.toml:19:6: \"as\" is \"area\", but the luminous opening of \"lamp.ies\"";
+    assert!(warnings[0].starts_with(expected), "{warnings:?}");
+    let unknown = load_text(&luminaire("as = \"disk\""), &MapFiles::room()).unwrap_err();
+    assert!(unknown.to_string().contains("expected \"point\" or \"area\""), "{unknown}");
 }

@@ -1,5 +1,6 @@
 //! The program from outside: arguments and files in; exit codes, messages and results out.
 
+mod area;
 mod bad_input;
 mod direct;
 mod experiment;
