@@ -65,6 +65,8 @@
 //! | [`Semicolon`] | counts as a blank | `4:2: found a semicolon; expected blanks or a comma between numbers (and 1 more)` |
 //! | [`RecordStart`] | line ends inside the numbers have no meaning | `3:22: found "1"; expected the ballast factor to begin on a new line` |
 //! | [`CountWithPoint`] | the integer that it is | `3:8: found 2; expected the number of vertical angles without a decimal point` |
+//! | [`OpeningOfOtherEdition`] | read by that edition's table ([`LuminousShape::of_opening`]) | `3:8: found a luminous width, length and height of -1, 0, 0 m; expected signs that stand for a shape in the file's edition (read as a disk, as in LM-63-1995)` |
+//! | [`UnknownOpening`] | a point | `3:8: found a luminous width, length and height of 0, -1, 0 m; expected signs that stand for a shape in the file's edition (read as a point)` |
 //! | [`NegativeLumens`] | absolute photometry | `3:3: found -2; expected -1 for absolute photometry (read as such)` |
 //! | [`ZeroBallastLampFactor`] | counts as 1 | `4:3: found 0; expected 1 in the field behind the ballast factor (read as 1)` |
 //! | [`BallastLampFactor`] | not applied | `4:3: found 1.1; expected 1 in the reserved field behind the ballast factor (...)` |
@@ -92,6 +94,9 @@
 //! [`Semicolon`]: crate::Deviation::Semicolon
 //! [`RecordStart`]: crate::Deviation::RecordStart
 //! [`CountWithPoint`]: crate::Deviation::CountWithPoint
+//! [`LuminousShape::of_opening`]: crate::LuminousShape::of_opening
+//! [`OpeningOfOtherEdition`]: crate::Deviation::OpeningOfOtherEdition
+//! [`UnknownOpening`]: crate::Deviation::UnknownOpening
 //! [`NegativeLumens`]: crate::Deviation::NegativeLumens
 //! [`ZeroBallastLampFactor`]: crate::Deviation::ZeroBallastLampFactor
 //! [`BallastLampFactor`]: crate::Deviation::BallastLampFactor

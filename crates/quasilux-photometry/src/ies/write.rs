@@ -1,6 +1,7 @@
 //! Writer of ANSI/IES LM-63 files.
 
 use crate::angles::snapped;
+use crate::shape::opening_in;
 use crate::write::{Half, Note, Writer, Written, aligned, before, degrees, number};
 use crate::{
     IesStandard, Keyword, LuminaireFacts, PhotometricType, Photometry, Standard, Symmetry, Tilt,
@@ -26,7 +27,8 @@ const NO_FACT: &str = "(not given)";
 ///   table without its closing plane gets it.
 /// - Types A and B keep their poles and all their angles (H, V), mirror images written out. A table
 ///   with symmetries of its own in one of these types is resampled to type C.
-/// - Facts: all of LM-63 are kept. The dimensions are in metres, with their signs. The multiplier
+/// - Facts: all of LM-63 are kept. The dimensions are in metres, with the signs by
+///   which the edition has the shape. The multiplier
 ///   holds what the ballast factor does not, for a luminaire that came from an LM-63 file, and is
 ///   1 for others.
 /// - Keywords keep their names and order. Those that the edition requires are added at the end:
@@ -48,7 +50,7 @@ pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Written {
 
     write_header(facts, edition, text_limit, &mut writer);
     write_tilt(&facts.tilt, edition, limit, &mut writer);
-    let opening = facts.opening;
+    let opening = opening_in(Standard::Lm63(edition), facts.standard, &facts.opening);
     let lumens = facts.lumens_per_lamp.map_or("-1".to_owned(), number);
     let counts = [
         number(facts.lamp_count),

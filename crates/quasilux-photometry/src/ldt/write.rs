@@ -4,6 +4,7 @@ use super::REFERENCE_FLUX_LM;
 use super::header::METRES_PER_MM;
 use super::ratios::direct_ratios;
 use crate::angles::snapped;
+use crate::shape::opening_in;
 use crate::write::{Half, Note, Writer, Written, aligned, before, degrees, number};
 use crate::{Grid, LuminaireFacts, Photometry, SphericalTable, Standard, Symmetry, Tilt};
 use glam::DVec3;
@@ -210,7 +211,7 @@ fn type_indicator<'f>(facts: &'f LuminaireFacts, grid: &Grid) -> &'f str {
 /// Fields 13 to 21: the length runs along y, which is the width of LM-63.
 fn write_dimensions(facts: &LuminaireFacts, writer: &mut Writer) {
     let mm = |size_m: f64| before(size_m / METRES_PER_MM, size_m, |mm| mm * METRES_PER_MM);
-    let opening = facts.opening;
+    let opening = opening_in(Standard::Eulumdat, facts.standard, &facts.opening);
     let (length_m, width_m) = (opening.width_m.abs(), opening.length_m.abs());
     let height_m = opening.height_m.abs();
     let is_round = opening.width_m < 0.0 && opening.length_m == opening.width_m;

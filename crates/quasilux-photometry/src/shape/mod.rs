@@ -27,7 +27,7 @@ mod cylinder;
 mod ellipsoid;
 mod signs;
 
-pub(crate) use signs::check_signs;
+pub(crate) use signs::{check_signs, opening_in};
 
 use crate::{LuminousOpening, Standard};
 use glam::DVec3;

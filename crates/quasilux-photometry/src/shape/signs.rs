@@ -32,6 +32,34 @@ pub(super) fn shape(standard: Standard, opening: &LuminousOpening) -> Found {
         .unwrap_or(Found { shape: LuminousShape::POINT, table: None })
 }
 
+/// The dimensions by which a file of the format `to` gives the shape of `opening`: by its own table,
+/// else by that of another edition; these themselves where they do.
+pub(crate) fn opening_in(
+    to: Standard,
+    from: Standard,
+    opening: &LuminousOpening,
+) -> LuminousOpening {
+    let wanted = LuminousShape::of_opening(from, opening);
+    let size_m = wanted.size_m();
+    let signed = |index: i32, axis: u32, size_m: f64| {
+        // Plus, minus and zero, in turn.
+        [size_m, -size_m, 0.0][(index / 3_i32.pow(axis) % 3) as usize]
+    };
+    let patterns = (0..27).map(|index| LuminousOpening {
+        width_m: signed(index, 0, size_m.y),
+        length_m: signed(index, 1, size_m.x),
+        height_m: signed(index, 2, size_m.z),
+    });
+    let candidates = || std::iter::once(*opening).chain(patterns.clone());
+    let gives = |candidate: &LuminousOpening| shape(to, candidate).shape == wanted;
+    let is_own = |candidate: &LuminousOpening| shape(to, candidate).table == Some(Table::of(to));
+    if wanted.is_point() {
+        return *opening;
+    }
+    let by_own_table = candidates().find(|candidate| gives(candidate) && is_own(candidate));
+    by_own_table.or_else(|| candidates().find(gives)).unwrap_or(*opening)
+}
+
 /// Warns of dimensions whose signs are not in the table of the file's edition.
 pub(crate) fn check_signs(
     standard: Standard,

@@ -4,6 +4,7 @@ use crate::corpus::{name, published_files, published_files_of};
 use glam::DVec3;
 use quasilux_photometry::{
     Deviation, IesStandard, LuminousOpening, LuminousShape, Standard, read_ies, read_ldt,
+    write_ies, write_ldt,
 };
 
 const EDITIONS: [IesStandard; 5] = [
@@ -138,4 +139,26 @@ fn published_eulumdat_openings_are_of_four_kinds() {
         solid += usize::from(shape.is_solid());
     }
     assert!(solid > 0);
+}
+
+/// A sphere of 1995 has other signs in 2002; EULUMDAT has disks by their own.
+#[test]
+fn writers_give_a_shape_the_signs_of_the_edition() {
+    for dimensions in ["-1 0 -1", "-1 0 0", "0 2 -1", "-1 2 3", "-1 2 -3", "1 2 3", "0 2 0"] {
+        let text = format!(
+            "IESNA:LM-63-1995\nTILT=NONE\n1 -1 1 2 1 1 2 {dimensions}\n1 1 10\n0 180\n0\n100 100\n"
+        );
+        let read = read_ies(text.as_bytes()).unwrap().photometry;
+        let shape = read.facts().shape();
+        let again = write_ies(&read, IesStandard::Lm63Of2002);
+        let again = read_ies(again.text.as_bytes()).unwrap();
+        assert_eq!(again.photometry.facts().shape(), shape, "{dimensions}");
+        assert!(again.warnings.is_empty(), "{dimensions}: {:?}", again.warnings);
+        let back = write_ies(&again.photometry, IesStandard::Lm63Of1995);
+        let back = read_ies(back.text.as_bytes()).unwrap().photometry;
+        assert_eq!(back.facts().shape(), shape, "{dimensions}");
+        let ldt = read_ldt(write_ldt(&read).text.as_bytes()).unwrap().photometry;
+        let is_kept = ["disk", "box", "line"].contains(&shape.name());
+        assert_eq!(ldt.facts().shape() == shape, is_kept, "{dimensions}");
+    }
 }

@@ -78,6 +78,8 @@ fn is_about_content(deviation: Deviation) -> bool {
             | Deviation::SeveralLampSets
             | Deviation::MeasurementTilt
             | Deviation::ClosingPlaneDiffers
+            | Deviation::OpeningOfOtherEdition
+            | Deviation::UnknownOpening
     )
 }
 
@@ -92,11 +94,14 @@ fn check_lines(written: &Written, limit: usize) {
     assert!(written.text.lines().all(|line| line.chars().count() <= limit));
 }
 
-/// Facts but for the edition, the field that means another thing in each, and lines of keywords.
+/// Facts but for the edition, the field that means another thing in each, the signs of dimensions,
+/// and lines of keywords.
 fn without_edition(facts: &LuminaireFacts) -> LuminaireFacts {
     let added = |keyword: &Keyword| keyword.value == "(not given)";
+    let size_m = facts.shape().size_m();
     let mut facts = facts.clone();
     facts.standard = Standard::Eulumdat;
+    facts.opening = LuminousOpening { width_m: size_m.y, length_m: size_m.x, height_m: size_m.z };
     facts.ballast_lamp_field = 1.0;
     facts.keywords.retain(|keyword| !added(keyword));
     facts.keywords.iter_mut().for_each(|keyword| {
