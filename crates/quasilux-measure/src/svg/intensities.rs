@@ -51,8 +51,9 @@ const LEGEND_PX: f64 = 40.0;
 const LEGEND_LINE_PX: f64 = 34.0;
 const MARGIN_PX: f64 = 14.0;
 const PANEL_PX: [f64; 2] = [440.0, 250.0];
-/// Width of a letter, in heights: wide enough for the fonts that are asked for.
+/// Widths of a small letter and of a capital, in heights: enough for the fonts that are asked for.
 const LETTER: f64 = 0.56;
+const CAPITAL: f64 = 0.72;
 
 /// The diagrams as an SVG file.
 #[must_use]
@@ -106,7 +107,7 @@ fn draw_head(drawing: &mut Drawing, intensities: &Intensities<'_>, width_px: f64
     {
         let plain = TextStyle::plain(Anchor::Start);
         let style = TextStyle { size_px, colour: colour.unwrap_or(plain.colour), ..plain };
-        let most = (width_px / (LETTER * size_px)) as usize;
+        let most = (width_px / (CAPITAL * size_px)) as usize;
         drawing.text([MARGIN_PX + 4.0, y], style, &shortened(text, most));
     }
 }
