@@ -63,7 +63,7 @@ fn tm33_is_like_ies() {
     folder.write("lamp.xml", tm33());
     let results = ["lamp.ies", "lamp.xml"].map(|lamp| {
         folder.write("project.toml", project(&placement).replace("lamp.ies", lamp));
-        let document = parsed(&folder.document("project.toml", lamp, &[], 0));
+        let document = parsed(&folder.document("project.toml", &format!("out-{lamp}"), &[], 0));
         document["sensors"].clone()
     });
     assert!(results[0].is_array());
