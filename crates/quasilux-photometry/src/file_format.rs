@@ -21,8 +21,8 @@ const LDT_NUMBERS: std::ops::Range<usize> = 2..7;
 
 impl Format {
     /// The format that the content shows: a line `TILT=` or an identifying line makes it LM-63, an
-    /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT. `None` where there is no such
-    /// mark.
+    /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT: there, a later line that begins
+    /// as `TILT=` does is a name. `None` where there is no such mark.
     pub fn of_content(bytes: &[u8]) -> Option<Self> {
         let start = &bytes[..bytes.len().min(MOST_SEARCHED)];
         let text = text::decode(start, &mut Warnings::default());
@@ -37,15 +37,16 @@ impl Format {
         };
         let is_number =
             |line: &&str| line.trim().replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite);
+        let (early, late) = lines.split_at(lines.len().min(LDT_NUMBERS.end));
         if first.starts_with('<') {
             Some(Self::Tm33)
-        } else if begins(first, "IESNA") || begins(first, "IES:LM-63") || lines.iter().any(is_tilt)
+        } else if begins(first, "IESNA") || begins(first, "IES:LM-63") || early.iter().any(is_tilt)
         {
             Some(Self::Lm63)
-        } else if lines.get(LDT_NUMBERS).is_some_and(|lines| lines.iter().all(is_number)) {
+        } else if early.get(LDT_NUMBERS).is_some_and(|lines| lines.iter().all(is_number)) {
             Some(Self::Eulumdat)
         } else {
-            None
+            late.iter().any(is_tilt).then_some(Self::Lm63)
         }
     }
 
@@ -89,6 +90,9 @@ mod tests {
             ("\n\nold label\nanother\n tilt = NONE\n1 2 3", Some(Format::Lm63)),
             ("\u{feff}  <?xml version=\"1.0\"?>", Some(Format::Tm33)),
             ("maker\n1\n0\n24\n15,0\n19\n5.0\nreport\n", Some(Format::Eulumdat)),
+            ("maker\n1\n0\n24\n15\n19\n5\nreport\nTILT=INCLUDE lamp\n", Some(Format::Eulumdat)),
+            ("label\nTILT=NONE\n1\n1000\n1\n2\n1\n1\n2\n", Some(Format::Lm63)),
+            ("1\n2\n3\nfour\n5\n6\n7\n8\nTILT=NONE\n1 1000", Some(Format::Lm63)),
             ("maker\n1\n0\n24\n15,0\nnineteen\n5.0\nreport\n", None),
             ("TILTED lamps\nTIL\u{e4}=\nTILT", None),
             ("1\n2\n3", None),
