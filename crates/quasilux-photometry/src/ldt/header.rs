@@ -205,7 +205,7 @@ fn read_lamp_sets(
         let found = format_args!("{sets} sets of lamps").to_string();
         warnings.push(Deviation::SeveralLampSets, at, found, expected);
     }
-    let count = fields.number("the number of lamps (field 26a)", warnings)?;
+    let count = fields.number_or_zero("the number of lamps (field 26a)", warnings)?;
     if count.value == 0.0 {
         let expected = "at least one lamp, or a negative number for absolute photometry";
         warnings.push(Deviation::ZeroLampCount, count.at, count.value, expected);

@@ -164,6 +164,7 @@ fn each_tolerated_deviation_is_reported() {
             File { isym: "0", planes: closing, intensities: "1 1 1 1 1", ..ROTATIONAL },
             Deviation::ClosingPlaneGiven,
         ),
+        (File { lamps: "1\n\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, Deviation::EmptyNumber),
         (File { lamps: "1\n0\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, Deviation::ZeroLampCount),
         (
             File { lamps: "2\n1\nT\n1000\n-\n-\n20\n1\nT\n2000\n-\n-\n40", ..ROTATIONAL },
