@@ -22,8 +22,16 @@ pub struct Written {
 #[non_exhaustive]
 pub enum Note {
     /// The table has poles of its own, or is a sector of type C. It was resampled to the whole
-    /// sphere in type C, with planes each 5 degrees and angles each degree.
-    Resampled(PhotometricType),
+    /// sphere in type C, with planes each 5 degrees and angles each degree. Beams that are not much
+    /// wider fall between them, or fill them: compare the fluxes.
+    Resampled {
+        /// The type of the table.
+        photometric_type: PhotometricType,
+        /// Of the table.
+        flux_lm: f64,
+        /// Of what was written.
+        written_flux_lm: f64,
+    },
     /// The axes of symmetry are not those of the luminaire: all planes around were written.
     Unfolded,
     /// No plane stood at C0. One was added by the table's own interpolation, which changes no
@@ -69,9 +77,9 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Resampled(kind) => write!(
+            Self::Resampled { photometric_type, flux_lm, written_flux_lm } => write!(
                 f,
-                "photometric type {kind:?} was resampled to all of type C, planes each 5 degrees, angles each degree"
+                "photometric type {photometric_type:?} was resampled to all of type C, planes each 5 degrees, angles each degree: {flux_lm:.5e} lm became {written_flux_lm:.5e} lm"
             ),
             Self::Unfolded => f.write_str(
                 "the axes of symmetry are not those of the luminaire: all planes were written",
@@ -96,6 +104,9 @@ impl fmt::Display for Note {
             Self::TextContinued => f.write_str("a text longer than a line was continued by [MORE]"),
             Self::TextCut { field, length } => {
                 write!(f, "{field} was cut to {length} characters")
+            }
+            Self::KeywordsLeftOut(1) => {
+                f.write_str("1 keyword that EULUMDAT has no field for was left out")
             }
             Self::KeywordsLeftOut(count) => {
                 write!(f, "{count} keywords that EULUMDAT has no field for were left out")

@@ -2,7 +2,7 @@
 //! the format stores.
 
 use super::{Note, Writer};
-use crate::{Angles, Grid, PhotometricType, Photometry, Symmetry};
+use crate::{Angles, Grid, PhotometricType, Photometry, SphericalTable, Symmetry};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -26,8 +26,7 @@ pub(crate) enum Half {
 pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) -> Grid {
     let kind = photometry.facts().photometric_type;
     if kind != PhotometricType::C {
-        writer.note(Note::Resampled(kind));
-        return resampled(photometry);
+        return resampled(photometry, writer);
     }
     let mut grid = photometry.table().grid();
     let start = grid.phi_rad[0];
@@ -58,10 +57,7 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
             writer.note(Note::Unfolded);
             closed(photometry.table().unfolded_grid(), writer)
         }
-        Symmetry::Sector => {
-            writer.note(Note::Resampled(kind));
-            resampled(photometry)
-        }
+        Symmetry::Sector => resampled(photometry, writer),
         Symmetry::None | Symmetry::Open => {
             let whole = photometry.table().unfolded_grid();
             let mut grid = closed(whole, writer);
@@ -74,7 +70,7 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
 }
 
 /// Intensities in planes of type C each 5 degrees, at angles each degree.
-fn resampled(photometry: &Photometry) -> Grid {
+fn resampled(photometry: &Photometry, writer: &mut Writer) -> Grid {
     let theta_rad: Vec<f64> = (0..=180).map(|i| f64::from(i) / 180.0 * PI).collect();
     let phi_rad: Vec<f64> = (0..=72).map(|i| f64::from(i) / 36.0 * PI).collect();
     let towards = |theta_rad: f64, plane: usize| {
@@ -84,7 +80,13 @@ fn resampled(photometry: &Photometry) -> Grid {
     };
     let values = theta_rad.iter().flat_map(|&theta| (0..=72).map(move |plane| (theta, plane)));
     let values = values.map(|(theta, plane)| towards(theta, plane)).collect();
-    Grid { theta_rad, phi_rad: phi_rad.clone(), symmetry: Symmetry::None, values }
+    let grid = Grid { theta_rad, phi_rad: phi_rad.clone(), symmetry: Symmetry::None, values };
+    writer.note(Note::Resampled {
+        photometric_type: photometry.facts().photometric_type,
+        flux_lm: photometry.flux_lm(),
+        written_flux_lm: SphericalTable::new(grid.clone()).map_or(0.0, |table| table.integral()),
+    });
+    grid
 }
 
 /// The same planes with the first one at `start`, if its angle differs by whole quarters only.

@@ -163,7 +163,7 @@ fn published_files_survive_eulumdat() {
         check_warnings(name, &read);
         let kind = photometry.facts().photometric_type;
         if kind != PhotometricType::C {
-            assert!(written.notes.contains(&Note::Resampled(kind)), "{name}");
+            assert_resampled(&written, photometry, &read);
             continue;
         }
         let dropped = |note: &Note| matches!(note, Note::ClosingPlaneDropped { .. });
@@ -287,9 +287,10 @@ fn what_no_format_holds_is_noted() {
     }
 
     let sector = built(&[-30.0, 0.0, 45.0], Symmetry::Sector);
-    for notes in [write_ies(&sector, IesStandard::Lm63Of2019).notes, write_ldt(&sector).notes] {
-        assert!(notes.contains(&Note::Resampled(PhotometricType::C)), "{notes:?}");
-    }
+    let written = write_ies(&sector, IesStandard::Lm63Of2019);
+    assert_resampled(&written, &sector, &ies(&written));
+    let written = write_ldt(&sector);
+    assert_resampled(&written, &sector, &ldt(&written));
 
     let mut grid = built(&[0.0, 90.0, 360.0], Symmetry::None).table().grid();
     grid.values[2] += 1.5;
@@ -307,7 +308,7 @@ fn other_poles_are_resampled_on_the_stated_grid() {
     let facts = LuminaireFacts { photometric_type: kind, ..facts() };
     let other = Photometry::new(photometry.table().clone(), facts);
     let written = write_ldt(&other);
-    assert!(written.notes.contains(&Note::Resampled(kind)));
+    assert_resampled(&written, &other, &ldt(&written));
     let table = ldt(&written).photometry.table().clone();
     assert_eq!((table.theta_rad().len(), table.phi_rad().count()), (181, 73));
     for (gamma, c) in [(0.0, 0.0), (45.0, 90.0), (90.0, 135.0), (130.0, 355.0), (180.0, 10.0)] {
@@ -315,6 +316,42 @@ fn other_poles_are_resampled_on_the_stated_grid() {
         let up = angles.direction();
         let (a, b) = (table.value_at(angles), other.intensity_cd(DVec3::new(up.x, up.y, -up.z)));
         assert!((a / b - 1.0).abs() < 1e-13, "({gamma}, {c}): {a} for {b}");
+    }
+}
+
+/// A beam between the planes of the stated grid: the note tells what became of its flux.
+#[test]
+fn a_beam_lost_in_resampling_is_told() {
+    let (theta_rad, phi_rad) = ([129.0, 130.5, 132.0], [19.0, 20.5, 22.0]);
+    let radians = |degrees: f64| degrees.to_radians();
+    let grid = Grid {
+        theta_rad: theta_rad.map(radians).to_vec(),
+        phi_rad: phi_rad.map(radians).to_vec(),
+        symmetry: Symmetry::Sector,
+        values: vec![0.0, 0.0, 0.0, 0.0, 1e5, 0.0, 0.0, 0.0, 0.0],
+    };
+    let facts = LuminaireFacts { photometric_type: PhotometricType::B, ..facts() };
+    let beam = Photometry::new(SphericalTable::new(grid).unwrap(), facts);
+    let written = write_ldt(&beam);
+    let [lost, kept] = written.notes.iter().find_map(resampled_fluxes_lm).expect("a note");
+    assert!((lost / beam.flux_lm() - 1.0).abs() < 1e-12);
+    assert!((kept / lost - 1.0).abs() > 0.2, "{lost} {kept}");
+    assert_resampled(&written, &beam, &ldt(&written));
+}
+
+fn resampled_fluxes_lm(note: &Note) -> Option<[f64; 2]> {
+    match *note {
+        Note::Resampled { flux_lm, written_flux_lm, .. } => Some([flux_lm, written_flux_lm]),
+        _ => None,
+    }
+}
+
+/// The note names both fluxes, that of the luminaire and that of the file.
+fn assert_resampled(written: &Written, photometry: &Photometry, read: &Read) {
+    let fluxes_lm = written.notes.iter().find_map(resampled_fluxes_lm).expect("a note");
+    for (noted_lm, flux_lm) in fluxes_lm.into_iter().zip([photometry, &read.photometry]) {
+        let flux_lm = flux_lm.flux_lm();
+        assert!((noted_lm - flux_lm).abs() <= 1e-12 * flux_lm, "{noted_lm} {flux_lm}");
     }
 }
 
