@@ -122,6 +122,9 @@ pub enum Deviation {
     SinglePlaneWithoutSymmetry,
     /// EULUMDAT: the planes listed without symmetry include the closing one at 360. It is kept.
     ClosingPlaneGiven,
+    /// EULUMDAT: the planes listed without symmetry leave a gap much wider than those between them. It
+    /// is filled by interpolation.
+    PlanesMissing,
     /// EULUMDAT: there are several sets of lamps. The first one is taken.
     SeveralLampSets,
     /// EULUMDAT and TM-33: the number of lamps is zero. It counts as one.

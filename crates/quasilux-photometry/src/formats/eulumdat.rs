@@ -71,6 +71,7 @@
 //! | [`AngleDistance`] | the angles listed count | `5:1: found a distance of 30 degrees; expected the distance of all planes, or 0 if unequal (the list counts)` |
 //! | [`SinglePlaneWithoutSymmetry`] | rotational symmetry | `3:1: found Isym = 0 with a single plane; expected Isym = 1 for a single plane (read as rotationally symmetric)` |
 //! | [`ClosingPlaneGiven`] | kept | `47:1: found a plane at 360; expected planes below 360, the closing one left out (it is kept)` |
+//! | [`PlanesMissing`] | the gap is filled by interpolation | `3:1: found Isym = 0 with planes from 0 to 180; expected planes all around (the gap is interpolated; check Isym)` |
 //! | [`SeveralLampSets`] | the first set is taken | `26:1: found 2 sets of lamps; expected one set of lamps (the first one is taken)` |
 //! | [`ZeroLampCount`] | one lamp | `27:1: found 0; expected at least one lamp, or a negative number for absolute photometry` |
 //! | [`ZeroConversionFactor`] | 1 | `24:1: found 0; expected a conversion factor above 0 (read as 1)` |
@@ -90,6 +91,7 @@
 //! [`AngleDistance`]: crate::Deviation::AngleDistance
 //! [`SinglePlaneWithoutSymmetry`]: crate::Deviation::SinglePlaneWithoutSymmetry
 //! [`ClosingPlaneGiven`]: crate::Deviation::ClosingPlaneGiven
+//! [`PlanesMissing`]: crate::Deviation::PlanesMissing
 //! [`SeveralLampSets`]: crate::Deviation::SeveralLampSets
 //! [`ZeroLampCount`]: crate::Deviation::ZeroLampCount
 //! [`ZeroConversionFactor`]: crate::Deviation::ZeroConversionFactor

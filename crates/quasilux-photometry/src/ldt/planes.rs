@@ -5,6 +5,9 @@ use crate::number::Number;
 use crate::report::{Position, Warnings};
 use crate::{Deviation, ReadError, Symmetry};
 
+/// The gap that closes the turn may be as wide as so many of the others.
+const WIDEST_GAP: f64 = 1.5;
+
 /// The planes that a file stores, in its order.
 pub(super) struct StoredPlanes {
     /// Ascending; those of C270 to C360 are one turn lower, before C0.
@@ -64,9 +67,23 @@ pub(super) fn stored_planes(
             warnings.push(Deviation::ClosingPlaneGiven, at, "a plane at 360", expected);
             (degrees, Symmetry::None)
         }
-        _ => (degrees, Symmetry::Open),
+        _ => {
+            note_gap(isym_at, &degrees, warnings);
+            (degrees, Symmetry::Open)
+        }
     };
     Ok(StoredPlanes { phi_rad: planes_deg.into_iter().map(radians).collect(), symmetry })
+}
+
+/// Notes planes that do not go all around: those of a luminaire whose symmetry is left unsaid.
+fn note_gap(isym_at: Position, degrees: &[f64], warnings: &mut Warnings) {
+    let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
+    let widest = degrees.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    if first + 360.0 - last > WIDEST_GAP * widest {
+        let found = format_args!("Isym = 0 with planes from {first} to {last}").to_string();
+        let expected = "planes all around (the gap is interpolated; check Isym)";
+        warnings.push(Deviation::PlanesMissing, isym_at, found, expected);
+    }
 }
 
 /// Notes a distance that the listed angles do not have; 0 says that they are unequal.

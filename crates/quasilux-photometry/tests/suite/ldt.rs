@@ -164,6 +164,10 @@ fn each_tolerated_deviation_is_reported() {
             File { isym: "0", planes: closing, intensities: "1 1 1 1 1", ..ROTATIONAL },
             Deviation::ClosingPlaneGiven,
         ),
+        (
+            File { isym: "0", planes: ("90", "0 90 180"), intensities: "1 1 1", ..ROTATIONAL },
+            Deviation::PlanesMissing,
+        ),
         (File { lamps: "1\n\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, Deviation::EmptyNumber),
         (File { lamps: "1\n0\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, Deviation::ZeroLampCount),
         (
