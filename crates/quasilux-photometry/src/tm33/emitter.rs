@@ -97,7 +97,12 @@ impl Emitter {
             return Some((measured.value, measured.at, "the flux that the file states"));
         }
         let lamps_lm = self.rated_lm? * self.ballast_factor;
-        Some((lamps_lm, self.rated_at, "the lamps' flux, less the luminaire's losses"))
+        let what = if self.table.integral() < lamps_lm {
+            "the lamps' flux, less the luminaire's losses"
+        } else {
+            "the lamps' flux: check Multiplier and RatedLumens"
+        };
+        Some((lamps_lm, self.rated_at, what))
     }
 }
 

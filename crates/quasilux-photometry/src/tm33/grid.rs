@@ -43,6 +43,10 @@ pub(super) fn read(
     let mut vertical: Vec<Number> = points.iter().map(|point| point.vertical).collect();
     vertical.sort_by(|a, b| a.value.total_cmp(&b.value));
     let vertical = distinct(vertical.into_iter());
+    if let [single] = vertical[..] {
+        let found = format!("all intensities at v = {}", single.value);
+        return Err(ReadError::new(single.at, found, "two or more vertical angles v"));
+    }
     check_complete(&points, &horizontal, &vertical)?;
     check_counts(data, [points.len(), horizontal.len(), vertical.len()], warnings)?;
 

@@ -215,6 +215,8 @@ fn factors_depend_on_the_kind_of_photometry() {
     assert_eq!((facts.ballast_factor, facts.candela_factor), (0.5, 1.5));
     assert_eq!(relative.photometry.rated_flux_lm(), Some(1000.0));
     assert_eq!(deviations(&relative), [Deviation::FluxDiffers]);
+    // 1885 lm from lamps of 500 lm are no loss.
+    assert!(relative.warnings[0].expected().contains("check Multiplier"), "{relative:?}");
 
     let absolute = of("1");
     assert_eq!(intensity_cd(&absolute.photometry, 40.0, 0.0), 300.0);
@@ -410,6 +412,8 @@ fn refusals_name_place_and_element() {
         assert_eq!((error.line(), error.column()), (line, column), "{to}: {error}\n{text}");
         assert!(error.to_string().contains(expected), "{to}: {error}");
     }
+    let single = refused(&File::at(&[30.0], &[(0.0, [5.0]), (90.0, [5.0])]).text());
+    assert!(single.to_string().contains("two or more vertical angles"), "{single}");
     for text in ["", "lamp", "IESNA:LM-63-2002\nTILT=NONE", "<a", "\u{FEFF}"] {
         assert_eq!(refused(text).line(), 1);
     }
