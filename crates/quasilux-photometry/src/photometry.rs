@@ -3,6 +3,9 @@
 use crate::{DirectionSample, LuminaireFacts, SphericalTable, Tilt, TiltFactor, Web};
 use glam::DVec3;
 
+/// Integrated and stated flux may differ by this part without a warning.
+pub(crate) const FLUX_TOLERANCE: f64 = 0.01;
+
 /// A measured luminaire.
 ///
 /// Directions are in the luminaire frame: gamma = 0 along -z, C0 along +x, C90 along +y, whatever

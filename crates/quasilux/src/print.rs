@@ -1,8 +1,22 @@
-//! Text for stdout.
+//! Text for stdout. A reader that has gone away is no reason to fail, a full disk is.
 
-use std::io::Write;
+use crate::exit::Refusal;
+use std::io::{self, BufWriter, ErrorKind, Write};
 
-/// Prints to stdout; a reader that has gone away is no reason to fail.
-pub(crate) fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
+/// Prints a text.
+pub(crate) fn print(text: &str) -> Result<(), Refusal> {
+    to_stdout(|out| out.write_all(text.as_bytes()))
+}
+
+/// Prints piece by piece.
+pub(crate) fn to_stdout(
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Refusal> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Refusal::new(format!("cannot write to stdout: {error}")))
+        }
+        _ => Ok(()),
+    }
 }

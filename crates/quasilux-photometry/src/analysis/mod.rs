@@ -74,7 +74,8 @@ pub struct Analysis {
     pub maximum: Option<MaximumIntensity>,
     /// The planes C0-C180 and C90-C270.
     pub planes: [PlaneAnalysis; 2],
-    /// Integrated flux over the flux of the lamps; `None` for absolute photometry.
+    /// Integrated flux over that of the lamps with the ballast factor, which cancels: lamps and
+    /// luminaire are compared on the same ballast. `None` for absolute photometry.
     pub light_output_ratio: Option<f64>,
     /// Integrated flux over the electrical power, in lm/W; `None` where the file gives no power.
     pub efficacy_lm_w: Option<f64>,
@@ -111,7 +112,9 @@ impl Analysis {
         let zones = ZonalFlux::of(photometry);
         let facts = photometry.facts();
         let flux_lm = photometry.flux_lm();
-        let light_output_ratio = photometry.rated_flux_lm().map(|rated_lm| flux_lm / rated_lm);
+        let lamps_lm = photometry.rated_flux_lm();
+        let ballast_factor = photometry.facts().ballast_factor;
+        let light_output_ratio = lamps_lm.map(|lamps_lm| flux_lm / (lamps_lm * ballast_factor));
         let is_powered = facts.input_watts > 0.0 && facts.input_watts.is_finite();
         let border = |zone: usize| PI * zone as f64 / ZONES as f64;
         Self {

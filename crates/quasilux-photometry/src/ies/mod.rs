@@ -39,6 +39,7 @@ mod write;
 use crate::angles::gamma_rad;
 use crate::candela::check_closing;
 use crate::number::Number;
+use crate::photometry::FLUX_TOLERANCE;
 use crate::report::{Position, Warnings, quoted};
 use crate::shape::check_signs;
 use crate::{
@@ -55,9 +56,6 @@ pub use write::write_ies;
 
 /// Metres in a foot (international foot, exact).
 const METRES_PER_FOOT: f64 = 0.3048;
-
-/// Integrated and rated flux may differ by this part without a warning.
-const FLUX_TOLERANCE: f64 = 0.01;
 
 /// Reads an LM-63 file. Total: any bytes give a luminaire or an error with its place, in
 /// no more memory than [`crate::most_read_memory_bytes`].

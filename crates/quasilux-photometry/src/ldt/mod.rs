@@ -48,6 +48,7 @@ mod write;
 
 use crate::angles::{gamma_rad, radians};
 use crate::candela::intensity_cd;
+use crate::photometry::FLUX_TOLERANCE;
 use crate::report::{Position, Warnings, quoted};
 use crate::{
     Deviation, Grid, LuminaireFacts, PhotometricType, Photometry, Read, ReadError, SphericalTable,
@@ -60,10 +61,6 @@ pub use write::write_ldt;
 
 /// Lumens that the written intensities refer to.
 const REFERENCE_FLUX_LM: f64 = 1000.0;
-
-/// Integrated flux and lamps' flux times light output ratio may differ by this part without a
-/// warning.
-const FLUX_TOLERANCE: f64 = 0.01;
 
 /// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, in
 /// no more memory than [`crate::most_read_memory_bytes`].

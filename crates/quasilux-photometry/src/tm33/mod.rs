@@ -10,6 +10,7 @@ mod grid;
 mod opening;
 mod sum;
 
+use crate::photometry::FLUX_TOLERANCE;
 use crate::report::{Warnings, quoted};
 use crate::xml::{self, Element};
 use crate::{
@@ -164,9 +165,6 @@ fn keywords(header: Option<&Element<'_>>, emitters: &[Emitter]) -> Vec<Keyword> 
     keywords.extend(emitters.iter().flat_map(|emitter| emitter.keywords.iter().cloned()));
     keywords
 }
-
-/// Integrated and stated flux may differ by this part without a warning.
-const FLUX_TOLERANCE: f64 = 0.01;
 
 /// Compares an emitter's flux with the one that its element states.
 fn check_flux(table: &SphericalTable, emitter: &Emitter, warnings: &mut Warnings) {

@@ -22,11 +22,15 @@ pub struct Written {
 #[non_exhaustive]
 pub enum Note {
     /// The table has poles of its own, or is a sector of type C. It was resampled to the whole
-    /// sphere in type C, with planes each 5 degrees and angles each degree. Beams that are not much
-    /// wider fall between them, or fill them: compare the fluxes.
+    /// sphere in type C, on the coarsest of three grids that keeps the flux to 0.1 %. Beams narrower
+    /// than the steps of the finest fall between them, or fill them: compare the fluxes.
     Resampled {
         /// The type of the table.
         photometric_type: PhotometricType,
+        /// Between planes.
+        plane_step_deg: f64,
+        /// Between angles gamma.
+        angle_step_deg: f64,
         /// Of the table.
         flux_lm: f64,
         /// Of what was written.
@@ -77,9 +81,17 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Resampled { photometric_type, flux_lm, written_flux_lm } => write!(
+            Self::Resampled {
+                photometric_type,
+                plane_step_deg,
+                angle_step_deg,
+                flux_lm,
+                written_flux_lm,
+            } => write!(
                 f,
-                "photometric type {photometric_type:?} was resampled to all of type C, planes each 5 degrees, angles each degree: {flux_lm:.5e} lm became {written_flux_lm:.5e} lm"
+                "photometric type {photometric_type:?} was resampled to all of type C, planes in \
+                 steps of {plane_step_deg} degrees, angles of {angle_step_deg}: {flux_lm:.5e} lm \
+                 became {written_flux_lm:.5e} lm"
             ),
             Self::Unfolded => f.write_str(
                 "the axes of symmetry are not those of the luminaire: all planes were written",

@@ -9,6 +9,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Planes nearer than this to an axis stand on it.
 const TOLERANCE_RAD: f64 = 1e-9;
 
+/// Grids that what is not of type C is resampled on, ever finer: planes around, and steps from nadir to
+/// zenith. The last has 260 000 intensities.
+const GRIDS: [[usize; 2]; 3] = [[72, 180], [144, 360], [360, 720]];
+
+/// Resampling may change the flux by this part before a finer grid is taken.
+const FLUX_TOLERANCE: f64 = 1e-3;
+
 /// The half that a format stores of what is mirrored in the plane of C90 and C270.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Half {
@@ -69,24 +76,48 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
     }
 }
 
-/// Intensities in planes of type C each 5 degrees, at angles each degree.
+/// Intensities in planes and at angles of type C all around, on the first of the grids that keeps the
+/// flux, or else on the finest.
 fn resampled(photometry: &Photometry, writer: &mut Writer) -> Grid {
-    let theta_rad: Vec<f64> = (0..=180).map(|i| f64::from(i) / 180.0 * PI).collect();
-    let phi_rad: Vec<f64> = (0..=72).map(|i| f64::from(i) / 36.0 * PI).collect();
-    let towards = |theta_rad: f64, plane: usize| {
-        // The closing plane is the first one, to the bit.
-        let down = Angles { theta_rad, phi_rad: phi_rad[plane % 72] }.direction();
-        photometry.intensity_cd(DVec3::new(down.x, down.y, -down.z))
-    };
-    let values = theta_rad.iter().flat_map(|&theta| (0..=72).map(move |plane| (theta, plane)));
-    let values = values.map(|(theta, plane)| towards(theta, plane)).collect();
-    let grid = Grid { theta_rad, phi_rad: phi_rad.clone(), symmetry: Symmetry::None, values };
+    let flux_lm = photometry.flux_lm();
+    let mut tried = GRIDS.iter().map(|&steps| {
+        let grid = sampled(photometry, steps);
+        let written_lm = SphericalTable::new(grid.clone()).map_or(0.0, |table| table.integral());
+        (grid, steps, written_lm)
+    });
+    let keeps = |written_lm: f64| (written_lm - flux_lm).abs() <= FLUX_TOLERANCE * flux_lm;
+    let mut taken = tried.next().expect("there are grids");
+    while !keeps(taken.2) {
+        match tried.next() {
+            Some(finer) => taken = finer,
+            None => break,
+        }
+    }
+    let (grid, [planes, angles], written_flux_lm) = taken;
     writer.note(Note::Resampled {
         photometric_type: photometry.facts().photometric_type,
-        flux_lm: photometry.flux_lm(),
-        written_flux_lm: SphericalTable::new(grid.clone()).map_or(0.0, |table| table.integral()),
+        plane_step_deg: 360.0 / planes as f64,
+        angle_step_deg: 180.0 / angles as f64,
+        flux_lm,
+        written_flux_lm,
     });
     grid
+}
+
+/// Intensities at so many planes around, and so many steps from nadir to zenith.
+fn sampled(photometry: &Photometry, [planes, angles]: [usize; 2]) -> Grid {
+    let even = |steps: usize, end: f64| -> Vec<f64> {
+        (0..=steps).map(|i| i as f64 / steps as f64 * end).collect()
+    };
+    let (theta_rad, phi_rad) = (even(angles, PI), even(planes, TAU));
+    let towards = |theta_rad: f64, plane: usize| {
+        // The closing plane is the first one, to the bit.
+        let down = Angles { theta_rad, phi_rad: phi_rad[plane % planes] }.direction();
+        photometry.intensity_cd(DVec3::new(down.x, down.y, -down.z))
+    };
+    let values = theta_rad.iter().flat_map(|&theta| (0..=planes).map(move |plane| (theta, plane)));
+    let values = values.map(|(theta, plane)| towards(theta, plane)).collect();
+    Grid { theta_rad, phi_rad: phi_rad.clone(), symmetry: Symmetry::None, values }
 }
 
 /// The same planes with the first one at `start`, if its angle differs by whole quarters only.

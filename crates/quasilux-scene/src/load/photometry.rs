@@ -3,11 +3,10 @@
 use crate::geometry::{beside, read_file, reason};
 use crate::project::Project;
 use crate::{Files, LoadError, Place, Placed, Warning};
-use quasilux_photometry::{
-    Deviation, Photometry, ReadError, Tilt, read_ies, read_ldt, read_tilt, read_tm33,
-};
+use quasilux_photometry::{Deviation, Format, Photometry, ReadError, Tilt, read_tilt};
 
-/// Reads an IES, EULUMDAT or TM-33 file, as its extension says, passing its warnings on.
+/// Reads an IES, EULUMDAT or TM-33 file, as its content or else its extension says, passing its
+/// warnings on.
 pub(super) fn read(
     project: &Project,
     name: &Placed<String>,
@@ -16,13 +15,17 @@ pub(super) fn read(
 ) -> Result<Photometry, LoadError> {
     let bytes = read_file(project, name, files)?;
     let file = name.value.as_str();
-    let extension = file.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
-    let read = match extension.as_deref() {
-        Some("ldt") => read_ldt(&bytes),
-        Some("xml") => read_tm33(&bytes),
-        _ => read_ies(&bytes),
-    };
-    let read = read.map_err(|error| load_error(file, &error))?;
+    let promised = Format::of_name(file);
+    let format = Format::of_content(&bytes).or(promised).unwrap_or(Format::Lm63);
+    if let Some(promised) = promised.filter(|promised| *promised != format) {
+        let message = format!(
+            "found a file in the format {}; expected {}, as the name says (read as what it is)",
+            format.name(),
+            promised.name()
+        );
+        warnings.push(Warning::new(file, None, message));
+    }
+    let read = format.read(&bytes).map_err(|error| load_error(file, &error))?;
     for warning in &read.warnings {
         // Whether that file is there is found out below.
         if warning.deviation() != Deviation::TiltFile {

@@ -77,6 +77,18 @@ fn eulumdat_is_known_by_its_extension_in_any_case() {
 }
 
 #[test]
+fn the_content_of_a_luminaire_file_counts_more_than_its_name() {
+    let luminaire = "[[luminaires]]\nphotometry = \"lamp.xml\"\nposition = [0, 0, 2]\n";
+    let files = MapFiles::room().with("lamp.xml", lamp_ldt());
+    let loaded = load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap();
+    let warnings = warnings_of(&loaded);
+    let expected = "lamp.xml: found a file in the format EULUMDAT; expected TM-33";
+    assert!(warnings.len() == 1 && warnings[0].starts_with(expected), "{warnings:?}");
+    let Light::Luminaire(light) = &loaded.scene.lights[0] else { panic!("a luminaire") };
+    assert!((light.flux_lm() / (2000.0 * PI) - 1.0).abs() < 1e-12);
+}
+
+#[test]
 fn tm33_is_known_by_its_extension_in_any_case() {
     for name in ["lamp.xml", "LAMP.XML"] {
         let luminaire = format!("[[luminaires]]\nphotometry = \"{name}\"\nposition = [0, 0, 2]\n");

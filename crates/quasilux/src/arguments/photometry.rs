@@ -22,7 +22,7 @@ pub(crate) struct PhotometryArguments {
     /// Print a document in JSON, format "quasilux-photometry/1", and nothing else
     #[arg(long)]
     pub(crate) json: bool,
-    /// Exit with code 1 where a file has warnings
+    /// Exit with code 1 where a file has warnings, the luminaire's losses not counted
     #[arg(long)]
     pub(crate) strict: bool,
 }

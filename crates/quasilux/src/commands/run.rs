@@ -31,10 +31,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
     let finished = simulate(&project, &arguments.simulation, arguments.quiet)?;
     results::write(&folder, &finished.report)?;
     if arguments.json {
-        print(&json::json(&finished.report));
+        print(&json::json(&finished.report))?;
     } else if !arguments.quiet {
-        print(&table::table(&finished.report, style()));
-        print(&format!("results in {}\n", folder.display()));
+        print(&table::table(&finished.report, style()))?;
+        print(&format!("results in {}\n", folder.display()))?;
     }
     Ok(finished.exit)
 }

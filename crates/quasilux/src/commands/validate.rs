@@ -19,7 +19,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
     if cases.is_empty() {
         return Err(Refusal::new(format!("{}: no cases, expected *.toml", folder.display())));
     }
-    print_row(["case", "estimator", "figure", "expected", "got", "verdict"]);
+    print_row(["case", "estimator", "figure", "expected", "got", "verdict"])?;
     let (mut held, mut failed) = (0, 0);
     for path in cases {
         let case = Case::read(&path)?;
@@ -31,12 +31,12 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
                 return Ok(Exit::Interrupted);
             }
             for verdict in judge(&case, &finished.report)? {
-                print_verdict(&case, &finished.report, &verdict);
+                print_verdict(&case, &finished.report, &verdict)?;
                 *(if verdict.holds { &mut held } else { &mut failed }) += 1;
             }
         }
     }
-    print(&format!("{held} passed, {failed} failed\n"));
+    print(&format!("{held} passed, {failed} failed\n"))?;
     Ok(if failed == 0 { Exit::Done } else { Exit::CheckFailed })
 }
 
@@ -63,7 +63,7 @@ fn judge(case: &Case, report: &Report) -> Result<Vec<Verdict>, Refusal> {
     Ok(verdicts)
 }
 
-fn print_verdict(case: &Case, report: &Report, verdict: &Verdict) {
+fn print_verdict(case: &Case, report: &Report, verdict: &Verdict) -> Result<(), Refusal> {
     let Verdict { what, expected, got, holds, why } = verdict;
     let judged = if *holds { "holds".to_owned() } else { format!("FAILS: {why}") };
     print_row([
@@ -73,11 +73,11 @@ fn print_verdict(case: &Case, report: &Report, verdict: &Verdict) {
         &exact(*expected),
         &figure_text(*got).joined(),
         &judged,
-    ]);
+    ])
 }
 
-fn print_row([case, estimator, figure, expected, got, verdict]: [&str; 6]) {
+fn print_row([case, estimator, figure, expected, got, verdict]: [&str; 6]) -> Result<(), Refusal> {
     print(&format!(
         "{case:<20}  {estimator:<17}  {figure:<26}  {expected:>18}  {got:<20}  {verdict}\n"
-    ));
+    ))
 }

@@ -110,6 +110,24 @@ fn warnings_matter_to_strict_callers() {
     assert!(run.stdout.contains("[TrailingText]"), "{}", run.stdout);
     photometry(&folder, &["odd.ies", "--strict"], 1);
     photometry(&folder, &["odd.ies", "gone.ies", "--strict"], 2);
+    // 3141.6 lm of 4000: the losses that each luminaire has. More light than the lamps give is odd.
+    folder.write("disk.ies", lambertian());
+    let text = photometry(&folder, &["disk.ies", "--strict"], 0).stdout;
+    assert!(text.contains("[FluxDiffers]"), "{text}");
+    folder.write("bright.ies", lambertian().replace(" 4000 ", " 3000 "));
+    photometry(&folder, &["bright.ies", "--strict"], 1);
+}
+
+/// The ballast factor dims lamps and luminaire alike.
+#[test]
+fn the_output_ratio_is_that_on_one_ballast() {
+    let folder = folder("ballast");
+    folder.write("full.ies", lambertian());
+    folder.write("dim.ies", lambertian().replace("\n1 1 25\n", "\n0.9 1 25\n"));
+    let text = photometry(&folder, &["full.ies", "dim.ies"], 0).stdout;
+    let ratios: Vec<&str> = text.lines().filter(|line| line.contains("output ratio")).collect();
+    assert!(ratios.len() == 2 && ratios[0] == ratios[1], "{ratios:?}");
+    assert!(ratios[0].ends_with("78.5 %"), "{ratios:?}");
 }
 
 #[test]

@@ -4,8 +4,8 @@ mod rejection;
 
 use crate::arguments::ExperimentArguments;
 use crate::exit::{Exit, Refusal};
+use crate::print::print;
 use crate::results;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Experiments that can be run, with what they show.
@@ -56,15 +56,8 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     results::write_whole(&file("csv"), outcome.csv.as_bytes())?;
     results::write_whole(&file("md"), outcome.markdown.as_bytes())?;
     results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
-    let mut stdout = std::io::stdout().lock();
-    let printed =
-        write!(stdout, "{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display());
-    match printed {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Refusal::new(format!("cannot write to stdout: {error}")))
-        }
-        _ => Ok(Exit::Done),
-    }
+    print(&format!("{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display()))?;
+    Ok(Exit::Done)
 }
 
 fn refused(name: &str) -> Refusal {

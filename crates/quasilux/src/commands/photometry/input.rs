@@ -2,7 +2,7 @@
 
 use super::outputs::is_stdin;
 use crate::project::{read_all, read_bounded};
-use quasilux_photometry::{Analysis, Format, Photometry, ReadError, Warning};
+use quasilux_photometry::{Analysis, Deviation, Format, Photometry, ReadError, Standard, Warning};
 use std::fmt;
 use std::io;
 use std::path::Path;
@@ -73,6 +73,16 @@ fn luminaire(name: &str, bytes: &[u8]) -> Result<Luminaire, Failure> {
         warnings: read.warnings,
         misnamed: promised.filter(|promised| *promised != format),
     })
+}
+
+impl Luminaire {
+    /// Whether there are warnings, other than that the luminaire gives less light than its lamps: each
+    /// luminaire does.
+    pub(super) fn is_odd(&self) -> bool {
+        let has_losses = self.analysis.light_output_ratio.is_some_and(|ratio| ratio < 1.0)
+            && matches!(self.photometry.facts().standard, Standard::Lm63(_));
+        self.warnings.iter().any(|w| !(has_losses && w.deviation() == Deviation::FluxDiffers))
+    }
 }
 
 impl Failure {

@@ -29,11 +29,11 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, Refusa
         }
     }
     if arguments.json {
-        print(&document::document(&inputs));
+        print(&document::document(&inputs))?;
     } else {
         let summaries: Vec<String> =
             read(&inputs).map(|(input, luminaire)| summary::summary(input, luminaire)).collect();
-        print(&summaries.join("\n"));
+        print(&summaries.join("\n"))?;
     }
     for (i, input) in inputs.iter().enumerate() {
         if let Ok(luminaire) = &input.luminaire
@@ -54,7 +54,7 @@ fn read(inputs: &[Input]) -> impl Iterator<Item = (&Input, &Luminaire)> {
 }
 
 fn exit(inputs: &[Input], strict: bool) -> Exit {
-    let is_odd = |(_, luminaire): (&Input, &Luminaire)| !luminaire.warnings.is_empty();
+    let is_odd = |(_, luminaire): (&Input, &Luminaire)| luminaire.is_odd();
     if inputs.iter().any(|input| input.luminaire.is_err()) {
         Exit::BadInput
     } else if strict && read(inputs).any(is_odd) {

@@ -1,9 +1,10 @@
 //! `quasilux points --compare`: root mean squares over randomisations, and their slopes.
 
 use super::setup::{Measure, Setup, counts, replicate};
-use super::{comparison_plot, comparison_table, to_stdout};
+use super::{comparison_plot, comparison_table};
 use crate::arguments::PointsArguments;
 use crate::exit::Refusal;
+use crate::print::print;
 use crate::results;
 use quasilux_sampling::quality::fit_power_law;
 use rayon::prelude::*;
@@ -33,7 +34,7 @@ pub(super) fn compare(arguments: &PointsArguments) -> Result<(), Refusal> {
         let svg = comparison_plot::svg(&curves);
         results::write_whole(path, svg.as_bytes())?;
     }
-    to_stdout(|out| out.write_all(comparison_table::table(&curves).as_bytes()))
+    print(&comparison_table::table(&curves))
 }
 
 fn curves(max_n: u64, seed: u64) -> Vec<Curve> {

@@ -8,6 +8,7 @@ mod setup;
 
 use crate::arguments::PointsArguments;
 use crate::exit::{Exit, Refusal};
+use crate::print::to_stdout;
 use crate::{names, results};
 use quasilux_measure::number::exact;
 use quasilux_measure::svg::{Scatter, scatter};
@@ -46,17 +47,6 @@ fn list_or_draw(name: &str, arguments: &PointsArguments) -> Result<(), Refusal> 
         Some(path) => results::stream_whole(path, |file| write_csv(&points, arguments, file)),
         None if arguments.svg.is_none() => to_stdout(|out| write_csv(&points, arguments, out)),
         None => Ok(()),
-    }
-}
-
-/// Whoever reads may stop reading: that is no error.
-fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Refusal> {
-    let mut out = io::BufWriter::new(io::stdout().lock());
-    match write(&mut out).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Refusal::new(format!("cannot write to stdout: {error}")))
-        }
-        _ => Ok(()),
     }
 }
 
