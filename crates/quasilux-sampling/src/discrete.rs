@@ -100,9 +100,7 @@ impl Discrete {
     }
 }
 
-/// Non-decreasing sums with the rounding errors carried along (A. Neumaier, 1974); `None` on
-/// overflow.
-/// - sum of p log2 p (Shannon 1948), less a little so that 1024 equal entries have 10 bits.
+/// Minus the sum of p log2 p (Shannon 1948), less a little so that 1024 equal entries have 10 bits.
 fn entropy(cumulative: &[f64]) -> f64 {
     let mut below = 0.0;
     let mut bits = -1e-9;
@@ -116,6 +114,8 @@ fn entropy(cumulative: &[f64]) -> f64 {
     bits
 }
 
+/// Non-decreasing sums with the rounding errors carried along (A. Neumaier, 1974); `None` on
+/// overflow.
 fn prefix_sums(weights: &[f64]) -> Option<Vec<f64>> {
     let (mut sum, mut carry, mut last) = (0.0_f64, 0.0, 0.0_f64);
     let next = |weight: &f64| {
