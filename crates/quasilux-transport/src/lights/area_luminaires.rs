@@ -5,7 +5,8 @@
 //! part of the intensity I(w) that leaves around y (`quasilux_photometry::LuminousShape`). A place y
 //! drawn from the silhouette along w0, from the centre to x, has density p(w0, y), so one place
 //! estimates E by `I(w) p(w, y) / p(w0, y) (n.-w) / |x - y|^2`. The ratio is 1 on flat shapes and at
-//! most |x - c| / |x - y| on others; from afar the estimate is that of a point, without noise.
+//! most `|x - c| / |x - y| A(w0) / A(w)` on others, A the projected area: near the end of a thin tube
+//! it is large. From afar the estimate is that of a point, without noise.
 //!
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.

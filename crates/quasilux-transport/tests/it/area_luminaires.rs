@@ -10,6 +10,7 @@ use quasilux_photometry::{Axis, LuminousShape, Solid, read_ies};
 use quasilux_scene::light::{Luminaire, Placement};
 use quasilux_scene::{Grid, Light, Quantity, Scene, Sensor, SensorShape};
 use quasilux_transport::{Estimates, Estimator, Settings, simulate};
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 const NADIR_CD: f64 = 1000.0;
@@ -190,6 +191,46 @@ fn box_sum_lx(half_m: DVec3, at: DVec3, n: DVec3) -> f64 {
         }
     }
     sum_lx
+}
+
+/// Beside the middle of a line of length l, with equal intensity to all sides:
+/// E = (I / l) integral of d / (d^2 + t^2)^(3/2) dt = I / (d sqrt(d^2 + l^2 / 4)).
+#[test]
+fn a_line_is_seen_along_its_length() {
+    let distances = [0.1, 0.5, 2.0];
+    let sensors: Vec<_> =
+        distances.iter().map(|d| (CENTRE + DVec3::Y * *d, DVec3::NEG_Y)).collect();
+    let wanted: Vec<f64> =
+        distances.iter().map(|d: &f64| NADIR_CD / (d * libm::hypot(*d, 0.6))).collect();
+    let line = LuminousShape::new(Solid::Cuboid, DVec3::X * 1.2);
+    let light = luminaire(Beam::Isotropic, line, CENTRE);
+    assert_direct(&in_the_dark(light, &sensors), &wanted, 1e-4, "line");
+}
+
+/// Before the end of a tube, on its axis, only the end disk is seen; its luminance falls off
+/// steeply, as the side widens the silhouette: A(w) = (pi a^2 h + 4 a c r) / sqrt(h^2 + r^2) toward
+/// the place at distance r from the axis of a disk of radius a, with the half length c of the tube.
+#[test]
+fn a_tube_is_brightest_along_its_axis() {
+    const STEPS: u32 = 100_000;
+    let (a, c): (f64, f64) = (0.05, 0.3);
+    let distances = [0.05, 0.2];
+    let wanted = distances.map(|h: f64| {
+        let part = |i: u32| {
+            // r = a t^2 takes the kink at the axis.
+            let t = (f64::from(i) + 0.5) / f64::from(STEPS);
+            let r = a * t * t;
+            let square = h * h + r * r;
+            let area_m2 = (PI * a * a * h + 4.0 * a * c * r) / square.sqrt();
+            let ring_m2 = TAU * r * 2.0 * a * t / f64::from(STEPS);
+            NADIR_CD * (h / square.sqrt()) / area_m2 * (h / square.sqrt()) / square * ring_m2
+        };
+        (0..STEPS).map(part).sum::<f64>()
+    });
+    let sensors = distances.map(|h| (CENTRE + DVec3::X * (c + h), DVec3::NEG_X));
+    let tube = LuminousShape::new(Solid::Cylinder(Axis::X), DVec3::new(2.0 * c, 2.0 * a, 2.0 * a));
+    let light = luminaire(Beam::Isotropic, tube, CENTRE);
+    assert_direct(&in_the_dark(light, &sensors), &wanted, 1e-4, "tube");
 }
 
 /// At a hundred times its largest extent each flat shape is a point to 1e-4; the second order is
