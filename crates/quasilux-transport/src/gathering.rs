@@ -40,8 +40,8 @@ pub(crate) struct Gathering<'a, S> {
     photons: PhotonCounts,
     /// Targets whose direct light is not finite.
     invalid_points: u64,
-    /// Whether direct light is sampled too.
-    samples_direct: bool,
+    /// Targets to which light that is sampled may come straight.
+    samples_direct: Vec<bool>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,6 +84,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             *value_lx = 0.0;
             invalid_points += 1;
         }
+        let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
         let (end, photons) = End::prepare(stage, settings, replicates, watch);
         Self {
             stage,
@@ -98,8 +99,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             work,
             photons,
             invalid_points,
-            samples_direct: stage.lights.emitters.is_some()
-                || !stage.lights.area_luminaires.is_empty(),
+            samples_direct,
         }
     }
 
@@ -160,10 +160,10 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 impl<S> Gathering<'_, S> {
     /// Whether the paths of each target found light where they came to surfaces that reflect.
     fn resolved(&self) -> Vec<bool> {
-        let samples_direct = self.samples_direct;
         self.sums
             .chunks_exact(self.replicates as usize)
-            .map(|own| {
+            .zip(&self.samples_direct)
+            .map(|(own, samples_direct)| {
                 let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
                 let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
@@ -260,6 +260,17 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let powers = (affordable + 1).next_power_of_two() / 2;
         powers.clamp(1, FIRST_SAMPLES)
     }
+}
+
+/// Whether light whose direct part is sampled may come straight to a target: not to one with all such
+/// luminaires behind it.
+fn samples_direct<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> bool {
+    let luminaires = &stage.lights.area_luminaires;
+    stage.lights.emitters.is_some()
+        || match *target {
+            Target::Point { position, normal } => luminaires.may_light(position, normal),
+            Target::Cell { .. } => !luminaires.is_empty(),
+        }
 }
 
 /// Direct light of the point-like lights at each target that is a point, in lx: all of them tested.

@@ -319,10 +319,10 @@ fn other_poles_are_resampled_on_the_stated_grid() {
     }
 }
 
-/// A beam between the planes of the stated grid: the note tells what became of its flux.
+/// A beam between the planes of the finest grid: the note tells what became of its flux.
 #[test]
 fn a_beam_lost_in_resampling_is_told() {
-    let (theta_rad, phi_rad) = ([129.0, 130.5, 132.0], [19.0, 20.5, 22.0]);
+    let (theta_rad, phi_rad) = ([130.4, 130.5, 130.6], [20.4, 20.5, 20.6]);
     let radians = |degrees: f64| degrees.to_radians();
     let grid = Grid {
         theta_rad: theta_rad.map(radians).to_vec(),

@@ -67,6 +67,11 @@ impl<'a> AreaLuminaires<'a> {
         self.0.iter().map(|light| (light.luminaire.position, light.flux_lm))
     }
 
+    /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the way.
+    pub(crate) fn may_light(&self, position: DVec3, n: DVec3) -> bool {
+        self.0.iter().any(|light| light.importance_lx(position, n) != 0.0)
+    }
+
     /// An estimate of the illuminance in lx from all of them on the side `n` of a surface, by one
     /// place on one of them. `seen` is scratch space.
     pub(crate) fn one<S: Spectrum>(

@@ -359,3 +359,18 @@ fn an_opening_seen_edge_on_has_the_intensity_of_the_file() {
     let light = luminaire(Beam::Isotropic, disk(0.2), CENTRE);
     assert_direct(&in_the_dark(light, &sensors), &[NADIR_CD / 400.0; 2], 1e-4, "edge on");
 }
+
+/// A point that looks away from all openings gets no direct light for certain: nothing is left to be
+/// found.
+#[test]
+fn a_point_that_looks_away_is_known_to_be_dark() {
+    let mut scene = room(DVec3::splat(4.0), diffuse(0.0));
+    scene.lights.push(Light::Luminaire(luminaire(Beam::Lambertian, disk(0.5), CENTRE)));
+    let below = CENTRE - DVec3::Z;
+    scene.sensors.push(points("probes", &[(below, DVec3::Z), (below, DVec3::NEG_Z)]));
+    let estimates = simulate(&scene, &Settings::default(), &mut ());
+    assert!(estimates.tolerance_reached && estimates.unresolved_points == 0);
+    let [lit, dark] = [0, 1].map(|point| estimates.interval_of(0, |values| values[point]));
+    assert!(lit.value > 0.0, "{lit:?}");
+    assert_eq!((dark.value, dark.half_width), (0.0, Some(0.0)));
+}
