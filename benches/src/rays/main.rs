@@ -1,0 +1,124 @@
+//! cargo run --release -p quasilux-benches --bin rays [SCENE...]
+//!
+//! Closest hits a second on one core for incoherent rays, those of photons that bounce five times,
+//! against Embree 3 (`rtcIntersect1`) at both its qualities where `libembree3.so.3` is installed
+//! (Debian: `libembree-dev`). All take turns in rounds of 2^14 rays each; the figures are medians
+//! over the rounds, in processor time, and of the ratio within a round. Build times are of one build
+//! on all cores.
+
+mod photons;
+mod scenes;
+
+use photons::{Shot, photon_rays};
+use quasilux_bvh::TriangleBvh;
+use quasilux_foreign::{Embree, Mesh, Quality, RayHit, processor_seconds};
+use scenes::Scene;
+use std::hint::black_box;
+use std::time::Instant;
+
+const RAYS: usize = 1 << 20;
+const ROUND: usize = 1 << 14;
+const TURNS: usize = 3;
+
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let embree = Embree::open(threads);
+    if embree.is_none() {
+        println!("left out: Embree, since libembree3.so.3 is missing");
+    }
+    println!("{:<16}{:<26}{:>10}{:>12}{:>10}", "", "", "build, s", "Mrays/s", "ratio");
+    let kitchen = scenes::kitchen();
+    if kitchen.is_none() {
+        println!("left out: kitchens, since the file or zstd is missing");
+    }
+    let nine = kitchen.as_ref().map(scenes::kitchens);
+    let asked =
+        |name: &str| wanted.is_empty() || wanted.iter().any(|word| name.starts_with(word.as_str()));
+    for scene in [kitchen, nine].into_iter().flatten().filter(|scene| asked(scene.name)) {
+        measure(scene, embree.as_ref());
+    }
+    if asked("room of balls") {
+        measure(scenes::balls(), embree.as_ref());
+    }
+    if asked("relief") {
+        measure(scenes::relief(), embree.as_ref());
+    }
+}
+
+/// Builds all hierarchies over a scene, shoots the same rays at them and prints the figures.
+fn measure(scene: Scene, embree: Option<&Embree>) {
+    let corners = scene.corners.clone();
+    let (own_build, own) = time(|| TriangleBvh::build(corners));
+    let rays = photon_rays(&scene, &own, RAYS);
+    let name = format!("quasilux, {} triangles", scene.corners.len());
+
+    let narrow: Vec<[[f32; 3]; 3]> =
+        scene.corners.iter().map(|triangle| triangle.map(|p| p.as_vec3().to_array())).collect();
+    let shots: Vec<RayHit> = rays
+        .iter()
+        .map(|Shot { ray, .. }| {
+            RayHit::new(ray.origin.as_vec3().to_array(), ray.direction.as_vec3().to_array())
+        })
+        .collect();
+    let others: Vec<(&str, f64, Mesh<'_>)> = embree
+        .into_iter()
+        .flat_map(|embree| {
+            [("Embree, medium", Quality::Medium), ("Embree, high", Quality::High)].map(
+                |(name, quality)| {
+                    let (seconds, mesh) = time(|| embree.build(&narrow, quality));
+                    (name, seconds, mesh)
+                },
+            )
+        })
+        .collect();
+
+    let mut seconds = vec![Vec::new(); 1 + others.len()];
+    for round in 0..TURNS * (RAYS / ROUND) {
+        let part = round * ROUND % RAYS..round * ROUND % RAYS + ROUND;
+        seconds[0].push(processor_time(|| shoot(&own, &rays[part.clone()])));
+        for ((_, _, mesh), seconds) in others.iter().zip(&mut seconds[1..]) {
+            seconds.push(processor_time(|| shoot_embree(mesh, &shots[part.clone()])));
+        }
+    }
+    let builds = [(name.as_str(), own_build)];
+    let builds = builds.into_iter().chain(others.iter().map(|(name, s, _)| (*name, *s)));
+    for ((name, build), own) in builds.zip(&seconds) {
+        let rate = median(own.iter().map(|s| ROUND as f64 / s / 1e6));
+        let ratio = median(own.iter().zip(&seconds[0]).map(|(s, first)| s / first));
+        println!("{:<16}{name:<26}{build:>10.2}{rate:>12.2}{ratio:>10.3}", scene.name);
+    }
+}
+
+fn shoot(bvh: &TriangleBvh, shots: &[Shot]) {
+    for Shot { ray, from } in shots {
+        black_box(bvh.closest_hit(ray, &[*from]));
+    }
+}
+
+fn shoot_embree(mesh: &Mesh<'_>, rays: &[RayHit]) {
+    for ray in rays {
+        let mut ray = *ray;
+        mesh.closest_hit(&mut ray);
+        black_box(&ray);
+    }
+}
+
+#[expect(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
+fn time<R>(work: impl FnOnce() -> R) -> (f64, R) {
+    let start = Instant::now();
+    let result = work();
+    (start.elapsed().as_secs_f64(), result)
+}
+
+fn processor_time(work: impl FnOnce()) -> f64 {
+    let start = processor_seconds();
+    work();
+    processor_seconds() - start
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
