@@ -26,7 +26,8 @@ pub struct Hit {
 /// A ray with the shear that makes it the z axis, computed once per ray.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedRay {
-    origin: DVec3,
+    /// Origin along the three axes.
+    origin: [f64; 3],
     t_max: f64,
     axes: [usize; 3],
     shear: [f64; 3],
@@ -50,7 +51,7 @@ impl PreparedRay {
             std::mem::swap(&mut x, &mut y);
         }
         Self {
-            origin: ray.origin,
+            origin: [x, y, z].map(|axis| ray.origin[axis]),
             t_max: ray.t_max,
             axes: [x, y, z],
             shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
@@ -59,10 +60,10 @@ impl PreparedRay {
 
     /// A corner in the sheared frame: the ray runs along the third axis, scaled to its length.
     #[inline(always)]
-    fn sheared(&self, corner: DVec3) -> [f64; 3] {
-        let [x, y, z] = self.axes;
-        let p = (corner - self.origin).to_array();
-        [p[x] - self.shear[0] * p[z], p[y] - self.shear[1] * p[z], self.shear[2] * p[z]]
+    fn sheared(&self, corner: &DVec3) -> [f64; 3] {
+        let corner: &[f64; 3] = corner.as_ref();
+        let p = |i: usize| corner[self.axes[i]] - self.origin[i];
+        [p(0) - self.shear[0] * p(2), p(1) - self.shear[1] * p(2), self.shear[2] * p(2)]
     }
 }
 
@@ -71,20 +72,17 @@ impl PreparedRay {
 #[inline(always)]
 #[must_use]
 pub fn intersect(ray: &PreparedRay, corners: &[DVec3; 3], triangle: u32) -> Option<Hit> {
-    let [a, b, c] = [ray.sheared(corners[0]), ray.sheared(corners[1]), ray.sheared(corners[2])];
+    let [a, b, c] = [ray.sheared(&corners[0]), ray.sheared(&corners[1]), ray.sheared(&corners[2])];
     let u = c[0] * b[1] - c[1] * b[0];
     let v = a[0] * c[1] - a[1] * c[0];
     let w = b[0] * a[1] - b[1] * a[0];
-    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-        return None;
-    }
+    // Without branches in between: which of the conditions fails cannot be predicted.
+    let mixed = ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0));
     let sum = u + v + w;
-    if sum == 0.0 {
-        return None;
-    }
     let distance = (u * a[2] + v * b[2] + w * c[2]) / sum;
     let barycentric = [u / sum, v / sum, w / sum];
-    (distance > 0.0 && distance < ray.t_max).then_some(Hit { triangle, distance, barycentric })
+    let counts = !mixed & (sum != 0.0) & (distance > 0.0) & (distance < ray.t_max);
+    counts.then_some(Hit { triangle, distance, barycentric })
 }
 
 #[cfg(test)]

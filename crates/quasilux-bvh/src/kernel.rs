@@ -1,107 +1,104 @@
-//! Candidates from a hierarchy in single precision.
-//!
-//! The hierarchy is the binary one of the crate `obvhs` (PLOC, Meister and Bittner 2018, with
-//! reinsertion); its eight-wide compressed one loses hits just in front of flat boxes. It is built
-//! over boxes that are grown by a bound on every rounding that single precision adds to a query.
-//! With `e` the half-size of everything about its centre, origins within `2 e` of it, distances up
-//! to `5.2 e` and unit round-off `h = 2^-24`, a query is off by at most: `2 h e` from the origin,
-//! `(h + 2 h) 5.2 e` from the direction and from the smallest direction component that `obvhs` tells
-//! from zero, and about `16 h e` from the slab arithmetic; `64 h e` covers them nearly twice.
+//! Triangles that answer ray queries.
 
+use crate::build::{Leaf, WideTree, build, collapse};
+use crate::frame::{Frame, FrameRay, Framed};
+use crate::node::{Block, NONE, Node};
+use crate::pages::list_in_large_pages;
+use crate::pending::Pending;
+use crate::traverse::{Kernel, Query, Tree};
+use crate::validate::validate;
 use crate::{Hit, PreparedRay, Ray, intersect};
-use glam::{DVec3, Vec3A};
-use obvhs::BvhBuildParams;
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use obvhs::ray::RayHit;
-
-/// Box growth as a share of the half-size of everything: 64 units of round-off.
-const GROWTH: f64 = 64.0 / (1 << 24) as f64;
-
-/// Rays may start this many half-sizes from the centre; the slow twin answers the others.
-const REACH: f64 = 2.0;
+use glam::DVec3;
+use rayon::prelude::*;
 
 /// A triangle mesh that answers ray queries.
 pub struct TriangleBvh {
-    hierarchy: Option<Bvh2>,
-    /// Corners in the order of the hierarchy's leaves.
-    corners: Vec<[DVec3; 3]>,
-    /// Original index of each triangle, in the order of the hierarchy's leaves.
-    triangle_of: Vec<u32>,
-    centre: DVec3,
-    half_size: f64,
+    frame: Frame,
+    tree: Tree,
+    kernel: Kernel,
 }
 
 impl TriangleBvh {
     /// Builds the hierarchy over triangles with finite corners.
     ///
     /// # Panics
-    /// With more than 2^31 triangles.
+    /// With more than 2^30 triangles.
     #[must_use]
     pub fn build(corners: Vec<[DVec3; 3]>) -> Self {
-        assert!(corners.len() <= 1 << 31, "too many triangles for 32-bit indices");
-        let Some(&[first, ..]) = corners.first() else {
-            return Self {
-                hierarchy: None,
-                corners,
-                triangle_of: Vec::new(),
-                centre: DVec3::ZERO,
-                half_size: 0.0,
-            };
+        Self::build_for(corners, Kernel::fastest())
+    }
+
+    /// The same for a kernel of choice, which must be one of [`Kernel::all`].
+    ///
+    /// # Panics
+    /// With more than 2^30 triangles, and for a kernel that this machine does not have.
+    #[must_use]
+    pub fn build_for(corners: Vec<[DVec3; 3]>, kernel: Kernel) -> Self {
+        assert!(Kernel::all().contains(&kernel), "{kernel:?} is not on this machine");
+        assert!(corners.len() <= 1 << 30, "too many triangles for 32-bit indices");
+        let points = corners.par_iter().flatten_iter().map(|&p| (p, p));
+        let bounds = points.reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (low, high) = bounds.unwrap_or_default();
+        let frame = Frame::new(low, high);
+        let tree = if corners.is_empty() {
+            WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new() }
+        } else {
+            collapse(&build(&corners, frame))
         };
-        let points = corners.iter().flatten();
-        let (low, high) = points.fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
-        let centre = 0.5 * (low + high);
-        let half_size = (0.5 * (high - low)).max_element().max(f64::MIN_POSITIVE);
-        let growth = DVec3::splat(GROWTH * half_size);
-        let boxes: Vec<Aabb> = corners
-            .iter()
-            .map(|&[a, b, c]| Aabb {
-                min: (a.min(b).min(c) - centre - growth).as_vec3a(),
-                max: (a.max(b).max(c) - centre + growth).as_vec3a(),
-            })
-            .collect();
-        let hierarchy = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Default::default());
-        let triangle_of = hierarchy.primitive_indices.clone();
-        let corners = triangle_of.iter().map(|&t| corners[t as usize]).collect();
-        Self { hierarchy: Some(hierarchy), corners, triangle_of, centre, half_size }
+        let block = |leaf: &Leaf| {
+            let framed = |&t: &u32| (t, corners[t as usize].map(|p| frame.point(p)));
+            Block::new(leaf.triangles().iter().map(framed))
+        };
+        let mut blocks = list_in_large_pages(tree.leaves.len());
+        tree.leaves.par_iter().map(block).collect_into_vec(&mut blocks);
+        let mut nodes = list_in_large_pages(tree.nodes.len());
+        nodes.extend(tree.nodes);
+        Self { frame, tree: Tree { nodes, blocks, corners }, kernel }
     }
 
     /// The nearest triangle that the ray hits, none of `excluded`; ties go to the lowest index.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray, excluded: &[u32]) -> Option<Hit> {
-        let (Some(hierarchy), Some(query)) = (&self.hierarchy, self.single_precision(ray)) else {
-            return self.closest_hit_by_brute_force(ray, excluded);
+        let query = match self.frame.ray(ray) {
+            Framed::Ray(framed) => query(framed, excluded),
+            Framed::Misses => return None,
+            Framed::TooFar => return self.closest_hit_by_brute_force(ray, excluded),
         };
+        let mut pending = Pending::new();
+        let mut end = self.tree.closest(self.kernel, &query, &mut pending);
         let prepared = PreparedRay::new(ray);
-        let mut best: Option<Hit> = None;
-        hierarchy.ray_traverse(query, &mut RayHit::none(), |_, leaf| {
-            let found = self.candidate(&prepared, leaf, excluded).filter(|hit| wins(hit, &best));
-            match found {
-                Some(hit) => {
-                    best = Some(hit);
-                    distance_above(hit.distance, self.half_size)
-                }
-                None => f32::INFINITY,
+        let mut best = None;
+        while let Some(candidate) = pending.pop() {
+            if candidate.earliest <= end
+                && let Some(hit) = self.decide(&prepared, candidate.triangle, excluded)
+                && wins(&hit, &best)
+            {
+                end = end.min(self.frame.end(&query.ray, hit.distance));
+                best = Some(hit);
             }
-        });
+        }
         best
     }
 
     /// Whether the ray hits any triangle but `excluded`.
     #[must_use]
     pub fn is_occluded(&self, ray: &Ray, excluded: &[u32]) -> bool {
-        let (Some(hierarchy), Some(query)) = (&self.hierarchy, self.single_precision(ray)) else {
-            return self.closest_hit_by_brute_force(ray, excluded).is_some();
+        let query = match self.frame.ray(ray) {
+            Framed::Ray(framed) => query(framed, excluded),
+            Framed::Misses => return false,
+            Framed::TooFar => return self.closest_hit_by_brute_force(ray, excluded).is_some(),
         };
+        let mut pending = Pending::new();
+        if self.tree.any(self.kernel, &query, &mut pending) {
+            return true;
+        }
         let prepared = PreparedRay::new(ray);
-        !hierarchy.ray_traverse_miss(query, |_, leaf| {
-            match self.candidate(&prepared, leaf, excluded) {
-                Some(_) => f32::NEG_INFINITY,
-                None => f32::INFINITY,
+        while let Some(candidate) = pending.pop() {
+            if self.decide(&prepared, candidate.triangle, excluded).is_some() {
+                return true;
             }
-        })
+        }
+        false
     }
 
     /// The slow twin of [`Self::closest_hit`]: every triangle is tried.
@@ -109,45 +106,46 @@ impl TriangleBvh {
     pub fn closest_hit_by_brute_force(&self, ray: &Ray, excluded: &[u32]) -> Option<Hit> {
         let prepared = PreparedRay::new(ray);
         let mut best = None;
-        for leaf in 0..self.corners.len() {
-            let hit = self.candidate(&prepared, leaf, excluded).filter(|hit| wins(hit, &best));
+        for triangle in 0..self.len() as u32 {
+            let hit = self.decide(&prepared, triangle, excluded).filter(|hit| wins(hit, &best));
             best = hit.or(best);
         }
         best
     }
 
+    #[inline(always)]
+    fn decide(&self, ray: &PreparedRay, triangle: u32, excluded: &[u32]) -> Option<Hit> {
+        if excluded.contains(&triangle) {
+            return None;
+        }
+        intersect(ray, &self.tree.corners[triangle as usize], triangle)
+    }
+
+    /// Checks everything that queries rely on, and that no part of a triangle is out of their sight.
+    ///
+    /// # Errors
+    /// The first flaw that is found, which is a defect of the builder.
+    pub fn validate(&self) -> Result<(), String> {
+        validate(&self.tree, &self.frame)
+    }
+
     /// The number of triangles.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.corners.len()
+        self.tree.corners.len()
     }
 
     /// Whether there are no triangles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.corners.is_empty()
+        self.tree.corners.is_empty()
     }
+}
 
-    #[inline(always)]
-    fn candidate(&self, ray: &PreparedRay, leaf: usize, excluded: &[u32]) -> Option<Hit> {
-        let triangle = self.triangle_of[leaf];
-        if excluded.contains(&triangle) {
-            return None;
-        }
-        intersect(ray, &self.corners[leaf], triangle)
-    }
-
-    /// The ray for the hierarchy, about its centre; `None` where the rounding bound does not hold.
-    fn single_precision(&self, ray: &Ray) -> Option<obvhs::ray::Ray> {
-        let origin = ray.origin - self.centre;
-        if origin.abs().max_element() > REACH * self.half_size {
-            return None;
-        }
-        let end = distance_above(ray.t_max, self.half_size);
-        // Adding zero turns -0 into +0, whose octant and inverse have the same sign in `obvhs`.
-        let direction = ray.direction.as_vec3a() + Vec3A::ZERO;
-        Some(obvhs::ray::Ray::new(origin.as_vec3a(), direction, 0.0, end))
-    }
+/// Excluded triangles that the traversal itself leaves out.
+fn query(ray: FrameRay, excluded: &[u32]) -> Query {
+    let at = |i: usize| excluded.get(i).copied().unwrap_or(NONE);
+    Query { ray, excluded: [at(0), at(1)], excludes_more: excluded.len() > 2 }
 }
 
 /// Whether `hit` comes before the best so far.
@@ -157,10 +155,4 @@ fn wins(hit: &Hit, best: &Option<Hit>) -> bool {
         hit.distance < best.distance
             || (hit.distance == best.distance && hit.triangle < best.triangle)
     })
-}
-
-/// A distance in single precision that no candidate at `distance` or nearer can exceed.
-#[inline]
-fn distance_above(distance: f64, half_size: f64) -> f32 {
-    (distance * (1.0 + GROWTH) + GROWTH * half_size) as f32
 }

@@ -1,9 +1,17 @@
 //! Which triangle does this ray hit.
 //!
 //! The kernel is narrow on purpose: [`TriangleBvh::closest_hit`] and [`TriangleBvh::is_occluded`].
-//! A bounding volume hierarchy in single precision proposes candidates; one scalar function in
-//! double precision, [`intersect`], decides hit, distance and barycentric coordinates, and ties go
-//! to the lowest triangle index. So the hierarchy can be replaced without changing a digit.
+//! An eight-wide bounding volume hierarchy in single precision proposes candidates, with room for
+//! every rounding; one scalar function in double precision, [`intersect`], decides hit, distance and
+//! barycentric coordinates, and ties go to the lowest triangle index. So hierarchy and instructions can
+//! be replaced without changing a digit.
+//!
+//! Where what is: `frame` has the coordinates and the bounds of their rounding, `node` the layout in memory,
+//! `build` the builder, `traverse` the way of a ray, `sight` what it sees of eight boxes or triangles,
+//! `lanes` the instructions for that, `pending` what waits for the decision.
+//!
+//! Limit: a triangle seen so nearly edge-on (within 2^-29 of its extent) that [`intersect`] itself
+//! returns noise may be proposed or not.
 //!
 //! ```
 //! use glam::DVec3;
@@ -16,10 +24,20 @@
 //! assert!(!bvh.is_occluded(&ray.up_to(1.5), &[]));
 //! ```
 
+mod build;
+mod frame;
 mod intersect;
 mod kernel;
+mod lanes;
+mod node;
+mod pages;
+mod pending;
 mod ray;
+mod sight;
+mod traverse;
+mod validate;
 
 pub use intersect::{Hit, PreparedRay, intersect};
 pub use kernel::TriangleBvh;
 pub use ray::Ray;
+pub use traverse::Kernel;

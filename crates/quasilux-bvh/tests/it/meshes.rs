@@ -1,8 +1,69 @@
 //! Meshes that are hard on a ray kernel, and a generator of test numbers.
 
 use glam::DVec3;
+use quasilux_bvh::Ray;
 
 pub(crate) type Triangles = Vec<[DVec3; 3]>;
+
+/// A ray at a mesh, its first part, and what it shall not hit.
+#[derive(Clone, Debug)]
+pub(crate) struct HardQuery {
+    pub(crate) ray: Ray,
+    pub(crate) short: Ray,
+    pub(crate) excluded: Vec<u32>,
+}
+
+/// The meshes, smallest with `size` 1, each with its name.
+pub(crate) fn hard_meshes(numbers: &mut Numbers, size: usize) -> Vec<(&'static str, Triangles)> {
+    let far = DVec3::new(4.0e5, -5.0e6, 300.0);
+    let shifted = |mesh: Triangles, by: DVec3| -> Triangles {
+        mesh.into_iter().map(|t| t.map(|p| p + by)).collect()
+    };
+    let mut huge_and_tiny = ball(DVec3::new(0.3, 0.2, 0.1), 1e-4, 2);
+    huge_and_tiny.push([
+        DVec3::new(-1e3, -1e3, -1.0),
+        DVec3::new(1e3, -1e3, -1.0),
+        DVec3::new(0.0, 2e3, -1.0),
+    ]);
+    vec![
+        ("soup", soup(numbers, 200 * size)),
+        ("slivers", slivers(numbers, 100 * size)),
+        ("flat and coincident", flat_and_coincident(numbers, 40)),
+        ("ball", ball(DVec3::ZERO, 1.0, 2)),
+        ("far soup", shifted(soup(numbers, 100 * size), far)),
+        ("far ball", shifted(ball(DVec3::ZERO, 3.0, 2), far)),
+        ("huge and tiny", huge_and_tiny),
+        ("one triangle", vec![[DVec3::ZERO, DVec3::X, DVec3::Y]]),
+    ]
+}
+
+/// Rays from inside and just outside, from triangles and from far away, in random directions, along
+/// axes and toward corners.
+pub(crate) fn hard_query(mesh: &Triangles, number: usize, numbers: &mut Numbers) -> HardQuery {
+    let points = mesh.iter().flatten().copied();
+    let low = points.clone().reduce(DVec3::min).unwrap();
+    let size = points.reduce(DVec3::max).unwrap() - low;
+    let any = |numbers: &mut Numbers| (numbers.next() * mesh.len() as f64) as usize;
+    let origin = match number % 16 {
+        0..12 => low + size * numbers.point(-0.2, 1.2),
+        12..14 => {
+            let [a, b, c] = mesh[any(numbers)];
+            a + (b - a) * (0.5 * numbers.next()) + (c - a) * (0.5 * numbers.next())
+        }
+        _ => low + size * numbers.point(-100.0, 100.0),
+    };
+    let direction = match number % 3 {
+        0 => numbers.direction(),
+        1 => DVec3::AXES[number / 3 % 3] * if number.is_multiple_of(2) { 1.0 } else { -1.0 },
+        _ => {
+            let corner = mesh[any(numbers)][number % 3];
+            if corner == origin { DVec3::X } else { (corner - origin).normalize() }
+        }
+    };
+    let excluded = (0..number % 5).map(|_| any(numbers) as u32).collect();
+    let ray = Ray::new(origin, direction);
+    HardQuery { ray, short: ray.up_to(size.length() * numbers.next()), excluded }
+}
 
 /// Numbers in [0, 1) from a counter (Steele, Lea and Flood 2014, SplitMix64).
 pub(crate) struct Numbers(pub(crate) u64);

@@ -1,0 +1,174 @@
+//! With AVX2 and fused multiply-add.
+
+use super::Lanes;
+use crate::node::{Child, WIDTH};
+use std::arch::x86_64::*;
+
+/// Eight numbers in a register.
+///
+/// Values exist only where [`Avx2::is_supported`] has said so: they are made inside of functions
+/// that enable these features, and nowhere else.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx2(__m256);
+
+impl Avx2 {
+    /// Whether this machine has what it takes.
+    pub(crate) fn is_supported() -> bool {
+        is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt")
+    }
+}
+
+/// For each mask the lanes in it, from the lowest on, as bytes.
+static LANES_OF: [u64; 256] = {
+    let mut table = [0; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 8 {
+            if mask >> lane & 1 == 1 {
+                table[mask] |= lane << (8 * count);
+                count += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    table
+};
+
+// SAFETY of all blocks below: the features are there, as [`Avx2`] says; loads and stores are of
+// whole arrays, or as the contract of the function says.
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn load(from: &[f32; WIDTH]) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_loadu_ps(from.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f32; WIDTH] {
+        let mut to = [0.0; WIDTH];
+        // SAFETY: see above.
+        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) };
+        to
+    }
+
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_set1_ps(x) })
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_add_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_fmadd_ps(self.0, a.0, b.0) })
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_fmsub_ps(self.0, a.0, b.0) })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn flip_by(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))) })
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> u32 {
+        // SAFETY: see above.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
+    }
+
+    #[inline(always)]
+    fn any_negative([a, b, c, d]: [Self; 4]) -> u32 {
+        // SAFETY: see above.
+        unsafe {
+            let any = _mm256_or_ps(_mm256_or_ps(a.0, b.0), _mm256_or_ps(c.0, d.0));
+            _mm256_movemask_ps(any) as u32
+        }
+    }
+
+    #[inline(always)]
+    fn differ(numbers: &[u32; WIDTH], [a, b, c]: [u32; 3]) -> u32 {
+        // SAFETY: see above.
+        unsafe {
+            let numbers = _mm256_loadu_si256(numbers.as_ptr().cast());
+            let same = |x: u32| _mm256_cmpeq_epi32(numbers, _mm256_set1_epi32(x as i32));
+            let same = _mm256_or_si256(same(a), _mm256_or_si256(same(b), same(c)));
+            !_mm256_movemask_ps(_mm256_castsi256_ps(same)) as u32 & 0xff
+        }
+    }
+
+    #[inline(always)]
+    fn smallest(self, limit: Self) -> usize {
+        // SAFETY: see above.
+        unsafe {
+            let counts = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
+            let ones = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
+            let kept = _mm256_blendv_ps(ones, self.0, counts);
+            // The upper halves of the bits of numbers that are not negative order as they do.
+            let bits = _mm256_srli_epi32::<16>(_mm256_castps_si256(kept));
+            let (low, high) = (_mm256_castsi256_si128(bits), _mm256_extracti128_si256::<1>(bits));
+            let least = _mm_minpos_epu16(_mm_packus_epi32(low, high));
+            _mm_extract_epi16::<1>(least) as usize
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn compress(
+        self,
+        children: &[Child; WIDTH],
+        mask: u32,
+        to: *mut f32,
+        to_children: *mut Child,
+    ) {
+        // SAFETY: see above, and `Child` is a `u32`.
+        unsafe {
+            let bytes = _mm_cvtsi64_si128(LANES_OF[mask as usize & 0xff] as i64);
+            let lanes = _mm256_cvtepu8_epi32(bytes);
+            let children = _mm256_loadu_si256(children.as_ptr().cast());
+            _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(self.0, lanes));
+            let children = _mm256_permutevar8x32_epi32(children, lanes);
+            _mm256_storeu_si256(to_children.cast(), children);
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Eight single-precision numbers at once.
+//!
+//! What they are computed with differs in the last bits; the traversal allows for that.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+mod portable;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::Avx2;
+pub(crate) use portable::Portable;
+
+use crate::node::{Child, WIDTH};
+
+/// Eight numbers, and the few operations that the traversal needs.
+pub(crate) trait Lanes: Copy {
+    fn load(from: &[f32; WIDTH]) -> Self;
+    fn store(self) -> [f32; WIDTH];
+    fn splat(x: f32) -> Self;
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    /// `self * a + b`, rounded once or twice.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// `self * a - b`, rounded once or twice.
+    fn mul_sub(self, a: Self, b: Self) -> Self;
+    fn min(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self;
+    /// `self`, with its sign flipped where `other` has one.
+    fn flip_by(self, other: Self) -> Self;
+    /// A bit for each lane where `self <= other`.
+    fn at_most(self, other: Self) -> u32;
+    /// A bit for each lane where any of the four is negative.
+    fn any_negative(of: [Self; 4]) -> u32;
+    /// A bit for each lane where a number is none of three.
+    fn differ(numbers: &[u32; WIDTH], from: [u32; 3]) -> u32;
+    /// The lane of (nearly) the smallest number among those at most `limit`, none of which is
+    /// negative; any lane if there are none.
+    fn smallest(self, limit: Self) -> usize;
+    /// Writes numbers and children of the lanes in `mask` to the starts of two lists with room for
+    /// eight each; what lies behind them in the room is overwritten.
+    ///
+    /// # Safety
+    /// Both pointers must be valid for writes of eight elements.
+    unsafe fn compress(
+        self,
+        children: &[Child; WIDTH],
+        mask: u32,
+        to: *mut f32,
+        to_children: *mut Child,
+    );
+}
