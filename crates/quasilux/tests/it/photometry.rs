@@ -210,7 +210,8 @@ fn outputs_that_cannot_be_are_refused_before_anything_is_written() {
     folder.write("plain", "a file, not a folder");
     folder.write("trap.svg", lambertian());
     for (arguments, words) in [
-        (&["disk.ies", "ball.ldt", "--svg", "one.svg"][..], "name a folder"),
+        (&["disk.ies", "--svg", "disk.png"][..], "ends in .svg"),
+        (&["disk.ies", "ball.ldt", "--svg", "one.svg"], "name a folder"),
         (&["disk.ies", "other/disk.ies", "--svg", "out"], "folders of their own"),
         (&["disk.ies", "--svg", "plain/disk.svg"], "plain"),
         (&["trap.svg", "--svg", "trap.svg"], "would replace the luminaire file"),

@@ -6,6 +6,9 @@ use crate::results;
 use quasilux_photometry::Format;
 use std::path::{Path, PathBuf};
 
+/// Endings of pictures that are not drawn: nobody means a folder by them.
+const OTHER_PICTURES: [&str; 5] = ["png", "jpg", "jpeg", "gif", "pdf"];
+
 /// The files to be written.
 pub(super) struct Outputs {
     /// One for each input, or none at all.
@@ -55,6 +58,12 @@ impl Outputs {
 
 fn drawings(path: &Path, files: &[PathBuf]) -> Result<Vec<PathBuf>, Refusal> {
     let is_file = has_extension(path, "svg") && !path.is_dir();
+    if OTHER_PICTURES.iter().any(|other| has_extension(path, other)) && !path.is_dir() {
+        return Err(Refusal::new(format!(
+            "--svg {}: expected a name that ends in .svg, or a folder",
+            path.display()
+        )));
+    }
     match files {
         [_] if is_file => Ok(vec![path.to_owned()]),
         _ if is_file => Err(Refusal::new(format!(
