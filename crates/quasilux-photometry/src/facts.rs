@@ -147,6 +147,12 @@ pub struct EulumdatFacts {
     pub further_lamp_sets: Vec<[String; 6]>,
 }
 
+impl IesStandard {
+    /// All of them, the earliest first.
+    pub const ALL: [Self; 5] =
+        [Self::Lm63Of1986, Self::Lm63Of1991, Self::Lm63Of1995, Self::Lm63Of2002, Self::Lm63Of2019];
+}
+
 impl LuminaireFacts {
     /// The shape of the luminous opening, by the signs of its dimensions.
     pub fn shape(&self) -> LuminousShape {
@@ -158,6 +164,11 @@ impl LuminaireFacts {
     pub fn rated_flux_lm(&self) -> Option<f64> {
         let rated_flux_lm = self.lumens_per_lamp? * self.lamp_count;
         (rated_flux_lm > 0.0 && rated_flux_lm.is_finite()).then_some(rated_flux_lm)
+    }
+
+    /// The same with the ballast factor: what the lamps gave in the luminaire, were nothing lost.
+    pub fn lamps_flux_lm(&self) -> Option<f64> {
+        self.rated_flux_lm().map(|rated_flux_lm| rated_flux_lm * self.ballast_factor)
     }
 
     /// The value of the first keyword of that name (in capitals, without brackets).

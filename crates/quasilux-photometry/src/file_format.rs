@@ -59,6 +59,16 @@ impl Format {
             .map(|(_, format)| format)
     }
 
+    /// The format of a file: what its content shows, or else what its name promises.
+    pub fn of_file(name: &str, bytes: &[u8]) -> Option<Self> {
+        Self::of_content(bytes).or_else(|| Self::of_name(name))
+    }
+
+    /// What the name of a file of this format promises, where that is another format.
+    pub fn misnamed(self, name: &str) -> Option<Self> {
+        Self::of_name(name).filter(|promised| *promised != self)
+    }
+
     /// What people call it.
     pub fn name(self) -> &'static str {
         match self {

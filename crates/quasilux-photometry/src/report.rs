@@ -16,7 +16,7 @@ pub struct Read {
 /// Why a file cannot be read, and where. Shown as `line:column: found ...; expected ...`,
 /// for callers to put the file's name in front.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{line}:{column}: found {found}; expected {expected}")]
+#[error("{line}:{column}: {}", self.message())]
 pub struct ReadError {
     line: usize,
     column: usize,
@@ -203,6 +203,11 @@ impl ReadError {
     pub fn expected(&self) -> &str {
         &self.expected
     }
+
+    /// What is wrong, without the place.
+    pub fn message(&self) -> String {
+        format!("found {}; expected {}", self.found, self.expected)
+    }
 }
 
 impl Warning {
@@ -235,13 +240,18 @@ impl Warning {
     pub fn expected(&self) -> &str {
         &self.expected
     }
+
+    /// What was found and expected, and how often, without the place.
+    pub fn message(&self) -> String {
+        let Self { count, found, expected, .. } = self;
+        let more = if *count > 1 { format!(" (and {} more)", count - 1) } else { String::new() };
+        format!("found {found}; expected {expected}{more}")
+    }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { position, count, found, expected, .. } = self;
-        write!(f, "{}:{}: found {found}; expected {expected}", position.line, position.column)?;
-        if *count > 1 { write!(f, " (and {} more)", count - 1) } else { Ok(()) }
+        write!(f, "{}:{}: {}", self.line(), self.column(), self.message())
     }
 }
 

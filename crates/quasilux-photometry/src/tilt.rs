@@ -55,10 +55,7 @@ impl Tilt {
     /// The factor for a luminaire placed so that straight down, in its own frame (gamma = 0 along
     /// -z, C0 along +x), is the unit vector `down`.
     pub fn factor(&self, down: DVec3) -> TiltFactor {
-        let Self::Include { lamp_geometry, .. } = self else {
-            return self.factor_at(angle_between(down, DVec3::NEG_Z));
-        };
-        if *lamp_geometry == 1 {
+        if !matches!(self, Self::Include { lamp_geometry: 2 | 3, .. }) {
             return self.factor_at(angle_between(down, DVec3::NEG_Z));
         }
         let across_axis = DVec3::new(0.0, down.y, down.z);

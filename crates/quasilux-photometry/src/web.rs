@@ -59,7 +59,7 @@ pub struct WebAngles {
 
 impl Web {
     /// The web of a photometric type.
-    pub fn new(photometric_type: PhotometricType) -> Self {
+    pub const fn new(photometric_type: PhotometricType) -> Self {
         Self(photometric_type)
     }
 
@@ -73,7 +73,8 @@ impl Web {
         let Angles { theta_rad, phi_rad } = Angles::of(self.table_from_luminaire(direction));
         let latitude_rad = theta_rad - FRAC_PI_2;
         let (horizontal_rad, vertical_rad) = match self.0 {
-            PhotometricType::C if phi_rad < 0.0 => (phi_rad + TAU, theta_rad),
+            // Of a tiny negative azimuth the sum is a whole turn.
+            PhotometricType::C if phi_rad < 0.0 => ((phi_rad + TAU) % TAU, theta_rad),
             PhotometricType::C => (phi_rad, theta_rad),
             PhotometricType::B => (latitude_rad, phi_rad),
             PhotometricType::A => (phi_rad, latitude_rad),

@@ -15,16 +15,19 @@ mod plane;
 mod spread;
 mod zones;
 
-use crate::{Photometry, Symmetry};
+use crate::{PhotometricType, Photometry, Symmetry, Web, WebAngles};
 pub use flux_code::FluxCode;
 use glam::DVec3;
 pub use plane::{Plane, PlaneCurve, PlanePoint};
 pub use spread::Spread;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 pub use zones::ZonalFlux;
 
 /// Zones of equal width between nadir and zenith.
 const ZONES: usize = 18;
+
+/// The web whose angles are C and gamma.
+const WEB_C: Web = Web::new(PhotometricType::C);
 
 /// A direction in the luminaire frame, as photometry names it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,19 +93,13 @@ pub struct Analysis {
 impl LuminaireAngles {
     /// The angles of a direction of any length; accurate at nadir and zenith.
     pub fn of(direction: DVec3) -> Self {
-        let horizontal = (direction.x * direction.x + direction.y * direction.y).sqrt();
-        let c_rad = libm::atan2(direction.y, direction.x);
-        Self {
-            c_rad: if c_rad < 0.0 { (c_rad + TAU) % TAU } else { c_rad },
-            gamma_rad: libm::atan2(horizontal, -direction.z),
-        }
+        let WebAngles { horizontal_rad, vertical_rad } = WEB_C.angles(direction);
+        Self { c_rad: horizontal_rad, gamma_rad: vertical_rad }
     }
 
     /// The unit direction.
     pub fn direction(self) -> DVec3 {
-        let (sin_gamma, cos_gamma) = libm::sincos(self.gamma_rad);
-        let (sin_c, cos_c) = libm::sincos(self.c_rad);
-        DVec3::new(sin_gamma * cos_c, sin_gamma * sin_c, -cos_gamma)
+        WEB_C.direction(WebAngles { horizontal_rad: self.c_rad, vertical_rad: self.gamma_rad })
     }
 }
 
@@ -112,9 +109,7 @@ impl Analysis {
         let zones = ZonalFlux::of(photometry);
         let facts = photometry.facts();
         let flux_lm = photometry.flux_lm();
-        let lamps_lm = photometry.rated_flux_lm();
-        let ballast_factor = photometry.facts().ballast_factor;
-        let light_output_ratio = lamps_lm.map(|lamps_lm| flux_lm / (lamps_lm * ballast_factor));
+        let light_output_ratio = facts.lamps_flux_lm().map(|lamps_lm| flux_lm / lamps_lm);
         let is_powered = facts.input_watts > 0.0 && facts.input_watts.is_finite();
         let border = |zone: usize| PI * zone as f64 / ZONES as f64;
         Self {
@@ -171,6 +166,7 @@ fn measured_planes(photometry: &Photometry) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn angles_and_directions_are_inverse() {

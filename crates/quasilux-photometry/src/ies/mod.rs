@@ -242,10 +242,9 @@ fn check_flux(
         warnings.push(Deviation::NoLight, at, "an integrated flux of 0 lm", "some light");
         return;
     }
-    let Some(rated_flux_lm) = facts.rated_flux_lm() else {
+    let Some(lamps_lm) = facts.lamps_flux_lm() else {
         return;
     };
-    let lamps_lm = rated_flux_lm * facts.ballast_factor;
     let ratio = flux_lm / lamps_lm;
     if (ratio - 1.0).abs() > FLUX_TOLERANCE {
         let found = format_args!(

@@ -80,20 +80,20 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
 /// flux, or else on the finest.
 fn resampled(photometry: &Photometry, writer: &mut Writer) -> Grid {
     let flux_lm = photometry.flux_lm();
-    let mut tried = GRIDS.iter().map(|&steps| {
+    let [first, finer @ ..] = GRIDS;
+    let with_flux = |steps| {
         let grid = sampled(photometry, steps);
-        let written_lm = SphericalTable::new(grid.clone()).map_or(0.0, |table| table.integral());
-        (grid, steps, written_lm)
-    });
-    let keeps = |written_lm: f64| (written_lm - flux_lm).abs() <= FLUX_TOLERANCE * flux_lm;
-    let mut taken = tried.next().expect("there are grids");
-    while !keeps(taken.2) {
-        match tried.next() {
-            Some(finer) => taken = finer,
-            None => break,
+        let table = SphericalTable::new(grid.clone());
+        (steps, grid, table.map_or(0.0, |table| table.integral()))
+    };
+    let mut taken = with_flux(first);
+    for steps in finer {
+        if (taken.2 - flux_lm).abs() <= FLUX_TOLERANCE * flux_lm {
+            break;
         }
+        taken = with_flux(steps);
     }
-    let (grid, [planes, angles], written_flux_lm) = taken;
+    let ([planes, angles], grid, written_flux_lm) = taken;
     writer.note(Note::Resampled {
         photometric_type: photometry.facts().photometric_type,
         plane_step_deg: 360.0 / planes as f64,

@@ -7,14 +7,6 @@ use quasilux_photometry::{
     write_ies, write_ldt,
 };
 
-const EDITIONS: [IesStandard; 5] = [
-    IesStandard::Lm63Of1986,
-    IesStandard::Lm63Of1991,
-    IesStandard::Lm63Of1995,
-    IesStandard::Lm63Of2002,
-    IesStandard::Lm63Of2019,
-];
-
 fn shape(edition: IesStandard, [width_m, length_m, height_m]: [f64; 3]) -> LuminousShape {
     let opening = LuminousOpening { width_m, length_m, height_m };
     LuminousShape::of_opening(Standard::Lm63(edition), &opening)
@@ -62,7 +54,7 @@ fn signs_mean_what_the_edition_says() {
         ([-1.0, f64::NAN, 0.0], ["disk"; 3], [1.0, 1.0, 0.0]),
     ];
     for (dimensions, names, size) in table {
-        for (edition, column) in EDITIONS.into_iter().zip([0, 0, 1, 2, 2]) {
+        for (edition, column) in IesStandard::ALL.into_iter().zip([0, 0, 1, 2, 2]) {
             let found = shape(edition, dimensions).name();
             assert_eq!(found, names[column], "{dimensions:?} in {edition:?}");
         }

@@ -9,14 +9,6 @@ use quasilux_photometry::{
 };
 use std::f64::consts::PI;
 
-const EDITIONS: [IesStandard; 5] = [
-    IesStandard::Lm63Of1986,
-    IesStandard::Lm63Of1991,
-    IesStandard::Lm63Of1995,
-    IesStandard::Lm63Of2002,
-    IesStandard::Lm63Of2019,
-];
-
 fn ies(written: &Written) -> Read {
     read_ies(written.text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -395,7 +387,7 @@ fn header_facts_are_written_by_edition() {
     let text = "a label\n[TEST] one\n[OTHER] first\n[MORE] second\nTILT=INCLUDE\n2\n3\n0 45 90\n\
         1 0.9 0.8\n2 1200 0.7 2 1 1 1 -1 0 2\n0.95 0.9 36.5\n0 180\n0\n123.4 77.7\n";
     let original = read_ies(text.as_bytes()).unwrap().photometry;
-    for edition in EDITIONS {
+    for edition in IesStandard::ALL {
         let written = write_ies(&original, edition);
         let read = ies(&written);
         let (a, b) = (original.facts(), read.photometry.facts());

@@ -15,9 +15,8 @@ pub(super) fn read(
 ) -> Result<Photometry, LoadError> {
     let bytes = read_file(project, name, files)?;
     let file = name.value.as_str();
-    let promised = Format::of_name(file);
-    let format = Format::of_content(&bytes).or(promised).unwrap_or(Format::Lm63);
-    if let Some(promised) = promised.filter(|promised| *promised != format) {
+    let format = Format::of_file(file, &bytes).unwrap_or(Format::Lm63);
+    if let Some(promised) = format.misnamed(file) {
         let message = format!(
             "found a file in the format {}; expected {}, as the name says (read as what it is)",
             format.name(),
@@ -58,16 +57,10 @@ pub(super) fn read(
 
 fn load_error(file: &str, error: &ReadError) -> LoadError {
     let place = Place { line: error.line(), column: error.column() };
-    LoadError::new(file, Some(place), without_place(&error.to_string(), place))
+    LoadError::new(file, Some(place), error.message())
 }
 
 fn passed_on(file: &str, warning: &quasilux_photometry::Warning) -> Warning {
     let place = Place { line: warning.line(), column: warning.column() };
-    Warning::new(file, Some(place), without_place(&warning.to_string(), place))
-}
-
-/// The message without the `line:column: ` that it starts with.
-fn without_place(message: &str, place: Place) -> String {
-    let prefix = format!("{}:{}: ", place.line, place.column);
-    message.strip_prefix(&prefix).unwrap_or(message).to_owned()
+    Warning::new(file, Some(place), warning.message())
 }

@@ -1,23 +1,14 @@
 //! `quasilux experiment`: what the files say.
 
+use crate::support::Folder;
 use std::collections::HashMap;
-use std::path::PathBuf;
-use std::process::Command;
 
-fn run(name: &str, arguments: &[&str]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("experiment-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    let output = Command::new(env!("CARGO_BIN_EXE_quasilux"))
-        .args(["experiment", name, "--out"])
-        .arg(&folder)
-        .args(arguments)
-        .output()
-        .expect("the program starts");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{errors}");
-    let printed = String::from_utf8(output.stdout).expect("text");
-    let table = std::fs::read_to_string(folder.join(format!("{name}.md"))).expect("a table");
-    assert!(printed.starts_with(&table), "the table is printed as it is written");
+fn run(name: &str, arguments: &[&str]) -> Folder {
+    let folder = Folder::new(&format!("experiment-{name}"));
+    let run = folder.quasilux(&[&["experiment", name, "--out", "."], arguments].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let table = folder.read(&format!("{name}.md"));
+    assert!(run.stdout.starts_with(&table), "the table is printed as it is written");
     folder
 }
 
@@ -28,7 +19,7 @@ fn run(name: &str, arguments: &[&str]) -> PathBuf {
 #[test]
 fn rejection_spoils_what_sobol_points_gain() {
     let folder = run("rejection", &["--max-n", "16384"]);
-    let csv = std::fs::read_to_string(folder.join("rejection.csv")).expect("figures");
+    let csv = folder.read("rejection.csv");
     let mut errors: HashMap<(String, String), f64> = HashMap::new();
     for line in csv.lines().skip(1) {
         let fields: Vec<&str> = line.split(',').collect();
@@ -48,6 +39,6 @@ fn rejection_spoils_what_sobol_points_gain() {
     let inverse = error("inverse transform", "random") / error("inverse transform", "sobol");
     let rejection = error("rejection", "random") / error("rejection", "sobol");
     assert!(inverse > 3.0 && rejection < 1.8, "{inverse} {rejection}");
-    let svg = std::fs::read_to_string(folder.join("rejection.svg")).expect("a plot");
+    let svg = folder.read("rejection.svg");
     assert!(svg.contains("rejection, sobol") && svg.ends_with("</svg>\n"));
 }

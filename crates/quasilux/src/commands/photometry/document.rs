@@ -117,7 +117,7 @@ impl<'a> FileEntry<'a> {
             line: warning.line(),
             column: warning.column(),
             count: warning.count(),
-            message: words::message(warning),
+            message: warning.message(),
         };
         Self {
             file: &input.name,

@@ -58,7 +58,5 @@ fn subtitle(luminaire: &Luminaire) -> String {
         }
         _ => format!("{} lm of the luminaire", brief(analysis.flux_lm, 5)),
     };
-    let code: Vec<String> =
-        analysis.flux_code.percent().iter().map(|share| format!("{share:.0}")).collect();
-    format!("{flux}; CIE flux code {}", code.join(" "))
+    format!("{flux}; CIE flux code {}", words::flux_code(&analysis.flux_code))
 }

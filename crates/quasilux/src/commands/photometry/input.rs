@@ -59,8 +59,7 @@ fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 fn luminaire(name: &str, bytes: &[u8]) -> Result<Luminaire, Failure> {
-    let promised = Format::of_name(name);
-    let Some(format) = Format::of_content(bytes).or(promised) else {
+    let Some(format) = Format::of_file(name, bytes) else {
         let message = "found no line TILT= and no numbers in lines 3 to 7; expected a luminaire \
                        file, LM-63, EULUMDAT or TM-33";
         let place = Some([1, 1]);
@@ -71,7 +70,7 @@ fn luminaire(name: &str, bytes: &[u8]) -> Result<Luminaire, Failure> {
         analysis: Analysis::of(&read.photometry),
         photometry: read.photometry,
         warnings: read.warnings,
-        misnamed: promised.filter(|promised| *promised != format),
+        misnamed: format.misnamed(name),
     })
 }
 
@@ -89,7 +88,7 @@ impl Failure {
     fn of(name: &str, error: &ReadError) -> Self {
         Self {
             name: name.to_owned(),
-            message: format!("found {}; expected {}", error.found(), error.expected()),
+            message: error.message(),
             place: Some([error.line(), error.column()]),
         }
     }

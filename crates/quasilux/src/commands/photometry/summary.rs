@@ -16,14 +16,7 @@ pub(super) fn summary(input: &Input, luminaire: &Luminaire) -> String {
         text += &format!("  {name:<15} {}\n", printable(&value));
     }
     for warning in &luminaire.warnings {
-        let line = format!(
-            "warning: {}:{}:{}: {} [{}]",
-            input.name,
-            warning.line(),
-            warning.column(),
-            words::message(warning),
-            words::rule(warning)
-        );
+        let line = format!("warning: {}:{warning} [{}]", input.name, words::rule(warning));
         text += &printable(&line);
         text.push('\n');
     }
@@ -144,14 +137,10 @@ fn angle_text(degrees: f64) -> String {
 
 fn flux_code(analysis: &Analysis) -> String {
     let code = &analysis.flux_code;
-    let join = |shares: &[f64]| {
-        let numbers: Vec<String> = shares.iter().map(|share| format!("{share:.0}")).collect();
-        numbers.join(" ")
-    };
-    let lower = join(&code.percent());
+    let lower = words::flux_code(code);
     let [u1, u2, u3] = code.upper;
     let upper = [u1, u2, u3, code.upward].map(|share| 100.0 * share);
-    if code.upward >= 0.005 { format!("{lower}; upward {}", join(&upper)) } else { lower }
+    if code.upward >= 0.005 { format!("{lower}; upward {}", words::whole(&upper)) } else { lower }
 }
 
 fn percent(share: f64) -> String {

@@ -1,6 +1,6 @@
 //! What things are called, in the summary and in the document.
 
-use quasilux_photometry::analysis::Plane;
+use quasilux_photometry::analysis::{FluxCode, Plane};
 use quasilux_photometry::{
     IesStandard, LuminaireFacts, PhotometricType, Standard, Symmetry, Tm33Edition, Warning,
 };
@@ -46,11 +46,14 @@ pub(super) fn rule(warning: &Warning) -> String {
     format!("{:?}", warning.deviation())
 }
 
-/// What the warning says, without its place.
-pub(super) fn message(warning: &Warning) -> String {
-    let place = format!("{}:{}: ", warning.line(), warning.column());
-    let text = warning.to_string();
-    text.strip_prefix(&place).unwrap_or(&text).to_owned()
+/// The five figures of the CIE flux code.
+pub(super) fn flux_code(code: &FluxCode) -> String {
+    whole(&code.percent())
+}
+
+/// Numbers rounded to whole ones, between blanks.
+pub(super) fn whole(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| format!("{number:.0}")).collect::<Vec<_>>().join(" ")
 }
 
 /// What the file calls the luminaire, on one line.
