@@ -29,6 +29,7 @@ mod frame;
 mod intersect;
 mod kernel;
 mod lanes;
+mod many;
 mod node;
 mod pages;
 mod pending;
@@ -39,5 +40,5 @@ mod validate;
 
 pub use intersect::{Hit, PreparedRay, intersect};
 pub use kernel::TriangleBvh;
-pub use ray::Ray;
+pub use ray::{Ray, Shot};
 pub use traverse::Kernel;

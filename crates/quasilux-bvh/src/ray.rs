@@ -32,3 +32,17 @@ impl Ray {
         self.origin + self.direction * t
     }
 }
+
+/// A ray with the triangles that it cannot hit, one of many that are traced together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// The ray.
+    pub ray: Ray,
+    /// Indices of triangles that do not count; [`Self::NONE`] for none.
+    pub excluded: [u32; 2],
+}
+
+impl Shot {
+    /// No triangle.
+    pub const NONE: u32 = u32::MAX;
+}

@@ -2,7 +2,7 @@
 
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_bvh::{Hit, Ray, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, Shot, TriangleBvh};
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::bsdf::Mirror;
 use quasilux_scene::{Bsdf, Light, Scene};
@@ -148,10 +148,9 @@ impl<S: Spectrum> World<S> {
 
     /// The first facet that a ray from `from` along the unit vector `direction` meets.
     pub(crate) fn trace(&self, from: Vantage, direction: DVec3) -> Option<Interaction> {
-        let ray = Ray::new(from.position, direction);
-        let hit = self.bvh.closest_hit(&ray, from.excluded())?;
-        let flush = self.flush_emitters.as_ref();
-        let hit = flush.and_then(|flush| flush.before(&hit, &ray, from)).unwrap_or(hit);
+        let Shot { ray, excluded } = from.shot(direction);
+        let hit = self.bvh.closest_hit(&ray, &excluded)?;
+        let hit = self.unless_flush(hit, &ray, from.facet);
         Some(self.interaction(&hit, direction))
     }
 
@@ -164,8 +163,39 @@ impl<S: Spectrum> World<S> {
         distance_m: f64,
         target: u32,
     ) -> bool {
-        let ray = Ray::new(from.position, direction).up_to(distance_m * (1.0 - SHORTENING));
-        !self.bvh.is_occluded(&ray, &[from.facet, target])
+        let Shot { ray, excluded } = from.sight(direction, distance_m, target);
+        !self.bvh.is_occluded(&ray, &excluded)
+    }
+
+    /// [`Self::trace`] of many rays made by [`Vantage::shot`], in their order.
+    pub(crate) fn trace_all(
+        &self,
+        shots: &[Shot],
+        hits: &mut Vec<Option<Hit>>,
+        found: &mut Vec<Option<Interaction>>,
+    ) {
+        hits.clear();
+        hits.resize(shots.len(), None);
+        self.bvh.closest_hits(shots, hits);
+        found.clear();
+        found.extend(shots.iter().zip(hits).map(|(shot, hit)| {
+            let hit = self.unless_flush((*hit)?, &shot.ray, shot.excluded[0]);
+            Some(self.interaction(&hit, shot.ray.direction))
+        }));
+    }
+
+    /// [`Self::is_visible`] of many rays made by [`Vantage::sight`], in their order.
+    pub(crate) fn are_visible(&self, sights: &[Shot], visible: &mut Vec<bool>) {
+        visible.clear();
+        visible.resize(sights.len(), false);
+        self.bvh.are_occluded(sights, visible);
+        visible.iter_mut().for_each(|visible| *visible = !*visible);
+    }
+
+    /// The hit, or the flush emitter that comes first there.
+    fn unless_flush(&self, hit: Hit, ray: &Ray, from: u32) -> Hit {
+        let flush = self.flush_emitters.as_ref();
+        flush.and_then(|flush| flush.before(&hit, ray, from)).unwrap_or(hit)
     }
 
     fn interaction(&self, hit: &Hit, direction: DVec3) -> Interaction {
@@ -234,11 +264,11 @@ impl FlushEmitters {
     }
 
     /// The emitting facet that a ray meets together with `hit`, or just behind it.
-    fn before(&self, hit: &Hit, ray: &Ray, from: Vantage) -> Option<Hit> {
+    fn before(&self, hit: &Hit, ray: &Ray, from: u32) -> Option<Hit> {
         let reach = ray.up_to(hit.distance * (1.0 + SHORTENING));
         let found = self.bvh.closest_hit(&reach, &[])?;
         let triangle = self.facets[found.triangle as usize];
-        (triangle != from.facet).then_some(Hit { triangle, ..found })
+        (triangle != from).then_some(Hit { triangle, ..found })
     }
 }
 
@@ -267,8 +297,16 @@ impl Vantage {
         self.position
     }
 
-    fn excluded(&self) -> &[u32] {
-        std::slice::from_ref(&self.facet)
+    /// The ray from here along a unit vector.
+    pub(crate) fn shot(&self, direction: DVec3) -> Shot {
+        Shot { ray: Ray::new(self.position, direction), excluded: [self.facet, Shot::NONE] }
+    }
+
+    /// The ray from here to the point at `distance_m` along `direction`, which lies on the facet
+    /// `target`, `u32::MAX` for none.
+    pub(crate) fn sight(&self, direction: DVec3, distance_m: f64, target: u32) -> Shot {
+        let ray = Ray::new(self.position, direction).up_to(distance_m * (1.0 - SHORTENING));
+        Shot { ray, excluded: [self.facet, target] }
     }
 }
 
