@@ -10,7 +10,7 @@ mod photons;
 mod scenes;
 
 use photons::{Shot, photon_rays};
-use quasilux_bvh::TriangleBvh;
+use quasilux_bvh::{Shot as BvhShot, TriangleBvh};
 use quasilux_foreign::{Embree, Mesh, Quality, RayHit, processor_seconds};
 use scenes::Scene;
 use std::hint::black_box;
@@ -73,15 +73,24 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
         })
         .collect();
 
-    let mut seconds = vec![Vec::new(); 1 + others.len()];
+    let batch: Vec<BvhShot> = rays
+        .iter()
+        .map(|shot| BvhShot { ray: shot.ray, excluded: [shot.from, BvhShot::NONE] })
+        .collect();
+    let mut hits = vec![None; ROUND];
+    let mut seconds = vec![Vec::new(); 2 + others.len()];
     for round in 0..TURNS * (RAYS / ROUND) {
         let part = round * ROUND % RAYS..round * ROUND % RAYS + ROUND;
         seconds[0].push(processor_time(|| shoot(&own, &rays[part.clone()])));
-        for ((_, _, mesh), seconds) in others.iter().zip(&mut seconds[1..]) {
+        seconds[1].push(processor_time(|| {
+            own.closest_hits(&batch[part.clone()], &mut hits);
+            black_box(&hits);
+        }));
+        for ((_, _, mesh), seconds) in others.iter().zip(&mut seconds[2..]) {
             seconds.push(processor_time(|| shoot_embree(mesh, &shots[part.clone()])));
         }
     }
-    let builds = [(name.as_str(), own_build)];
+    let builds = [(name.as_str(), own_build), ("quasilux, many at once", own_build)];
     let builds = builds.into_iter().chain(others.iter().map(|(name, s, _)| (*name, *s)));
     for ((name, build), own) in builds.zip(&seconds) {
         let rate = median(own.iter().map(|s| ROUND as f64 / s / 1e6));

@@ -44,7 +44,7 @@ pub(crate) struct FrameRay {
     /// Where the ray ends; not negative.
     pub(crate) end: f32,
     /// How far the origin was moved along the ray.
-    moved: f64,
+    pub(crate) moved: f64,
 }
 
 /// What became of a ray on its way into the frame.
@@ -101,15 +101,15 @@ impl Frame {
             end: FAR,
             moved,
         };
-        framed.end = self.end(&framed, ray.t_max);
+        framed.end = self.end(moved, ray.t_max);
         if framed.end >= 0.0 { Framed::Ray(framed) } else { Framed::Misses }
     }
 
     /// A distance in the frame that is not less than `distance` along the ray.
     #[inline(always)]
-    pub(crate) fn end(&self, ray: &FrameRay, distance: f64) -> f32 {
+    pub(crate) fn end(&self, moved: f64, distance: f64) -> f32 {
         // The move is off by less than 2^20 * 2^-50 = h / 64.
         const UP: f64 = 1.0 + 2.0 * H as f64;
-        (((distance * self.scale - ray.moved) * UP + H as f64) as f32).min(FAR)
+        (((distance * self.scale - moved) * UP + H as f64) as f32).min(FAR)
     }
 }

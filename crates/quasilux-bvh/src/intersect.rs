@@ -10,6 +10,7 @@
 //! Deviation: all in double precision, so the paper's fallback for ties is not needed.
 
 use crate::Ray;
+use crate::lanes::{PortableQuad, Quad};
 use glam::DVec3;
 
 /// Where a ray meets a triangle.
@@ -22,6 +23,16 @@ pub struct Hit {
     /// Weights of the three corners: not negative, with sum 1 up to rounding.
     pub barycentric: [f64; 3],
 }
+
+/// The axes that follow each, in a circle.
+const AFTER: [usize; 3] = [1, 2, 0];
+const BEFORE: [usize; 3] = [2, 0, 1];
+
+/// The corners of a triangle axis by axis, so that an instruction can see all three; the fourth place is
+/// empty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Corners([[f64; 4]; 3]);
 
 /// A ray with the shear that makes it the z axis, computed once per ray.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +48,7 @@ impl PreparedRay {
     /// Prepares a ray with a finite, non-zero direction.
     #[must_use]
     pub fn new(ray: &Ray) -> Self {
-        let d = ray.direction.to_array();
+        let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
         let size = d.map(f64::abs);
         let z = if size[0] >= size[1] && size[0] >= size[2] {
             0
@@ -46,24 +57,28 @@ impl PreparedRay {
         } else {
             2
         };
-        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        if d[z] < 0.0 {
-            std::mem::swap(&mut x, &mut y);
-        }
+        let (x, y) = if d[z] < 0.0 { (BEFORE[z], AFTER[z]) } else { (AFTER[z], BEFORE[z]) };
         Self {
-            origin: [x, y, z].map(|axis| ray.origin[axis]),
+            origin: [x, y, z].map(|axis| o[axis]),
             t_max: ray.t_max,
             axes: [x, y, z],
             shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
         }
     }
+}
 
-    /// A corner in the sheared frame: the ray runs along the third axis, scaled to its length.
-    #[inline(always)]
-    fn sheared(&self, corner: &DVec3) -> [f64; 3] {
-        let corner: &[f64; 3] = corner.as_ref();
-        let p = |i: usize| corner[self.axes[i]] - self.origin[i];
-        [p(0) - self.shear[0] * p(2), p(1) - self.shear[1] * p(2), self.shear[2] * p(2)]
+impl Corners {
+    /// The same corners, axis by axis.
+    #[must_use]
+    pub fn new([a, b, c]: [DVec3; 3]) -> Self {
+        Self([0, 1, 2].map(|axis| [a[axis], b[axis], c[axis], 0.0]))
+    }
+
+    /// The corners as points.
+    #[must_use]
+    pub fn points(&self) -> [DVec3; 3] {
+        let [x, y, z] = self.0;
+        [0, 1, 2].map(|corner| DVec3::new(x[corner], y[corner], z[corner]))
     }
 }
 
@@ -71,18 +86,39 @@ impl PreparedRay {
 /// exactly edge-on.
 #[inline(always)]
 #[must_use]
-pub fn intersect(ray: &PreparedRay, corners: &[DVec3; 3], triangle: u32) -> Option<Hit> {
-    let [a, b, c] = [ray.sheared(&corners[0]), ray.sheared(&corners[1]), ray.sheared(&corners[2])];
-    let u = c[0] * b[1] - c[1] * b[0];
-    let v = a[0] * c[1] - a[1] * c[0];
-    let w = b[0] * a[1] - b[1] * a[0];
+pub fn intersect(ray: &PreparedRay, corners: &Corners, triangle: u32) -> Option<Hit> {
+    intersect_with::<PortableQuad>(ray, corners, triangle)
+}
+
+/// The same with other instructions, to the same bits.
+#[inline(always)]
+pub(crate) fn intersect_with<Q: Quad>(
+    ray: &PreparedRay,
+    corners: &Corners,
+    triangle: u32,
+) -> Option<Hit> {
+    let from_origin = |i: usize| Q::load(&corners.0[ray.axes[i]]).sub(Q::splat(ray.origin[i]));
+    // Corners in the sheared frame: the ray runs along the third axis, scaled to its length.
+    let along = from_origin(2);
+    let sheared = |i: usize| from_origin(i).sub(Q::splat(ray.shear[i]).mul(along));
+    let (x, y, z) = (sheared(0), sheared(1), Q::splat(ray.shear[2]).mul(along));
+    // The weight of each corner comes from the one before and the one after it.
+    let weights = x.previous().mul(y.next()).sub(y.previous().mul(x.next()));
+    let sum = add_three(weights);
+    let results = weights.with_last(add_three(weights.mul(z))).div(sum.first());
+    let [u, v, w, distance] = results.store();
+    let (below, above) = (weights.below(Q::splat(0.0)), Q::splat(0.0).below(weights));
     // Without branches in between: which of the conditions fails cannot be predicted.
-    let mixed = ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0));
-    let sum = u + v + w;
-    let distance = (u * a[2] + v * b[2] + w * c[2]) / sum;
-    let barycentric = [u / sum, v / sum, w / sum];
-    let counts = !mixed & (sum != 0.0) & (distance > 0.0) & (distance < ray.t_max);
-    counts.then_some(Hit { triangle, distance, barycentric })
+    let mixed = (below & 7 != 0) & (above & 7 != 0);
+    let edge_on = (below | above) & 7 == 0;
+    let counts = !mixed & !edge_on & (distance > 0.0) & (distance < ray.t_max);
+    counts.then_some(Hit { triangle, distance, barycentric: [u, v, w] })
+}
+
+/// The sum of the first three numbers, in their order, in the first lane.
+#[inline(always)]
+fn add_three<Q: Quad>(numbers: Q) -> Q {
+    numbers.add(numbers.next()).add(numbers.previous())
 }
 
 #[cfg(test)]
@@ -92,7 +128,11 @@ mod tests {
     const CORNERS: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 
     fn shoot(origin: DVec3, direction: DVec3) -> Option<Hit> {
-        intersect(&PreparedRay::new(&Ray::new(origin, direction.normalize())), &CORNERS, 7)
+        intersect(
+            &PreparedRay::new(&Ray::new(origin, direction.normalize())),
+            &Corners::new(CORNERS),
+            7,
+        )
     }
 
     #[test]
@@ -116,7 +156,7 @@ mod tests {
         assert!(shoot(above, DVec3::Z).is_none());
         assert!(shoot(DVec3::new(-1.0, 0.2, 0.0), DVec3::X).is_none());
         let short = Ray::new(above, DVec3::NEG_Z).up_to(1.0);
-        assert!(intersect(&PreparedRay::new(&short), &CORNERS, 0).is_none());
+        assert!(intersect(&PreparedRay::new(&short), &Corners::new(CORNERS), 0).is_none());
     }
 
     #[test]

@@ -7,15 +7,15 @@ use crate::pages::list_in_large_pages;
 use crate::pending::Pending;
 use crate::traverse::{Kernel, Query, Tree};
 use crate::validate::validate;
-use crate::{Hit, PreparedRay, Ray, intersect};
+use crate::{Corners, Hit, PreparedRay, Ray, intersect};
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// A triangle mesh that answers ray queries.
 pub struct TriangleBvh {
-    frame: Frame,
-    tree: Tree,
-    kernel: Kernel,
+    pub(crate) frame: Frame,
+    pub(crate) tree: Tree,
+    pub(crate) kernel: Kernel,
 }
 
 impl TriangleBvh {
@@ -53,6 +53,7 @@ impl TriangleBvh {
         tree.leaves.par_iter().map(block).collect_into_vec(&mut blocks);
         let mut nodes = list_in_large_pages(tree.nodes.len());
         nodes.extend(tree.nodes);
+        let corners = corners.into_par_iter().map(Corners::new).collect();
         Self { frame, tree: Tree { nodes, blocks, corners }, kernel }
     }
 
@@ -73,7 +74,7 @@ impl TriangleBvh {
                 && let Some(hit) = self.decide(&prepared, candidate.triangle, excluded)
                 && wins(&hit, &best)
             {
-                end = end.min(self.frame.end(&query.ray, hit.distance));
+                end = end.min(self.frame.end(query.ray.moved, hit.distance));
                 best = Some(hit);
             }
         }
@@ -114,7 +115,7 @@ impl TriangleBvh {
     }
 
     #[inline(always)]
-    fn decide(&self, ray: &PreparedRay, triangle: u32, excluded: &[u32]) -> Option<Hit> {
+    pub(crate) fn decide(&self, ray: &PreparedRay, triangle: u32, excluded: &[u32]) -> Option<Hit> {
         if excluded.contains(&triangle) {
             return None;
         }
@@ -149,8 +150,8 @@ fn query(ray: FrameRay, excluded: &[u32]) -> Query {
 }
 
 /// Whether `hit` comes before the best so far.
-#[inline]
-fn wins(hit: &Hit, best: &Option<Hit>) -> bool {
+#[inline(always)]
+pub(crate) fn wins(hit: &Hit, best: &Option<Hit>) -> bool {
     best.is_none_or(|best| {
         hit.distance < best.distance
             || (hit.distance == best.distance && hit.triangle < best.triangle)

@@ -8,7 +8,7 @@
 //!
 //! Where what is: `frame` has the coordinates and the bounds of their rounding, `node` the layout in memory,
 //! `build` the builder, `traverse` the way of a ray, `sight` what it sees of eight boxes or triangles,
-//! `lanes` the instructions for that, `pending` what waits for the decision.
+//! `lanes` the instructions for that, `pending` what waits for the decision, `stream` many rays at once.
 //!
 //! Limit: a triangle seen so nearly edge-on (within 2^-29 of its extent) that [`intersect`] itself
 //! returns noise may be proposed or not.
@@ -35,10 +35,11 @@ mod pages;
 mod pending;
 mod ray;
 mod sight;
+mod stream;
 mod traverse;
 mod validate;
 
-pub use intersect::{Hit, PreparedRay, intersect};
+pub use intersect::{Corners, Hit, PreparedRay, intersect};
 pub use kernel::TriangleBvh;
 pub use ray::{Ray, Shot};
 pub use traverse::Kernel;

@@ -85,6 +85,11 @@ impl Node {
 
 impl Child {
     const BLOCK: u32 = 1 << 31;
+    const ENDS: u32 = 1 << 30;
+    /// No child: all has been met.
+    pub(crate) const OVER: Self = Self(Self::BLOCK | Self::ENDS);
+    /// No child: there was no room.
+    pub(crate) const STRANDED: Self = Self(Self::BLOCK | Self::ENDS | 1);
 
     pub(crate) const fn node(index: usize) -> Self {
         Self(index as u32)
@@ -101,7 +106,7 @@ impl Child {
 
     #[inline(always)]
     pub(crate) const fn index(self) -> usize {
-        (self.0 & !Self::BLOCK) as usize
+        (self.0 & !(Self::BLOCK | Self::ENDS)) as usize
     }
 }
 

@@ -20,7 +20,7 @@ impl<L: Lanes> Slabs<L> {
         let (o, r) = (ray.origin.to_array(), ray.inverse.to_array());
         let below = [r[0] < 0.0, r[1] < 0.0, r[2] < 0.0].map(usize::from);
         Self {
-            inverse: [L::splat(r[0]), L::splat(r[1]), L::splat(r[2])],
+            inverse: r.map(L::splat),
             offset: [L::splat(o[0] * r[0]), L::splat(o[1] * r[1]), L::splat(o[2] * r[2])],
             first: [below[0], 2 + below[1], 4 + below[2]],
             last: [1 - below[0], 3 - below[1], 5 - below[2]],
@@ -56,6 +56,17 @@ impl<L: Lanes> Sight<L> {
         Self {
             origin: ray.origin.to_array().map(L::splat),
             direction: ray.direction.to_array().map(L::splat),
+        }
+    }
+
+    /// [`Self::new`] of a ray in memory.
+    #[inline(always)]
+    pub(crate) fn of(ray: &FrameRay) -> Self {
+        let (origin, direction): (&[f32; 3], &[f32; 3]) =
+            (ray.origin.as_ref(), ray.direction.as_ref());
+        Self {
+            origin: [0, 1, 2].map(|axis| L::splat_from(&origin[axis])),
+            direction: [0, 1, 2].map(|axis| L::splat_from(&direction[axis])),
         }
     }
 

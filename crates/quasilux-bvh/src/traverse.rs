@@ -5,12 +5,12 @@
 //! block is told apart from what cannot be in single precision, with room for every rounding
 //! ([`crate::node::Slack`]); what is left is not decided here.
 
+use crate::Corners;
 use crate::frame::FrameRay;
 use crate::lanes::{Lanes, Portable};
 use crate::node::{Block, Child, NONE, Node, WIDTH};
 use crate::pending::{Candidate, Pending};
 use crate::sight::{Sight, Slabs};
-use glam::DVec3;
 use std::mem::MaybeUninit;
 
 /// No tree is deeper than this; the builder sees to it.
@@ -23,7 +23,7 @@ const STACK: usize = MAX_DEPTH * (WIDTH - 1) + WIDTH;
 pub(crate) struct Tree {
     pub(crate) nodes: Vec<Node>,
     pub(crate) blocks: Vec<Block>,
-    pub(crate) corners: Vec<[DVec3; 3]>,
+    pub(crate) corners: Vec<Corners>,
 }
 
 /// What is asked.
@@ -181,7 +181,7 @@ impl Tree {
 
 /// Has the processor fetch an element of a list.
 #[inline(always)]
-fn prefetch<T>(list: &[T], index: usize) {
+pub(crate) fn prefetch<T>(list: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: prefetching does not fault, whatever the address.
     unsafe {

@@ -88,7 +88,7 @@ impl Survey<'_> {
         for triangle in triangles {
             let corners =
                 self.tree.corners.get(triangle as usize).ok_or("a triangle is missing")?;
-            let framed = corners.map(|corner| self.frame.point(corner));
+            let framed = corners.points().map(|corner| self.frame.point(corner));
             here.push((triangle, framed));
             for (bit, weights) in PROBES.iter().enumerate() {
                 let terms = framed.iter().zip(weights).map(|(corner, weight)| *corner * *weight);

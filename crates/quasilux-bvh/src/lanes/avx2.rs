@@ -1,6 +1,6 @@
 //! With AVX2 and fused multiply-add.
 
-use super::Lanes;
+use super::{Lanes, Quad};
 use crate::node::{Child, WIDTH};
 use std::arch::x86_64::*;
 
@@ -44,6 +44,8 @@ static LANES_OF: [u64; 256] = {
 // SAFETY of all blocks below: the features are there, as [`Avx2`] says; loads and stores are of
 // whole arrays, or as the contract of the function says.
 impl Lanes for Avx2 {
+    type Quad = Avx2Quad;
+
     #[inline(always)]
     fn load(from: &[f32; WIDTH]) -> Self {
         // SAFETY: see above.
@@ -170,5 +172,92 @@ impl Lanes for Avx2 {
             let children = _mm256_permutevar8x32_epi32(children, lanes);
             _mm256_storeu_si256(to_children.cast(), children);
         }
+    }
+
+    #[inline(always)]
+    fn splat_from(x: &f32) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_broadcast_ss(x) })
+    }
+}
+
+/// Four numbers in a register, under the same condition.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx2Quad(__m256d);
+
+// SAFETY of all blocks below: as above.
+impl Quad for Avx2Quad {
+    #[inline(always)]
+    fn load(from: &[f64; 4]) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_loadu_pd(from.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f64; 4] {
+        let mut to = [0.0; 4];
+        // SAFETY: see above.
+        unsafe { _mm256_storeu_pd(to.as_mut_ptr(), self.0) };
+        to
+    }
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_set1_pd(x) })
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_add_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_sub_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_mul_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_div_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn previous(self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_permute4x64_pd::<0b11_01_00_10>(self.0) })
+    }
+
+    #[inline(always)]
+    fn next(self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_permute4x64_pd::<0b11_00_10_01>(self.0) })
+    }
+
+    #[inline(always)]
+    fn first(self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_broadcastsd_pd(_mm256_castpd256_pd128(self.0)) })
+    }
+
+    #[inline(always)]
+    fn with_last(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_blend_pd::<0b1000>(self.0, other.first().0) })
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> u32 {
+        // SAFETY: see above.
+        unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
     }
 }

@@ -8,12 +8,36 @@ mod portable;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
-pub(crate) use portable::Portable;
+pub(crate) use portable::{Portable, PortableQuad};
 
 use crate::node::{Child, WIDTH};
 
+/// Four double-precision numbers at once, to the same bits everywhere.
+pub(crate) trait Quad: Copy {
+    fn load(from: &[f64; 4]) -> Self;
+    fn store(self) -> [f64; 4];
+    fn splat(x: f64) -> Self;
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// The numbers of lanes 2, 0, 1 and 3.
+    fn previous(self) -> Self;
+    /// The numbers of lanes 1, 2, 0 and 3.
+    fn next(self) -> Self;
+    /// The number of lane 0 in all of them.
+    fn first(self) -> Self;
+    /// The first three numbers, and the first of another.
+    fn with_last(self, other: Self) -> Self;
+    /// A bit for each lane where `self < other`.
+    fn below(self, other: Self) -> u32;
+}
+
 /// Eight numbers, and the few operations that the traversal needs.
 pub(crate) trait Lanes: Copy {
+    /// Four numbers, on the same machine.
+    type Quad: Quad;
+
     fn load(from: &[f32; WIDTH]) -> Self;
     fn store(self) -> [f32; WIDTH];
     fn splat(x: f32) -> Self;
@@ -49,4 +73,6 @@ pub(crate) trait Lanes: Copy {
         to: *mut f32,
         to_children: *mut Child,
     );
+    /// [`Self::splat`] of a number in memory.
+    fn splat_from(x: &f32) -> Self;
 }

@@ -1,6 +1,6 @@
 //! In plain Rust, for every machine.
 
-use super::Lanes;
+use super::{Lanes, Quad};
 use crate::node::{Child, WIDTH};
 use std::array::from_fn;
 
@@ -16,6 +16,8 @@ impl Portable {
 }
 
 impl Lanes for Portable {
+    type Quad = PortableQuad;
+
     #[inline(always)]
     fn load(from: &[f32; WIDTH]) -> Self {
         Self(*from)
@@ -119,5 +121,86 @@ impl Lanes for Portable {
             left &= left - 1;
             count += 1;
         }
+    }
+
+    #[inline(always)]
+    fn splat_from(x: &f32) -> Self {
+        Self::splat(*x)
+    }
+}
+
+/// Four numbers that the compiler puts where it likes.
+#[derive(Clone, Copy)]
+pub(crate) struct PortableQuad([f64; 4]);
+
+impl PortableQuad {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self(from_fn(|i| f(self.0[i], other.0[i])))
+    }
+}
+
+impl Quad for PortableQuad {
+    #[inline(always)]
+    fn load(from: &[f64; 4]) -> Self {
+        Self(*from)
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f64; 4] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self([x; 4])
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    fn previous(self) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([c, a, b, d])
+    }
+
+    #[inline(always)]
+    fn next(self) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([b, c, a, d])
+    }
+
+    #[inline(always)]
+    fn first(self) -> Self {
+        Self([self.0[0]; 4])
+    }
+
+    #[inline(always)]
+    fn with_last(self, other: Self) -> Self {
+        let [a, b, c, _] = self.0;
+        Self([a, b, c, other.0[0]])
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> u32 {
+        (0..4).fold(0, |mask, i| mask | u32::from(self.0[i] < other.0[i]) << i)
     }
 }

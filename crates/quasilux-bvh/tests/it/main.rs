@@ -1,5 +1,6 @@
 //! The hierarchy against its slow twin, and meshes that must not leak.
 
+mod batches;
 mod leaks;
 mod meshes;
 mod twin;

@@ -1,0 +1,341 @@
+//! Many rays on their way at once.
+//!
+//! A ray alone waits most of its time: for memory, for the outcome of a test, and for the processor to
+//! come back from a wrong guess of an outcome. So a few rays are in flight together, and each in turn
+//! takes a step: through a node, through a block, to a decision or back to what waits for it. A step
+//! has next to no branches: what a ray meets is written to its stack whether there is anything to
+//! write or not, and the queue for its next step is computed. While others take their steps, memory for
+//! its next one arrives.
+//!
+//! A ray that needs more room than nearly all do leaves, and is traced alone.
+
+use crate::frame::FrameRay;
+use crate::lanes::{Lanes, Quad};
+use crate::node::{Child, NONE, WIDTH};
+use crate::sight::Sight;
+use crate::traverse::{Kernel, Tree, prefetch};
+use std::hint::select_unpredictable;
+
+/// Rays in flight.
+const FLIGHTS: usize = 24;
+
+/// Children that may wait for a ray.
+const ROOM: usize = 24;
+
+/// Where the children that wait begin: behind as many that are none and one that ends the search.
+const BOTTOM: usize = WIDTH + 1;
+
+/// What provides rays and decides what they hit.
+pub(crate) trait Voyage {
+    /// The next ray.
+    fn embark(&mut self) -> Option<Passenger>;
+    /// Decides on triangles that a ray may hit, and returns where the search for others ends; a
+    /// negative place ends it.
+    fn decide<Q: Quad>(
+        &mut self,
+        passenger: &Passenger,
+        triangles: impl Iterator<Item = u32>,
+    ) -> f32;
+    /// The ray must be traced alone.
+    fn strand(&mut self, number: u32);
+}
+
+/// A ray and what it is for.
+#[derive(Clone, Copy)]
+pub(crate) struct Passenger {
+    pub(crate) ray: FrameRay,
+    /// Which one it is.
+    pub(crate) number: u32,
+    /// Triangles that do not count.
+    pub(crate) excluded: [u32; 2],
+}
+
+/// A ray on its way.
+#[repr(C, align(64))]
+struct Flight {
+    passenger: Passenger,
+    offset: [f32; 3],
+    /// Where in a node the planes are that the ray meets first, in bytes.
+    first: [u32; 3],
+    child: Child,
+    /// How many children are in the list of those that wait, the bottom included.
+    waiting: u32,
+    /// Triangles of the block that the ray may hit, a bit each.
+    possible: u32,
+    nears: [f32; BOTTOM + ROOM + WIDTH],
+    children: [Child; BOTTOM + ROOM + WIDTH],
+}
+
+/// What a flight does next.
+type Task = u32;
+const NODE: Task = 0;
+const POP: Task = 1;
+const BLOCK: Task = 2;
+const OVER: Task = 3;
+const DECISION: Task = 4;
+
+/// Flights by what they do next.
+struct Queues {
+    slots: [[u32; FLIGHTS + 1]; 5],
+    counts: [u32; 5],
+}
+
+impl Queues {
+    /// Has a flight wait for its next task.
+    #[inline(always)]
+    fn enter(&mut self, task: Task, slot: u32) {
+        let task = task as usize;
+        // SAFETY: there are no more tasks than queues and no more slots than `FLIGHTS`.
+        unsafe {
+            let count = self.counts.get_unchecked_mut(task);
+            *self.slots.get_unchecked_mut(task).get_unchecked_mut(*count as usize) = slot;
+            *count += 1;
+        }
+    }
+
+    /// Empties a queue and returns how many were in it; what is entered while they are taken comes
+    /// behind them.
+    #[inline(always)]
+    fn take(&mut self, task: Task) -> usize {
+        std::mem::take(&mut self.counts[task as usize]) as usize
+    }
+
+    #[inline(always)]
+    fn slot(&self, task: Task, at: usize) -> u32 {
+        // SAFETY: as above.
+        unsafe { *self.slots[task as usize].get_unchecked(at) }
+    }
+}
+
+impl Tree {
+    /// Takes all rays of a voyage through the tree.
+    pub(crate) fn stream(&self, kernel: Kernel, voyage: &mut impl Voyage) {
+        match kernel {
+            Kernel::Portable => self.fly::<crate::lanes::Portable>(voyage),
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: this kernel is only chosen where the features are there.
+            Kernel::Avx2 => unsafe { self.fly_avx2(voyage) },
+        }
+    }
+
+    /// # Safety
+    /// The machine must have what [`crate::lanes::Avx2::is_supported`] asks for.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    unsafe fn fly_avx2(&self, voyage: &mut impl Voyage) {
+        self.fly::<crate::lanes::Avx2>(voyage);
+    }
+
+    #[inline(always)]
+    fn fly<L: Lanes>(&self, voyage: &mut impl Voyage) {
+        let mut flights: Vec<Flight> = Vec::with_capacity(FLIGHTS);
+        let mut queues = Queues { slots: [[0; FLIGHTS + 1]; 5], counts: [0; 5] };
+        while flights.len() < FLIGHTS {
+            let Some(passenger) = voyage.embark() else { break };
+            queues.enter(NODE, (flights.len() * size_of::<Flight>()) as u32);
+            flights.push(Flight::new(passenger));
+        }
+        let mut aloft = flights.len();
+        let base = flights.as_mut_ptr();
+        // SAFETY: slots are those of flights.
+        let flight_at = |slot: u32| unsafe { &mut *base.byte_add(slot as usize) };
+        while aloft > 0 {
+            for i in 0..queues.take(NODE) {
+                let slot = queues.slot(NODE, i);
+                let task = self.pass_node::<L>(flight_at(slot));
+                queues.enter(task, slot);
+            }
+            for i in 0..queues.take(BLOCK) {
+                let slot = queues.slot(BLOCK, i);
+                let task = self.pass_block::<L>(flight_at(slot));
+                queues.enter(task, slot);
+            }
+            for i in 0..queues.take(DECISION) {
+                let slot = queues.slot(DECISION, i);
+                let flight = flight_at(slot);
+                self.decide::<L>(flight, voyage);
+                queues.enter(self.pop::<L>(flight), slot);
+            }
+            for i in 0..queues.take(POP) {
+                let slot = queues.slot(POP, i);
+                queues.enter(self.pop::<L>(flight_at(slot)), slot);
+            }
+            for i in 0..queues.take(OVER) {
+                let slot = queues.slot(OVER, i);
+                let flight = flight_at(slot);
+                if flight.child == Child::STRANDED {
+                    voyage.strand(flight.passenger.number);
+                }
+                if let Some(passenger) = voyage.embark() {
+                    flight.board(passenger);
+                    queues.enter(NODE, slot);
+                } else {
+                    aloft -= 1;
+                }
+            }
+        }
+    }
+
+    /// One step through a node.
+    #[inline(always)]
+    fn pass_node<L: Lanes>(&self, flight: &mut Flight) -> Task {
+        // SAFETY: the children of a valid tree exist.
+        let node = unsafe { self.nodes.get_unchecked(flight.child.index()) };
+        let planes = node.planes.as_ptr();
+        let [x, y, z] = flight.first.map(|first| first as usize);
+        let inverse: &[f32; 3] = flight.passenger.ray.inverse.as_ref();
+        // SAFETY: `first` has the place of a plane, and the other one of its axis is beside it.
+        let plane = |at: usize, axis: usize| unsafe {
+            let lanes = L::load(&*planes.byte_add(at));
+            lanes.mul_sub(L::splat_from(&inverse[axis]), L::splat_from(&flight.offset[axis]))
+        };
+        let near = plane(x, 0).max(plane(y, 1)).max(plane(z, 2).max(L::splat(0.0)));
+        let far = plane(x ^ 32, 0).min(plane(y ^ 32, 1));
+        let far = far.min(plane(z ^ 32, 2).min(L::splat_from(&flight.passenger.ray.end)));
+        let met = near.at_most(far);
+        let nearest = near.smallest(far);
+        let others = met & !(1 << nearest);
+        let count = flight.waiting as usize;
+        // SAFETY: there is room for eight more, since `waiting` is checked below.
+        unsafe {
+            let to = flight.nears.as_mut_ptr().add(count);
+            let to_children = flight.children.as_mut_ptr().add(count);
+            near.compress(&node.children, others, to, to_children);
+            flight.child = *node.children.get_unchecked(nearest);
+        }
+        let pushed = count + others.count_ones() as usize;
+        flight.waiting = pushed as u32;
+        if pushed > BOTTOM + ROOM {
+            flight.strand();
+        }
+        self.prefetch_child(flight.child);
+        select_unpredictable(met == 0, POP, flight.child.task())
+    }
+
+    /// One step through a block: which triangles the ray may hit.
+    #[inline(always)]
+    fn pass_block<L: Lanes>(&self, flight: &mut Flight) -> Task {
+        // SAFETY: the children of a valid tree exist.
+        let block = unsafe { self.blocks.get_unchecked(flight.child.index()) };
+        let ray = &flight.passenger.ray;
+        let view = Sight::<L>::of(ray).view(block, ray.end);
+        let [one, other] = flight.passenger.excluded;
+        let possible = view.possible() & L::differ(&block.triangles, [one, other, NONE]);
+        flight.possible = possible;
+        let triangle = block.triangles[possible.trailing_zeros() as usize % WIDTH];
+        prefetch(&self.corners, triangle as usize);
+        select_unpredictable(possible == 0, POP, DECISION)
+    }
+
+    /// Goes on with the newest of the children that wait that is not behind the end.
+    #[inline(always)]
+    fn pop<L: Lanes>(&self, flight: &mut Flight) -> Task {
+        flight.pop::<L>();
+        self.prefetch_child(flight.child);
+        flight.child.task()
+    }
+
+    /// Has the triangles of a block decided on.
+    #[inline(always)]
+    fn decide<L: Lanes>(&self, flight: &mut Flight, voyage: &mut impl Voyage) {
+        // SAFETY: the children of a valid tree exist.
+        let block = unsafe { self.blocks.get_unchecked(flight.child.index()) };
+        let mut possible = flight.possible;
+        let triangles = std::iter::from_fn(|| {
+            let lane = possible.trailing_zeros() as usize;
+            possible &= possible.wrapping_sub(1);
+            block.triangles.get(lane).copied()
+        });
+        flight.passenger.ray.end = voyage.decide::<L::Quad>(&flight.passenger, triangles);
+    }
+
+    /// Has the processor fetch a child.
+    #[inline(always)]
+    fn prefetch_child(&self, child: Child) {
+        let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();
+        let block = self.blocks.as_ptr().wrapping_add(child.index()).cast::<u8>();
+        let at = select_unpredictable(child.is_block(), block, node);
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: prefetching does not fault, whatever the address.
+        unsafe {
+            use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+            let at = at.cast::<i8>();
+            _mm_prefetch::<_MM_HINT_T0>(at);
+            _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(64));
+            _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(128));
+            _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(192));
+            _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(256));
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        let _ = at;
+    }
+}
+
+impl Flight {
+    /// Memory for a flight, and its first passenger.
+    fn new(passenger: Passenger) -> Self {
+        let mut flight = Self {
+            passenger,
+            offset: [0.0; 3],
+            first: [0; 3],
+            child: Child::node(0),
+            waiting: 0,
+            possible: 0,
+            nears: [f32::INFINITY; BOTTOM + ROOM + WIDTH],
+            children: [Child::OVER; BOTTOM + ROOM + WIDTH],
+        };
+        flight.nears[WIDTH] = f32::NEG_INFINITY;
+        flight.board(passenger);
+        flight
+    }
+
+    /// Starts a ray at the root.
+    #[inline(always)]
+    fn board(&mut self, passenger: Passenger) {
+        let FrameRay { origin, inverse, .. } = passenger.ray;
+        self.passenger = passenger;
+        self.offset = (origin * inverse).to_array();
+        let below = inverse.is_negative_bitmask();
+        self.first = [below << 5 & 32, 64 + (below << 4 & 32), 128 + (below << 3 & 32)];
+        self.child = Child::node(0);
+        self.waiting = BOTTOM as u32;
+    }
+
+    /// Has no more room.
+    #[cold]
+    fn strand(&mut self) {
+        self.child = Child::STRANDED;
+    }
+
+    /// Takes the newest of the children that wait that is not behind the end.
+    #[inline(always)]
+    fn pop<L: Lanes>(&mut self) {
+        let end = L::splat_from(&self.passenger.ray.end);
+        let mut count = self.waiting as usize;
+        let mut before = self.newest_before(end, count);
+        while before == 0 {
+            count -= WIDTH;
+            before = self.newest_before(end, count);
+        }
+        let top = count - WIDTH + before.ilog2() as usize;
+        self.waiting = top as u32;
+        // SAFETY: `top` is below what was written.
+        self.child = unsafe { *self.children.get_unchecked(top) };
+    }
+
+    /// A bit for each of the eight children in front of `count` that is before the end.
+    #[inline(always)]
+    fn newest_before<L: Lanes>(&self, end: L, count: usize) -> u32 {
+        // SAFETY: there are always eight at the bottom, the last of which is before every end.
+        let nears = unsafe { &*self.nears.as_ptr().add(count - WIDTH).cast::<[f32; WIDTH]>() };
+        L::load(nears).at_most(end)
+    }
+}
+
+impl Child {
+    /// What a flight does there.
+    #[inline(always)]
+    const fn task(self) -> Task {
+        self.0 >> 30
+    }
+}
