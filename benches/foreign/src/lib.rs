@@ -1,9 +1,9 @@
-//! What the benchmarks call that is not Rust: a competitor, and a clock.
+//! What the benchmarks call that is not Rust: a competitor, and clocks.
 
 #![cfg(unix)]
 
 mod clock;
 mod embree;
 
-pub use clock::processor_seconds;
+pub use clock::{all_processors_seconds, processor_seconds};
 pub use embree::{Embree, Mesh, Quality, RayHit};

@@ -1,11 +1,12 @@
-//! cargo run --release -p quasilux-benches --bin rays [SCENE...]
+//! cargo run --release -p quasilux-benches --bin rays -- [builds] [SCENE...]
 //!
 //! Closest hits a second on one core for incoherent rays, those of photons that bounce five times,
 //! against Embree 3 (`rtcIntersect1`) at both its qualities where `libembree3.so.3` is installed
 //! (Debian: `libembree-dev`). All take turns in rounds of 2^14 rays each; the figures are medians
 //! over the rounds, in processor time, and of the ratio within a round. Build times are of one build
-//! on all cores.
+//! on all cores; with `builds` they are measured with more care, and nothing else ([`builds`]).
 
+mod builds;
 mod photons;
 mod scenes;
 
@@ -21,13 +22,26 @@ const ROUND: usize = 1 << 14;
 const TURNS: usize = 3;
 
 fn main() {
-    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let mut wanted: Vec<String> = std::env::args().skip(1).collect();
+    let only_builds = wanted.first().is_some_and(|word| word == "builds");
+    wanted.drain(..usize::from(only_builds));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let embree = Embree::open(threads);
     if embree.is_none() {
         println!("left out: Embree, since libembree3.so.3 is missing");
     }
-    println!("{:<16}{:<26}{:>10}{:>12}{:>10}", "", "", "build, s", "Mrays/s", "ratio");
+    if only_builds {
+        builds::headings();
+    } else {
+        println!("{:<16}{:<26}{:>10}{:>12}{:>10}", "", "", "build, s", "Mrays/s", "ratio");
+    }
+    let measure = |scene: Scene| {
+        if only_builds {
+            builds::measure(&scene, embree.as_ref());
+        } else {
+            measure(scene, embree.as_ref());
+        }
+    };
     let kitchen = scenes::kitchen();
     if kitchen.is_none() {
         println!("left out: kitchens, since the file or zstd is missing");
@@ -36,13 +50,13 @@ fn main() {
     let asked =
         |name: &str| wanted.is_empty() || wanted.iter().any(|word| name.starts_with(word.as_str()));
     for scene in [kitchen, nine].into_iter().flatten().filter(|scene| asked(scene.name)) {
-        measure(scene, embree.as_ref());
+        measure(scene);
     }
     if asked("room of balls") {
-        measure(scenes::balls(), embree.as_ref());
+        measure(scenes::balls());
     }
     if asked("relief") {
-        measure(scenes::relief(), embree.as_ref());
+        measure(scenes::relief());
     }
 }
 
@@ -53,8 +67,7 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
     let rays = photon_rays(&scene, &own, RAYS);
     let name = format!("quasilux, {} triangles", scene.corners.len());
 
-    let narrow: Vec<[[f32; 3]; 3]> =
-        scene.corners.iter().map(|triangle| triangle.map(|p| p.as_vec3().to_array())).collect();
+    let narrow = scene.narrow();
     let shots: Vec<RayHit> = rays
         .iter()
         .map(|Shot { ray, .. }| {

@@ -11,6 +11,13 @@ pub(crate) struct Scene {
     pub(crate) source: DVec3,
 }
 
+impl Scene {
+    /// The corners in single precision.
+    pub(crate) fn narrow(&self) -> Vec<[[f32; 3]; 3]> {
+        self.corners.iter().map(|triangle| triangle.map(|p| p.as_vec3().to_array())).collect()
+    }
+}
+
 /// A furnished kitchen of 57 000 triangles; `None` where the file or `zstd` is missing.
 pub(crate) fn kitchen() -> Option<Scene> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
