@@ -1,15 +1,9 @@
 //! Object splits: each triangle goes to one side (Wald 2007, "On fast Construction of SAH-based
 //! Bounding Volume Hierarchies", IEEE Symposium on Interactive Ray Tracing).
 
-use super::reference::{Bounds, Reference};
+use super::grid::{BINS, Grid};
+use super::reference::{Bounds, Extent, Reference, in_parts};
 use crate::node::WIDTH;
-use glam::Vec3A;
-use rayon::prelude::*;
-
-pub(crate) const BINS: usize = 16;
-
-/// Nodes with more references are binned on all threads.
-const PARALLEL: usize = 1 << 16;
 
 /// References on either side of a plane, by the bin of their centres.
 #[derive(Clone, Copy, Debug)]
@@ -23,22 +17,21 @@ pub(crate) struct ObjectSplit {
     grid: Grid,
 }
 
-/// How many blocks this many triangles fill.
-pub(crate) fn blocks(count: usize) -> f32 {
-    count.div_ceil(WIDTH) as f32
+/// How many references were moved to the front, and the extents of these and of the others.
+pub(crate) struct Partition {
+    pub(crate) left: usize,
+    pub(crate) extents: [Extent; 2],
 }
 
-/// The map from centres to bins.
-#[derive(Clone, Copy, Debug)]
-struct Grid {
-    low: Vec3A,
-    scale: Vec3A,
+/// How many blocks this many triangles fill.
+pub(crate) fn blocks(count: u32) -> f32 {
+    count.div_ceil(WIDTH as u32) as f32
 }
 
 #[derive(Clone, Copy)]
 struct Bin {
     bounds: Bounds,
-    count: usize,
+    count: u32,
 }
 
 type Histogram = [[Bin; BINS]; 3];
@@ -50,50 +43,19 @@ impl Bin {
     fn union(self, other: Self) -> Self {
         Self { bounds: self.bounds.union(other.bounds), count: self.count + other.count }
     }
-}
 
-impl Grid {
-    fn new(references: &[Reference]) -> Self {
-        let span = |references: &[Reference]| {
-            references.iter().fold(Bounds::EMPTY, |span, reference| {
-                let middle = reference.middle();
-                Bounds { low: span.low.min(middle), high: span.high.max(middle) }
-            })
-        };
-        let span = if references.len() > PARALLEL {
-            let parts = references.par_chunks(PARALLEL / 4).map(span);
-            parts.reduce(|| Bounds::EMPTY, Bounds::union)
-        } else {
-            span(references)
-        };
-        let extent = span.high - span.low;
-        // Rounded so that the highest centre falls into the last bin.
-        let scale = (extent.recip() * (BINS as f32 * (1.0 - 1e-6))).min(Vec3A::splat(1e30));
-        Self { low: span.low, scale: Vec3A::select(extent.cmpgt(Vec3A::ZERO), scale, Vec3A::ZERO) }
-    }
-
-    #[inline(always)]
-    fn bins(&self, reference: &Reference) -> [usize; 3] {
-        let at = (reference.middle() - self.low) * self.scale;
-        at.to_array().map(|x| (x as i32 as usize).min(BINS - 1))
+    fn cost(self) -> f32 {
+        self.bounds.half_area() * blocks(self.count)
     }
 }
 
 impl ObjectSplit {
     /// The best split between bins; `None` where all centres are the same.
-    pub(crate) fn best(references: &[Reference]) -> Option<Self> {
-        let grid = Grid::new(references);
-        let histogram = if references.len() > PARALLEL {
-            let parts = references.par_chunks(PARALLEL / 4).map(|part| histogram(&grid, part));
-            parts.reduce(|| [[Bin::EMPTY; BINS]; 3], merge)
-        } else {
-            histogram(&grid, references)
-        };
+    pub(crate) fn best(references: &[Reference], extent: &Extent) -> Option<Self> {
+        let grid = Grid::new(extent.middles, 0.0);
+        let histogram = in_parts(references, |part| histogram(&grid, part), merge);
         let mut best: Option<Self> = None;
-        for (axis, bins) in histogram.iter().enumerate() {
-            if grid.scale[axis] == 0.0 {
-                continue;
-            }
+        for (axis, bins) in histogram.iter().enumerate().filter(|&(axis, _)| grid.divides(axis)) {
             let mut right = [Bin::EMPTY; BINS + 1];
             for bin in (0..BINS).rev() {
                 right[bin] = right[bin + 1].union(bins[bin]);
@@ -105,8 +67,7 @@ impl ObjectSplit {
                 if left.count == 0 || right.count == 0 {
                     continue;
                 }
-                let side = |side: Bin| side.bounds.half_area() * blocks(side.count);
-                let cost = side(left) + side(right);
+                let cost = left.cost() + right.cost();
                 if best.is_none_or(|best| cost < best.cost) {
                     let bounds = [left.bounds, right.bounds];
                     best = Some(Self { cost, bounds, axis, bin, grid });
@@ -116,24 +77,40 @@ impl ObjectSplit {
         best
     }
 
-    /// Moves the references of the left side to the front and returns their number.
-    pub(crate) fn partition(&self, references: &mut [Reference]) -> usize {
-        let is_left = |reference: &Reference| self.grid.bins(reference)[self.axis] < self.bin;
+    /// Moves the references of the left side to the front.
+    pub(crate) fn partition(&self, references: &mut [Reference]) -> Partition {
+        let [mut lefts, mut rights] = [Bounds::EMPTY; 2];
+        let mut left_of = |reference: &Reference| {
+            let middle = reference.middle();
+            let is_left = self.grid.bins(middle)[self.axis] < self.bin;
+            let side = if is_left { &mut lefts } else { &mut rights };
+            *side = side.and(middle);
+            is_left
+        };
         let (mut left, mut right) = (0, references.len());
-        loop {
-            while left < right && is_left(&references[left]) {
+        'all: loop {
+            while left < right && left_of(&references[left]) {
                 left += 1;
             }
-            while left < right && !is_left(&references[right - 1]) {
+            // The one at `left`, where there is one, belongs to the right.
+            loop {
+                if left + 1 >= right {
+                    break 'all;
+                }
                 right -= 1;
+                if left_of(&references[right]) {
+                    break;
+                }
             }
-            if left == right {
-                return left;
-            }
-            right -= 1;
             references.swap(left, right);
             left += 1;
         }
+        let [left_bounds, right_bounds] = self.bounds;
+        let extents = [
+            Extent { bounds: left_bounds, middles: lefts },
+            Extent { bounds: right_bounds, middles: rights },
+        ];
+        Partition { left, extents }
     }
 }
 
@@ -141,7 +118,7 @@ fn histogram(grid: &Grid, references: &[Reference]) -> Histogram {
     let mut histogram = [[Bin::EMPTY; BINS]; 3];
     for reference in references {
         let bounds = reference.bounds();
-        for (bins, bin) in histogram.iter_mut().zip(grid.bins(reference)) {
+        for (bins, bin) in histogram.iter_mut().zip(grid.bins(reference.middle())) {
             let bin = &mut bins[bin];
             *bin = bin.union(Bin { bounds, count: 1 });
         }

@@ -5,6 +5,8 @@
 //! nothing, and bins are merged by minima, maxima and sums of integers.
 
 mod bins;
+mod chop;
+mod grid;
 mod reference;
 mod spatial;
 mod wide;
@@ -14,9 +16,10 @@ pub(crate) use wide::{Leaf, WideTree, collapse};
 use crate::frame::Frame;
 use crate::node::WIDTH;
 use bins::ObjectSplit;
+use chop::Triangles;
 use glam::DVec3;
-use reference::{Bounds, Reference};
-use spatial::{LEAST_OVERLAP, MOST_COPIES, SpatialSplit, Triangles, WORTHWHILE};
+use reference::{Bounds, Extent, Reference};
+use spatial::SpatialSplit;
 use wide::Plan;
 
 /// A binary tree.
@@ -41,37 +44,52 @@ const PARALLEL: usize = 2048;
 /// What a child costs its parent, in units of a block.
 const CHILD_COST: f32 = 0.3;
 
+/// At most this many copies are made for each triangle.
+const MOST_COPIES: f64 = 1.0;
+
+/// A spatial split must cost less than this share of the object split: copies make blocks fuller, which
+/// the costs of both halves do not show.
+const WORTHWHILE: f32 = 0.95;
+
+/// Spatial splits are tried where the halves of an object split overlap by this share of the whole
+/// surface,
+const LEAST_OVERLAP: f32 = 1e-4;
+
+/// and by this share of the surface of their own box: below, trees do not get better.
+const LEAST_SHARE: f32 = 0.1;
+
 /// The tree over all triangles, of which there must be some.
 pub(crate) fn build(corners: &[[DVec3; 3]], frame: Frame) -> Binary {
-    let references = reference::all(corners, &frame);
-    let bounds = reference::bounds(&references);
-    let builder =
-        Builder { triangles: Triangles { corners, frame }, half_area: bounds.half_area() };
-    let spare = (references.len() as f64 * MOST_COPIES) as usize;
-    builder.subtree(Share { references, bounds, spare, depth: 0 })
+    let count = corners.len();
+    let mut storage = reference::all(corners, &frame, (count as f64 * MOST_COPIES) as usize);
+    let extent = Extent::of(&storage[..count]);
+    let least_overlap = LEAST_OVERLAP * extent.bounds.half_area();
+    let builder = Builder { triangles: Triangles { corners, frame }, least_overlap };
+    builder.subtree(Share { storage: &mut storage, count, extent, depth: 0 })
 }
 
 struct Builder<'a> {
     triangles: Triangles<'a>,
-    /// Half the surface of everything.
-    half_area: f32,
+    /// Half the surface of an overlap that is worth a spatial split.
+    least_overlap: f32,
 }
 
-/// The references of a subtree, and how many copies it may make of them.
-struct Share {
-    references: Vec<Reference>,
-    bounds: Bounds,
-    spare: usize,
+/// The references of a subtree.
+struct Share<'a> {
+    /// The references, then room for copies of them.
+    storage: &'a mut [Reference],
+    count: usize,
+    extent: Extent,
     depth: u32,
 }
 
 impl Builder<'_> {
-    fn subtree(&self, share: Share) -> Binary {
-        let (count, bounds) = (share.references.len(), share.bounds);
+    fn subtree(&self, share: Share<'_>) -> Binary {
+        let (count, bounds) = (share.count, share.extent.bounds);
         let [left, right] = match self.halves(share) {
             Ok(halves) => halves,
             Err(share) => {
-                let leaf = Leaf::new(share.references.iter().map(Reference::triangle));
+                let leaf = Leaf::new(share.references().iter().map(Reference::triangle));
                 return Binary { bounds, kind: Kind::Leaf(leaf) };
             }
         };
@@ -85,23 +103,22 @@ impl Builder<'_> {
     }
 
     /// Both halves of what is worth splitting, or else all of it, at most eight references.
-    fn halves(&self, share: Share) -> Result<[Share; 2], Share> {
-        let count = share.references.len();
-        let fits = count <= WIDTH;
-        if count < 2 || (fits && share.depth >= BALANCED_BELOW) {
+    fn halves<'s>(&self, mut share: Share<'s>) -> Result<[Share<'s>; 2], Share<'s>> {
+        let half_area = share.extent.bounds.half_area();
+        if half_area < self.least_overlap {
+            share.storage = &mut share.storage[..share.count];
+        }
+        let fits = share.count <= WIDTH;
+        if share.count < 2 || (fits && share.depth >= BALANCED_BELOW) {
             return Err(share);
         }
         if share.depth >= BALANCED_BELOW {
             return Ok(share.at_middle());
         }
-        let object = ObjectSplit::best(&share.references);
+        let object = ObjectSplit::best(share.references(), &share.extent);
         let spatial = self.spatial_split(&share, object.as_ref());
         let cost = spatial.as_ref().map(|split| split.cost).or(object.map(|split| split.cost));
-        if fits
-            && cost.is_none_or(|cost| {
-                cost + CHILD_COST * share.bounds.half_area() >= share.bounds.half_area()
-            })
-        {
+        if fits && cost.is_none_or(|cost| cost + CHILD_COST * half_area >= half_area) {
             return Err(share);
         }
         match (spatial, object) {
@@ -112,57 +129,68 @@ impl Builder<'_> {
     }
 
     /// A spatial split, where that is better than the object split and not too many copies.
-    fn spatial_split(&self, share: &Share, object: Option<&ObjectSplit>) -> Option<SpatialSplit> {
+    fn spatial_split(
+        &self,
+        share: &Share<'_>,
+        object: Option<&ObjectSplit>,
+    ) -> Option<SpatialSplit> {
         let object = object?;
         let [left, right] = object.bounds;
         let overlap = left.intersection(right).half_area();
-        if share.spare == 0
-            || share.references.len() <= WIDTH
-            || overlap < LEAST_OVERLAP * self.half_area
+        let bounds = share.extent.bounds;
+        let spare = share.storage.len() - share.count;
+        if spare == 0
+            || share.count <= WIDTH
+            || overlap < self.least_overlap.max(LEAST_SHARE * bounds.half_area())
         {
             return None;
         }
-        let split = SpatialSplit::best(self.triangles, &share.references, share.bounds)?;
-        let affordable = split.copies(share.references.len()) <= share.spare;
+        let split = SpatialSplit::best(self.triangles, share.references(), bounds)?;
+        let affordable = split.copies(share.count) <= spare;
         (split.cost < WORTHWHILE * object.cost && affordable).then_some(split)
     }
 
-    fn divide(&self, split: &SpatialSplit, share: Share) -> [Share; 2] {
-        let before = share.references.len();
-        let sides = split.divide(self.triangles, share.references);
-        let [left, right] = sides.references;
-        let after = left.len() + right.len();
-        let spare = share.spare - (after - before);
-        let left_spare = (spare as u64 * left.len() as u64 / after as u64) as usize;
-        let depth = share.depth + 1;
-        [
-            Share { references: left, bounds: sides.bounds[0], spare: left_spare, depth },
-            Share { references: right, bounds: sides.bounds[1], spare: spare - left_spare, depth },
-        ]
+    fn divide<'s>(&self, split: &SpatialSplit, share: Share<'s>) -> [Share<'s>; 2] {
+        let division = split.divide(self.triangles, share.storage, share.count);
+        let share = Share { count: division.both, ..share };
+        let (left, right) = share.references().split_at(division.left);
+        if left.is_empty() || right.is_empty() {
+            return share.at_middle();
+        }
+        let extents = [left, right].map(Extent::of);
+        share.cut(division.left, extents)
     }
 }
 
-impl Share {
-    fn at(mut self, split: &ObjectSplit) -> [Self; 2] {
-        let left = split.partition(&mut self.references);
-        self.cut(left, split.bounds)
+impl<'a> Share<'a> {
+    fn references(&self) -> &[Reference] {
+        &self.storage[..self.count]
+    }
+
+    fn at(self, split: &ObjectSplit) -> [Self; 2] {
+        let partition = split.partition(&mut self.storage[..self.count]);
+        self.cut(partition.left, partition.extents)
     }
 
     fn at_middle(self) -> [Self; 2] {
-        let left = self.references.len() / 2;
-        let parts = self.references.split_at(left);
-        let bounds = [parts.0, parts.1].map(reference::bounds);
-        self.cut(left, bounds)
+        let left = self.count / 2;
+        let (before, after) = self.references().split_at(left);
+        let extents = [before, after].map(Extent::of);
+        self.cut(left, extents)
     }
 
-    fn cut(mut self, left: usize, bounds: [Bounds; 2]) -> [Self; 2] {
-        let count = self.references.len();
-        let right = self.references.split_off(left);
-        let left_spare = (self.spare as u64 * left as u64 / count as u64) as usize;
+    /// The first `left` references and the others, each with their part of the room for copies.
+    fn cut(self, left: usize, extents: [Extent; 2]) -> [Self; 2] {
+        let spare = (self.storage.len() - self.count) as u64;
+        let left_spare = (spare * left as u64 / self.count as u64) as usize;
+        if left_spare > 0 {
+            self.storage.copy_within(left..self.count, left + left_spare);
+        }
+        let storage = self.storage.split_at_mut(left + left_spare);
         let depth = self.depth + 1;
         [
-            Self { references: self.references, bounds: bounds[0], spare: left_spare, depth },
-            Self { references: right, bounds: bounds[1], spare: self.spare - left_spare, depth },
+            Self { storage: storage.0, count: left, extent: extents[0], depth },
+            Self { storage: storage.1, count: self.count - left, extent: extents[1], depth },
         ]
     }
 }

@@ -4,6 +4,9 @@ use crate::frame::Frame;
 use glam::{DVec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
+/// Lists of references longer than this are gone through on all threads, in parts of a quarter of it.
+const PARALLEL: usize = 1 << 16;
+
 /// A box in the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bounds {
@@ -21,6 +24,12 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    /// The box around this one and a point.
+    #[inline(always)]
+    pub(crate) fn and(self, p: Vec3A) -> Self {
+        Self { low: self.low.min(p), high: self.high.max(p) }
+    }
+
     /// The box of what both have in common; low planes may come out above high ones.
     #[inline(always)]
     pub(crate) fn intersection(self, other: Self) -> Self {
@@ -35,8 +44,33 @@ impl Bounds {
     }
 }
 
-/// A triangle, or a part of one, and its box.
+/// The boxes around references and around their middles.
 #[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    pub(crate) bounds: Bounds,
+    pub(crate) middles: Bounds,
+}
+
+impl Extent {
+    pub(crate) const EMPTY: Self = Self { bounds: Bounds::EMPTY, middles: Bounds::EMPTY };
+
+    pub(crate) fn of(references: &[Reference]) -> Self {
+        let part = |references: &[Reference]| {
+            references.iter().fold(Self::EMPTY, |extent, reference| Self {
+                bounds: extent.bounds.union(reference.bounds()),
+                middles: extent.middles.and(reference.middle()),
+            })
+        };
+        let union = |one: Self, other: Self| Self {
+            bounds: one.bounds.union(other.bounds),
+            middles: one.middles.union(other.middles),
+        };
+        in_parts(references, part, union)
+    }
+}
+
+/// A triangle, or a part of one, and its box.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Reference {
     /// The triangle's index is in the bits of the fourth component.
     low: Vec4,
@@ -65,17 +99,28 @@ impl Reference {
     }
 }
 
-/// A reference to each triangle.
-pub(crate) fn all(corners: &[[DVec3; 3]], frame: &Frame) -> Vec<Reference> {
+/// A reference to each triangle, and after them room for so many more.
+pub(crate) fn all(corners: &[[DVec3; 3]], frame: &Frame, spare: usize) -> Vec<Reference> {
     let of = |(triangle, corners): (usize, &[DVec3; 3])| {
         let [a, b, c] = corners.map(|corner| frame.point(corner).as_vec3a());
-        let bounds = Bounds { low: a.min(b).min(c), high: a.max(b).max(c) };
-        Reference::new(triangle as u32, bounds)
+        Reference::new(triangle as u32, Bounds { low: a, high: a }.and(b).and(c))
     };
-    corners.par_iter().enumerate().map(of).collect()
+    let mut all = Vec::with_capacity(corners.len() + spare);
+    corners.par_iter().enumerate().map(of).collect_into_vec(&mut all);
+    all.resize(corners.len() + spare, Reference::default());
+    all
 }
 
-/// The box around all references.
-pub(crate) fn bounds(references: &[Reference]) -> Bounds {
-    references.par_iter().map(Reference::bounds).reduce(|| Bounds::EMPTY, Bounds::union)
+/// What `part` makes of all references, where it may make something of parts of them that `union` puts
+/// together.
+pub(crate) fn in_parts<R: Send>(
+    references: &[Reference],
+    part: impl Fn(&[Reference]) -> R + Send + Sync,
+    union: impl Fn(R, R) -> R + Send + Sync,
+) -> R {
+    if references.len() <= PARALLEL {
+        return part(references);
+    }
+    let parts = references.par_chunks(PARALLEL / 4).map(part);
+    parts.reduce_with(union).expect("a long list has parts")
 }

@@ -6,21 +6,12 @@
 //! single precision.
 
 use super::bins::blocks;
-use super::reference::{Bounds, Reference};
-use crate::frame::Frame;
-use glam::{DVec3, Vec3A};
+use super::chop::{Chopped, Triangles};
+use super::grid::{BINS, Grid};
+use super::reference::{Bounds, Reference, in_parts};
 
-/// At most this many copies are made for each triangle.
-pub(crate) const MOST_COPIES: f64 = 1.0;
-
-/// A spatial split must cost less than this share of the object split: copies make blocks fuller, which
-/// the costs of both halves do not show.
-pub(crate) const WORTHWHILE: f32 = 0.95;
-
-/// Tried where the halves of an object split overlap by this share of the whole surface.
-pub(crate) const LEAST_OVERLAP: f32 = 1e-4;
-
-const BINS: usize = 16;
+/// Shorter axes are not divided.
+const SHORTEST: f32 = 1.6e-5;
 
 /// A plane that divides space, and what lies on its sides.
 #[derive(Clone, Copy, Debug)]
@@ -36,130 +27,26 @@ pub(crate) struct SpatialSplit {
 #[derive(Clone, Copy, Debug)]
 struct Side {
     bounds: Bounds,
-    count: usize,
+    count: u32,
 }
 
-/// References on both sides, with their boxes.
-pub(crate) struct Sides {
-    pub(crate) references: [Vec<Reference>; 2],
-    pub(crate) bounds: [Bounds; 2],
+/// References of the left side, followed by those of the right one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Division {
+    pub(crate) left: usize,
+    pub(crate) both: usize,
 }
 
 #[derive(Clone, Copy)]
 struct Bin {
     bounds: Bounds,
-    entering: usize,
-    leaving: usize,
+    entering: u32,
+    leaving: u32,
 }
 
-/// Where triangles are.
-#[derive(Clone, Copy)]
-pub(crate) struct Triangles<'a> {
-    pub(crate) corners: &'a [[DVec3; 3]],
-    pub(crate) frame: Frame,
-}
+type Histogram = [[Bin; BINS]; 3];
 
-impl Triangles<'_> {
-    /// The corners of a triangle in the frame, in single precision.
-    fn single(&self, triangle: u32) -> [Vec3A; 3] {
-        self.corners[triangle as usize].map(|p| self.frame.point(p).as_vec3a())
-    }
-
-    /// The boxes of the parts of a reference below and above a plane across it.
-    fn split(&self, reference: &Reference, axis: usize, plane: f32) -> [Bounds; 2] {
-        let corners = self.corners[reference.triangle() as usize].map(|p| self.frame.point(p));
-        let at = f64::from(plane);
-        let mut sides = [Bounds::EMPTY; 2];
-        for i in 0..3 {
-            let (a, b) = (corners[i], corners[(i + 1) % 3]);
-            let mut grow = |side: usize, p: DVec3| {
-                let p = p.as_vec3a();
-                sides[side] = sides[side].union(Bounds { low: p, high: p });
-            };
-            if a[axis] <= at {
-                grow(0, a);
-            }
-            if a[axis] >= at {
-                grow(1, a);
-            }
-            if (a[axis] < at && at < b[axis]) || (b[axis] < at && at < a[axis]) {
-                let p = a + (b - a) * ((at - a[axis]) / (b[axis] - a[axis]));
-                grow(0, p);
-                grow(1, p);
-            }
-        }
-        let [mut below, mut above] = sides;
-        below.high[axis] = below.high[axis].min(plane);
-        above.low[axis] = above.low[axis].max(plane);
-        let whole = reference.bounds();
-        [below.intersection(whole), above.intersection(whole)]
-    }
-}
-
-/// Bins of equal width along each axis.
-struct Grid {
-    low: Vec3A,
-    width: Vec3A,
-    /// 0 along axes that are too short to be split.
-    scale: Vec3A,
-}
-
-impl Bin {
-    const EMPTY: Self = Self { bounds: Bounds::EMPTY, entering: 0, leaving: 0 };
-}
-
-impl Grid {
-    fn new(bounds: Bounds) -> Self {
-        let width = (bounds.high - bounds.low) / BINS as f32;
-        let splits = width.cmpgt(Vec3A::splat(1e-6));
-        let scale = Vec3A::select(splits, width.recip(), Vec3A::ZERO);
-        Self { low: bounds.low, width, scale }
-    }
-
-    fn plane(&self, axis: usize, bin: usize) -> f32 {
-        self.low[axis] + self.width[axis] * bin as f32
-    }
-
-    fn bin(&self, axis: usize, x: f32) -> usize {
-        (((x - self.low[axis]) * self.scale[axis]) as i32).clamp(0, BINS as i32 - 1) as usize
-    }
-
-    /// Enters the parts of a reference into the bins along an axis. Their boxes are rounded to nearest:
-    /// good enough to choose a plane by.
-    fn enter(&self, axis: usize, whole: Bounds, corners: [Vec3A; 3], bins: &mut [Bin; BINS]) {
-        let (first, last) = (self.bin(axis, whole.low[axis]), self.bin(axis, whole.high[axis]));
-        bins[first].entering += 1;
-        bins[last].leaving += 1;
-        if first == last {
-            bins[first].bounds = bins[first].bounds.union(whole);
-            return;
-        }
-        let mut parts = [Bounds::EMPTY; BINS];
-        let mut grow =
-            |bin: usize, p: Vec3A| parts[bin] = parts[bin].union(Bounds { low: p, high: p });
-        for i in 0..3 {
-            let (a, b) = (corners[i], corners[(i + 1) % 3]);
-            let (a, b) = if a[axis] <= b[axis] { (a, b) } else { (b, a) };
-            let (from, to) = (self.bin(axis, a[axis]), self.bin(axis, b[axis]));
-            grow(from, a);
-            grow(to, b);
-            if from < to {
-                let slope = (b - a) / (b[axis] - a[axis]);
-                for bin in from.max(first)..to.min(last) {
-                    let p = a + slope * (self.plane(axis, bin + 1) - a[axis]);
-                    grow(bin, p);
-                    grow(bin + 1, p);
-                }
-            }
-        }
-        for bin in first..=last {
-            let part = parts[bin].intersection(whole);
-            if part.low.cmple(part.high).all() {
-                bins[bin].bounds = bins[bin].bounds.union(part);
-            }
-        }
-    }
-}
+const NOTHING: Histogram = [[Bin { bounds: Bounds::EMPTY, entering: 0, leaving: 0 }; BINS]; 3];
 
 impl SpatialSplit {
     /// The best plane between bins of equal width.
@@ -168,19 +55,12 @@ impl SpatialSplit {
         references: &[Reference],
         bounds: Bounds,
     ) -> Option<Self> {
-        let grid = Grid::new(bounds);
-        let mut histogram = [[Bin::EMPTY; BINS]; 3];
-        for reference in references {
-            let corners = triangles.single(reference.triangle());
-            for (axis, bins) in histogram.iter_mut().enumerate() {
-                grid.enter(axis, reference.bounds(), corners, bins);
-            }
-        }
+        let grid = Grid::new(bounds, SHORTEST);
+        let part = |references: &[Reference]| histogram(triangles, &grid, references);
+        let histogram = in_parts(references, part, merge);
+        let count = references.len() as u32;
         let mut best: Option<Self> = None;
-        for (axis, bins) in histogram.iter().enumerate() {
-            if grid.scale[axis] == 0.0 {
-                continue;
-            }
+        for (axis, bins) in histogram.iter().enumerate().filter(|&(axis, _)| grid.divides(axis)) {
             let mut right = [Side { bounds: Bounds::EMPTY, count: 0 }; BINS + 1];
             for bin in (0..BINS).rev() {
                 right[bin] = Side {
@@ -194,8 +74,7 @@ impl SpatialSplit {
                 left.count += bins[bin - 1].entering;
                 let sides = [left, right[bin]];
                 let cost = sides.iter().map(|side| side.cost(0)).sum();
-                let divides =
-                    sides.iter().all(|side| 0 < side.count && side.count < references.len());
+                let divides = sides.iter().all(|side| 0 < side.count && side.count < count);
                 if divides && best.is_none_or(|best| cost < best.cost) {
                     best = Some(Self { cost, axis, plane: grid.plane(axis, bin), sides });
                 }
@@ -204,59 +83,106 @@ impl SpatialSplit {
         best
     }
 
-    /// How many more references there are after the split, at most.
+    /// How many more references there are after the split, about.
     pub(crate) fn copies(&self, references: usize) -> usize {
-        self.sides[0].count + self.sides[1].count - references
+        (self.sides[0].count + self.sides[1].count) as usize - references
     }
 
-    /// Shares out the references; one across the plane goes to one side if that costs less.
-    pub(crate) fn divide(&self, triangles: Triangles<'_>, references: Vec<Reference>) -> Sides {
+    /// Shares out the first `count` references, with room for copies behind them; one across the plane
+    /// goes to one side if that costs less, or if there is no room for a copy.
+    pub(crate) fn divide(
+        &self,
+        triangles: Triangles<'_>,
+        references: &mut [Reference],
+        count: usize,
+    ) -> Division {
         let mut sides = self.sides;
-        let mut shares = [const { Vec::new() }; 2];
-        let mut across = Vec::new();
-        for reference in references {
-            let Bounds { low, high } = reference.bounds();
+        let (mut left, mut across, mut right) = (0, 0, count);
+        while across < right {
+            let Bounds { low, high } = references[across].bounds();
             if high[self.axis] <= self.plane {
-                shares[0].push(reference);
+                references.swap(left, across);
+                left += 1;
+                across += 1;
             } else if low[self.axis] >= self.plane {
-                shares[1].push(reference);
+                right -= 1;
+                references.swap(across, right);
             } else {
-                across.push(reference);
+                across += 1;
             }
         }
-        for reference in across {
+        let mut both = count;
+        while left < right {
+            let reference = references[left];
             let bounds = reference.bounds();
-            let parts = triangles.split(&reference, self.axis, self.plane);
             let whole =
                 |side: usize| Side { bounds: sides[side].bounds.union(bounds), ..sides[side] };
-            let both = sides[0].cost(0) + sides[1].cost(0);
             let left_only = whole(0).cost(0) + sides[1].cost(1);
             let right_only = sides[0].cost(1) + whole(1).cost(0);
-            let least = both.min(left_only).min(right_only);
-            if least == left_only && sides[1].count > 1 {
+            let least = left_only.min(right_only);
+            let is_copied = both < references.len() && sides[0].cost(0) + sides[1].cost(0) < least;
+            if is_copied {
+                let parts = triangles.split(&reference, self.axis, self.plane);
+                let [below, above] = parts.map(|part| Reference::new(reference.triangle(), part));
+                (references[left], references[both]) = (below, above);
+                both += 1;
+                left += 1;
+            } else if least == left_only {
                 sides[0] = whole(0);
-                sides[1].count -= 1;
-                shares[0].push(reference);
-            } else if least == right_only && sides[0].count > 1 {
-                sides[1] = whole(1);
-                sides[0].count -= 1;
-                shares[1].push(reference);
+                sides[1].count = sides[1].count.saturating_sub(1);
+                left += 1;
             } else {
-                for (share, part) in shares.iter_mut().zip(parts) {
-                    share.push(Reference::new(reference.triangle(), part));
-                }
+                sides[1] = whole(1);
+                sides[0].count = sides[0].count.saturating_sub(1);
+                right -= 1;
+                references.swap(left, right);
             }
         }
-        let bounds = [0, 1].map(|side| {
-            shares[side].iter().map(Reference::bounds).fold(Bounds::EMPTY, Bounds::union)
-        });
-        Sides { references: shares, bounds }
+        Division { left, both }
     }
 }
 
 impl Side {
     /// The cost of this side with so many references fewer.
-    fn cost(&self, fewer: usize) -> f32 {
-        self.bounds.half_area() * blocks(self.count - fewer.min(self.count))
+    fn cost(&self, fewer: u32) -> f32 {
+        self.bounds.half_area() * blocks(self.count.saturating_sub(fewer))
     }
+}
+
+fn histogram(triangles: Triangles<'_>, grid: &Grid, references: &[Reference]) -> Histogram {
+    let mut histogram = NOTHING;
+    let mut parts = [Bounds::EMPTY; BINS];
+    for reference in references {
+        let whole = reference.bounds();
+        let (first, last) = (grid.bins(whole.low), grid.bins(whole.high));
+        let mut chopped = None;
+        for (axis, bins) in histogram.iter_mut().enumerate() {
+            let (first, last) = (first[axis], last[axis]);
+            bins[first].entering += 1;
+            bins[last].leaving += 1;
+            if first == last {
+                bins[first].bounds = bins[first].bounds.union(whole);
+                continue;
+            }
+            let chopped = chopped
+                .get_or_insert_with(|| Chopped::new(grid, triangles.single(reference.triangle())));
+            chopped.parts(axis, first..=last, &mut parts);
+            for (bin, part) in bins[first..=last].iter_mut().zip(&parts[first..=last]) {
+                let part = part.intersection(whole);
+                if part.low.cmple(part.high).all() {
+                    bin.bounds = bin.bounds.union(part);
+                }
+            }
+        }
+    }
+    histogram
+}
+
+fn merge(mut one: Histogram, other: Histogram) -> Histogram {
+    for (bin, other) in one.as_flattened_mut().iter_mut().zip(other.as_flattened()) {
+        bin.bounds = bin.bounds.union(other.bounds);
+        bin.entering += other.entering;
+        bin.leaving += other.leaving;
+    }
+    one
 }
