@@ -52,16 +52,16 @@ impl Bin {
 impl ObjectSplit {
     /// The best split between bins; `None` where all centres are the same.
     pub(crate) fn best(references: &[Reference], extent: &Extent) -> Option<Self> {
-        let grid = Grid::new(extent.middles, 0.0);
+        let grid = Grid::new(extent.middles, 0.0, BINS);
         let histogram = in_parts(references, |part| histogram(&grid, part), merge);
         let mut best: Option<Self> = None;
         for (axis, bins) in histogram.iter().enumerate().filter(|&(axis, _)| grid.divides(axis)) {
             let mut right = [Bin::EMPTY; BINS + 1];
-            for bin in (0..BINS).rev() {
+            for bin in (0..grid.count).rev() {
                 right[bin] = right[bin + 1].union(bins[bin]);
             }
             let mut left = Bin::EMPTY;
-            for bin in 1..BINS {
+            for bin in 1..grid.count {
                 left = left.union(bins[bin - 1]);
                 let right = right[bin];
                 if left.count == 0 || right.count == 0 {

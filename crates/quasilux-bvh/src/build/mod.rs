@@ -49,7 +49,7 @@ const MOST_COPIES: f64 = 1.0;
 
 /// A spatial split must cost less than this share of the object split: copies make blocks fuller, which
 /// the costs of both halves do not show.
-const WORTHWHILE: f32 = 0.95;
+const WORTHWHILE: f32 = 0.98;
 
 /// Spatial splits are tried where the halves of an object split overlap by this share of the whole
 /// surface,

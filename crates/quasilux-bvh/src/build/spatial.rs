@@ -13,6 +13,9 @@ use super::reference::{Bounds, Reference, in_parts};
 /// Shorter axes are not divided.
 const SHORTEST: f32 = 1.6e-5;
 
+/// Fewer references are cut into half as many bins: they cross more of them each, and there is less to gain.
+const FEW: usize = 4096;
+
 /// A plane that divides space, and what lies on its sides.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SpatialSplit {
@@ -55,21 +58,22 @@ impl SpatialSplit {
         references: &[Reference],
         bounds: Bounds,
     ) -> Option<Self> {
-        let grid = Grid::new(bounds, SHORTEST);
+        let bins = if references.len() < FEW { BINS / 2 } else { BINS };
+        let grid = Grid::new(bounds, SHORTEST, bins);
         let part = |references: &[Reference]| histogram(triangles, &grid, references);
         let histogram = in_parts(references, part, merge);
         let count = references.len() as u32;
         let mut best: Option<Self> = None;
         for (axis, bins) in histogram.iter().enumerate().filter(|&(axis, _)| grid.divides(axis)) {
             let mut right = [Side { bounds: Bounds::EMPTY, count: 0 }; BINS + 1];
-            for bin in (0..BINS).rev() {
+            for bin in (0..grid.count).rev() {
                 right[bin] = Side {
                     bounds: right[bin + 1].bounds.union(bins[bin].bounds),
                     count: right[bin + 1].count + bins[bin].leaving,
                 };
             }
             let mut left = Side { bounds: Bounds::EMPTY, count: 0 };
-            for bin in 1..BINS {
+            for bin in 1..grid.count {
                 left.bounds = left.bounds.union(bins[bin - 1].bounds);
                 left.count += bins[bin - 1].entering;
                 let sides = [left, right[bin]];
