@@ -134,7 +134,7 @@ fn ball(level: u32) -> Vec<[DVec3; 3]> {
 }
 
 /// The polygons of a Wavefront file as fans of triangles.
-fn read_obj(text: &str) -> Vec<[DVec3; 3]> {
+pub(crate) fn read_obj(text: &str) -> Vec<[DVec3; 3]> {
     let mut points: Vec<DVec3> = Vec::new();
     let mut corners = Vec::new();
     for line in text.lines() {

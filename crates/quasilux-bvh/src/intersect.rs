@@ -74,6 +74,12 @@ impl Corners {
         Self([0, 1, 2].map(|axis| [a[axis], b[axis], c[axis], 0.0]))
     }
 
+    /// A coordinate of the three corners.
+    #[inline(always)]
+    pub(crate) fn along(&self, axis: usize) -> &[f64; 4] {
+        &self.0[axis]
+    }
+
     /// The corners as points.
     #[must_use]
     pub fn points(&self) -> [DVec3; 3] {

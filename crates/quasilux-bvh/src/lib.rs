@@ -8,7 +8,8 @@
 //!
 //! Where what is: `frame` has the coordinates and the bounds of their rounding, `node` the layout in memory,
 //! `build` the builder, `traverse` the way of a ray, `sight` what it sees of eight boxes or triangles,
-//! `lanes` the instructions for that, `pending` what waits for the decision, `stream` many rays at once.
+//! `lanes` the instructions for that, `pending` what waits for the decision, `stream` many rays at once,
+//! `group` those of them that travel together.
 //!
 //! Limit: a triangle seen so nearly edge-on (within 2^-29 of its extent) that [`intersect`] itself
 //! returns noise may be proposed or not.
@@ -26,6 +27,7 @@
 
 mod build;
 mod frame;
+mod group;
 mod intersect;
 mod kernel;
 mod lanes;

@@ -1,6 +1,7 @@
 //! Many rays at once: the same answers as one by one, sooner.
 
 use crate::frame::Framed;
+use crate::group::{Group, Pace, Parted, Party, Run};
 use crate::intersect::intersect_with;
 use crate::kernel::wins;
 use crate::lanes::Quad;
@@ -10,12 +11,18 @@ use crate::{Hit, PreparedRay, Shot, TriangleBvh};
 impl TriangleBvh {
     /// [`Self::closest_hit`] of each of `shots`, in their order.
     ///
+    /// Shots that follow each other in nearly the same direction from nearly the same place are traced
+    /// together.
+    ///
     /// # Panics
     /// If there are not as many `hits` as `shots`, or more than 2^32 of them.
     pub fn closest_hits(&self, shots: &[Shot], hits: &mut [Option<Hit>]) {
-        assert_eq!(shots.len(), hits.len(), "as many answers as questions");
-        let questions = Questions::new(self, shots);
-        self.tree.stream(self.kernel, &mut Closest { questions, hits });
+        self.each_run(
+            shots,
+            hits,
+            |group, party, hits| group.closest(self.kernel, party, hits),
+            |questions, hits| self.tree.stream(self.kernel, &mut Closest { questions, hits }),
+        );
     }
 
     /// [`Self::is_occluded`] of each of `shots`, in their order.
@@ -23,9 +30,50 @@ impl TriangleBvh {
     /// # Panics
     /// If there are not as many answers as `shots`, or more than 2^32 of them.
     pub fn are_occluded(&self, shots: &[Shot], occluded: &mut [bool]) {
-        assert_eq!(shots.len(), occluded.len(), "as many answers as questions");
-        let questions = Questions::new(self, shots);
-        self.tree.stream(self.kernel, &mut Occlusion { questions, occluded });
+        self.each_run(
+            shots,
+            occluded,
+            |group, party, occluded| group.any(self.kernel, party, occluded),
+            |questions, occluded| {
+                self.tree.stream(self.kernel, &mut Occlusion { questions, occluded });
+            },
+        );
+    }
+
+    /// Answers runs of shots that belong together by `together`, and all others by `apart`.
+    #[inline(always)]
+    fn each_run<A>(
+        &self,
+        mut shots: &[Shot],
+        mut answers: &mut [A],
+        together: impl Fn(&mut Group, Party<'_>, &mut [A]) -> Result<usize, Parted>,
+        apart: impl Fn(Questions<'_>, &mut [A]),
+    ) {
+        assert_eq!(shots.len(), answers.len(), "as many answers as questions");
+        let mut group = Group::new();
+        let mut pace = Pace::new();
+        while !shots.is_empty() {
+            let run = match pace.pause() {
+                0 => Run::first(shots, &self.frame, pace.most()),
+                pause => Run::Alone(pause.min(shots.len())),
+            };
+            let (Run::Together(count, _) | Run::Alone(count)) = run;
+            let (now, later) = answers.split_at_mut(count);
+            let cost = match run {
+                Run::Together(_, heading) => {
+                    let (tree, frame) = (&self.tree, &self.frame);
+                    let party = Party { tree, frame, heading, shots: &shots[..count] };
+                    let cost = together(&mut group, party, now);
+                    pace.learn(count, cost);
+                    cost
+                }
+                Run::Alone(_) => Err(Parted),
+            };
+            if cost.is_err() {
+                apart(Questions::new(self, &shots[..count]), now);
+            }
+            (shots, answers) = (&shots[count..], later);
+        }
     }
 }
 

@@ -150,22 +150,32 @@ impl Slack {
     /// `8 q` of zero, a hit's weights within `16 q` and its distance times the determinant within
     /// `7 * 16 q`; where it comes out right, a hit's distance in front of the `end <= 7` may fall
     /// `(34 + 7 * 8 + 14) q` behind it. The sums below cover both.
-    fn new(edge_1: Vec3A, edge_2: Vec3A) -> Self {
-        /// More than all that is lost where products underflow.
-        const LEAST: f32 = 1e-36;
+    pub(crate) fn new(edge_1: Vec3A, edge_2: Vec3A) -> Self {
         let [norm_1, norm_2] = [edge_1, edge_2].map(|e| e.abs().element_sum());
         let (s, q) = (norm_1.max(norm_2), norm_1 * norm_2);
+        let [weight, rest] = [Self::WEIGHT, Self::REST].map(|[of_s, of_q]| of_s * s + of_q * q);
         Self {
-            weight: H * (48.0 * s + 16.0 * q) + LEAST,
-            rest: H * (192.0 * s + 48.0 * q) + LEAST,
-            distance: H * (256.0 * q) + LEAST,
+            weight: weight + Self::LEAST,
+            rest: rest + Self::LEAST,
+            distance: Self::DISTANCE * q + Self::LEAST,
         }
     }
+
+    /// The factors of `s` and `q` in the bound of the weights of second and third corner.
+    pub(crate) const WEIGHT: [f32; 2] = [48.0 * H, 16.0 * H];
+    /// Those of the weight of the first corner.
+    pub(crate) const REST: [f32; 2] = [192.0 * H, 48.0 * H];
+    /// That of `q` in the bound of the distance.
+    pub(crate) const DISTANCE: f32 = 256.0 * H;
+    /// More than all that is lost where products underflow.
+    pub(crate) const LEAST: f32 = 1e-36;
+    /// The bound of the determinant, twice, by that of the distance.
+    pub(crate) const TURN: f32 = 16.0 / 256.0;
 
     /// Of the determinant, twice.
     #[inline(always)]
     pub(crate) fn determinant(&self) -> f32 {
-        self.distance * (16.0 / 256.0)
+        self.distance * Self::TURN
     }
 
     fn max(self, other: Self) -> Self {

@@ -2,6 +2,7 @@
 
 use crate::frame::{FrameRay, H};
 use crate::lanes::Lanes;
+use crate::lanes::triple::{cross, dot, load, sub};
 use crate::node::{Block, Node, Slack, WIDTH};
 
 /// A ray as boxes see it.
@@ -54,8 +55,12 @@ impl<L: Lanes> Sight<L> {
     #[inline(always)]
     pub(crate) fn new(ray: &FrameRay) -> Self {
         Self {
-            origin: ray.origin.to_array().map(L::splat),
-            direction: ray.direction.to_array().map(L::splat),
+            origin: [L::splat(ray.origin.x), L::splat(ray.origin.y), L::splat(ray.origin.z)],
+            direction: [
+                L::splat(ray.direction.x),
+                L::splat(ray.direction.y),
+                L::splat(ray.direction.z),
+            ],
         }
     }
 
@@ -73,31 +78,19 @@ impl<L: Lanes> Sight<L> {
     /// What the ray sees of a block, up to `end`.
     #[inline(always)]
     pub(crate) fn view<'a>(&self, block: &'a Block, end: f32) -> View<'a, L> {
-        let edge_1 = block.edge_1.each_ref().map(L::load);
-        let edge_2 = block.edge_2.each_ref().map(L::load);
-        let corner = block.corner.each_ref().map(L::load);
-        let c = [0, 1, 2].map(|axis| corner[axis].sub(self.origin[axis]));
+        let (edge_1, edge_2) = (load::<L>(&block.edge_1), load(&block.edge_2));
+        let c = sub(load(&block.corner), self.origin);
         let r = cross(c, self.direction);
         let n = cross(edge_2, edge_1);
-        let determinant = dot(n, self.direction);
-        let size = determinant.flip_by(determinant);
-        let second = dot(edge_2, r).flip_by(determinant);
-        let third = dot(edge_1, r).flip_by(determinant);
-        let reach = dot(n, c).flip_by(determinant);
-        View {
-            block,
-            weights: second.min(third),
-            rest: size.sub(second).sub(third),
-            reach,
-            size,
-            left: size.mul_sub(L::splat(end), reach),
-        }
+        let (second, third) = (dot(edge_2, r), dot(edge_1, r));
+        View::new(&block.slack, dot(n, self.direction), [second, third, dot(n, c)], L::splat(end))
     }
 }
 
-/// What a ray sees of the triangles of a block, all times the size of the determinant.
+/// What a ray sees of the triangles of a block, or rays of a triangle, all times the size of the
+/// determinant.
 pub(crate) struct View<'a, L> {
-    block: &'a Block,
+    slack: &'a Slack,
     /// The smaller of the weights of second and third corner.
     weights: L,
     /// The weight of the first corner.
@@ -117,11 +110,33 @@ pub(crate) struct Distances {
     slack: Slack,
 }
 
-impl<L: Lanes> View<'_, L> {
+impl<'a, L: Lanes> View<'a, L> {
+    /// A view of the determinant and, times that, of the weights of second and third corner and the
+    /// distance.
+    #[inline(always)]
+    pub(crate) fn new(
+        slack: &'a Slack,
+        determinant: L,
+        [second, third, reach]: [L; 3],
+        end: L,
+    ) -> Self {
+        let size = determinant.flip_by(determinant);
+        let (second, third) = (second.flip_by(determinant), third.flip_by(determinant));
+        let reach = reach.flip_by(determinant);
+        View {
+            slack,
+            weights: second.min(third),
+            rest: size.sub(second).sub(third),
+            reach,
+            size,
+            left: size.mul_sub(end, reach),
+        }
+    }
+
     /// A bit for each triangle that the ray may hit.
     #[inline(always)]
     pub(crate) fn possible(&self) -> u32 {
-        let slack = &self.block.slack;
+        let slack = self.slack;
         let distance = L::splat(slack.distance);
         let any = [
             self.weights.add(L::splat(slack.weight)),
@@ -135,7 +150,7 @@ impl<L: Lanes> View<'_, L> {
     /// A bit for each triangle that the ray hits for sure, if it is there.
     #[inline(always)]
     pub(crate) fn sure(&self) -> u32 {
-        let slack = &self.block.slack;
+        let slack = self.slack;
         let distance = L::splat(slack.distance);
         let one = L::any_negative([
             self.weights.sub(L::splat(slack.weight)),
@@ -148,15 +163,32 @@ impl<L: Lanes> View<'_, L> {
 
     #[inline(always)]
     pub(crate) fn bounds(&self) -> Distances {
-        Distances { reach: self.reach.store(), size: self.size.store(), slack: self.block.slack }
+        Distances { reach: self.reach.store(), size: self.size.store(), slack: *self.slack }
+    }
+
+    /// [`Distances::earliest`] of all lanes.
+    #[inline(always)]
+    pub(crate) fn earliest(&self) -> L {
+        let size = self.size.add(L::splat(self.slack.determinant()));
+        self.reach.sub(L::splat(self.slack.distance)).div(size).mul(L::splat(DOWN))
+    }
+
+    /// [`Distances::latest`] of all lanes.
+    #[inline(always)]
+    pub(crate) fn latest(&self) -> L {
+        let size = self.size.sub(L::splat(0.5 * self.slack.determinant()));
+        self.reach.add(L::splat(self.slack.distance)).div(size).mul(L::splat(UP))
     }
 }
+
+/// Rounds a distance down, and up, by more than its own arithmetic does.
+const DOWN: f32 = 1.0 - 8.0 * H;
+const UP: f32 = 1.0 + 8.0 * H;
 
 impl Distances {
     /// The triangle cannot be hit before.
     #[inline(always)]
     pub(crate) fn earliest(&self, lane: usize) -> f32 {
-        const DOWN: f32 = 1.0 - 8.0 * H;
         let slack = &self.slack;
         (self.reach[lane] - slack.distance) / (self.size[lane] + slack.determinant()) * DOWN
     }
@@ -164,19 +196,7 @@ impl Distances {
     /// A triangle that is hit for sure cannot be hit behind.
     #[inline(always)]
     pub(crate) fn latest(&self, lane: usize) -> f32 {
-        const UP: f32 = 1.0 + 8.0 * H;
         let slack = &self.slack;
         (self.reach[lane] + slack.distance) / (self.size[lane] - 0.5 * slack.determinant()) * UP
     }
-}
-
-#[inline(always)]
-fn cross<L: Lanes>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    let minor = |i: usize, j: usize| a[i].mul_sub(b[j], a[j].mul(b[i]));
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
-}
-
-#[inline(always)]
-fn dot<L: Lanes>(a: [L; 3], b: [L; 3]) -> L {
-    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2].mul(b[2])))
 }

@@ -17,7 +17,7 @@ use std::mem::MaybeUninit;
 pub(crate) const MAX_DEPTH: usize = 64;
 
 /// Each level leaves at most seven children waiting, and eight more may be written behind them.
-const STACK: usize = MAX_DEPTH * (WIDTH - 1) + WIDTH;
+pub(crate) const STACK: usize = MAX_DEPTH * (WIDTH - 1) + WIDTH;
 
 /// Nodes and blocks, and what they are about; the first node is the root.
 pub(crate) struct Tree {
@@ -183,12 +183,14 @@ impl Tree {
 #[inline(always)]
 pub(crate) fn prefetch<T>(list: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: prefetching does not fault, whatever the address.
-    unsafe {
+    {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        const LINE: usize = 64;
         let at = list.as_ptr().wrapping_add(index).cast::<i8>();
-        _mm_prefetch::<_MM_HINT_T0>(at);
-        _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(64));
+        for line in 0..size_of::<T>().div_ceil(LINE) {
+            // SAFETY: prefetching does not fault, whatever the address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(LINE * line)) };
+        }
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = (list, index);

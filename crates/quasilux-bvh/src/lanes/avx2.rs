@@ -179,6 +179,55 @@ impl Lanes for Avx2 {
         // SAFETY: see above.
         Self(unsafe { _mm256_broadcast_ss(x) })
     }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn or_else(self, mask: u32, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_blendv_ps(other.0, self.0, _mm256_castsi256_ps(spread(mask))) })
+    }
+
+    #[inline(always)]
+    fn put(numbers: &mut [u32; WIDTH], mask: u32, number: u32) {
+        // SAFETY: see above.
+        unsafe {
+            let to = numbers.as_mut_ptr().cast();
+            let number = _mm256_set1_epi32(number as i32);
+            _mm256_storeu_si256(
+                to,
+                _mm256_blendv_epi8(_mm256_loadu_si256(to), number, spread(mask)),
+            );
+        }
+    }
+
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: see above.
+        unsafe {
+            let four =
+                _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
+        }
+    }
+}
+
+/// All bits of the lanes in `mask`.
+///
+/// # Safety
+/// The machine must have what [`Avx2::is_supported`] asks for.
+#[inline(always)]
+unsafe fn spread(mask: u32) -> __m256i {
+    // SAFETY: see above.
+    unsafe {
+        let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bits), bits)
+    }
 }
 
 /// Four numbers in a register, under the same condition.
@@ -259,5 +308,17 @@ impl Quad for Avx2Quad {
     fn below(self, other: Self) -> u32 {
         // SAFETY: see above.
         unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
+    }
+
+    #[inline(always)]
+    fn from_array([a, b, c, d]: [f64; 4]) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_setr_pd(a, b, c, d) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
     }
 }

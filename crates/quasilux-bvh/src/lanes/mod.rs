@@ -5,6 +5,7 @@
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 mod portable;
+pub(crate) mod triple;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
@@ -31,6 +32,8 @@ pub(crate) trait Quad: Copy {
     fn with_last(self, other: Self) -> Self;
     /// A bit for each lane where `self < other`.
     fn below(self, other: Self) -> u32;
+    fn from_array(numbers: [f64; 4]) -> Self;
+    fn abs(self) -> Self;
 }
 
 /// Eight numbers, and the few operations that the traversal needs.
@@ -75,4 +78,11 @@ pub(crate) trait Lanes: Copy {
     );
     /// [`Self::splat`] of a number in memory.
     fn splat_from(x: &f32) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// `self` in the lanes of `mask`, `other` elsewhere.
+    fn or_else(self, mask: u32, other: Self) -> Self;
+    /// Sets the numbers in the lanes of `mask`.
+    fn put(numbers: &mut [u32; WIDTH], mask: u32, number: u32);
+    /// The smallest of the eight, none of which is not a number.
+    fn least(self) -> f32;
 }

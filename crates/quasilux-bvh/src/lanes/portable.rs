@@ -127,6 +127,28 @@ impl Lanes for Portable {
     fn splat_from(x: &f32) -> Self {
         Self::splat(*x)
     }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    fn or_else(self, mask: u32, other: Self) -> Self {
+        Self(from_fn(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
+    }
+
+    #[inline(always)]
+    fn put(numbers: &mut [u32; WIDTH], mask: u32, number: u32) {
+        for (i, to) in numbers.iter_mut().enumerate() {
+            *to = if mask >> i & 1 == 1 { number } else { *to };
+        }
+    }
+
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.0.into_iter().fold(f32::INFINITY, f32::min)
+    }
 }
 
 /// Four numbers that the compiler puts where it likes.
@@ -202,5 +224,15 @@ impl Quad for PortableQuad {
     #[inline(always)]
     fn below(self, other: Self) -> u32 {
         (0..4).fold(0, |mask, i| mask | u32::from(self.0[i] < other.0[i]) << i)
+    }
+
+    #[inline(always)]
+    fn from_array(numbers: [f64; 4]) -> Self {
+        Self(numbers)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(f64::abs))
     }
 }

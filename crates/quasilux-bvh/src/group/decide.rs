@@ -1,0 +1,178 @@
+//! The decision, of four rays at a time.
+//!
+//! What [`crate::intersect()`] does with one ray and one triangle, operation by operation, so that the bits are the same.
+
+use crate::group::found::{Another, Found};
+use crate::group::rays::Rays;
+use crate::group::{Heading, Party};
+use crate::kernel::wins;
+use crate::lanes::Quad;
+use crate::node::{NONE, WIDTH};
+use crate::{Corners, Hit, PreparedRay, Shot, intersect};
+use glam::DVec3;
+
+/// Rays decided at once.
+const FOUR: usize = 4;
+
+impl Found {
+    /// The closest hit of each ray.
+    #[inline(always)]
+    pub(crate) fn decide_closest<Q: Quad>(
+        &mut self,
+        party: Party<'_>,
+        rays: &Rays,
+        hits: &mut [Option<Hit>],
+    ) {
+        let (corners, shots) = (&party.tree.corners, party.shots);
+        let ones = self.one.as_flattened();
+        for (i, (shots, hits)) in shots.chunks(FOUR).zip(hits.chunks_mut(FOUR)).enumerate() {
+            let triangles = &ones[FOUR * i..FOUR * (i + 1)];
+            if let (Ok(shots), Ok(hits)) = (shots.try_into(), (&mut *hits).try_into())
+                && let Ok(triangles) = triangles.try_into()
+                && decide_four::<Q>(party.heading, corners, shots, triangles, hits)
+            {
+                continue;
+            }
+            for ((shot, hit), &triangle) in shots.iter().zip(hits).zip(triangles) {
+                *hit = decide(corners, shot, triangle);
+            }
+        }
+        for Another { ray, triangle, earliest } in self.more.drain(..) {
+            if earliest <= rays.end[ray / WIDTH][ray % WIDTH]
+                && let Some(hit) = decide(corners, &shots[ray], triangle)
+                && wins(&hit, &hits[ray])
+            {
+                hits[ray] = Some(hit);
+            }
+        }
+    }
+
+    /// Whether each ray hits anything.
+    pub(crate) fn decide_any(&mut self, party: Party<'_>, rays: &Rays, occluded: &mut [bool]) {
+        let corners = &party.tree.corners;
+        for (i, (shot, occluded)) in party.shots.iter().zip(&mut *occluded).enumerate() {
+            let (k, lane) = (i / WIDTH, i % WIDTH);
+            *occluded = self.occluded[k] >> lane & 1 == 1
+                || decide(corners, shot, self.one[k][lane]).is_some();
+        }
+        for Another { ray, triangle, .. } in self.more.drain(..) {
+            if !occluded[ray] && rays.active[ray / WIDTH] >> (ray % WIDTH) & 1 == 1 {
+                occluded[ray] = decide(corners, &party.shots[ray], triangle).is_some();
+            }
+        }
+    }
+}
+
+#[inline(never)]
+fn decide(corners: &[Corners], shot: &Shot, triangle: u32) -> Option<Hit> {
+    if triangle == NONE {
+        return None;
+    }
+    intersect(&PreparedRay::new(&shot.ray), &corners[triangle as usize], triangle)
+}
+
+/// Decides about four rays and the triangle of each, if there is one for each and the rays are
+/// sheared along the same axis.
+#[inline(always)]
+fn decide_four<Q: Quad>(
+    heading: Heading,
+    corners: &[Corners],
+    shots: &[Shot; FOUR],
+    triangles: &[u32; FOUR],
+    hits: &mut [Option<Hit>; FOUR],
+) -> bool {
+    let z = heading.axis;
+    let [mut x, mut y] = heading.aside();
+    if heading.backward {
+        std::mem::swap(&mut x, &mut y);
+    }
+    let rays = [&shots[0].ray, &shots[1].ray, &shots[2].ray, &shots[3].ray];
+    let [r0, r1, r2, r3] = rays;
+    let directions = [&r0.direction, &r1.direction, &r2.direction, &r3.direction];
+    let d = [gather::<Q>(directions, x), gather(directions, y), gather(directions, z)];
+    if triangles.contains(&NONE) || !most_along_last(d, heading) {
+        return false;
+    }
+    let shear = [d[0].div(d[2]), d[1].div(d[2]), Q::splat(1.0).div(d[2])];
+    let origins = [&r0.origin, &r1.origin, &r2.origin, &r3.origin];
+    let o = [gather::<Q>(origins, x), gather(origins, y), gather(origins, z)];
+    let [t0, t1, t2, t3] = *triangles;
+    let at = [t0 as usize, t1 as usize, t2 as usize, t3 as usize];
+    let faces = [&corners[at[0]], &corners[at[1]], &corners[at[2]], &corners[at[3]]];
+    let one_face = (t0 == t1) & (t0 == t2) & (t0 == t3);
+    let axes = [x, y, z];
+    let a = sheared(shear, o, corner(faces, 0, axes, one_face));
+    let b = sheared(shear, o, corner(faces, 1, axes, one_face));
+    let c = sheared(shear, o, corner(faces, 2, axes, one_face));
+    let u = c[0].mul(b[1]).sub(c[1].mul(b[0]));
+    let v = a[0].mul(c[1]).sub(a[1].mul(c[0]));
+    let w = b[0].mul(a[1]).sub(b[1].mul(a[0]));
+    let zero = Q::splat(0.0);
+    let negative = u.below(zero) | v.below(zero) | w.below(zero);
+    let positive = zero.below(u) | zero.below(v) | zero.below(w);
+    let sum = u.add(v).add(w);
+    let distance = u.mul(a[2]).add(v.mul(b[2])).add(w.mul(c[2])).div(sum);
+    let t_max = Q::from_array([r0.t_max, r1.t_max, r2.t_max, r3.t_max]);
+    let is_nonzero = sum.below(zero) | zero.below(sum);
+    let counts = !(negative & positive) & is_nonzero & zero.below(distance) & distance.below(t_max);
+    let (u, v, w) = (u.div(sum).store(), v.div(sum).store(), w.div(sum).store());
+    let distance = distance.store();
+    for i in 0..FOUR {
+        hits[i] = if counts >> i & 1 == 1 {
+            let barycentric = [u[i], v[i], w[i]];
+            Some(Hit { triangle: triangles[i], distance: distance[i], barycentric })
+        } else {
+            None
+        };
+    }
+    true
+}
+
+/// A coordinate of four points.
+#[inline(always)]
+fn gather<Q: Quad>(of: [&DVec3; FOUR], axis: usize) -> Q {
+    Q::from_array([of[0][axis], of[1][axis], of[2][axis], of[3][axis]])
+}
+
+/// A corner of each of four triangles, which may be known to be the same.
+#[inline(always)]
+fn corner<Q: Quad>(
+    faces: [&Corners; FOUR],
+    number: usize,
+    [x, y, z]: [usize; 3],
+    one_face: bool,
+) -> [Q; 3] {
+    if one_face {
+        let face = faces[0];
+        let at = |axis: usize| Q::splat(face.along(axis)[number]);
+        [at(x), at(y), at(z)]
+    } else {
+        let [a, b, c, d] = faces;
+        let at = |axis: usize| {
+            let [a, b, c, d] = [a.along(axis), b.along(axis), c.along(axis), d.along(axis)];
+            Q::from_array([a[number], b[number], c[number], d[number]])
+        };
+        [at(x), at(y), at(z)]
+    }
+}
+
+/// A corner in the sheared frame.
+#[inline(always)]
+fn sheared<Q: Quad>(shear: [Q; 3], origin: [Q; 3], corner: [Q; 3]) -> [Q; 3] {
+    let [x, y, z] = [corner[0].sub(origin[0]), corner[1].sub(origin[1]), corner[2].sub(origin[2])];
+    [x.sub(shear[0].mul(z)), y.sub(shear[1].mul(z)), shear[2].mul(z)]
+}
+
+/// Whether [`PreparedRay::new`] takes the last of the axes in their order for all of four directions.
+#[inline(always)]
+fn most_along_last<Q: Quad>(direction: [Q; 3], heading: Heading) -> bool {
+    let [a, b, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
+    // The axes are 0, 1 and 2 in a cycle, and ties go to the lower one.
+    let less = match (heading.axis, heading.backward) {
+        (0, _) => z.below(a) | z.below(b),
+        (1, false) => z.below(a) | !b.below(z),
+        (1, true) => z.below(b) | !a.below(z),
+        (_, _) => !a.below(z) | !b.below(z),
+    };
+    less & 0xf == 0
+}

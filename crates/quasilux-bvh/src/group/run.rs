@@ -1,0 +1,89 @@
+//! Which rays belong together.
+
+use crate::Shot;
+use crate::frame::Frame;
+use crate::group::MOST;
+use glam::DVec3;
+
+/// Fewer are better off alone.
+const LEAST: usize = 8;
+
+/// The least cosine between the first direction of a run and the others: 14 degrees. The axis along
+/// which the first one moves most is at most 55 degrees away from it, so no ray of a run is more
+/// than 69 degrees away from that axis: its slopes aside are below 3.
+const LEAST_COSINE: f64 = 0.97;
+
+/// How far apart rays of a run may start, in the frame.
+const SPREAD: f64 = 0.25;
+
+/// Within so much of the centre the frame leaves origins where they are.
+const INSIDE: f64 = 2.0;
+
+/// The axis along which the rays of a run advance, and whether they do so backward.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Heading {
+    pub(crate) axis: usize,
+    pub(crate) backward: bool,
+}
+
+/// What the next shots are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Run {
+    /// So many that belong together.
+    Together(usize, Heading),
+    /// So many that do not.
+    Alone(usize),
+}
+
+impl Run {
+    /// The first run among `shots`, of which there is at least one; at most `most` of them belong together.
+    #[inline]
+    pub(crate) fn first(shots: &[Shot], frame: &Frame, most: usize) -> Self {
+        let mut start = 0;
+        while start < shots.len() {
+            let count = together(&shots[start..], frame, most.min(MOST));
+            if count >= LEAST {
+                let heading = Heading::of(shots[0].ray.direction);
+                return if start > 0 { Self::Alone(start) } else { Self::Together(count, heading) };
+            }
+            start += count.max(1);
+        }
+        Self::Alone(start)
+    }
+}
+
+impl Heading {
+    fn of(direction: DVec3) -> Self {
+        let size = direction.abs();
+        let axis = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        Self { axis, backward: direction[axis] < 0.0 }
+    }
+
+    /// The other two axes.
+    pub(crate) fn aside(self) -> [usize; 2] {
+        [(self.axis + 1) % 3, (self.axis + 2) % 3]
+    }
+}
+
+/// How many of the first shots are close to the very first.
+#[inline(always)]
+fn together(shots: &[Shot], frame: &Frame, most: usize) -> usize {
+    let first = &shots[0].ray;
+    let near = |shot: &&Shot| {
+        first.direction.dot(shot.ray.direction) >= LEAST_COSINE
+            && (shot.ray.origin == first.origin || near_by(frame, shot.ray.origin, first.origin))
+    };
+    let count = shots.iter().take(most).take_while(near).count();
+    let inside = frame.point(first.origin).abs().max_element() <= INSIDE - SPREAD;
+    if inside { count } else { 0 }
+}
+
+fn near_by(frame: &Frame, p: DVec3, q: DVec3) -> bool {
+    (frame.point(p) - frame.point(q)).abs().max_element() <= SPREAD
+}
