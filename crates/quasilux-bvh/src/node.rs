@@ -21,7 +21,7 @@ pub(crate) const WIDTH: usize = 8;
 pub(crate) const GROWTH: f32 = 24.0 * H;
 
 /// An inner node.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
     /// Low and high planes of the children's boxes by axis: x low, x high, y low, ...

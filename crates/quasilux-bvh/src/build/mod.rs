@@ -194,3 +194,43 @@ impl<'a> Share<'a> {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rayon::ThreadPoolBuilder;
+
+    /// Long and short triangles in all directions, enough of them for all that is done in parallel, and such
+    /// that spatial splits pay.
+    fn thicket(count: usize) -> Vec<[DVec3; 3]> {
+        let mut state = 1_u64;
+        let mut number = || {
+            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+            (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
+        };
+        let mut point = |size: f64| size * DVec3::new(number(), number(), number());
+        (0..count)
+            .map(|i| {
+                let a = point(1.0);
+                let length = if i % 3 == 0 { 0.2 } else { 0.02 };
+                [a, a + point(length), a + point(0.02)]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_number_of_threads_does_not_show() {
+        let corners = thicket(70_000);
+        let frame = Frame::new(DVec3::splat(-1.0), DVec3::splat(1.0));
+        let tree_of = |threads| {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| collapse(&build(&corners, frame)))
+        };
+        let tree = tree_of(1);
+        let copies = tree.leaves.iter().map(|leaf| leaf.triangles().len()).sum::<usize>();
+        assert!(copies > corners.len() * 21 / 20, "no spatial splits to speak of: {copies}");
+        for threads in [2, 7] {
+            assert!(tree_of(threads) == tree, "another tree on {threads} threads");
+        }
+    }
+}

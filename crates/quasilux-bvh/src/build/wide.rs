@@ -13,7 +13,7 @@ use crate::node::{Child, Node, WIDTH};
 const NODE_COST: f32 = 1.0;
 
 /// Up to eight triangles.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Leaf {
     triangles: [u32; WIDTH],
     count: u32,
@@ -30,6 +30,7 @@ pub(crate) struct Plan {
 }
 
 /// Wide nodes, the root first, and what their blocks hold.
+#[derive(Debug, PartialEq)]
 pub(crate) struct WideTree {
     pub(crate) nodes: Vec<Node>,
     pub(crate) leaves: Vec<Leaf>,

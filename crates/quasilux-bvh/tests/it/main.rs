@@ -1,6 +1,8 @@
-//! The hierarchy against its slow twin, and meshes that must not leak.
+//! The hierarchy against its slow twin, meshes that must not leak, and meshes that are hard to build over.
 
 mod batches;
+mod builds;
+mod crowds;
 mod groups;
 mod leaks;
 mod meshes;
