@@ -152,7 +152,9 @@ impl Voyage for Closest<'_> {
         let best = &mut self.hits[number as usize];
         let mut end = ray.end;
         for triangle in triangles {
-            if let Some(hit) = self.questions.hit::<Q>(&prepared, triangle)
+            // A triangle that was cut lies in several blocks.
+            if best.is_none_or(|best| best.triangle != triangle)
+                && let Some(hit) = self.questions.hit::<Q>(&prepared, triangle)
                 && wins(&hit, best)
             {
                 end = self.questions.bvh.frame.end(ray.moved, hit.distance);

@@ -46,7 +46,7 @@ impl Run {
                 let heading = Heading::of(shots[0].ray.direction);
                 return if start > 0 { Self::Alone(start) } else { Self::Together(count, heading) };
             }
-            start += count.max(1);
+            start += count;
         }
         Self::Alone(start)
     }
@@ -71,17 +71,21 @@ impl Heading {
     }
 }
 
-/// How many of the first shots are close to the very first.
+/// How many of the first shots are close to the very first; 1 if they are too few to matter.
 #[inline(always)]
 fn together(shots: &[Shot], frame: &Frame, most: usize) -> usize {
     let first = &shots[0].ray;
-    let near = |shot: &&Shot| {
+    let near = |shot: &Shot| {
         first.direction.dot(shot.ray.direction) >= LEAST_COSINE
             && (shot.ray.origin == first.origin || near_by(frame, shot.ray.origin, first.origin))
     };
-    let count = shots.iter().take(most).take_while(near).count();
+    // Nearly all rays that belong to no run are told by this one.
+    if !shots.get(LEAST - 1).is_some_and(near) {
+        return 1;
+    }
+    let count = shots.iter().take(most).take_while(|shot| near(shot)).count();
     let inside = frame.point(first.origin).abs().max_element() <= INSIDE - SPREAD;
-    if inside { count } else { 0 }
+    if inside { count } else { 1 }
 }
 
 fn near_by(frame: &Frame, p: DVec3, q: DVec3) -> bool {
