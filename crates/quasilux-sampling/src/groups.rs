@@ -6,6 +6,10 @@
 //! product of b_j^k_j start at the same light in nearly the same direction: they visit the same
 //! nodes and cache lines. For a matrix over bits the same holds of the cosets of a subspace: the
 //! indices x with R x = 0, R the first k_j rows of the matrices C_j.
+//!
+//! Groups are numbered so that neighbours are close as well: the first digits of a number are the first
+//! shared digits of its points, those of all dimensions in turn, so that the groups of one coarser
+//! partition follow each other.
 
 use crate::Randomization;
 use crate::point_set::{Generator, PointSet};
@@ -41,11 +45,12 @@ pub struct CoherentGroups {
 
 #[derive(Clone, Debug)]
 enum Partition {
-    /// Indices that agree modulo `period`.
-    Residues { period: u64 },
-    /// Cosets of the span of `kernel`; `pivots` are the bits that number them, and no vector of the
-    /// kernel has more than its own of the other bits.
-    Cosets { kernel: Vec<u64>, pivots: Vec<u32> },
+    /// Indices that agree modulo the product of `factors`: the lowest digit of an index in this mixed
+    /// radix is the highest digit of its group's number.
+    Residues { period: u64, factors: Vec<u32> },
+    /// Cosets of the span of `kernel`. Bit r of a group's number adds `labels[r]` to its first index,
+    /// which flips one shared digit of the points, the last one for r = 0.
+    Cosets { kernel: Vec<u64>, labels: Vec<u64> },
 }
 
 impl CoherentGroups {
@@ -98,8 +103,8 @@ impl CoherentGroups {
     #[expect(clippy::len_without_is_empty, reason = "there is at least one group")]
     pub fn len(&self) -> u64 {
         match &self.partition {
-            Partition::Residues { period } => *period,
-            Partition::Cosets { pivots, .. } => 1 << pivots.len(),
+            Partition::Residues { period, .. } => *period,
+            Partition::Cosets { labels, .. } => 1 << labels.len(),
         }
     }
 
@@ -107,10 +112,12 @@ impl CoherentGroups {
     #[must_use]
     pub fn group(&self, number: u64) -> Group<'_> {
         let members = match &self.partition {
-            Partition::Residues { period } => Members::Residues { next: number, period: *period },
-            Partition::Cosets { kernel, pivots } => {
-                let bit = |(place, pivot): (usize, &u32)| ((number >> place) & 1) << pivot;
-                let first = pivots.iter().enumerate().map(bit).sum();
+            Partition::Residues { period, factors } => {
+                Members::Residues { next: reversed(number, *period, factors), period: *period }
+            }
+            Partition::Cosets { kernel, labels } => {
+                let chosen = labels.iter().enumerate().filter(|(r, _)| number >> r & 1 == 1);
+                let first = chosen.fold(0, |first, (_, label)| first ^ label);
                 Members::Cosets { kernel, next: first, step: 0 }
             }
         };
@@ -216,47 +223,80 @@ fn residues(shared: &[SharedDigits], bases: &[u32]) -> Option<Partition> {
         }
     }
     let period = powers.iter().try_fold(1_u64, |period, (_, power)| period.checked_mul(*power))?;
-    (period <= 1 << 63).then_some(Partition::Residues { period })
+    let mut factors: Vec<(u64, u32)> = Vec::new();
+    for (base, power) in powers {
+        let divided = std::iter::successors(Some(1_u64), |by| by.checked_mul(u64::from(base)));
+        factors.extend(divided.take_while(|by| *by < power).map(|by| (by, base)));
+    }
+    // The coarsest divisions first.
+    factors.sort_unstable();
+    let factors = factors.into_iter().map(|(_, base)| base).collect();
+    (period <= 1 << 63).then_some(Partition::Residues { period, factors })
+}
+
+/// The number below `period`, the product of `factors`, whose digits in this mixed radix are those of
+/// `number` in reverse.
+fn reversed(number: u64, period: u64, factors: &[u32]) -> u64 {
+    let (mut rest, mut value, mut sum) = (number, period, 0);
+    for factor in factors.iter().rev().copied().map(u64::from) {
+        value /= factor;
+        sum += rest % factor * value;
+        rest /= factor;
+    }
+    sum
+}
+
+/// A row in reduced echelon form: its pivot is its lowest bit, in no other row.
+struct Row {
+    row: u64,
+    /// The independent rows that it is the sum of, the first in bit 0.
+    of: u64,
 }
 
 /// Solves R x = 0 for the indices x of as many bits as `count` - 1 has: at most 63.
 fn cosets(matrices: &BinaryMatrices, count: u64, shared: &[SharedDigits]) -> Partition {
     let bits = 64 - count.saturating_sub(1).leading_zeros();
-    // Rows in reduced echelon form: the pivot of a row is its lowest bit, in no other row.
-    let mut rows: Vec<u64> = Vec::new();
-    for row in shared.iter().flat_map(|shared| leading_rows(matrices, bits, *shared)) {
-        let reduced = rows
-            .iter()
-            .fold(row, |row, other| if row & lowest(*other) == 0 { row } else { row ^ other });
-        if reduced != 0 {
-            for other in &mut rows {
-                if *other & lowest(reduced) != 0 {
-                    *other ^= reduced;
-                }
-            }
-            rows.push(reduced);
+    let mut rows: Vec<Row> = Vec::new();
+    for digit in 0..64 {
+        for shared in shared.iter().filter(|shared| digit < shared.digits) {
+            let row = matrix_row(matrices, bits, shared.dimension, digit);
+            add_row(&mut rows, row);
         }
     }
-    rows.sort_unstable_by_key(|row| row.trailing_zeros());
-    let pivots: Vec<u32> = rows.iter().map(|row| row.trailing_zeros()).collect();
-    let kernel_vector = |free: u32| {
-        let hits = rows.iter().filter(|row| (*row >> free) & 1 == 1);
-        hits.fold(1 << free, |vector, row| vector | lowest(*row))
+    rows.sort_unstable_by_key(|row| row.row.trailing_zeros());
+    let sum = |chosen: &dyn Fn(&Row) -> bool| {
+        rows.iter().filter(|row| chosen(row)).fold(0, |sum, row| sum | lowest(row.row))
     };
-    let kernel = (0..bits).filter(|bit| !pivots.contains(bit)).map(kernel_vector).collect();
-    Partition::Cosets { kernel, pivots }
+    let label = |r: usize| sum(&|row| row.of >> r & 1 == 1);
+    let pivots = sum(&|_| true);
+    let kernel_vector = |free: u32| 1 << free | sum(&|row| row.row >> free & 1 == 1);
+    let kernel = (0..bits).filter(|bit| pivots >> bit & 1 == 0).map(kernel_vector).collect();
+    Partition::Cosets { kernel, labels: (0..rows.len()).rev().map(label).collect() }
 }
 
-/// The first rows of a matrix, column k in bit k.
-fn leading_rows(
-    matrices: &BinaryMatrices,
-    bits: u32,
-    shared: SharedDigits,
-) -> impl Iterator<Item = u64> + '_ {
-    (0..shared.digits.min(64)).map(move |r| {
-        let entry = |k| ((matrices.column(k, shared.dimension) >> r) & 1) << k;
-        (0..bits).map(entry).sum()
-    })
+/// Adds a row unless it is a sum of those that are there.
+fn add_row(rows: &mut Vec<Row>, row: u64) {
+    let mut new = Row { row, of: 0 };
+    for other in rows.iter() {
+        if new.row & lowest(other.row) != 0 {
+            new = Row { row: new.row ^ other.row, of: new.of ^ other.of };
+        }
+    }
+    if new.row == 0 {
+        return;
+    }
+    new.of ^= 1 << rows.len();
+    for other in rows.iter_mut() {
+        if other.row & lowest(new.row) != 0 {
+            *other = Row { row: other.row ^ new.row, of: other.of ^ new.of };
+        }
+    }
+    rows.push(new);
+}
+
+/// Row `digit` of a matrix, column k in bit k.
+fn matrix_row(matrices: &BinaryMatrices, bits: u32, dimension: u32, digit: u32) -> u64 {
+    (0..bits).map(|k| ((matrices.column(k, dimension) >> digit) & 1) << k).sum()
 }
 
 /// All of the circle but the widest gap between neighbours.

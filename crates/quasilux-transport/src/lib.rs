@@ -16,6 +16,7 @@ pub mod interval;
 mod lights;
 mod map;
 pub mod observer;
+mod order;
 mod path;
 mod photon;
 mod photons;
@@ -27,6 +28,7 @@ mod stage;
 mod tally;
 mod targets;
 mod watch;
+mod wave;
 mod world;
 
 pub use check::{CheckError, check};

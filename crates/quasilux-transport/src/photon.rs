@@ -1,4 +1,4 @@
-//! One photon, from its light to its end.
+//! One photon, from its light to its end: what happens to it at each step.
 //!
 //! Photons carry equal flux. At each surface they survive with the probability that keeps their
 //! luminance: what is absorbed is absorbed whole, so counting photons balances the flux exactly,
@@ -41,69 +41,121 @@ pub(crate) trait PhotonReceiver<S> {
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32);
 }
 
+/// A photon on its way, but for where it flies.
+pub(crate) struct Photon<'p, S> {
+    cursor: SampleCursor<'p>,
+    /// Its colour, of luminance one.
+    pub(crate) weight: S,
+}
+
+/// What becomes of a photon at a surface.
+pub(crate) enum Fate {
+    GoesOn(Emission),
+    Ends(End),
+}
+
 /// How a photon ended.
-enum End {
+pub(crate) enum End {
     Absorbed,
     Lost,
     Cut,
     Endless,
 }
 
-/// Traces the photon of one index.
+/// Traces the photon of one index by itself: the slow twin of [`crate::wave::Wave`].
 pub(crate) fn trace_photon<S: Spectrum>(
     stage: &Stage<'_, S>,
-    cursor: &mut SampleCursor<'_>,
+    cursor: SampleCursor<'_>,
     receiver: &mut impl PhotonReceiver<S>,
     counts: &mut PhotonCounts,
 ) {
-    let Some(emission) = stage.lights.emit(&stage.world, cursor) else { return };
+    let mut photon = Photon::new(cursor);
+    let Some(mut start) = photon.emit(stage) else { return };
     counts.emitted += 1;
-    match fly(stage, emission, cursor, receiver, &mut counts.rays) {
-        End::Absorbed => counts.absorbed += 1,
-        End::Lost => counts.lost += 1,
-        End::Cut => counts.cut += 1,
-        End::Endless => counts.endless += 1,
+    for bounces in 0..MOST_EVENTS {
+        counts.rays += 1;
+        let Emission { from, direction } = start;
+        let found = stage.world.trace(from, direction);
+        photon.show(stage, from.position(), direction, found.as_ref(), bounces, receiver);
+        match photon.scatter(stage, direction, found.as_ref(), bounces) {
+            Fate::GoesOn(next) => start = next,
+            Fate::Ends(end) => return counts.end(&photon, &end),
+        }
     }
-    counts.dimensions.record(cursor.used());
+    counts.end(&photon, &End::Endless);
 }
 
-fn fly<S: Spectrum>(
-    stage: &Stage<'_, S>,
-    Emission { mut from, mut direction }: Emission,
-    cursor: &mut SampleCursor<'_>,
-    receiver: &mut impl PhotonReceiver<S>,
-    rays: &mut u64,
-) -> End {
-    let mut weight = S::white();
-    for bounces in 0..MOST_EVENTS {
-        *rays += 1;
-        let Some(at) = stage.world.trace(from, direction) else {
-            receiver.flight(from.position(), direction, f64::INFINITY, bounces);
-            return End::Lost;
-        };
-        receiver.flight(from.position(), direction, at.distance_m, bounces);
-        let scattering = stage.world.facet(&at).scattering;
-        if let Scattering::Diffuse(_) = scattering {
-            receiver.landing(&at, weight, bounces);
+impl<'p, S: Spectrum> Photon<'p, S> {
+    /// The photon that takes its coordinates from `cursor`.
+    pub(crate) fn new(cursor: SampleCursor<'p>) -> Self {
+        Self { cursor, weight: S::white() }
+    }
+
+    /// Leaves its light; `None` where nothing emits.
+    pub(crate) fn emit(&mut self, stage: &Stage<'_, S>) -> Option<Emission> {
+        stage.lights.emit(&stage.world, &mut self.cursor)
+    }
+
+    /// Shows a flight to the receiver, and where it landed.
+    pub(crate) fn show(
+        &self,
+        stage: &Stage<'_, S>,
+        from: DVec3,
+        direction: DVec3,
+        found: Option<&Interaction>,
+        bounces: u32,
+        receiver: &mut impl PhotonReceiver<S>,
+    ) {
+        let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
+        receiver.flight(from, direction, length_m, bounces);
+        if let Some(at) = found
+            && let Scattering::Diffuse(_) = stage.world.facet(at).scattering
+        {
+            receiver.landing(at, self.weight, bounces);
         }
-        let reflected = weight * scattering.reflectance();
+    }
+
+    /// Survives a flight along `direction` or not, and goes on.
+    pub(crate) fn scatter(
+        &mut self,
+        stage: &Stage<'_, S>,
+        direction: DVec3,
+        found: Option<&Interaction>,
+        bounces: u32,
+    ) -> Fate {
+        let Some(at) = found else { return Fate::Ends(End::Lost) };
+        let scattering = stage.world.facet(at).scattering;
+        let reflected = self.weight * scattering.reflectance();
         let survival = reflected.luminance();
-        if !cursor.choose_bool(survival) {
-            return End::Absorbed;
+        if !self.cursor.choose_bool(survival) {
+            return Fate::Ends(End::Absorbed);
         }
         if stage.max_bounces.is_some_and(|most| bounces >= most) {
-            return End::Cut;
+            return Fate::Ends(End::Cut);
         }
-        weight = reflected * (1.0 / survival);
-        direction = match scattering {
+        self.weight = reflected * (1.0 / survival);
+        let direction = match scattering {
             Scattering::Mirror(_) => mirrored(direction, at.n),
             Scattering::Diffuse(_) => {
-                to_world(at.n, sample_cosine_hemisphere([cursor.rest_1d(), cursor.next_1d()]))
+                let u = [self.cursor.rest_1d(), self.cursor.next_1d()];
+                to_world(at.n, sample_cosine_hemisphere(u))
             }
         };
-        from = stage.world.vantage(&at);
+        Fate::GoesOn(Emission { from: stage.world.vantage(at), direction })
     }
-    End::Endless
+}
+
+impl PhotonCounts {
+    /// Counts a photon that ended.
+    pub(crate) fn end<S>(&mut self, photon: &Photon<'_, S>, end: &End) {
+        match end {
+            End::Absorbed => self.absorbed += 1,
+            End::Lost => self.lost += 1,
+            End::Cut => self.cut += 1,
+            End::Endless => self.endless += 1,
+        }
+        self.dimensions.record(photon.cursor.used());
+    }
 }
 
 impl AddAssign for PhotonCounts {

@@ -1,18 +1,19 @@
 //! Many photons at once: ranges of indices of all replicates, shared between threads.
 
 use crate::estimates::FluxBalance;
-use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::order::Waves;
+use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::watch::Watch;
-use quasilux_sampling::SampleCursor;
+use crate::wave::Wave;
+use quasilux_sampling::PointSet;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
-/// Photons of one piece of work.
-const BLOCK: u64 = 1024;
-/// Pieces of work between two words to the observer.
-const BLOCKS_PER_ROUND: u64 = 64;
+/// Waves between two words to the observer.
+const WAVES_PER_ROUND: u64 = 64;
 
 /// Traces the photons `indices` of each of the `replicates`; `receiver` makes what sees those of
 /// one replicate. `None` when the observer stopped it.
@@ -24,48 +25,40 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let blocks_each = (indices.end - indices.start).div_ceil(BLOCK);
-    let blocks = blocks_each * u64::from(replicates.end - replicates.start);
+    let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, stream)).collect();
+    let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
+    let waves_each = Waves::new(leading, indices, stage.lights.leading_dimensions());
+    let waves = waves_each.len() * points.len() as u64;
+    // One space for each thread of this pool.
+    let spaces: Vec<Mutex<Wave<'_, S>>> =
+        (0..rayon::current_num_threads()).map(|_| Mutex::new(Wave::new())).collect();
+    let trace = |number: u64| {
+        let row = (number / waves_each.len()) as u32;
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut counts = PhotonCounts::default();
+        let indices = waves_each.indices(number % waves_each.len());
+        let mut receiver = receiver(replicates.start + row);
+        space.trace(stage, &points[row as usize], indices, &mut receiver, &mut counts);
+        counts
+    };
     let mut counts = PhotonCounts::default();
     let mut done = 0;
-    while done < blocks {
-        let round = done..(done + BLOCKS_PER_ROUND).min(blocks);
+    while done < waves {
+        let round = done..(done + WAVES_PER_ROUND).min(waves);
         done = round.end;
-        let of_round: PhotonCounts = round
-            .into_par_iter()
-            .map(|block| {
-                let replicate = replicates.start + (block / blocks_each) as u32;
-                let first = indices.start + block % blocks_each * BLOCK;
-                let block = first..(first + BLOCK).min(indices.end);
-                trace_block(stage, stream, replicate, block, receiver(replicate))
-            })
-            .reduce(PhotonCounts::default, |mut a, b| {
+        let of_round =
+            round.into_par_iter().map(trace).reduce(PhotonCounts::default, |mut a, b| {
                 a += b;
                 a
             });
         let (photons, rays) = (of_round.emitted, of_round.rays);
         counts += of_round;
-        if !watch.tick(photons, 0, rays, done as f64 / blocks as f64) {
+        if !watch.tick(photons, 0, rays, done as f64 / waves as f64) {
             return None;
         }
     }
     Some(counts)
-}
-
-fn trace_block<S: Spectrum>(
-    stage: &Stage<'_, S>,
-    stream: Stream,
-    replicate: u32,
-    indices: Range<u64>,
-    mut receiver: impl PhotonReceiver<S>,
-) -> PhotonCounts {
-    let points = stage.points(replicate, stream);
-    let mut counts = PhotonCounts::default();
-    for index in indices {
-        let mut cursor = SampleCursor::new(&points, index);
-        trace_photon(stage, &mut cursor, &mut receiver, &mut counts);
-    }
-    counts
 }
 
 impl PhotonCounts {

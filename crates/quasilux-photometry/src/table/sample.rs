@@ -27,14 +27,19 @@ impl SphericalTable {
     /// `u` is in [0, 1]^2: `u[0]` picks the polar angle, `u[1]` the azimuth at that polar angle. No
     /// rejection; continuous in `u` wherever the table is positive.
     pub fn sample(&self, u: [f64; 2]) -> Option<DirectionSample> {
+        let direction = self.sample_direction(u)?;
+        Some(DirectionSample { direction, pdf_sr: self.pdf(direction) })
+    }
+
+    /// The direction of [`Self::sample`] alone, in two thirds of the time.
+    pub fn sample_direction(&self, u: [f64; 2]) -> Option<DVec3> {
         if self.integral() <= 0.0 {
             return None;
         }
         let theta_rad = self.sample_theta(u[0]);
         let row = self.theta.place(theta_rad);
         let phi_rad = self.phi_start_rad + self.sample_phi_offset(row, u[1]);
-        let direction = Angles { theta_rad, phi_rad }.direction();
-        Some(DirectionSample { direction, pdf_sr: self.pdf(direction) })
+        Some(Angles { theta_rad, phi_rad }.direction())
     }
 
     /// Solid angle, sr^-1: the density of [`Self::sample`]; zero where the integral is zero.

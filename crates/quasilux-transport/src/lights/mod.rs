@@ -29,7 +29,7 @@ pub(crate) struct Lights<'a> {
     pub(crate) flux_lm: f64,
 }
 
-/// A photon at the moment it leaves its light.
+/// A photon at the moment it leaves its light, or a surface.
 pub(crate) struct Emission {
     pub(crate) from: Vantage,
     /// Unit direction.
@@ -63,6 +63,12 @@ impl<'a> Lights<'a> {
         centred.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
     }
 
+    /// How many coordinates lead a photon out: its light, its direction, and its place where an area
+    /// emits.
+    pub(crate) fn leading_dimensions(&self) -> u32 {
+        if self.emitters.is_some() { 4 } else { 2 }
+    }
+
     /// One photon of equal flux: the light in proportion to its flux, place and direction from the
     /// light's own distribution. `None` only where nothing emits.
     ///
@@ -81,15 +87,15 @@ impl<'a> Lights<'a> {
                     (light.position, DVec3::from_array(sample_uniform_sphere(u)))
                 }
                 Light::Luminaire(light) => {
-                    let sample = light.photometry.sample(u)?;
-                    (light.position, light.world_from_luminaire * sample.direction)
+                    let direction = light.photometry.sample_direction(u)?;
+                    (light.position, light.world_from_luminaire * direction)
                 }
                 Light::Area(_) => return None,
             };
             return Some(Emission { from: world.vantage_of_light(position, direction), direction });
         }
         if let Some(luminaire) = self.area_luminaires.get(choice.index - self.pointlikes.len()) {
-            let towards = luminaire.photometry.sample(u)?.direction;
+            let towards = luminaire.photometry.sample_direction(u)?;
             let place = luminaire.shape.sample_silhouette(towards, cursor.next_2d());
             let direction = luminaire.world_from_luminaire * towards;
             let from = world.vantage_of_light(place_m(luminaire, &place), direction);

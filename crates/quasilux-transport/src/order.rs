@@ -1,0 +1,86 @@
+//! The order in which photons are taken: neighbours fly together.
+//!
+//! The first coordinates of a photon choose its light, its place and its direction, so photons whose
+//! indices share leading digits of them start at the same light in nearly the same direction
+//! (Voloboy, Dmitriev and Kopylov 2003): they meet the same nodes, facets and counters. A range of
+//! indices is cut into fields, aligned runs of 2^k indices; in a field groups of neighbours follow each
+//! other, near ones after near ones, and a wave takes as many as it holds. Tallies are integers, so
+//! the order changes nothing but the time.
+
+use quasilux_sampling::{CoherentGroups, PointSet};
+use std::ops::Range;
+
+/// Photons of one wave, but for rounding.
+pub(crate) const WAVE: u64 = 1024;
+/// Most indices of one field: the more, the nearer neighbours are.
+const FIELD: u64 = 1 << 16;
+/// Photons of one group: the least that share their digits.
+const GROUP: u64 = 16;
+
+/// The waves of a range of indices.
+pub(crate) struct Waves {
+    runs: Vec<Run>,
+    waves: u64,
+}
+
+/// Fields of equal size, one after the other.
+struct Run {
+    first_wave: u64,
+    first_index: u64,
+    field: u64,
+    waves_per_field: u64,
+    /// The indices of a field regrouped; `None` leaves them in their order.
+    groups: Option<CoherentGroups>,
+}
+
+impl Waves {
+    /// Cuts a range of indices of these points into waves that are close in the leading
+    /// `dimensions`, where the points have digits.
+    pub(crate) fn new(points: &PointSet, indices: Range<u64>, dimensions: u32) -> Self {
+        let dimensions: Vec<u32> = (0..dimensions).collect();
+        let (mut runs, mut waves) = (Vec::new(), 0);
+        let mut first_index = indices.start;
+        while first_index < indices.end {
+            let left = indices.end - first_index;
+            let field = FIELD.min(lowest_bit(first_index)).min(1 << left.ilog2());
+            // All fields of the largest size are one run.
+            let fields = if field == FIELD { left / FIELD } else { 1 };
+            let groups = (field >= 2 * GROUP)
+                .then(|| CoherentGroups::of_size(points, field, &dimensions, GROUP))
+                .flatten();
+            let waves_per_field = field.div_ceil(WAVE);
+            runs.push(Run { first_wave: waves, first_index, field, waves_per_field, groups });
+            waves += fields * waves_per_field;
+            first_index += fields * field;
+        }
+        Self { runs, waves }
+    }
+
+    /// The number of waves.
+    pub(crate) fn len(&self) -> u64 {
+        self.waves
+    }
+
+    /// The indices of one wave.
+    pub(crate) fn indices(&self, wave: u64) -> impl Iterator<Item = u64> + '_ {
+        let run = &self.runs[self.runs.partition_point(|run| run.first_wave <= wave) - 1];
+        let wave = wave - run.first_wave;
+        let first = run.first_index + wave / run.waves_per_field * run.field;
+        let part = move |of: u64| {
+            let wave = wave % run.waves_per_field;
+            of * wave / run.waves_per_field..of * (wave + 1) / run.waves_per_field
+        };
+        let grouped = run
+            .groups
+            .iter()
+            .flat_map(move |groups| part(groups.len()).flat_map(|number| groups.group(number)));
+        let plain = part(if run.groups.is_none() { run.field } else { 0 });
+        // A field begins at a multiple of its size: its indices are sums without carries.
+        grouped.chain(plain).map(move |offset| first | offset)
+    }
+}
+
+/// The largest power of two that divides a number; of 0 the largest there is.
+fn lowest_bit(number: u64) -> u64 {
+    1_u64.checked_shl(number.trailing_zeros()).unwrap_or(1 << 63)
+}

@@ -1,0 +1,97 @@
+//! Photons in flight, many at once.
+//!
+//! All photons of a wave leave their lights, then fly together, then land, then scatter, and those
+//! that go on close ranks. So each step is a short loop over neighbours in memory, and the ray kernel
+//! sees many rays together. What becomes of a photon depends on its index alone, never on its
+//! company: a wave gives what [`crate::photon::trace_photon`] gives.
+
+use crate::photon::{End, Fate, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::world::Interaction;
+use quasilux_bvh::{Hit, Shot};
+use quasilux_sampling::{PointSet, SampleCursor};
+
+/// Working space for one wave after the other.
+pub(crate) struct Wave<'p, S> {
+    photons: Vec<Photon<'p, S>>,
+    /// The ray of each photon.
+    shots: Vec<Shot>,
+    hits: Vec<Option<Hit>>,
+    /// Where it meets a surface.
+    found: Vec<Option<Interaction>>,
+}
+
+impl<'p, S: Spectrum> Wave<'p, S> {
+    pub(crate) fn new() -> Self {
+        Self { photons: Vec::new(), shots: Vec::new(), hits: Vec::new(), found: Vec::new() }
+    }
+
+    /// Traces the photons of these indices to their ends.
+    pub(crate) fn trace(
+        &mut self,
+        stage: &Stage<'_, S>,
+        points: &'p PointSet,
+        indices: impl Iterator<Item = u64>,
+        receiver: &mut impl PhotonReceiver<S>,
+        counts: &mut PhotonCounts,
+    ) {
+        self.emit(stage, points, indices);
+        counts.emitted += self.photons.len() as u64;
+        for bounces in 0..MOST_EVENTS {
+            if self.photons.is_empty() {
+                return;
+            }
+            counts.rays += self.shots.len() as u64;
+            stage.world.trace_all(&self.shots, &mut self.hits, &mut self.found);
+            self.show(stage, bounces, receiver);
+            self.scatter(stage, bounces, counts);
+        }
+        for photon in &self.photons {
+            counts.end(photon, &End::Endless);
+        }
+    }
+
+    fn emit(
+        &mut self,
+        stage: &Stage<'_, S>,
+        points: &'p PointSet,
+        indices: impl Iterator<Item = u64>,
+    ) {
+        self.photons.clear();
+        self.shots.clear();
+        for index in indices {
+            let mut photon = Photon::new(SampleCursor::new(points, index));
+            if let Some(emission) = photon.emit(stage) {
+                self.photons.push(photon);
+                self.shots.push(emission.from.shot(emission.direction));
+            }
+        }
+    }
+
+    fn show(&self, stage: &Stage<'_, S>, bounces: u32, receiver: &mut impl PhotonReceiver<S>) {
+        for ((photon, shot), found) in self.photons.iter().zip(&self.shots).zip(&self.found) {
+            let (from, direction) = (shot.ray.origin, shot.ray.direction);
+            photon.show(stage, from, direction, found.as_ref(), bounces, receiver);
+        }
+    }
+
+    /// Scatters all photons; those that go on keep their order.
+    fn scatter(&mut self, stage: &Stage<'_, S>, bounces: u32, counts: &mut PhotonCounts) {
+        let mut left = 0;
+        for number in 0..self.photons.len() {
+            let photon = &mut self.photons[number];
+            let direction = self.shots[number].ray.direction;
+            match photon.scatter(stage, direction, self.found[number].as_ref(), bounces) {
+                Fate::Ends(end) => counts.end(photon, &end),
+                Fate::GoesOn(next) => {
+                    self.shots[left] = next.from.shot(next.direction);
+                    self.photons.swap(left, number);
+                    left += 1;
+                }
+            }
+        }
+        self.photons.truncate(left);
+        self.shots.truncate(left);
+    }
+}
