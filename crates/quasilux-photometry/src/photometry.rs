@@ -40,7 +40,7 @@ impl Photometry {
         Some(DirectionSample { direction: self.web().luminaire_from_table(direction), pdf_sr })
     }
 
-    /// The direction of [`Self::sample`] alone, in two thirds of the time.
+    /// The direction of [`Self::sample`] alone: nobody looks up its density.
     pub fn sample_direction(&self, u: [f64; 2]) -> Option<DVec3> {
         Some(self.web().luminaire_from_table(self.table.sample_direction(u)?))
     }

@@ -50,6 +50,44 @@ impl PointSet {
         }
     }
 
+    /// Coordinate `dimension` of the points of these indices, as many as there is room for: what
+    /// [`coordinate`](Self::coordinate) gives, bit for bit; faster for dimensions of Sobol' and of the
+    /// base-4 sequence, whose digits are randomised in vectors.
+    ///
+    /// ```
+    /// use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, stream_key(1, 0, 0));
+    /// let mut coordinates = [0.0; 2];
+    /// points.fill_at(3, &[7, 1 << 40], &mut coordinates);
+    /// assert_eq!(coordinates, [7, 1 << 40].map(|index| points.coordinate(index, 3)));
+    /// ```
+    pub fn fill_at(&self, dimension: u32, indices: &[u64], coordinates: &mut [f64]) {
+        match self.generator {
+            Generator::Binary(matrices) if dimension < matrices.dimensions() => {
+                let level = Level::new();
+                let mut digits = [0; 256];
+                for (indices, block) in indices.chunks(256).zip(coordinates.chunks_mut(256)) {
+                    for (digits, index) in digits.iter_mut().zip(indices) {
+                        *digits = matrices.digits(*index, dimension);
+                    }
+                    self.randomize_block(level, &digits, 0, dimension, block);
+                }
+            }
+            Generator::Binary(_) | Generator::Radical { .. } | Generator::Random => {
+                for (coordinate, index) in coordinates.iter_mut().zip(indices) {
+                    *coordinate = self.coordinate(*index, dimension);
+                }
+            }
+        }
+    }
+
+    /// Whether [`fill_at`](Self::fill_at) is faster than one coordinate at a time, so that some made
+    /// in vain do not matter.
+    #[must_use]
+    pub fn fills_lists_fast(&self) -> bool {
+        matches!(self.generator, Generator::Binary(_))
+    }
+
     /// Several dimensions of the same points, one slice each: `first_dimension` into the first,
     /// the next into the second, ..
     ///

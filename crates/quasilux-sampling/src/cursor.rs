@@ -12,6 +12,9 @@
 use crate::choice::{BoolChoice, Choice, choose_bool, choose_weights};
 use crate::{Discrete, PointSet};
 
+/// Past all dimensions: nothing was made ahead.
+const NONE_AHEAD: u64 = 1 << 32;
+
 /// Hands out the coordinates of one sample in order and counts them.
 ///
 /// The count is the sample's *constructive dimension*: how many coordinates it consumed until it
@@ -31,6 +34,9 @@ pub struct SampleCursor<'a> {
     dimension: u32,
     used: u32,
     open: Option<Open>,
+    /// Coordinates made ahead, and the dimension of the first.
+    ahead: [f64; 2],
+    ahead_from: u64,
 }
 
 /// What choices left of a coordinate.
@@ -51,13 +57,47 @@ impl<'a> SampleCursor<'a> {
     #[inline]
     #[must_use]
     pub const fn new(points: &'a PointSet, index: u64) -> Self {
-        Self { points, index, dimension: 0, used: 0, open: None }
+        Self {
+            points,
+            index,
+            dimension: 0,
+            used: 0,
+            open: None,
+            ahead: [0.0; 2],
+            ahead_from: NONE_AHEAD,
+        }
+    }
+
+    /// The number of the point.
+    #[inline]
+    #[must_use]
+    pub const fn index(&self) -> u64 {
+        self.index
+    }
+
+    /// Takes coordinates `dimension` and `dimension` + 1 of its point, made together with those of
+    /// other points by [`PointSet::fill_at`]: it will not make them again.
+    ///
+    /// ```
+    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+    /// let (mut alone, mut supplied) = (SampleCursor::new(&points, 7), SampleCursor::new(&points, 7));
+    /// supplied.supply(1, [1, 2].map(|dimension| points.coordinate(7, dimension)));
+    /// assert_eq!([(); 4].map(|()| supplied.next_1d()), [(); 4].map(|()| alone.next_1d()));
+    /// ```
+    #[inline]
+    pub fn supply(&mut self, dimension: u32, coordinates: [f64; 2]) {
+        (self.ahead_from, self.ahead) = (u64::from(dimension), coordinates);
     }
 
     /// The next coordinate.
     #[inline]
     pub fn next_1d(&mut self) -> f64 {
-        let coordinate = self.points.coordinate(self.index, self.dimension);
+        let place = u64::from(self.dimension).wrapping_sub(self.ahead_from);
+        let coordinate = match self.ahead.get(place as usize) {
+            Some(coordinate) => *coordinate,
+            None => self.points.coordinate(self.index, self.dimension),
+        };
         self.dimension = self.dimension.saturating_add(1);
         self.used = self.used.saturating_add(1);
         coordinate

@@ -16,7 +16,7 @@
 //!   variances, are as under exact nested scrambling as far as tests can see; the joint distribution
 //!   of many points is not.
 //! - [`PointSet::fill`] is about ten times as fast as [`PointSet::coordinate`] for matrices over bits
-//!   and scrambled points; for Halton it is no faster.
+//!   and scrambled points, and [`PointSet::fill_at`] lies between; for Halton they are no faster.
 //!
 //! # Which sequence
 //! Owen-scrambled Sobol' unless there is a reason: on a photon's emission (4 coordinates, 4096

@@ -6,17 +6,19 @@
 use crate::estimates::{Dimensions, Estimates};
 use crate::map::MapLayout;
 use crate::photon::{PhotonCounts, PhotonReceiver};
-use crate::photons::trace_photons;
+use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::targets::by_sensor;
+use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
 use quasilux_scene::{Scene, SensorShape};
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Indices per replicate of the first checkpoint.
@@ -39,6 +41,9 @@ pub(crate) struct Counting<'a, S> {
 struct Receivers {
     grids: Vec<GridReceiver>,
     layout: MapLayout,
+    /// Whether a sensor reads an element of the facet: most facets have none, and the table of
+    /// elements is too large for the caches.
+    reads_facet: Vec<bool>,
     /// The counter that an element feeds, or [`UNREAD`].
     counter_of_element: Vec<u32>,
     /// For each target, in order: the counter it reads and the area behind it in m^2.
@@ -76,16 +81,31 @@ impl<'a, S: Spectrum> Counting<'a, S> {
         let counters = (0..replicates).map(|_| Counters::new(receivers.counters)).collect();
         Self { stage, scene, receivers, counters, samples: 0, photons: PhotonCounts::default() }
     }
+
+    /// Traces and counts the photons `indices` of all replicates.
+    pub(crate) fn count(
+        &self,
+        way: Way,
+        indices: Range<u64>,
+        watch: &mut Watch<'_>,
+    ) -> Option<PhotonCounts> {
+        let (receivers, counters) = (&self.receivers, &self.counters);
+        let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
+        let replicates = 0..counters.len() as u32;
+        let batch = PhotonBatch { stream: Stream::Photons, replicates, indices, way };
+        trace_photons(self.stage, &batch, receiver, watch)
+    }
+
+    /// All counters of all replicates.
+    pub(crate) fn counters(&self) -> impl Iterator<Item = u64> {
+        let all = self.counters.iter().flat_map(|own| own.all.iter().chain(&own.direct));
+        all.map(|counter| counter.load(Ordering::Relaxed))
+    }
 }
 
 impl<S: Spectrum> Estimation for Counting<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        let (receivers, counters) = (&self.receivers, &self.counters);
-        let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
-        let replicates = 0..counters.len() as u32;
-        let indices = self.samples..samples;
-        let stream = Stream::Photons;
-        match trace_photons(self.stage, stream, replicates, indices, receiver, watch) {
+        match self.count(Way::CoherentWaves, self.samples..samples, watch) {
             None => false,
             Some(counts) => {
                 self.photons += counts;
@@ -140,6 +160,7 @@ impl Receivers {
         let layout = MapLayout::new(world, element_m);
         let mut receivers = Self {
             grids: Vec::new(),
+            reads_facet: vec![false; world.facets.len()],
             counter_of_element: vec![UNREAD; layout.len()],
             layout,
             targets: Vec::new(),
@@ -184,6 +205,7 @@ impl Receivers {
         let (counter, area_m2) = match at {
             None => (fresh, 1.0),
             Some(at) => {
+                self.reads_facet[at.facet as usize] = true;
                 let counter = &mut self.counter_of_element[self.layout.element(&at)];
                 if *counter == UNREAD {
                     *counter = fresh;
@@ -200,10 +222,12 @@ impl GridReceiver {
     /// The counter of the cell that a flight passes through from the front, if any.
     fn counter(&self, from: DVec3, direction: DVec3, length_m: f64) -> Option<usize> {
         let approach = self.normal.dot(direction);
-        if approach >= 0.0 {
+        let height = self.normal.dot(self.origin - from);
+        // Neither from behind nor away: most flights end here, before the division.
+        if !(approach < 0.0 && height < 0.0) {
             return None;
         }
-        let t = self.normal.dot(self.origin - from) / approach;
+        let t = height / approach;
         if !(t > 0.0 && t < length_m) {
             return None;
         }
@@ -245,6 +269,9 @@ impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
     }
 
     fn landing(&mut self, at: &Interaction, _weight: S, bounces: u32) {
+        if !self.receivers.reads_facet[at.facet as usize] {
+            return;
+        }
         let element = self.receivers.layout.element(at);
         let counter = self.receivers.counter_of_element[element];
         if counter != UNREAD {

@@ -3,10 +3,11 @@
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally};
 use crate::path::{MapEnd, Rest};
 use crate::photon::PhotonCounts;
-use crate::photons::trace_photons;
+use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::trial::Way;
 use crate::watch::Watch;
 use std::ops::Range;
 
@@ -50,8 +51,13 @@ impl<S: Spectrum> End<S> {
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         let mut plan = |photons: u64, receiver: Option<MapReceiver<'_, S>>| {
-            let stream = Stream::PlanPhotons;
-            trace_photons(stage, stream, 0..1, 0..photons, |_| receiver, watch).unwrap_or_default()
+            let batch = PhotonBatch {
+                stream: Stream::PlanPhotons,
+                replicates: 0..1,
+                indices: 0..photons,
+                way: Way::CoherentWaves,
+            };
+            trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
         };
         if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
             return (Self::Nothing, plan(BALANCE_PHOTONS, None));
@@ -78,8 +84,13 @@ impl<S: Spectrum> End<S> {
         let Self::Own { layout, tallies, maps } = self else { return Growth::None };
         let samples = indices.end;
         let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
-        let replicates = 0..tallies.len() as u32;
-        let traced = trace_photons(stage, Stream::Photons, replicates, indices, receiver, watch);
+        let batch = PhotonBatch {
+            stream: Stream::Photons,
+            replicates: 0..tallies.len() as u32,
+            indices,
+            way: Way::CoherentWaves,
+        };
+        let traced = trace_photons(stage, &batch, receiver, watch);
         let Some(counts) = traced else { return Growth::Stopped };
         let flux_lm = stage.lights.flux_lm / samples as f64;
         *maps = tallies.iter().map(|tally| tally.read(layout, flux_lm)).collect();

@@ -5,7 +5,8 @@
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
-//! light is followed, at `map` for where they meet.
+//! light is followed, at `order` and `wave` for how photons travel together, at `map` for where the
+//! two ways meet.
 
 mod check;
 mod counting;
@@ -27,6 +28,7 @@ mod spectrum;
 mod stage;
 mod tally;
 mod targets;
+pub mod trial;
 mod watch;
 mod wave;
 mod world;

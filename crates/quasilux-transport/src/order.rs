@@ -11,7 +11,7 @@ use quasilux_sampling::{CoherentGroups, PointSet};
 use std::ops::Range;
 
 /// Photons of one wave, but for rounding.
-pub(crate) const WAVE: u64 = 1024;
+const WAVE: u64 = 2048;
 /// Most indices of one field: the more, the nearer neighbours are.
 const FIELD: u64 = 1 << 16;
 /// Photons of one group: the least that share their digits.
@@ -35,7 +35,7 @@ struct Run {
 
 impl Waves {
     /// Cuts a range of indices of these points into waves that are close in the leading
-    /// `dimensions`, where the points have digits.
+    /// `dimensions`, where the points have digits; with none they keep their order.
     pub(crate) fn new(points: &PointSet, indices: Range<u64>, dimensions: u32) -> Self {
         let dimensions: Vec<u32> = (0..dimensions).collect();
         let (mut runs, mut waves) = (Vec::new(), 0);
@@ -45,7 +45,7 @@ impl Waves {
             let field = FIELD.min(lowest_bit(first_index)).min(1 << left.ilog2());
             // All fields of the largest size are one run.
             let fields = if field == FIELD { left / FIELD } else { 1 };
-            let groups = (field >= 2 * GROUP)
+            let groups = (field >= 2 * GROUP && !dimensions.is_empty())
                 .then(|| CoherentGroups::of_size(points, field, &dimensions, GROUP))
                 .flatten();
             let waves_per_field = field.div_ceil(WAVE);
@@ -83,4 +83,52 @@ impl Waves {
 /// The largest power of two that divides a number; of 0 the largest there is.
 fn lowest_bit(number: u64) -> u64 {
     1_u64.checked_shl(number.trailing_zeros()).unwrap_or(1 << 63)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quasilux_sampling::{Randomization, Sequence};
+
+    fn points(sequence: Sequence) -> PointSet {
+        PointSet::new(sequence, Randomization::Owen, 1)
+    }
+
+    #[test]
+    fn each_index_is_in_one_wave() {
+        let hammersley = Sequence::Hammersley { points: 1 << 20 };
+        for sequence in [Sequence::Sobol, Sequence::Halton, Sequence::Random, hammersley] {
+            for (range, dimensions) in
+                [(0..1, 2), (0..5000, 2), (5..150_000, 4), (131_072..262_144, 2), (7..4000, 0)]
+            {
+                let waves = Waves::new(&points(sequence), range.clone(), dimensions);
+                let mut indices = Vec::new();
+                for wave in 0..waves.len() {
+                    let of_wave = waves.indices(wave).count() as u64;
+                    assert!((1..=2 * WAVE).contains(&of_wave), "{sequence:?}: {of_wave}");
+                    indices.extend(waves.indices(wave));
+                }
+                indices.sort_unstable();
+                assert!(indices.into_iter().eq(range.clone()), "{sequence:?}, {range:?}");
+            }
+        }
+    }
+
+    /// 2048 of 2^16 photons, 32 waves: the square of the first two coordinates is cut into 8 by 4, in
+    /// base 2 and 3 into about as many parts.
+    #[test]
+    fn waves_are_close_together() {
+        for (sequence, largest) in [(Sequence::Sobol, 0.25), (Sequence::Halton, 0.67)] {
+            let points = points(sequence);
+            let waves = Waves::new(&points, 0..FIELD, 2);
+            for wave in 0..waves.len() {
+                for dimension in 0..2 {
+                    let u = waves.indices(wave).map(|index| points.coordinate(index, dimension));
+                    let (low, high) =
+                        u.fold((1.0_f64, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
+                    assert!(high - low <= largest, "{sequence:?}, wave {wave}: {low} to {high}");
+                }
+            }
+        }
+    }
 }

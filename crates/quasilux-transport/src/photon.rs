@@ -43,7 +43,7 @@ pub(crate) trait PhotonReceiver<S> {
 
 /// A photon on its way, but for where it flies.
 pub(crate) struct Photon<'p, S> {
-    cursor: SampleCursor<'p>,
+    pub(crate) cursor: SampleCursor<'p>,
     /// Its colour, of luminance one.
     pub(crate) weight: S,
 }

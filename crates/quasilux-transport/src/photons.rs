@@ -2,12 +2,13 @@
 
 use crate::estimates::FluxBalance;
 use crate::order::Waves;
-use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver};
+use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver, trace_photon};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::trial::Way;
 use crate::watch::Watch;
 use crate::wave::Wave;
-use quasilux_sampling::PointSet;
+use quasilux_sampling::{PointSet, SampleCursor};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -15,31 +16,50 @@ use std::sync::{Mutex, PoisonError};
 /// Waves between two words to the observer.
 const WAVES_PER_ROUND: u64 = 64;
 
-/// Traces the photons `indices` of each of the `replicates`; `receiver` makes what sees those of
-/// one replicate. `None` when the observer stopped it.
+/// Which photons are traced: the same indices of each replicate.
+pub(crate) struct PhotonBatch {
+    pub(crate) stream: Stream,
+    pub(crate) replicates: Range<u32>,
+    pub(crate) indices: Range<u64>,
+    pub(crate) way: Way,
+}
+
+/// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer
+/// stopped it.
 pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     stage: &Stage<'_, S>,
-    stream: Stream,
-    replicates: Range<u32>,
-    indices: Range<u64>,
+    batch: &PhotonBatch,
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, stream)).collect();
+    let PhotonBatch { stream, replicates, indices, way } = batch;
+    let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
-    let waves_each = Waves::new(leading, indices, stage.lights.leading_dimensions());
+    let close_in = match way {
+        Way::OneByOne | Way::Waves => 0,
+        Way::CoherentWaves => stage.lights.leading_dimensions(),
+    };
+    let waves_each = Waves::new(leading, indices.clone(), close_in);
     let waves = waves_each.len() * points.len() as u64;
     // One space for each thread of this pool.
     let spaces: Vec<Mutex<Wave<'_, S>>> =
         (0..rayon::current_num_threads()).map(|_| Mutex::new(Wave::new())).collect();
     let trace = |number: u64| {
         let row = (number / waves_each.len()) as u32;
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
-        let mut counts = PhotonCounts::default();
+        let points = &points[row as usize];
         let indices = waves_each.indices(number % waves_each.len());
         let mut receiver = receiver(replicates.start + row);
-        space.trace(stage, &points[row as usize], indices, &mut receiver, &mut counts);
+        let mut counts = PhotonCounts::default();
+        if *way == Way::OneByOne {
+            for index in indices {
+                let cursor = SampleCursor::new(points, index);
+                trace_photon(stage, cursor, &mut receiver, &mut counts);
+            }
+        } else {
+            let thread = rayon::current_thread_index().unwrap_or(0);
+            let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
+            space.trace(stage, points, indices, &mut receiver, &mut counts);
+        }
         counts
     };
     let mut counts = PhotonCounts::default();

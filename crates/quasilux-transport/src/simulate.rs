@@ -26,8 +26,16 @@ const LEAST_TRIES: f64 = (1 << 14) as f64;
 /// sense for the scene.
 #[must_use]
 pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
-    let grey = scene.materials.iter().all(|material| material.bsdf.reflectance().is_grey());
-    if grey { run::<f64>(scene, settings, observer) } else { run::<Rgb>(scene, settings, observer) }
+    if is_grey(scene) {
+        run::<f64>(scene, settings, observer)
+    } else {
+        run::<Rgb>(scene, settings, observer)
+    }
+}
+
+/// Whether one channel is enough.
+pub(crate) fn is_grey(scene: &Scene) -> bool {
+    scene.materials.iter().all(|material| material.bsdf.reflectance().is_grey())
 }
 
 /// An estimator at work: one variant of [`Estimator`] or several close ones.

@@ -3,6 +3,7 @@
 use crate::lights::Lights;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::trial::Stopwatch;
 use crate::world::World;
 use quasilux_sampling::{PointSet, Sequence, stream_key};
 use quasilux_scene::Scene;
@@ -14,6 +15,8 @@ pub(crate) struct Stage<'a, S> {
     pub(crate) max_bounces: Option<u32>,
     /// What a reader of the results must know of the lights' places.
     pub(crate) warning: Option<String>,
+    /// Told of the steps of waves, in benchmarks.
+    pub(crate) stopwatch: Option<&'a dyn Stopwatch>,
     settings: &'a Settings,
 }
 
@@ -40,7 +43,14 @@ impl<'a, S: Spectrum> Stage<'a, S> {
                  it belongs half its height lower"
             )
         });
-        Self { world, lights, max_bounces: settings.max_bounces, warning, settings }
+        Self {
+            world,
+            lights,
+            max_bounces: settings.max_bounces,
+            warning,
+            stopwatch: None,
+            settings,
+        }
     }
 
     /// The randomised point set of one stream in one replicate.

@@ -8,6 +8,7 @@
 use crate::photon::{End, Fate, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::trial::Step;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, Shot};
 use quasilux_sampling::{PointSet, SampleCursor};
@@ -20,11 +21,21 @@ pub(crate) struct Wave<'p, S> {
     hits: Vec<Option<Hit>>,
     /// Where it meets a surface.
     found: Vec<Option<Interaction>>,
+    indices: Vec<u64>,
+    /// The next two coordinates of each photon.
+    ahead: [Vec<f64>; 2],
 }
 
 impl<'p, S: Spectrum> Wave<'p, S> {
     pub(crate) fn new() -> Self {
-        Self { photons: Vec::new(), shots: Vec::new(), hits: Vec::new(), found: Vec::new() }
+        Self {
+            photons: Vec::new(),
+            shots: Vec::new(),
+            hits: Vec::new(),
+            found: Vec::new(),
+            indices: Vec::new(),
+            ahead: [Vec::new(), Vec::new()],
+        }
     }
 
     /// Traces the photons of these indices to their ends.
@@ -36,7 +47,13 @@ impl<'p, S: Spectrum> Wave<'p, S> {
         receiver: &mut impl PhotonReceiver<S>,
         counts: &mut PhotonCounts,
     ) {
-        self.emit(stage, points, indices);
+        let lap = |step| stage.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
+        self.photons.clear();
+        self.photons.extend(indices.map(|index| Photon::new(SampleCursor::new(points, index))));
+        self.supply(points);
+        lap(Step::Sampling);
+        self.emit(stage);
+        lap(Step::Emission);
         counts.emitted += self.photons.len() as u64;
         for bounces in 0..MOST_EVENTS {
             if self.photons.is_empty() {
@@ -44,28 +61,46 @@ impl<'p, S: Spectrum> Wave<'p, S> {
             }
             counts.rays += self.shots.len() as u64;
             stage.world.trace_all(&self.shots, &mut self.hits, &mut self.found);
+            lap(Step::Traversal);
             self.show(stage, bounces, receiver);
+            lap(Step::Tally);
+            self.supply(points);
+            lap(Step::Sampling);
             self.scatter(stage, bounces, counts);
+            lap(Step::Scattering);
         }
         for photon in &self.photons {
             counts.end(photon, &End::Endless);
         }
     }
 
-    fn emit(
-        &mut self,
-        stage: &Stage<'_, S>,
-        points: &'p PointSet,
-        indices: impl Iterator<Item = u64>,
-    ) {
-        self.photons.clear();
+    fn emit(&mut self, stage: &Stage<'_, S>) {
         self.shots.clear();
-        for index in indices {
-            let mut photon = Photon::new(SampleCursor::new(points, index));
-            if let Some(emission) = photon.emit(stage) {
-                self.photons.push(photon);
-                self.shots.push(emission.from.shot(emission.direction));
-            }
+        self.photons.retain_mut(|photon| {
+            let emission = photon.emit(stage);
+            self.shots.extend(emission.iter().map(|start| start.from.shot(start.direction)));
+            emission.is_some()
+        });
+    }
+
+    /// Makes the next two coordinates of all photons at once. Those that are elsewhere in their
+    /// coordinates than the first make their own.
+    fn supply(&mut self, points: &PointSet) {
+        let Some(dimension) = self.photons.first().map(|photon| photon.cursor.dimension()) else {
+            return;
+        };
+        if !points.fills_lists_fast() {
+            return;
+        }
+        self.indices.clear();
+        self.indices.extend(self.photons.iter().map(|photon| photon.cursor.index()));
+        for (dimension, ahead) in (dimension..).zip(&mut self.ahead) {
+            ahead.resize(self.indices.len(), 0.0);
+            points.fill_at(dimension, &self.indices, ahead);
+        }
+        let [first, second] = &self.ahead;
+        for ((photon, first), second) in self.photons.iter_mut().zip(first).zip(second) {
+            photon.cursor.supply(dimension, [*first, *second]);
         }
     }
 

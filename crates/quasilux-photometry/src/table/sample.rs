@@ -31,7 +31,7 @@ impl SphericalTable {
         Some(DirectionSample { direction, pdf_sr: self.pdf(direction) })
     }
 
-    /// The direction of [`Self::sample`] alone, in two thirds of the time.
+    /// The direction of [`Self::sample`] alone: nobody looks up its density.
     pub fn sample_direction(&self, u: [f64; 2]) -> Option<DVec3> {
         if self.integral() <= 0.0 {
             return None;

@@ -27,6 +27,29 @@ fn blocks_equal_random_access() {
     }
 }
 
+/// Indices in any order and of any size, as many as end within blocks.
+#[test]
+fn lists_equal_random_access() {
+    for (_, sequence) in Sequence::names_for(12_345) {
+        for (_, randomization) in Randomization::NAMES {
+            let points = PointSet::new(sequence, randomization, stream_key(3, 0, 0));
+            for dimension in [0, 1, 4, 1023, 1024, u32::MAX] {
+                for count in [0, 1, 33, 256, 600] {
+                    let index = |step| stream_key(9, step, 0) >> (step % 64);
+                    let indices: Vec<u64> = (0..count).map(index).collect();
+                    let mut list = vec![-1.0; indices.len() + 2];
+                    points.fill_at(dimension, &indices, &mut list[..indices.len()]);
+                    for (index, coordinate) in indices.iter().zip(&list) {
+                        let single = points.coordinate(*index, dimension);
+                        assert_eq!(*coordinate, single, "{points:?}: {index}, {dimension}");
+                    }
+                    assert_eq!(list[indices.len()..], [-1.0; 2]);
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn columns_are_dimensions() {
     let points = PointSet::new(Sequence::Sobol, Randomization::Owen, stream_key(3, 0, 0));

@@ -93,6 +93,31 @@ fn the_bound_is_nearly_reached() {
     }
 }
 
+/// Groups that follow each other make up a group of a coarser partition: in base 2 for all that are a
+/// power of two larger, in Halton's bases for those that the divisions pass through.
+#[test]
+fn neighbouring_groups_are_close() {
+    for sequence in SEQUENCES {
+        let points = PointSet::new(sequence, Randomization::Owen, stream_key(1, 0, 0));
+        let of_size =
+            |size| CoherentGroups::of_size(&points, 1 << 14, &[0, 1], size).expect("groups");
+        let fine = of_size(16);
+        for size in [64, 300, 4096] {
+            let coarse = of_size(size);
+            let each = fine.len() / coarse.len();
+            assert!(each > 1 && fine.len() % coarse.len() == 0, "{sequence:?}, {size}");
+            for number in 0..coarse.len() {
+                let parts = number * each..(number + 1) * each;
+                let mut together: Vec<u64> = parts.flat_map(|part| fine.group(part)).collect();
+                let mut whole: Vec<u64> = coarse.group(number).collect();
+                together.sort_unstable();
+                whole.sort_unstable();
+                assert_eq!(together, whole, "{sequence:?}, {size}, group {number}");
+            }
+        }
+    }
+}
+
 /// Groups of a wanted size are at most the largest base larger, and narrower than chance.
 #[test]
 fn groups_have_the_size_that_was_asked_for() {

@@ -13,7 +13,7 @@ use quasilux_transport::{Estimates, Estimator, Settings, simulate};
 
 /// A room with a red wall, a mirror opposite, and a bright panel under the ceiling that lights the
 /// room from its front side only.
-fn coloured_room_with_mirror() -> Scene {
+pub(crate) fn coloured_room_with_mirror() -> Scene {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
     let red = Bsdf::Diffuse(Diffuse { reflectance: Rgb([0.8, 0.2, 0.1]) });
     for (name, bsdf) in [("red", red), ("mirror", mirror(0.9)), ("panel", diffuse(0.3))] {

@@ -9,3 +9,4 @@ mod furnace;
 mod hall;
 mod scenes;
 mod traps;
+mod ways;

@@ -1,0 +1,97 @@
+//! The photon trace by itself, for benchmarks and for the test that all ways give the same tallies.
+
+use crate::counting::Counting;
+use crate::settings::Settings;
+use crate::simulate::is_grey;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::watch::Watch;
+use quasilux_scene::{Rgb, Scene};
+use std::ops::Range;
+
+/// How photons are taken. It changes the time, and nothing else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// One after the other, by a plain loop: the slow twin.
+    OneByOne,
+    /// In waves, in the order of their indices.
+    Waves,
+    /// In waves of photons whose first coordinates are close.
+    CoherentWaves,
+}
+
+/// What a wave spends its time on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Making coordinates, where they are made for many photons at once.
+    Sampling,
+    /// From coordinates to light, place and direction.
+    Emission,
+    /// From rays to places on facets.
+    Traversal,
+    /// Counting flights and landings.
+    Tally,
+    /// Survival and the next direction.
+    Scattering,
+}
+
+/// Is told when a wave ends a step, so that somebody with a clock can tell the steps apart.
+pub trait Stopwatch: Sync {
+    /// The thread that calls has just ended a piece of this step.
+    fn lap(&self, step: Step);
+}
+
+/// What was traced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Traced {
+    /// Photons.
+    pub photons: u64,
+    /// Their rays.
+    pub rays: u64,
+}
+
+/// Photons on their way through one scene, seen by its sensors.
+pub trait PhotonTrial: Send {
+    /// Traces the photons of these indices in each replicate, on the threads of the rayon pool that
+    /// the call is made in.
+    fn trace(&mut self, way: Way, indices: Range<u64>) -> Traced;
+
+    /// Everything that the sensors counted so far.
+    fn counters(&self) -> Vec<u64>;
+}
+
+/// Sets a scene up as the estimator `photon` does, and hands it to `measure`.
+pub fn try_photons(
+    scene: &Scene,
+    settings: &Settings,
+    stopwatch: Option<&dyn Stopwatch>,
+    measure: impl FnOnce(&mut dyn PhotonTrial),
+) {
+    if is_grey(scene) {
+        set_up::<f64>(scene, settings, stopwatch, measure);
+    } else {
+        set_up::<Rgb>(scene, settings, stopwatch, measure);
+    }
+}
+
+fn set_up<S: Spectrum>(
+    scene: &Scene,
+    settings: &Settings,
+    stopwatch: Option<&dyn Stopwatch>,
+    measure: impl FnOnce(&mut dyn PhotonTrial),
+) {
+    let mut stage = Stage::<S>::new(scene, settings);
+    stage.stopwatch = stopwatch;
+    measure(&mut Counting::new(&stage, scene, settings));
+}
+
+impl<S: Spectrum> PhotonTrial for Counting<'_, S> {
+    fn trace(&mut self, way: Way, indices: Range<u64>) -> Traced {
+        let counts = self.count(way, indices, &mut Watch::new(&mut ())).unwrap_or_default();
+        Traced { photons: counts.emitted, rays: counts.rays }
+    }
+
+    fn counters(&self) -> Vec<u64> {
+        Self::counters(self).collect()
+    }
+}
