@@ -2,27 +2,32 @@
 
 use crate::end::{End, Growth};
 use crate::estimates::{Dimensions, Estimates};
-use crate::path::{Gathered, PathWork, Rest, trace_path};
+use crate::path::{Ended, Rest, Start};
+use crate::paths::Wave;
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::settings::Settings;
+use crate::shadow::{Asker, Shadows};
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::targets::{Target, by_sensor, targets};
 use crate::watch::Watch;
-use quasilux_sampling::{DimensionHistogram, SampleCursor};
+use quasilux_sampling::{DimensionHistogram, PointSet, SampleCursor};
 use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::ops::{AddAssign, Range};
 
-/// Paths of one piece of work.
-const BLOCK: u64 = 256;
-/// Pieces of work between two words to the observer.
-const BLOCKS_PER_ROUND: u64 = 512;
+/// Paths that travel together: one piece of work.
+const WAVE: u64 = 512;
+/// Paths between two words to the observer.
+const ROUND: u64 = 1 << 17;
+/// Targets whose light from the point-like lights is computed together.
+const TARGETS: usize = 256;
 /// The first checkpoint takes at most this many indices, and about this many paths in all.
 const FIRST_SAMPLES: u64 = 16;
 const FIRST_PATHS: u64 = 1 << 22;
+
 /// Paths from all sensor points, in all replicates.
 pub(crate) struct Gathering<'a, S> {
     stage: &'a Stage<'a, S>,
@@ -60,11 +65,20 @@ struct WorkCounts {
     endless: u64,
 }
 
-/// One piece of work: some paths of one target in one replicate.
-struct Block {
-    target: usize,
-    replicate: u32,
+/// Some paths of one target in one replicate.
+struct Section<'g, S> {
+    target: Target,
+    points: PointSet,
+    rest: Rest<'g, S>,
     indices: Range<u64>,
+}
+
+/// What the paths of one piece of work found.
+struct PieceSums {
+    /// Of some entries of [`Gathering::sums`] in order, from number `first` on.
+    sums: Vec<PathSums>,
+    first: usize,
+    work: WorkCounts,
 }
 
 impl<'a, S: Spectrum> Gathering<'a, S> {
@@ -103,57 +117,68 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         }
     }
 
-    /// Piece of work number `block` of the paths `indices` of all targets and replicates.
-    fn block(&self, block: u64, indices: &Range<u64>) -> Block {
-        let blocks_each = (indices.end - indices.start).div_ceil(BLOCK);
-        let which = block / blocks_each;
-        let first = indices.start + block % blocks_each * BLOCK;
-        Block {
-            target: (which / u64::from(self.replicates)) as usize,
-            replicate: (which % u64::from(self.replicates)) as u32,
-            indices: first..(first + BLOCK).min(indices.end),
-        }
+    /// Traces the paths `piece`, of those that are left when the paths `indices` of all targets and
+    /// replicates, in the order of [`Self::sums`], are put in one row.
+    fn trace_piece(&self, piece: &Range<u64>, indices: &Range<u64>, wave: &mut Wave) -> PieceSums {
+        let each = indices.end - indices.start;
+        let numbers = piece.start / each..piece.end.div_ceil(each);
+        let sections: Vec<Section<'_, S>> = numbers
+            .clone()
+            .map(|number| {
+                let first = indices.start + piece.start.saturating_sub(number * each);
+                let end = indices.start + (piece.end - number * each).min(each);
+                self.section(number, first..end)
+            })
+            .collect();
+        let starts = sections.iter().flat_map(|section| section.starts(self.stage));
+        let mut paths = wave.trace(self.stage, starts).into_iter();
+        let mut work = WorkCounts { paths: piece.end - piece.start, ..WorkCounts::default() };
+        let sums = sections
+            .iter()
+            .map(|section| {
+                let mut sums = PathSums::default();
+                for path in paths.by_ref().take(section.len()) {
+                    let path = path.end();
+                    sums.add(&path, self.quantum);
+                    work.add(&path);
+                }
+                sums
+            })
+            .collect();
+        work.rays = wave.take_rays();
+        PieceSums { sums, first: numbers.start as usize, work }
     }
 
-    fn trace_block(&self, block: &Block) -> (PathSums, WorkCounts) {
-        let points = self.stage.points(block.replicate, Stream::Paths(block.target as u64));
-        let rest = self.end.rest(block.replicate);
-        let mut sums = PathSums::default();
-        let mut work = PathWork::default();
-        let (mut dimensions, mut endless) = (DimensionHistogram::new(), 0);
-        for index in block.indices.clone() {
-            let mut cursor = SampleCursor::new(&points, index);
-            let found = self.trace_one(self.targets[block.target], &rest, &mut cursor, &mut work);
-            sums.add(found, self.quantum);
-            dimensions.record(cursor.used());
-            endless += u64::from(found.endless);
+    /// The paths `indices` of entry `number` of [`Self::sums`].
+    fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
+        let target = number / u64::from(self.replicates);
+        let replicate = (number % u64::from(self.replicates)) as u32;
+        Section {
+            target: self.targets[target as usize],
+            points: self.stage.points(replicate, Stream::Paths(target)),
+            rest: self.end.rest(replicate),
+            indices,
         }
-        let paths = block.indices.end - block.indices.start;
-        (sums, WorkCounts { paths, rays: work.rays, dimensions, endless })
+    }
+}
+
+impl<S: Spectrum> Section<'_, S> {
+    fn len(&self) -> usize {
+        (self.indices.end - self.indices.start) as usize
     }
 
-    fn trace_one(
-        &self,
-        target: Target,
-        rest: &Rest<'_, S>,
-        cursor: &mut SampleCursor<'_>,
-        work: &mut PathWork,
-    ) -> Gathered {
-        let stage = self.stage;
-        match target {
-            Target::Point { position, normal } => {
-                let from = stage.world.vantage_of_sensor(position, normal);
-                trace_path(stage, from, normal, rest, cursor, work)
-            }
-            Target::Cell { grid, cell } => {
-                let position = grid.point_in_cell(cell, cursor.next_2d());
-                let from = stage.world.vantage_of_sensor(position, grid.normal);
-                let mut found = trace_path(stage, from, grid.normal, rest, cursor, work);
-                let pointlikes = &stage.lights.pointlikes;
-                found.direct_lx += pointlikes.all(&stage.world, from, grid.normal, &mut work.rays);
-                found
-            }
-        }
+    fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
+        self.indices.clone().map(|index| {
+            let mut cursor = SampleCursor::new(&self.points, index);
+            let (position, n, tests_pointlikes) = match self.target {
+                Target::Point { position, normal } => (position, normal, false),
+                Target::Cell { grid, cell } => {
+                    (grid.point_in_cell(cell, cursor.next_2d()), grid.normal, true)
+                }
+            };
+            let from = stage.world.vantage_of_sensor(position, n);
+            Start { from, n, tests_pointlikes, rest: &self.rest, cursor }
+        })
     }
 }
 
@@ -194,24 +219,27 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 indices.start = 0;
             }
         }
-        let blocks_each = (indices.end - indices.start).div_ceil(BLOCK);
-        let blocks = blocks_each * self.sums.len() as u64;
+        let paths = (indices.end - indices.start) * self.sums.len() as u64;
         let mut done = 0;
-        while done < blocks {
-            let round = done..(done + BLOCKS_PER_ROUND).min(blocks);
-            let found: Vec<(PathSums, WorkCounts)> = round
-                .clone()
-                .into_par_iter()
-                .map(|block| self.trace_block(&self.block(block, &indices)))
-                .collect();
+        while done < paths {
+            let round = done..(done + ROUND).min(paths);
+            let pieces = (round.end - round.start).div_ceil(WAVE);
+            let trace = |wave: &mut Wave, piece: u64| {
+                let first = round.start + piece * WAVE;
+                self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
+            };
+            let found: Vec<PieceSums> =
+                (0..pieces).into_par_iter().map_init(Wave::default, trace).collect();
             let (paths_before, rays_before) = (self.work.paths, self.work.rays);
-            for (block, (sums, work)) in round.clone().zip(found) {
-                self.sums[(block / blocks_each) as usize] += sums;
+            for PieceSums { sums, first, work } in found {
+                for (sum, found) in self.sums[first..].iter_mut().zip(sums) {
+                    *sum += found;
+                }
                 self.work += work;
             }
             done = round.end;
-            let (paths, rays) = (self.work.paths - paths_before, self.work.rays - rays_before);
-            if !watch.tick(0, paths, rays, done as f64 / blocks as f64) {
+            let (now, rays) = (self.work.paths - paths_before, self.work.rays - rays_before);
+            if !watch.tick(0, now, rays, done as f64 / paths as f64) {
                 return false;
             }
         }
@@ -275,22 +303,27 @@ fn samples_direct<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> bool {
 
 /// Direct light of the point-like lights at each target that is a point, in lx: all of them tested.
 fn exact_direct<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) -> Vec<f64> {
-    let found: Vec<(f64, u64)> = targets
-        .par_iter()
-        .map(|target| {
-            let mut rays = 0;
-            let Target::Point { position, normal } = *target else { return (0.0, 0) };
-            let from = stage.world.vantage_of_sensor(position, normal);
-            let direct_lx = stage.lights.pointlikes.all(&stage.world, from, normal, &mut rays);
-            (direct_lx, rays)
-        })
-        .collect();
-    *rays += found.iter().map(|(_, rays)| rays).sum::<u64>();
-    found.into_iter().map(|(direct_lx, _)| direct_lx).collect()
+    let mut direct_lx = vec![0.0; targets.len()];
+    let light = |(targets, direct_lx): (&[Target], &mut [f64])| {
+        let asker = |(who, target): (u32, &Target)| match *target {
+            Target::Point { position, normal: n } => {
+                Some(Asker { who, from: stage.world.vantage_of_sensor(position, n), n })
+            }
+            Target::Cell { .. } => None,
+        };
+        let askers: Vec<Asker> = (0..).zip(targets).filter_map(asker).collect();
+        let mut shadows = Shadows::default();
+        let receive = |who: u32, illuminance_lx| direct_lx[who as usize] += illuminance_lx;
+        stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, receive);
+        shadows.rays
+    };
+    let chunks = targets.par_chunks(TARGETS).zip(direct_lx.par_chunks_mut(TARGETS));
+    *rays += chunks.map(light).sum::<u64>();
+    direct_lx
 }
 
 impl PathSums {
-    fn add(&mut self, found: Gathered, quantum: Quantum) {
+    fn add(&mut self, Ended { found, .. }: &Ended, quantum: Quantum) {
         self.direct.add(found.direct_lx, quantum);
         self.indirect.add_signed(found.indirect_lx, quantum);
         self.reflected += u64::from(found.reflected);
@@ -306,6 +339,13 @@ impl AddAssign for PathSums {
         self.direct += other.direct;
         self.indirect += other.indirect;
         self.reflected += other.reflected;
+    }
+}
+
+impl WorkCounts {
+    fn add(&mut self, path: &Ended) {
+        self.dimensions.record(path.dimensions);
+        self.endless += u64::from(path.found.endless);
     }
 }
 

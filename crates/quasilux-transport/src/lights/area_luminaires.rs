@@ -11,8 +11,9 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
+use crate::shadow::Offer;
 use crate::spectrum::Spectrum;
-use crate::world::{Vantage, World};
+use crate::world::World;
 use glam::DVec3;
 use quasilux_photometry::SurfacePoint;
 use quasilux_sampling::choose_weights;
@@ -32,13 +33,6 @@ struct AreaLuminaire<'a> {
     luminaire: &'a Luminaire,
     flux_lm: f64,
     radius_m: f64,
-}
-
-/// What one place on a shape gives to a surface, were nothing in the way.
-struct Unshadowed {
-    direction: DVec3,
-    distance_m: f64,
-    illuminance_lx: f64,
 }
 
 impl<'a> AreaLuminaires<'a> {
@@ -72,31 +66,22 @@ impl<'a> AreaLuminaires<'a> {
         self.0.iter().any(|light| light.importance_lx(position, n) != 0.0)
     }
 
-    /// An estimate of the illuminance in lx from all of them on the side `n` of a surface, by one
-    /// place on one of them. `seen` is scratch space.
-    pub(crate) fn one<S: Spectrum>(
+    /// An estimate of the illuminance from all of them on the side `n` of a surface: what one place
+    /// on one of them offers. `weights` is working space.
+    pub(crate) fn offer(
         &self,
-        world: &World<S>,
-        from: Vantage,
+        position: DVec3,
         n: DVec3,
         u: [f64; 2],
-        seen: &mut Vec<f64>,
-        rays: &mut u64,
-    ) -> f64 {
-        let position = from.position();
-        seen.clear();
-        seen.extend(self.0.iter().map(|light| light.importance_lx(position, n)));
-        let Some(choice) = choose_weights(u[0], seen.iter().copied()) else {
-            // Nothing shines here, or a figure that the tally must refuse came out.
-            return if seen.iter().sum::<f64>() == 0.0 { 0.0 } else { f64::NAN };
+        weights: &mut Vec<f64>,
+    ) -> Option<Offer> {
+        weights.clear();
+        weights.extend(self.0.iter().map(|light| light.importance_lx(position, n)));
+        let Some(choice) = choose_weights(u[0], weights.iter().copied()) else {
+            return Offer::without_choice(weights.iter().sum(), n);
         };
-        let place = self.0[choice.index].unshadowed(position, n, [choice.rest, u[1]]);
-        if place.illuminance_lx == 0.0 {
-            return 0.0;
-        }
-        *rays += 1;
-        let visible = world.is_visible(from, place.direction, place.distance_m, u32::MAX);
-        if visible { place.illuminance_lx / choice.probability } else { 0.0 }
+        let offer = self.0[choice.index].offer(position, n, [choice.rest, u[1]])?;
+        Some(Offer { illuminance_lx: offer.illuminance_lx / choice.probability, ..offer })
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their light
@@ -123,7 +108,7 @@ impl AreaLuminaire<'_> {
     }
 
     /// One place on the shape, with the estimator at the head of this module.
-    fn unshadowed(&self, position: DVec3, n: DVec3, u: [f64; 2]) -> Unshadowed {
+    fn offer(&self, position: DVec3, n: DVec3, u: [f64; 2]) -> Option<Offer> {
         let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
         let luminaire_from_world = world_from_luminaire.transpose();
         let from_centre = luminaire_from_world * (position - self.luminaire.position);
@@ -135,13 +120,13 @@ impl AreaLuminaire<'_> {
         let direction = toward / distance_m;
         let cos = n.dot(direction);
         let share = shape.pdf_silhouette(luminaire_from_world * -direction, &place);
-        let illuminance_lx = if cos <= 0.0 || share <= 0.0 {
-            0.0
-        } else {
-            let ratio = share / shape.pdf_silhouette(centre_direction, &place);
-            self.luminaire.intensity_cd(-direction) * ratio * cos / (distance_m * distance_m)
-        };
-        Unshadowed { direction, distance_m, illuminance_lx }
+        if cos <= 0.0 || share <= 0.0 {
+            return None;
+        }
+        let ratio = share / shape.pdf_silhouette(centre_direction, &place);
+        let intensity_cd = self.luminaire.intensity_cd(-direction);
+        let illuminance_lx = intensity_cd * ratio * cos / (distance_m * distance_m);
+        Offer::unless_dark(direction, distance_m, illuminance_lx)
     }
 }
 

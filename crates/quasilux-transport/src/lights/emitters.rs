@@ -5,8 +5,9 @@
 //! happens to meet a light; each is weighted by the balance heuristic (Veach 1997, section 9.2.2).
 //! Densities are compared in solid angle, sr^-1.
 
+use crate::shadow::Offer;
 use crate::spectrum::Spectrum;
-use crate::world::{Interaction, Vantage, World};
+use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_sampling::Discrete;
 use quasilux_sampling::warp::sample_triangle;
@@ -64,32 +65,29 @@ impl Emitters {
         Place { facet, position: world.facets[facet as usize].point(weights) }
     }
 
-    /// Illuminance in lx on the side `n` from one point on the lights, weighted against directions.
-    pub(crate) fn one<S: Spectrum>(
+    /// What one point on the lights gives to the side `n` of a surface, weighted against directions;
+    /// `None` from behind either.
+    pub(crate) fn offer<S: Spectrum>(
         &self,
         world: &World<S>,
-        from: Vantage,
+        position: DVec3,
         n: DVec3,
         u: [f64; 2],
-        rays: &mut u64,
-    ) -> f64 {
-        let target = self.place(world, u);
-        let facet = &world.facets[target.facet as usize];
-        let toward = target.position - from.position();
+    ) -> Option<Offer> {
+        let place = self.place(world, u);
+        let facet = &world.facets[place.facet as usize];
+        let toward = place.position - position;
         let distance_m = toward.length();
         let direction = toward / distance_m;
         let cos = n.dot(direction);
         let cos_light = -facet.front_normal.dot(direction);
         if cos <= 0.0 || cos_light <= 0.0 {
-            return 0.0;
-        }
-        *rays += 1;
-        if !world.is_visible(from, direction, distance_m, target.facet) {
-            return 0.0;
+            return None;
         }
         // L cos / (pdf of the light's point + pdf of the direction), the weight multiplied out.
         let pdf_light = self.pdf_sr(facet.emitted_cd_m2, distance_m, cos_light);
-        facet.emitted_cd_m2 * cos / (pdf_light + cos * FRAC_1_PI)
+        let illuminance_lx = facet.emitted_cd_m2 * cos / (pdf_light + cos * FRAC_1_PI);
+        Some(Offer { direction, distance_m, facet: place.facet, illuminance_lx })
     }
 
     /// The weight of light found by a cosine-distributed direction whose cosine was `cos`.
@@ -106,7 +104,7 @@ impl Emitters {
         pdf_direction / (pdf_direction + pdf_light)
     }
 
-    /// Density in sr^-1 with which [`Self::one`] finds a point on a facet of this luminance:
+    /// Density in sr^-1 with which [`Self::offer`] finds a point on a facet of this luminance:
     /// uniform density over equal luminance, in m^-2, turned into solid angle.
     fn pdf_sr(&self, emitted_cd_m2: f64, distance_m: f64, cos_light: f64) -> f64 {
         emitted_cd_m2 / self.by_flux.total() * distance_m * distance_m / cos_light

@@ -1,0 +1,94 @@
+//! Many paths at once: they advance together, bounce by bounce.
+//!
+//! All rays of one bounce are traced together, then all that the paths ask of the lights. Every path
+//! takes its coordinates and adds its contributions in the order in which it would alone.
+
+use crate::path::{Path, PathWork, Start};
+use crate::photon::MOST_EVENTS;
+use crate::shadow::Asker;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::world::Interaction;
+use quasilux_bvh::{Hit, Shot};
+use std::mem::take;
+
+/// Working space of paths that travel together, used again for the next ones.
+#[derive(Default)]
+pub(crate) struct Wave {
+    work: PathWork,
+    /// Starts where all point-like lights are tested.
+    askers: Vec<Asker>,
+    /// Numbers of the paths that are on their way.
+    travelling: Vec<u32>,
+    shots: Vec<Shot>,
+    hits: Vec<Option<Hit>>,
+    arrivals: Vec<Option<Interaction>>,
+    rays: u64,
+}
+
+impl Wave {
+    /// Traces paths to their ends, in the order of `starts`.
+    pub(crate) fn trace<'p, S: Spectrum>(
+        &mut self,
+        stage: &Stage<'_, S>,
+        starts: impl Iterator<Item = Start<'p, S>>,
+    ) -> Vec<Path<'p, S>> {
+        let mut paths = Vec::new();
+        self.askers.clear();
+        for (number, start) in (0..).zip(starts) {
+            let Start { from, n, tests_pointlikes, .. } = start;
+            self.askers.extend(tests_pointlikes.then_some(Asker { who: number, from, n }));
+            paths.push(Path::start(stage, number, start, &mut self.work));
+        }
+        self.answer(stage, &mut paths);
+        self.test_pointlikes(stage, &mut paths);
+        self.travelling.clear();
+        self.travelling.extend(0..paths.len() as u32);
+        for bounces in 0..MOST_EVENTS {
+            if self.travelling.is_empty() {
+                break;
+            }
+            self.advance(stage, bounces, &mut paths);
+            self.answer(stage, &mut paths);
+        }
+        self.travelling.iter().for_each(|&number| paths[number as usize].cut());
+        paths
+    }
+
+    /// How many rays were traced since this was asked last.
+    pub(crate) fn take_rays(&mut self) -> u64 {
+        take(&mut self.rays) + take(&mut self.work.shadows.rays)
+    }
+
+    /// Gives the starts that want it the direct light of the point-like lights.
+    fn test_pointlikes<S: Spectrum>(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
+        let receive = |who: u32, lx: f64| paths[who as usize].receive_at_start(lx);
+        let Stage { world, lights, .. } = stage;
+        lights.pointlikes.all(world, &self.askers, &mut self.work.shadows, receive);
+    }
+
+    /// Takes all paths that are on their way to their next vertex.
+    fn advance<S: Spectrum>(
+        &mut self,
+        stage: &Stage<'_, S>,
+        bounces: u32,
+        paths: &mut [Path<'_, S>],
+    ) {
+        let Self { work, travelling, shots, hits, arrivals, rays, .. } = self;
+        shots.clear();
+        shots.extend(travelling.iter().map(|&number| paths[number as usize].shot()));
+        stage.world.trace_all(shots, hits, arrivals);
+        *rays += shots.len() as u64;
+        let mut arrivals = arrivals.iter();
+        travelling.retain(|&number| {
+            let at = arrivals.next().and_then(Option::as_ref);
+            paths[number as usize].arrive(stage, bounces, at, work)
+        });
+    }
+
+    /// Gives the paths the light that they asked for.
+    fn answer<S: Spectrum>(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
+        let receive = |who: u32, illuminance_lx| paths[who as usize].receive(illuminance_lx);
+        self.work.shadows.answer(&stage.world, receive);
+    }
+}
