@@ -7,6 +7,7 @@
 
 mod axis;
 mod band;
+mod dial;
 mod fold;
 mod linear;
 #[cfg(test)]
@@ -16,6 +17,7 @@ mod unfold;
 
 use axis::{Axis, Place};
 use band::Band;
+use dial::Dial;
 use glam::DVec3;
 pub use sample::DirectionSample;
 use std::f64::consts::TAU;
@@ -32,6 +34,10 @@ pub struct SphericalTable {
     /// Offsets from `phi_start_rad`, from 0 to a full turn or to the end of a sector.
     phi: Axis,
     phi_start_rad: f64,
+    theta_dial: Dial,
+    phi_dial: Dial,
+    /// Cosine and sine of `phi_start_rad`.
+    phi_start: [f64; 2],
     /// Row by row, one row for each polar angle.
     values: Vec<f64>,
     /// The integral of each row over the azimuth, up to each knot.
@@ -109,6 +115,9 @@ impl SphericalTable {
 
         Ok(Self {
             symmetry,
+            theta_dial: Dial::new(&theta),
+            phi_dial: Dial::new(&phi),
+            phi_start: [libm::cos(full.phi_start_rad), libm::sin(full.phi_start_rad)],
             theta,
             phi,
             phi_start_rad: full.phi_start_rad,
@@ -119,9 +128,19 @@ impl SphericalTable {
         })
     }
 
-    /// The value towards a direction.
+    /// The value towards a unit direction; the azimuth of the poles is 0.
+    ///
+    /// The same as [`Self::value_at`] of [`Angles::of`] but for the rounding of the angles, which is
+    /// no larger here, and sooner found.
     pub fn value(&self, direction: DVec3) -> f64 {
-        self.value_at(Angles::of(direction))
+        let DVec3 { x, y, z } = direction;
+        let horizontal = (x * x + y * y).sqrt();
+        let Some(row) = self.theta_dial.place(z, horizontal, 1.0) else { return 0.0 };
+        let (x, y, horizontal) =
+            if horizontal > 0.0 { (x, y, horizontal) } else { (1.0, 0.0, 1.0) };
+        let [cos, sin] = self.phi_start;
+        let column = self.phi_dial.place(cos * x + sin * y, cos * y - sin * x, horizontal);
+        column.map_or(0.0, |column| self.value_in(row, column))
     }
 
     /// The value at spherical angles; the azimuth may be any number of turns off.
@@ -133,10 +152,7 @@ impl SphericalTable {
         if offset > self.phi.last() {
             return 0.0;
         }
-        let row = self.theta.place(angles.theta_rad);
-        let column = self.phi.place(offset);
-        let (at_start, at_end) = self.cell_edges(row, column.cell);
-        lerp(at_start, at_end, column.fraction)
+        self.value_in(self.theta.place(angles.theta_rad), self.phi.place(offset))
     }
 
     /// Integral of the value over solid angle.
@@ -181,6 +197,11 @@ impl SphericalTable {
     /// The azimuths of the unfolded grid, ascending over one full turn or over the sector.
     pub fn phi_rad(&self) -> impl Iterator<Item = f64> {
         self.phi.knots().iter().map(|offset| self.phi_start_rad + offset)
+    }
+
+    fn value_in(&self, row: Place, column: Place) -> f64 {
+        let (at_start, at_end) = self.cell_edges(row, column.cell);
+        lerp(at_start, at_end, column.fraction)
     }
 
     /// The values at both azimuths of a cell, at a place between two parallels.
