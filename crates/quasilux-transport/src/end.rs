@@ -1,7 +1,7 @@
 //! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
 
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally};
-use crate::path::{MapEnd, Rest};
+use crate::path::Onward;
 use crate::photon::PhotonCounts;
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::{Estimator, Settings};
@@ -9,6 +9,8 @@ use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::trial::Way;
 use crate::watch::Watch;
+use crate::world::Interaction;
+use quasilux_sampling::SampleCursor;
 use std::ops::Range;
 
 /// Share of the paths that correct the map. With few the error of the correction prevails (on the
@@ -32,6 +34,22 @@ pub(crate) enum End<S> {
         tallies: Vec<MapTally<S>>,
         maps: Vec<IlluminationMap<S>>,
     },
+}
+
+/// Where the light at the first diffuse surface comes from, but for the direct light.
+pub(crate) enum Rest<'m, S> {
+    /// From the path itself.
+    Path,
+    /// From the map.
+    Map(MapEnd<'m, S>),
+}
+
+/// How paths end on a map.
+pub(crate) struct MapEnd<'m, S> {
+    pub(crate) layout: &'m MapLayout,
+    pub(crate) map: &'m IlluminationMap<S>,
+    /// Share of the paths that go on to correct the map; `None` leaves its bias.
+    pub(crate) corrected_share: Option<f64>,
 }
 
 /// What happened to the maps before more paths are traced.
@@ -109,5 +127,22 @@ impl<S: Spectrum> End<S> {
                 Rest::Map(MapEnd { layout, map, corrected_share: None })
             }
         }
+    }
+}
+
+impl<S: Spectrum> MapEnd<'_, S> {
+    /// Illuminance in lx that the map has at a place.
+    pub(crate) fn illuminance_lx(&self, at: &Interaction) -> S {
+        self.map.illuminance_lx(self.layout.element(at))
+    }
+
+    /// Whether this path corrects the map. The direction to a light that the next surface emits is
+    /// part of the direct light here, so it counts in every path.
+    pub(crate) fn correct(&self, cursor: &mut SampleCursor<'_>) -> Onward {
+        let Some(share) = self.corrected_share else {
+            return Onward { emitted: 1.0, everything: 0.0 };
+        };
+        let corrects = cursor.choose_bool(share);
+        Onward { emitted: 1.0, everything: if corrects { 1.0 / share } else { 0.0 } }
     }
 }

@@ -2,9 +2,9 @@
 
 use crate::end::{End, Growth};
 use crate::estimates::{Dimensions, Estimates};
-use crate::path::{Ended, Rest, Start};
 use crate::paths::Wave;
 use crate::photon::{MOST_EVENTS, PhotonCounts};
+use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::settings::Settings;
 use crate::shadow::{Asker, Shadows};
 use crate::simulate::Estimation;
@@ -13,10 +13,9 @@ use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::targets::{Target, by_sensor, targets};
 use crate::watch::Watch;
-use quasilux_sampling::{DimensionHistogram, PointSet, SampleCursor};
 use quasilux_scene::Scene;
 use rayon::prelude::*;
-use std::ops::{AddAssign, Range};
+use std::ops::Range;
 
 /// Paths that travel together: one piece of work.
 const WAVE: u64 = 512;
@@ -47,38 +46,6 @@ pub(crate) struct Gathering<'a, S> {
     invalid_points: u64,
     /// Targets to which light that is sampled may come straight.
     samples_direct: Vec<bool>,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct PathSums {
-    direct: Sum,
-    indirect: Sum,
-    /// Paths that came to a surface that reflects.
-    reflected: u64,
-}
-
-#[derive(Clone, Debug, Default)]
-struct WorkCounts {
-    paths: u64,
-    rays: u64,
-    dimensions: DimensionHistogram,
-    endless: u64,
-}
-
-/// Some paths of one target in one replicate.
-struct Section<'g, S> {
-    target: Target,
-    points: PointSet,
-    rest: Rest<'g, S>,
-    indices: Range<u64>,
-}
-
-/// What the paths of one piece of work found.
-struct PieceSums {
-    /// Of some entries of [`Gathering::sums`] in order, from number `first` on.
-    sums: Vec<PathSums>,
-    first: usize,
-    work: WorkCounts,
 }
 
 impl<'a, S: Spectrum> Gathering<'a, S> {
@@ -119,34 +86,17 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 
     /// Traces the paths `piece`, of those that are left when the paths `indices` of all targets and
     /// replicates, in the order of [`Self::sums`], are put in one row.
-    fn trace_piece(&self, piece: &Range<u64>, indices: &Range<u64>, wave: &mut Wave) -> PieceSums {
+    fn trace_piece(&self, piece: &Range<u64>, indices: &Range<u64>, wave: &mut Wave) -> Piece {
         let each = indices.end - indices.start;
         let numbers = piece.start / each..piece.end.div_ceil(each);
         let sections: Vec<Section<'_, S>> = numbers
-            .clone()
             .map(|number| {
                 let first = indices.start + piece.start.saturating_sub(number * each);
                 let end = indices.start + (piece.end - number * each).min(each);
                 self.section(number, first..end)
             })
             .collect();
-        let starts = sections.iter().flat_map(|section| section.starts(self.stage));
-        let mut paths = wave.trace(self.stage, starts).into_iter();
-        let mut work = WorkCounts { paths: piece.end - piece.start, ..WorkCounts::default() };
-        let sums = sections
-            .iter()
-            .map(|section| {
-                let mut sums = PathSums::default();
-                for path in paths.by_ref().take(section.len()) {
-                    let path = path.end();
-                    sums.add(&path, self.quantum);
-                    work.add(&path);
-                }
-                sums
-            })
-            .collect();
-        work.rays = wave.take_rays();
-        PieceSums { sums, first: numbers.start as usize, work }
+        trace_sections(self.stage, &sections, self.quantum, wave)
     }
 
     /// The paths `indices` of entry `number` of [`Self::sums`].
@@ -154,31 +104,12 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let target = number / u64::from(self.replicates);
         let replicate = (number % u64::from(self.replicates)) as u32;
         Section {
+            number: number as usize,
             target: self.targets[target as usize],
             points: self.stage.points(replicate, Stream::Paths(target)),
             rest: self.end.rest(replicate),
             indices,
         }
-    }
-}
-
-impl<S: Spectrum> Section<'_, S> {
-    fn len(&self) -> usize {
-        (self.indices.end - self.indices.start) as usize
-    }
-
-    fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
-        self.indices.clone().map(|index| {
-            let mut cursor = SampleCursor::new(&self.points, index);
-            let (position, n, tests_pointlikes) = match self.target {
-                Target::Point { position, normal } => (position, normal, false),
-                Target::Cell { grid, cell } => {
-                    (grid.point_in_cell(cell, cursor.next_2d()), grid.normal, true)
-                }
-            };
-            let from = stage.world.vantage_of_sensor(position, n);
-            Start { from, n, tests_pointlikes, rest: &self.rest, cursor }
-        })
     }
 }
 
@@ -228,10 +159,10 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 let first = round.start + piece * WAVE;
                 self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
             };
-            let found: Vec<PieceSums> =
+            let found: Vec<Piece> =
                 (0..pieces).into_par_iter().map_init(Wave::default, trace).collect();
             let (paths_before, rays_before) = (self.work.paths, self.work.rays);
-            for PieceSums { sums, first, work } in found {
+            for Piece { first, sums, work } in found {
                 for (sum, found) in self.sums[first..].iter_mut().zip(sums) {
                     *sum += found;
                 }
@@ -320,40 +251,4 @@ fn exact_direct<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mu
     let chunks = targets.par_chunks(TARGETS).zip(direct_lx.par_chunks_mut(TARGETS));
     *rays += chunks.map(light).sum::<u64>();
     direct_lx
-}
-
-impl PathSums {
-    fn add(&mut self, Ended { found, .. }: &Ended, quantum: Quantum) {
-        self.direct.add(found.direct_lx, quantum);
-        self.indirect.add_signed(found.indirect_lx, quantum);
-        self.reflected += u64::from(found.reflected);
-    }
-
-    fn invalid(&self) -> u64 {
-        self.direct.invalid + self.indirect.invalid
-    }
-}
-
-impl AddAssign for PathSums {
-    fn add_assign(&mut self, other: Self) {
-        self.direct += other.direct;
-        self.indirect += other.indirect;
-        self.reflected += other.reflected;
-    }
-}
-
-impl WorkCounts {
-    fn add(&mut self, path: &Ended) {
-        self.dimensions.record(path.dimensions);
-        self.endless += u64::from(path.found.endless);
-    }
-}
-
-impl AddAssign for WorkCounts {
-    fn add_assign(&mut self, other: Self) {
-        self.paths += other.paths;
-        self.rays += other.rays;
-        self.dimensions.merge(&other.dimensions);
-        self.endless += other.endless;
-    }
 }

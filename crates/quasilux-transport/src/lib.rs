@@ -5,8 +5,8 @@
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
-//! light is followed, at `order` and `wave` for how photons travel together, at `map` for where the
-//! two ways meet.
+//! light is followed, at `order` and `wave` for how photons travel together, at `paths` and `shadow`
+//! for how paths do, at `map` for where the two ways meet.
 
 mod check;
 mod counting;
@@ -23,6 +23,7 @@ mod paths;
 mod photon;
 mod photons;
 mod schedule;
+mod sections;
 pub mod settings;
 mod shadow;
 mod simulate;

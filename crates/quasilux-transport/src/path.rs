@@ -8,7 +8,7 @@
 //! estimated by going on, and the difference to the map, weighted by how few they are, takes the
 //! map's error out again: the map is a control variate, and its elements cause no bias.
 
-use crate::map::{IlluminationMap, MapLayout};
+use crate::end::Rest;
 use crate::shadow::{Offer, Shadows};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
@@ -21,22 +21,6 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
-
-/// Where the light at the first diffuse surface comes from, but for the direct light.
-pub(crate) enum Rest<'m, S> {
-    /// From the path itself.
-    Path,
-    /// From the map.
-    Map(MapEnd<'m, S>),
-}
-
-/// How paths end on a map.
-pub(crate) struct MapEnd<'m, S> {
-    pub(crate) layout: &'m MapLayout,
-    pub(crate) map: &'m IlluminationMap<S>,
-    /// Share of the paths that go on to correct the map; `None` leaves its bias.
-    pub(crate) corrected_share: Option<f64>,
-}
 
 /// What one path found, in lx.
 #[derive(Clone, Copy, Debug, Default)]
@@ -110,11 +94,11 @@ pub(crate) struct PathWork {
 }
 
 /// How a path goes on from a diffuse surface: factors on what the next surface sends.
-struct Onward {
+pub(crate) struct Onward {
     /// On the light that the next surface emits itself.
-    emitted: f64,
+    pub(crate) emitted: f64,
     /// On everything else; 0 ends the path there.
-    everything: f64,
+    pub(crate) everything: f64,
 }
 
 impl<'p, S: Spectrum> Path<'p, S> {
@@ -316,21 +300,5 @@ impl Gathered {
     /// from there runs into.
     fn after(&mut self, bounces: u32) -> &mut f64 {
         if bounces == 0 { &mut self.direct_lx } else { &mut self.indirect_lx }
-    }
-}
-
-impl<S: Spectrum> MapEnd<'_, S> {
-    fn illuminance_lx(&self, at: &Interaction) -> S {
-        self.map.illuminance_lx(self.layout.element(at))
-    }
-
-    /// Whether this path corrects the map. The direction to a light that the next surface emits is
-    /// part of the direct light here, so it counts in every path.
-    fn correct(&self, cursor: &mut SampleCursor<'_>) -> Onward {
-        let Some(share) = self.corrected_share else {
-            return Onward { emitted: 1.0, everything: 0.0 };
-        };
-        let corrects = cursor.choose_bool(share);
-        Onward { emitted: 1.0, everything: if corrects { 1.0 / share } else { 0.0 } }
     }
 }

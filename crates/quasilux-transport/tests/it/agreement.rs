@@ -4,7 +4,7 @@
 //! are half as wide again. Per cell that fails for right programs once in some 2000 cases (two
 //! normal estimates, 2.9 joint standard errors); the seed is fixed.
 
-use crate::scenes::{diffuse, mirror, points, room};
+use crate::scenes::{diffuse, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::light::AreaLight;
@@ -113,10 +113,48 @@ fn a_light_on_a_sensor_point_is_reported() {
     let mut scene = coloured_room_with_mirror();
     let at = DVec3::new(2.0, 1.5, 1.0);
     // The sensor point stands a hair in front of where it was put: along its normal.
-    scene.lights = vec![crate::scenes::point_light(at, 1.0)];
+    scene.lights = vec![point_light(at, 1.0)];
     scene.sensors = vec![points("p", &[(at, DVec3::Z)])];
     let settings = Settings { max_samples: Some(64), ..Settings::default() };
     let estimates = simulate(&scene, &settings, &mut ());
     let interval = estimates.point_intervals(0)[0];
     assert!(interval.value.is_finite(), "{interval:?}");
+}
+
+/// Paths that travel together do not touch each other: a single path finds the same bits as among the
+/// 208 of a run with more targets and replicates, at a point and in a cell.
+#[test]
+fn a_path_finds_alone_what_it_finds_in_company() {
+    let mut room = coloured_room_with_mirror();
+    for (x, intensity_cd) in [(1.0, 100.0), (3.0, 250.0)] {
+        room.lights.push(point_light(DVec3::new(x, 1.0, 1.8), intensity_cd));
+    }
+    let places = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 3.9];
+    let places = places.map(|x| (DVec3::new(x, 1.5, 0.01), DVec3::Z));
+    let mut cell = room.sensors[0].clone();
+    let SensorShape::Grid(grid) = &mut cell.shape else { unreachable!("the floor is a grid") };
+    grid.counts = [1, 1];
+    for first in [points("first", &places[..1]), cell] {
+        let mut alone = room.clone();
+        alone.sensors = vec![first.clone()];
+        let mut company = room.clone();
+        company.sensors = vec![first, points("others", &places), room.sensors[0].clone()];
+        for (estimator, seeds) in [(Estimator::Path, 64), (Estimator::Bidirectional, 4)] {
+            for seed in 0..seeds {
+                let first_lx = |scene: &Scene, replicates| {
+                    let max_samples = Some(1);
+                    let settings = Settings {
+                        estimator,
+                        seed,
+                        replicates,
+                        max_samples,
+                        ..Settings::default()
+                    };
+                    simulate(scene, &settings, &mut ()).sensors[0].replicate_lx[0][0]
+                };
+                let (alone, company) = (first_lx(&alone, 1), first_lx(&company, 16));
+                assert_eq!(alone, company, "{estimator:?}, seed {seed}");
+            }
+        }
+    }
 }

@@ -1,0 +1,129 @@
+//! Paths of several targets and replicates that travel together, and what each of these gets of them.
+
+use crate::end::Rest;
+use crate::path::{Ended, Start};
+use crate::paths::Wave;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::tally::{Quantum, Sum};
+use crate::targets::Target;
+use quasilux_sampling::{DimensionHistogram, PointSet, SampleCursor};
+use std::ops::{AddAssign, Range};
+
+/// What the paths of one target in one replicate found, in all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PathSums {
+    pub(crate) direct: Sum,
+    pub(crate) indirect: Sum,
+    /// Paths that came to a surface that reflects.
+    pub(crate) reflected: u64,
+}
+
+/// What paths cost.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WorkCounts {
+    pub(crate) paths: u64,
+    pub(crate) rays: u64,
+    pub(crate) dimensions: DimensionHistogram,
+    pub(crate) endless: u64,
+}
+
+/// Some paths of one target in one replicate.
+pub(crate) struct Section<'g, S> {
+    /// Which of all pairs of target and replicate.
+    pub(crate) number: usize,
+    pub(crate) target: Target,
+    pub(crate) points: PointSet,
+    pub(crate) rest: Rest<'g, S>,
+    pub(crate) indices: Range<u64>,
+}
+
+/// What the paths of neighbouring sections found.
+pub(crate) struct Piece {
+    /// Number of the first section.
+    pub(crate) first: usize,
+    /// Of each section.
+    pub(crate) sums: Vec<PathSums>,
+    pub(crate) work: WorkCounts,
+}
+
+/// Traces the paths of at least one section together; the numbers of sections follow each other.
+pub(crate) fn trace_sections<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    sections: &[Section<'_, S>],
+    quantum: Quantum,
+    wave: &mut Wave,
+) -> Piece {
+    let starts = sections.iter().flat_map(|section| section.starts(stage));
+    let mut paths = wave.trace(stage, starts).into_iter();
+    let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
+    let mut add = |section: &Section<'_, S>| {
+        let mut sums = PathSums::default();
+        for path in paths.by_ref().take(section.len()) {
+            let path = path.end();
+            sums.add(&path, quantum);
+            work.add(&path);
+        }
+        sums
+    };
+    let sums = sections.iter().map(&mut add).collect();
+    Piece { first: sections[0].number, sums, work }
+}
+
+impl<S: Spectrum> Section<'_, S> {
+    fn len(&self) -> usize {
+        (self.indices.end - self.indices.start) as usize
+    }
+
+    fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
+        self.indices.clone().map(|index| {
+            let mut cursor = SampleCursor::new(&self.points, index);
+            let (position, n, tests_pointlikes) = match self.target {
+                Target::Point { position, normal } => (position, normal, false),
+                Target::Cell { grid, cell } => {
+                    (grid.point_in_cell(cell, cursor.next_2d()), grid.normal, true)
+                }
+            };
+            let from = stage.world.vantage_of_sensor(position, n);
+            Start { from, n, tests_pointlikes, rest: &self.rest, cursor }
+        })
+    }
+}
+
+impl PathSums {
+    fn add(&mut self, Ended { found, .. }: &Ended, quantum: Quantum) {
+        self.direct.add(found.direct_lx, quantum);
+        self.indirect.add_signed(found.indirect_lx, quantum);
+        self.reflected += u64::from(found.reflected);
+    }
+
+    /// Contributions that are not in the sums.
+    pub(crate) fn invalid(&self) -> u64 {
+        self.direct.invalid + self.indirect.invalid
+    }
+}
+
+impl AddAssign for PathSums {
+    fn add_assign(&mut self, other: Self) {
+        self.direct += other.direct;
+        self.indirect += other.indirect;
+        self.reflected += other.reflected;
+    }
+}
+
+impl WorkCounts {
+    fn add(&mut self, path: &Ended) {
+        self.paths += 1;
+        self.dimensions.record(path.dimensions);
+        self.endless += u64::from(path.found.endless);
+    }
+}
+
+impl AddAssign for WorkCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.paths += other.paths;
+        self.rays += other.rays;
+        self.dimensions.merge(&other.dimensions);
+        self.endless += other.endless;
+    }
+}
