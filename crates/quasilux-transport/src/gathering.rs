@@ -2,7 +2,7 @@
 
 use crate::end::{End, Growth};
 use crate::estimates::{Dimensions, Estimates};
-use crate::paths::Wave;
+use crate::paths::{WAVE, Wave};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::settings::Settings;
@@ -17,8 +17,6 @@ use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Paths that travel together: one piece of work.
-const WAVE: u64 = 512;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 /// Targets whose light from the point-like lights is computed together.

@@ -12,6 +12,10 @@ use crate::world::Interaction;
 use quasilux_bvh::{Hit, Shot};
 use std::mem::take;
 
+/// So many paths should travel together: the kernel has rays enough, and what they need fits into a
+/// cache of half a megabyte.
+pub(crate) const WAVE: u64 = 512;
+
 /// Working space of paths that travel together, used again for the next ones.
 #[derive(Default)]
 pub(crate) struct Wave {
@@ -33,7 +37,7 @@ impl Wave {
         stage: &Stage<'_, S>,
         starts: impl Iterator<Item = Start<'p, S>>,
     ) -> Vec<Path<'p, S>> {
-        let mut paths = Vec::new();
+        let mut paths = Vec::with_capacity(WAVE as usize);
         self.askers.clear();
         for (number, start) in (0..).zip(starts) {
             let Start { from, n, tests_pointlikes, .. } = start;
