@@ -26,6 +26,7 @@
 //! ```
 
 mod build;
+mod exact;
 mod frame;
 mod group;
 mod intersect;

@@ -22,6 +22,8 @@ pub(crate) trait Quad: Copy {
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
     fn div(self, other: Self) -> Self;
+    /// Without signs.
+    fn size(self) -> Self;
     /// The numbers of lanes 2, 0, 1 and 3.
     fn previous(self) -> Self;
     /// The numbers of lanes 1, 2, 0 and 3.
