@@ -6,4 +6,5 @@ mod crowds;
 mod groups;
 mod leaks;
 mod meshes;
+mod rays;
 mod twin;

@@ -1,68 +1,50 @@
 //! Meshes that are hard on a ray kernel, and a generator of test numbers.
 
 use glam::DVec3;
-use quasilux_bvh::Ray;
 
 pub(crate) type Triangles = Vec<[DVec3; 3]>;
-
-/// A ray at a mesh, its first part, and what it shall not hit.
-#[derive(Clone, Debug)]
-pub(crate) struct HardQuery {
-    pub(crate) ray: Ray,
-    pub(crate) short: Ray,
-    pub(crate) excluded: Vec<u32>,
-}
 
 /// The meshes, smallest with `size` 1, each with its name.
 pub(crate) fn hard_meshes(numbers: &mut Numbers, size: usize) -> Vec<(&'static str, Triangles)> {
     let far = DVec3::new(4.0e5, -5.0e6, 300.0);
-    let shifted = |mesh: Triangles, by: DVec3| -> Triangles {
-        mesh.into_iter().map(|t| t.map(|p| p + by)).collect()
-    };
     let mut huge_and_tiny = ball(DVec3::new(0.3, 0.2, 0.1), 1e-4, 2);
     huge_and_tiny.push([
         DVec3::new(-1e3, -1e3, -1.0),
         DVec3::new(1e3, -1e3, -1.0),
         DVec3::new(0.0, 2e3, -1.0),
     ]);
+    let mut huger_and_tinier = soup(numbers, 50 * size);
+    huger_and_tinier.extend(scaled(soup(numbers, 20), 1e9));
     vec![
         ("soup", soup(numbers, 200 * size)),
         ("slivers", slivers(numbers, 100 * size)),
+        ("needles", needles(numbers, 100 * size)),
+        ("without area", without_area(numbers, 40 * size)),
         ("flat and coincident", flat_and_coincident(numbers, 40)),
+        ("tilted plane", tilted_plane(8)),
+        ("copies", copies(&soup(numbers, 30 * size), 4)),
+        ("prism of slivers", prism(numbers, 60)),
         ("ball", ball(DVec3::ZERO, 1.0, 2)),
         ("far soup", shifted(soup(numbers, 100 * size), far)),
+        ("far needles", shifted(needles(numbers, 100 * size), far)),
         ("far ball", shifted(ball(DVec3::ZERO, 3.0, 2), far)),
         ("huge and tiny", huge_and_tiny),
+        ("huger and tinier", huger_and_tinier),
+        ("of 1e290 m", scaled(soup(numbers, 100 * size), 1e290)),
+        ("of 1e-160 m", scaled(soup(numbers, 20 * size), 1e-160)),
+        ("of 1e-300 m", scaled(soup(numbers, 20 * size), 1e-300)),
+        ("of 1e-318 m", scaled(ball(DVec3::ZERO, 1.0, 1), 1e-318)),
         ("one triangle", vec![[DVec3::ZERO, DVec3::X, DVec3::Y]]),
+        ("one point", vec![[DVec3::splat(0.1); 3]]),
     ]
 }
 
-/// Rays from inside and just outside, from triangles and from far away, in random directions, along
-/// axes and toward corners.
-pub(crate) fn hard_query(mesh: &Triangles, number: usize, numbers: &mut Numbers) -> HardQuery {
-    let points = mesh.iter().flatten().copied();
-    let low = points.clone().reduce(DVec3::min).unwrap();
-    let size = points.reduce(DVec3::max).unwrap() - low;
-    let any = |numbers: &mut Numbers| (numbers.next() * mesh.len() as f64) as usize;
-    let origin = match number % 16 {
-        0..12 => low + size * numbers.point(-0.2, 1.2),
-        12..14 => {
-            let [a, b, c] = mesh[any(numbers)];
-            a + (b - a) * (0.5 * numbers.next()) + (c - a) * (0.5 * numbers.next())
-        }
-        _ => low + size * numbers.point(-100.0, 100.0),
-    };
-    let direction = match number % 3 {
-        0 => numbers.direction(),
-        1 => DVec3::AXES[number / 3 % 3] * if number.is_multiple_of(2) { 1.0 } else { -1.0 },
-        _ => {
-            let corner = mesh[any(numbers)][number % 3];
-            if corner == origin { DVec3::X } else { (corner - origin).normalize() }
-        }
-    };
-    let excluded = (0..number % 5).map(|_| any(numbers) as u32).collect();
-    let ray = Ray::new(origin, direction);
-    HardQuery { ray, short: ray.up_to(size.length() * numbers.next()), excluded }
+fn shifted(mesh: Triangles, by: DVec3) -> Triangles {
+    mesh.into_iter().map(|t| t.map(|p| p + by)).collect()
+}
+
+fn scaled(mesh: Triangles, by: f64) -> Triangles {
+    mesh.into_iter().map(|t| t.map(|p| p * by)).collect()
 }
 
 /// Numbers in [0, 1) from a counter (Steele, Lea and Flood 2014, SplitMix64).
@@ -111,6 +93,70 @@ pub(crate) fn slivers(numbers: &mut Numbers, count: usize) -> Triangles {
             [p, q, q + numbers.direction() * width]
         })
         .collect()
+}
+
+/// Triangles as narrow as double precision has them, and narrower.
+pub(crate) fn needles(numbers: &mut Numbers, count: usize) -> Triangles {
+    (0..count)
+        .map(|i| {
+            let width = [1e-8, 1e-11, 1e-14, 1e-16, 1e-300][i % 5];
+            let (p, q) = (numbers.point(-1.0, 1.0), numbers.point(-1.0, 1.0));
+            let middle = p + (q - p) * numbers.next() + numbers.direction() * width;
+            [p, if i % 2 == 0 { q } else { middle }, q + numbers.direction() * width]
+        })
+        .collect()
+}
+
+/// Points, lines, and corners on a line but for rounding, among triangles.
+pub(crate) fn without_area(numbers: &mut Numbers, count: usize) -> Triangles {
+    let mut triangles = soup(numbers, count);
+    for i in 0..count {
+        let (p, q) = (numbers.point(-1.0, 1.0), numbers.point(-1.0, 1.0));
+        let mut lines = [[p, p, p], [p, q, p], [p, q, q], [p, q, p + (q - p) * numbers.next()]];
+        lines[3].rotate_left(i % 3);
+        triangles.push(lines[i % 4]);
+    }
+    triangles
+}
+
+/// A plane that is not along the axes, its corners off it by rounding.
+pub(crate) fn tilted_plane(side: usize) -> Triangles {
+    let (x, y) = (DVec3::new(0.3, 0.1, -0.2), DVec3::new(0.1, -0.7, 0.4));
+    let corner = |i: usize, j: usize| DVec3::splat(0.1) + x * i as f64 + y * j as f64;
+    let squares = (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
+    let halves = squares.flat_map(|(i, j)| {
+        let (a, c) = (corner(i, j), corner(i + 1, j + 1));
+        [[a, corner(i + 1, j), c], [a, c, corner(i, j + 1)]]
+    });
+    halves.collect()
+}
+
+/// Each triangle so many times, in all orders of corners.
+pub(crate) fn copies(mesh: &Triangles, times: usize) -> Triangles {
+    let copies = (0..times)
+        .flat_map(|i| mesh.iter().map(move |&[a, b, c]| [[a, b, c], [b, c, a], [a, c, b]][i % 3]));
+    copies.collect()
+}
+
+/// A closed prism over a polygon with corners as close as double precision has them, its
+/// triangles long slivers, its vertices shared to the last bit.
+pub(crate) fn prism(numbers: &mut Numbers, corners: usize) -> Triangles {
+    let mut tangents: Vec<f64> = (0..corners / 3).map(|_| 4.0 * numbers.next() - 2.0).collect();
+    for i in 0..2 * corners / 3 {
+        tangents.push(tangents[i] + [1e-15, 1e-12, 1e-8, 1e-5][i % 4] * numbers.next());
+    }
+    tangents.sort_by(f64::total_cmp);
+    let at = |i: usize, z: f64| {
+        // A circle, by half-angles' tangents.
+        let t = tangents[i % tangents.len()];
+        DVec3::new((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t), z)
+    };
+    let mut triangles = Vec::new();
+    for i in 0..tangents.len() {
+        let [a, b, c, d] = [at(i, 0.0), at(i + 1, 0.0), at(i + 1, 3.0), at(i, 3.0)];
+        triangles.extend([[a, b, c], [a, c, d], [at(0, 0.0), b, a], [at(0, 3.0), d, c]]);
+    }
+    triangles
 }
 
 /// Axis-aligned flat squares, many of them coincident.
