@@ -26,6 +26,7 @@
 //! ```
 
 mod build;
+mod cover;
 mod exact;
 mod frame;
 mod group;
