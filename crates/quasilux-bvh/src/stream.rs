@@ -115,7 +115,18 @@ impl Tree {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: this kernel is only chosen where the features are there.
             Kernel::Avx2 => unsafe { self.fly_avx2(voyage) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: this kernel is only chosen where the features are there.
+            Kernel::Avx512 => unsafe { self.fly_avx512(voyage) },
         }
+    }
+
+    /// # Safety
+    /// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    unsafe fn fly_avx512(&self, voyage: &mut impl Voyage) {
+        self.fly::<crate::lanes::Avx512>(voyage);
     }
 
     /// # Safety

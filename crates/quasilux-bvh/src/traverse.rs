@@ -44,6 +44,9 @@ pub enum Kernel {
     /// AVX2 and fused multiply-add of x86-64.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    /// Masks of AVX-512 on registers of AVX2.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
 }
 
 impl Kernel {
@@ -61,8 +64,10 @@ impl Kernel {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all = vec![Self::Portable];
-        if Self::fastest() != Self::Portable {
-            all.push(Self::fastest());
+        #[cfg(target_arch = "x86_64")]
+        {
+            all.extend(crate::lanes::Avx2::is_supported().then_some(Self::Avx2));
+            all.extend(crate::lanes::Avx512::is_supported().then_some(Self::Avx512));
         }
         all
     }
@@ -94,6 +99,9 @@ impl Tree {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: this kernel is only chosen where the features are there.
             Kernel::Avx2 => unsafe { self.walk_avx2::<ANY>(query, pending) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: this kernel is only chosen where the features are there.
+            Kernel::Avx512 => unsafe { self.walk_avx512::<ANY>(query, pending) },
         }
     }
 
@@ -103,6 +111,14 @@ impl Tree {
     #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     unsafe fn walk_avx2<const ANY: bool>(&self, query: &Query, pending: &mut Pending) -> f32 {
         self.walk::<crate::lanes::Avx2, ANY>(query, pending)
+    }
+
+    /// # Safety
+    /// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    unsafe fn walk_avx512<const ANY: bool>(&self, query: &Query, pending: &mut Pending) -> f32 {
+        self.walk::<crate::lanes::Avx512, ANY>(query, pending)
     }
 
     /// The end of the search; negative where any hit was asked for and found.
