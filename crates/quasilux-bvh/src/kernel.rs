@@ -19,7 +19,7 @@ pub struct TriangleBvh {
 }
 
 impl TriangleBvh {
-    /// Builds the hierarchy over triangles with finite corners.
+    /// Builds the hierarchy over triangles with corners below `1e300` in size.
     ///
     /// # Panics
     /// With more than 2^30 triangles.

@@ -44,13 +44,14 @@ pub enum Kernel {
     /// AVX2 and fused multiply-add of x86-64.
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    /// Masks of AVX-512 on registers of AVX2.
+    /// The masks of AVX-512 (F, VL, DQ), eight numbers wide.
     #[cfg(target_arch = "x86_64")]
     Avx512,
 }
 
 impl Kernel {
-    /// The fastest one on this machine.
+    /// The fastest one on this machine, as far as that is known: [`Self::Avx512`] was never timed, and
+    /// Embree is slower with it than with AVX2 on rays like ours.
     #[must_use]
     pub fn fastest() -> Self {
         #[cfg(target_arch = "x86_64")]

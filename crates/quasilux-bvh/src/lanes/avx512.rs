@@ -1,8 +1,8 @@
 //! With the eight-wide instructions of AVX-512: what they add to AVX2 here are masks, and a
 //! compression that needs no table.
 //!
-//! Tested where there is no such machine: the tests, linked statically, passed in the emulator Bochs 2.7
-//! as an Intel Skylake-X. Not measured, so that it has to be asked for.
+//! Without a machine that has it, this was tested in the emulator Bochs 2.7 as a Skylake-X: the tests of this
+//! crate, linked statically, in a Linux 6.1 with `clearcpuid=321,323` passed.
 
 use super::Lanes;
 use crate::node::{Child, WIDTH};
