@@ -52,7 +52,7 @@ fn main() {
         let counts = (0..tasks).into_par_iter().map(|task| {
             let numbers = &mut Numbers(seed ^ task.wrapping_mul(0x5851_f42d_4c95_7f2d));
             // Batches are one half of all rays.
-            if task % 2 == 0 { case.alone(numbers) } else { case.in_batches(numbers) }
+            if task.is_multiple_of(2) { case.alone(numbers) } else { case.in_batches(numbers) }
         });
         let Counts { rays, hits, differ } = counts.reduce(Counts::default, Counts::plus);
         println!("{:<24}{rays:>10} rays{hits:>10} hits{differ:>6} differ", case.name);

@@ -145,7 +145,7 @@ mod tests {
             assert_eq!(a.at_most(b), e.at_most(f));
             assert_eq!(L::any_negative([a, b, c, d]), Portable::any_negative([e, f, g, h]));
             let these = [(); WIDTH].map(|()| numbers.next() % 5);
-            let from = [1, 3, u32::from(round % 2 == 0)];
+            let from = [1, 3, u32::from(round.is_multiple_of(2))];
             assert_eq!(L::differ(&these, from), Portable::differ(&these, from));
             assert_smallest::<L>(of[0].map(f32::abs), of[1].map(f32::abs));
             assert_compressed::<L>(of[0], round as u32 & 0xff);

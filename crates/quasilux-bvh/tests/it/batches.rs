@@ -18,7 +18,8 @@ fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
             let slow = |shot: &Shot| bvhs[0].closest_hit_by_brute_force(&shot.ray, &shot.excluded);
             let wanted: Vec<_> = shots.iter().map(slow).collect();
             for bvh in &bvhs {
-                let (mut hits, mut occluded) = (vec![before; count], vec![count % 2 == 0; count]);
+                let (mut hits, mut occluded) =
+                    (vec![before; count], vec![count.is_multiple_of(2); count]);
                 bvh.closest_hits(&shots, &mut hits);
                 bvh.are_occluded(&shots, &mut occluded);
                 for (i, shot) in shots.iter().enumerate() {

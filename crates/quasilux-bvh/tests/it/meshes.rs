@@ -102,7 +102,7 @@ pub(crate) fn needles(numbers: &mut Numbers, count: usize) -> Triangles {
             let width = [1e-8, 1e-11, 1e-14, 1e-16, 1e-300][i % 5];
             let (p, q) = (numbers.point(-1.0, 1.0), numbers.point(-1.0, 1.0));
             let middle = p + (q - p) * numbers.next() + numbers.direction() * width;
-            [p, if i % 2 == 0 { q } else { middle }, q + numbers.direction() * width]
+            [p, if i.is_multiple_of(2) { q } else { middle }, q + numbers.direction() * width]
         })
         .collect()
 }

@@ -68,7 +68,7 @@ pub(crate) fn hard_shots(mesh: &Triangles, count: usize, numbers: &mut Numbers) 
         let length = [1, 1, 3, 20, 90][number % 5].min(count - shots.len());
         let (spread, shift) = ([1e-1, 1e-2, 1e-4, 0.0][number % 4], [0.0, 1e-3][number % 2]);
         for i in 0..length {
-            let mut ray = if (number + i) % 3 == 0 { short } else { ray };
+            let mut ray = if (number + i).is_multiple_of(3) { short } else { ray };
             if i > 0 {
                 ray.direction = unit(ray.direction + numbers.direction() * spread);
                 ray.origin += size * numbers.point(-shift, shift);
