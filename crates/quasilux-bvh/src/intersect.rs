@@ -140,15 +140,21 @@ pub(crate) fn intersect_with<Q: Quad>(
     let (below, above) = (weights.below(Q::splat(0.0)), Q::splat(0.0).below(weights));
     // Without branches in between: which of the conditions fails cannot be predicted.
     let mixed = (below & 7 != 0) & (above & 7 != 0);
-    let products = add_three(left.size().add(right.size()));
-    let least = products.mul(Q::splat(NARROW)).add(Q::splat(LEAST));
+    let products = add_three(left.abs().add(right.abs()));
     // Overflow comes out as a distance that is not finite.
-    let wide = (least.below(sum.size()) & 1 != 0) & (distance.abs() < f64::INFINITY);
+    let wide = (least_area(products).below(sum.abs()) & 1 != 0) & (distance.abs() < f64::INFINITY);
     if !mixed & !wide {
         return intersect_narrow(ray.t_max, [x, y, z].map(Q::store), triangle);
     }
     let counts = !mixed & (distance > 0.0) & (distance < ray.t_max);
     counts.then_some(Hit { triangle, distance, barycentric: [u, v, w] })
+}
+
+/// The double area from which on rounded edge functions will do, given the sum of the sizes of the
+/// products in them.
+#[inline(always)]
+pub(crate) fn least_area<Q: Quad>(products: Q) -> Q {
+    products.mul(Q::splat(NARROW)).add(Q::splat(LEAST))
 }
 
 /// The same for sheared corners, axis by axis, without rounding until all signs are known.

@@ -5,6 +5,7 @@
 use crate::group::found::{Another, Found};
 use crate::group::rays::Rays;
 use crate::group::{Heading, Party};
+use crate::intersect::least_area;
 use crate::kernel::wins;
 use crate::lanes::Quad;
 use crate::node::{NONE, WIDTH};
@@ -104,17 +105,25 @@ fn decide_four<Q: Quad>(
     let a = sheared(shear, o, corner(faces, 0, axes, one_face));
     let b = sheared(shear, o, corner(faces, 1, axes, one_face));
     let c = sheared(shear, o, corner(faces, 2, axes, one_face));
-    let u = c[0].mul(b[1]).sub(c[1].mul(b[0]));
-    let v = a[0].mul(c[1]).sub(a[1].mul(c[0]));
-    let w = b[0].mul(a[1]).sub(b[1].mul(a[0]));
+    let (u, products) = edge_function(c, b);
+    let (v, more) = edge_function(a, c);
+    let products = products.add(more);
+    let (w, more) = edge_function(b, a);
+    let products = products.add(more);
     let zero = Q::splat(0.0);
     let negative = u.below(zero) | v.below(zero) | w.below(zero);
     let positive = zero.below(u) | zero.below(v) | zero.below(w);
     let sum = u.add(v).add(w);
     let distance = u.mul(a[2]).add(v.mul(b[2])).add(w.mul(c[2])).div(sum);
     let t_max = Q::from_array([r0.t_max, r1.t_max, r2.t_max, r3.t_max]);
-    let is_nonzero = sum.below(zero) | zero.below(sum);
-    let counts = !(negative & positive) & is_nonzero & zero.below(distance) & distance.below(t_max);
+    let mixed = negative & positive;
+    let wide =
+        least_area(products).below(sum.abs()) & distance.abs().below(Q::splat(f64::INFINITY));
+    if !(mixed | wide) & 0xf != 0 {
+        // One of them is seen too nearly edge-on.
+        return false;
+    }
+    let counts = !mixed & zero.below(distance) & distance.below(t_max);
     let (u, v, w) = (u.div(sum).store(), v.div(sum).store(), w.div(sum).store());
     let distance = distance.store();
     for i in 0..FOUR {
@@ -126,6 +135,13 @@ fn decide_four<Q: Quad>(
         };
     }
     true
+}
+
+/// The edge function of two sheared corners, and the sizes of the products in it.
+#[inline(always)]
+fn edge_function<Q: Quad>(p: [Q; 3], q: [Q; 3]) -> (Q, Q) {
+    let (left, right) = (p[0].mul(q[1]), p[1].mul(q[0]));
+    (left.sub(right), left.abs().add(right.abs()))
 }
 
 /// A coordinate of four points.

@@ -98,7 +98,22 @@ impl Group {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: this kernel is only chosen where the features are there.
             Kernel::Avx2 => unsafe { self.trace_avx2(party, answers) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: this kernel is only chosen where the features are there.
+            Kernel::Avx512 => unsafe { self.trace_avx512(party, answers) },
         }
+    }
+
+    /// # Safety
+    /// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    unsafe fn trace_avx512(
+        &mut self,
+        party: Party<'_>,
+        answers: Answers<'_>,
+    ) -> Result<usize, Parted> {
+        self.trace::<crate::lanes::Avx512>(party, answers)
     }
 
     /// # Safety

@@ -281,12 +281,6 @@ impl Quad for Avx2Quad {
     }
 
     #[inline(always)]
-    fn size(self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
-    }
-
-    #[inline(always)]
     fn previous(self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_permute4x64_pd::<0b11_01_00_10>(self.0) })

@@ -96,7 +96,7 @@ impl Lanes for Avx512 {
     fn flip_by(self, other: Self) -> Self {
         // SAFETY: see above.
         unsafe {
-            let [number, other] = [self.0, other.0].map(|x| _mm256_castps_si256(x));
+            let (number, other) = (_mm256_castps_si256(self.0), _mm256_castps_si256(other.0));
             let sign = _mm256_set1_epi32(i32::MIN);
             // The first exclusive or (the second and the third).
             Self(_mm256_castsi256_ps(_mm256_ternarylogic_epi32::<0x78>(number, other, sign)))
@@ -113,7 +113,8 @@ impl Lanes for Avx512 {
     fn any_negative([a, b, c, d]: [Self; 4]) -> u32 {
         // SAFETY: see above.
         unsafe {
-            let [a, b, c, d] = [a, b, c, d].map(|x| _mm256_castps_si256(x.0));
+            let (a, b) = (_mm256_castps_si256(a.0), _mm256_castps_si256(b.0));
+            let (c, d) = (_mm256_castps_si256(c.0), _mm256_castps_si256(d.0));
             let three = _mm256_ternarylogic_epi32::<0xfe>(a, b, c);
             u32::from(_mm256_movepi32_mask(_mm256_or_si256(three, d)))
         }
@@ -124,9 +125,10 @@ impl Lanes for Avx512 {
         // SAFETY: see above.
         unsafe {
             let numbers = _mm256_loadu_si256(numbers.as_ptr().cast());
-            let [a, b, c] = [a, b, c].map(|x| _mm256_set1_epi32(x as i32));
+            let (a, b) = (_mm256_set1_epi32(a as i32), _mm256_set1_epi32(b as i32));
             let differ = _mm256_cmpneq_epi32_mask(numbers, a);
             let differ = _mm256_mask_cmpneq_epi32_mask(differ, numbers, b);
+            let c = _mm256_set1_epi32(c as i32);
             u32::from(_mm256_mask_cmpneq_epi32_mask(differ, numbers, c))
         }
     }
@@ -167,5 +169,37 @@ impl Lanes for Avx512 {
     fn splat_from(x: &f32) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_broadcast_ss(x) })
+    }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn or_else(self, mask: u32, other: Self) -> Self {
+        // SAFETY: see above.
+        Self(unsafe { _mm256_mask_blend_ps(mask as u8, other.0, self.0) })
+    }
+
+    #[inline(always)]
+    fn put(numbers: &mut [u32; WIDTH], mask: u32, number: u32) {
+        // SAFETY: see above.
+        unsafe {
+            let number = _mm256_set1_epi32(number as i32);
+            _mm256_mask_storeu_epi32(numbers.as_mut_ptr().cast(), mask as u8, number);
+        }
+    }
+
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: see above.
+        unsafe {
+            let four =
+                _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
+        }
     }
 }

@@ -26,8 +26,6 @@ pub(crate) trait Quad: Copy {
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
     fn div(self, other: Self) -> Self;
-    /// Without signs.
-    fn size(self) -> Self;
     /// The numbers of lanes 2, 0, 1 and 3.
     fn previous(self) -> Self;
     /// The numbers of lanes 1, 2, 0 and 3.
@@ -39,6 +37,7 @@ pub(crate) trait Quad: Copy {
     /// A bit for each lane where `self < other`.
     fn below(self, other: Self) -> u32;
     fn from_array(numbers: [f64; 4]) -> Self;
+    /// Without signs.
     fn abs(self) -> Self;
 }
 
@@ -122,8 +121,11 @@ mod tests {
             let of = [(); 4].map(|()| numbers.eight());
             let [a, b, c, d] = of.map(|x| L::load(&x));
             let [e, f, g, h] = of.map(|x| Portable::load(&x));
-            let splat = L::splat(of[0][round % WIDTH]).store();
-            assert_eq!(splat, Portable::splat(of[0][round % WIDTH]).store());
+            let (one, mask) = (of[0][round % WIDTH] + 0.1, round as u32 & 0xff);
+            let (splat, one_in_all) = (L::splat(one), Portable::splat(one));
+            assert_eq!(L::splat_from(&one).store(), splat.store());
+            assert_eq!(splat.store(), one_in_all.store());
+            assert_eq!(a.least(), e.least());
             for (got, wanted) in [
                 (a.add(b), e.add(f)),
                 (a.sub(b), e.sub(f)),
@@ -131,6 +133,8 @@ mod tests {
                 (a.min(b), e.min(f)),
                 (a.max(b), e.max(f)),
                 (a.flip_by(b), e.flip_by(f)),
+                (a.div(splat), e.div(one_in_all)),
+                (a.or_else(mask, b), e.or_else(mask, f)),
             ] {
                 assert_eq!(got.store().map(f32::to_bits), wanted.store().map(f32::to_bits));
             }
@@ -145,10 +149,14 @@ mod tests {
             assert_eq!(a.at_most(b), e.at_most(f));
             assert_eq!(L::any_negative([a, b, c, d]), Portable::any_negative([e, f, g, h]));
             let these = [(); WIDTH].map(|()| numbers.next() % 5);
+            let (mut put, mut wanted) = (these, these);
+            L::put(&mut put, mask, 77);
+            Portable::put(&mut wanted, mask, 77);
+            assert_eq!(put, wanted);
             let from = [1, 3, u32::from(round.is_multiple_of(2))];
             assert_eq!(L::differ(&these, from), Portable::differ(&these, from));
             assert_smallest::<L>(of[0].map(f32::abs), of[1].map(f32::abs));
-            assert_compressed::<L>(of[0], round as u32 & 0xff);
+            assert_compressed::<L>(of[0], mask);
         }
     }
 

@@ -199,11 +199,6 @@ impl Quad for PortableQuad {
     }
 
     #[inline(always)]
-    fn size(self) -> Self {
-        Self(self.0.map(f64::abs))
-    }
-
-    #[inline(always)]
     fn previous(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([c, a, b, d])

@@ -1,6 +1,7 @@
 //! Many rays at once have the answers of each alone, to the last bit.
 
 use crate::meshes::{Numbers, Triangles, ball, hard_meshes};
+use crate::rays::unit;
 use glam::DVec3;
 use quasilux_bvh::{Hit, Kernel, Ray, Shot, TriangleBvh};
 
@@ -42,9 +43,7 @@ fn rays(mesh: &Triangles, kind: Kind, count: usize, numbers: &mut Numbers) -> Ve
     let size = points.reduce(DVec3::max).unwrap() - low;
     let origin = low + size * numbers.point(-0.3, 1.3);
     let first = (numbers.next() * mesh.len() as f64) as usize;
-    let toward = |p: DVec3, q: DVec3| {
-        if p == q { Ray::new(p, DVec3::X) } else { Ray::new(p, (q - p).normalize()) }
-    };
+    let toward = |p: DVec3, q: DVec3| Ray::new(p, unit(q - p));
     let target = mesh[first].iter().sum::<DVec3>() / 3.0;
     let middle = toward(origin, target).direction;
     let aside = |numbers: &mut Numbers| size.max_element() * numbers.point(-0.5, 0.5);
@@ -96,7 +95,10 @@ fn runs_are_answered_as_ray_by_ray() {
                 assert_eq!(blocked, occluded, "{name}, run {run}, {kind:?}");
             }
         }
-        assert!(found > 5 * RUNS, "{name}: the test shot past nearly everything ({found} hits)");
+        assert!(
+            found > 5 * RUNS || name == "one point",
+            "{name}: the test shot past nearly everything ({found} hits)"
+        );
     }
 }
 
