@@ -1,8 +1,8 @@
 //! cargo run --release -p quasilux-benches --bin photons [SCENE...]
 //!
 //! Whole photons a second, all bounces, counted by sensors: one by one in the order of their indices,
-//! in waves, and in waves of coherent groups, on one thread and two. All take turns in rounds of 2^16
-//! photons, 2^14 of each of four replicates of Owen-scrambled Sobol'; the figures are medians over the
+//! in waves, and in waves of coherent groups, on one thread and two. All take turns in rounds of 2^19
+//! photons, 2^17 of each of four replicates of Owen-scrambled Sobol'; the figures are medians over the
 //! rounds, of the time on the clock and of processor time, and of the ratio of processor times within
 //! a round. Then what a wave spends its time on, on one thread.
 
@@ -17,9 +17,9 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::time::Instant;
 
-const ROUNDS: u64 = 31;
+const ROUNDS: u64 = 9;
 const REPLICATES: u32 = 4;
-const INDICES: u64 = 1 << 14;
+const INDICES: u64 = 1 << 17;
 
 const STEPS: [Step; 5] =
     [Step::Sampling, Step::Emission, Step::Traversal, Step::Tally, Step::Scattering];

@@ -11,11 +11,11 @@ use quasilux_sampling::{CoherentGroups, PointSet};
 use std::ops::Range;
 
 /// Photons of one wave, but for rounding.
-const WAVE: u64 = 2048;
+const WAVE: u64 = 4096;
 /// Most indices of one field: the more, the nearer neighbours are.
-const FIELD: u64 = 1 << 16;
+const FIELD: u64 = 1 << 18;
 /// Photons of one group: the least that share their digits.
-const GROUP: u64 = 16;
+const GROUP: u64 = 64;
 
 /// The waves of a range of indices.
 pub(crate) struct Waves {
@@ -115,7 +115,7 @@ mod tests {
     }
 
     /// From photon to photon it is more than 0.3 of the way across in the order of the indices; in
-    /// groups of 16 of 2^16 some 1/64, and little more from group to group.
+    /// groups of 64 of 2^18 some 1/64, and little more from group to group.
     #[test]
     fn neighbours_are_close_together() {
         for sequence in [Sequence::Sobol, Sequence::Halton] {
