@@ -75,9 +75,14 @@ impl Dial {
     /// off the axis.
     #[inline]
     pub(super) fn place(&self, x: f64, y: f64, length: f64) -> Option<Place> {
-        let pseudo_angle = pseudo_angle(x, y);
-        if !(self.ends[0] - SLACK..=self.ends[1] + SLACK).contains(&pseudo_angle) {
-            return None;
+        let axis = self.ends[0] - SLACK..=self.ends[1] + SLACK;
+        let mut pseudo_angle = pseudo_angle(x, y);
+        if !axis.contains(&pseudo_angle) {
+            // Just below the angle 0 is just below a whole turn.
+            pseudo_angle -= 4.0;
+            if !axis.contains(&pseudo_angle) {
+                return None;
+            }
         }
         let bucket = self.bucket(pseudo_angle).min(self.guide.len() - 1);
         let mut number = self.guide[bucket] as usize;
@@ -163,17 +168,16 @@ mod tests {
                 let (y, x) = libm::sincos(probe);
                 let seen = libm::atan2(y, x);
                 let seen = if seen < 0.0 { seen + TAU } else { seen };
-                let near = |end: f64| (seen - end).abs() < 1e-14;
+                let apart = |end: f64| (seen - end).abs().min(TAU - (seen - end).abs());
                 match dial.place(x, y, 1.0) {
                     Some(place) => {
                         let off = (angle(place) - seen).abs();
                         assert!(off < 2e-15 || (TAU - off) < 2e-15, "{probe}: off by {off}");
                     }
                     None => assert!(
-                        seen < axis.first()
-                            || seen > axis.last()
-                            || near(axis.first())
-                            || near(axis.last()),
+                        (seen < axis.first() || seen > axis.last())
+                            && apart(axis.first()) > 1e-15
+                            && apart(axis.last()) > 1e-15,
                         "{probe}"
                     ),
                 }
@@ -186,6 +190,10 @@ mod tests {
         let dial = Dial::new(&Axis::new(vec![0.0, PI / 2.0]));
         assert_eq!(dial.place(1.0, 0.0, 1.0), Some(Place { cell: 0, fraction: 0.0 }));
         assert_eq!(dial.place(0.0, 1.0, 1.0), Some(Place { cell: 0, fraction: 1.0 }));
+        let by_rounding = Some(Place { cell: 0, fraction: 0.0 });
+        assert_eq!(dial.place(1.0, -1e-16, 1.0), by_rounding);
+        assert_eq!(dial.place(1.0, -1e-12, 1.0), None);
+        assert_eq!(dial.place(-1e-16, 1.0, 1.0), Some(Place { cell: 0, fraction: 1.0 }));
         assert_eq!(dial.place(-1e-12, 1.0, 1.0), None);
         assert_eq!(dial.place(f64::NAN, 1.0, 1.0), None);
         assert_eq!(dial.place(0.0, 0.0, 0.0), None);

@@ -110,3 +110,18 @@ fn intensity_of_a_file_is_bilinear_in_its_angles() {
         );
     }
 }
+
+/// The directions of tabulated angles at the borders of a sector are in it, whatever the rounding of
+/// their sines and cosines.
+#[test]
+fn borders_of_a_sector_belong_to_it() {
+    for start_deg in 0..360 {
+        let ends_deg = [f64::from(start_deg), f64::from(start_deg) + 40.0];
+        let sector = table(&[10.0, 90.0], &ends_deg, Symmetry::Sector, |_, _| 1.0);
+        for (theta_deg, phi_deg) in [30.0, 45.0, 89.0].map(|t| ends_deg.map(|p| (t, p))).concat() {
+            let [theta_rad, phi_rad] = [theta_deg, phi_deg].map(|deg: f64| deg / 180.0 * PI);
+            let direction = Angles { theta_rad, phi_rad }.direction();
+            assert_eq!(sector.value(direction), 1.0, "{theta_deg}, {phi_deg}");
+        }
+    }
+}
