@@ -70,7 +70,7 @@ impl PointSet {
                     for (digits, index) in digits.iter_mut().zip(indices) {
                         *digits = matrices.digits(*index, dimension);
                     }
-                    self.randomize_block(level, &digits, 0, dimension, block);
+                    self.randomize_block(level, &digits[..indices.len()], 0, dimension, block);
                 }
             }
             Generator::Binary(_) | Generator::Radical { .. } | Generator::Random => {
