@@ -93,10 +93,10 @@ impl<'a> SampleCursor<'a> {
     /// The next coordinate.
     #[inline]
     pub fn next_1d(&mut self) -> f64 {
-        let place = u64::from(self.dimension).wrapping_sub(self.ahead_from);
-        let coordinate = match self.ahead.get(place as usize) {
-            Some(coordinate) => *coordinate,
-            None => self.points.coordinate(self.index, self.dimension),
+        let coordinate = match u64::from(self.dimension).wrapping_sub(self.ahead_from) {
+            0 => self.ahead[0],
+            1 => self.ahead[1],
+            _ => self.points.coordinate(self.index, self.dimension),
         };
         self.dimension = self.dimension.saturating_add(1);
         self.used = self.used.saturating_add(1);
