@@ -34,12 +34,12 @@ pub(crate) struct Shadows {
     /// Rays traced so far.
     pub(crate) rays: u64,
     sights: Vec<Shot>,
-    awaited: Vec<Awaited>,
+    questions: Vec<Question>,
     visible: Vec<bool>,
 }
 
 /// Light that somebody gets if nothing stands in the way.
-struct Awaited {
+struct Question {
     who: u32,
     illuminance_lx: f64,
 }
@@ -71,7 +71,7 @@ impl Shadows {
     /// Notes that `who`, at `from`, gets the offer if nothing stands in the way.
     pub(crate) fn ask(&mut self, who: u32, from: Vantage, offer: &Offer) {
         self.sights.push(from.sight(offer.direction, offer.distance_m, offer.facet));
-        self.awaited.push(Awaited { who, illuminance_lx: offer.illuminance_lx });
+        self.questions.push(Question { who, illuminance_lx: offer.illuminance_lx });
     }
 
     /// Tells `receive` who gets how much light in lx, in the order asked, and closes all questions.
@@ -81,13 +81,13 @@ impl Shadows {
         mut receive: impl FnMut(u32, f64),
     ) {
         world.are_visible(&self.sights, &mut self.visible);
-        for (awaited, visible) in self.awaited.iter().zip(&self.visible) {
+        for (question, visible) in self.questions.iter().zip(&self.visible) {
             if *visible {
-                receive(awaited.who, awaited.illuminance_lx);
+                receive(question.who, question.illuminance_lx);
             }
         }
         self.rays += self.sights.len() as u64;
         self.sights.clear();
-        self.awaited.clear();
+        self.questions.clear();
     }
 }
