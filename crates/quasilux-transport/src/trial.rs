@@ -1,4 +1,7 @@
 //! The photon trace by itself, for benchmarks and for the test that all ways give the same tallies.
+//!
+//! Public because both stand outside the crate. It has no checkpoints and no intervals: figures come
+//! from [`crate::simulate`].
 
 use crate::counting::Counting;
 use crate::settings::Settings;

@@ -63,8 +63,8 @@ impl<'a> Lights<'a> {
         centred.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
     }
 
-    /// How many coordinates lead a photon out: its light, its direction, and its place where an area
-    /// emits.
+    /// How many coordinates lead a photon out: its light and direction, and its place where facets
+    /// emit. The place on a luminaire with an area comes after its direction and matters less.
     pub(crate) fn leading_dimensions(&self) -> u32 {
         if self.emitters.is_some() { 4 } else { 2 }
     }
