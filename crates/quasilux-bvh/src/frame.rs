@@ -85,7 +85,9 @@ impl Frame {
             }
             // Nearest approach to the centre; all corners are within sqrt(3) < 1.75 of it.
             let nearest = -origin.dot(ray.direction);
-            if nearest < -1.75 || (origin + ray.direction * nearest).length() > 1.75 {
+            let approaches =
+                nearest >= -1.75 && (origin + ray.direction * nearest).length() <= 1.75;
+            if !approaches {
                 return Framed::Misses;
             }
             moved = (nearest - 2.0).max(0.0);

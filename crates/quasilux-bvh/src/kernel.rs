@@ -41,7 +41,7 @@ impl TriangleBvh {
         let (low, high) = bounds.unwrap_or_default();
         let frame = Frame::new(low, high);
         let tree = if corners.is_empty() {
-            WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new() }
+            WideTree { nodes: vec![Node::EMPTY], leaves: vec![Leaf::new([].into_iter())] }
         } else {
             collapse(&build(&corners, frame))
         };

@@ -31,7 +31,8 @@ pub(crate) const GROWTH: f32 = 24.0 * H;
 pub(crate) struct Node {
     /// Low and high planes of the children's boxes by axis: x low, x high, y low, ...
     /// Children that are not there have their low planes at plus and their high planes at minus
-    /// infinity.
+    /// infinity. Still they lead to a block, the first one, so that even a ray that is not a number
+    /// comes to an end.
     pub(crate) planes: [[f32; WIDTH]; 6],
     pub(crate) children: [Child; WIDTH],
 }
@@ -75,7 +76,7 @@ pub(crate) struct Slack {
 impl Node {
     pub(crate) const EMPTY: Self = {
         let (low, high) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
-        Self { planes: [low, high, low, high, low, high], children: [Child(0); WIDTH] }
+        Self { planes: [low, high, low, high, low, high], children: [Child::block(0); WIDTH] }
     };
 
     /// Sets a child and its box, which is grown by what single precision may lose.

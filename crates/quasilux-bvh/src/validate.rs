@@ -44,7 +44,9 @@ pub(crate) fn validate(tree: &Tree, frame: &Frame) -> Result<(), String> {
     };
     let all = Stored { low: Vec3A::NEG_INFINITY, high: Vec3A::INFINITY };
     survey.visit(Child::node(0), all, 0)?;
-    if survey.nodes.iter().chain(&survey.blocks).any(|&count| count != 1) {
+    // Without triangles there is one block all the same, for places without a child to lead to.
+    let blocks = if tree.corners.is_empty() { &[] } else { &*survey.blocks };
+    if survey.nodes.iter().chain(blocks).any(|&count| count != 1) {
         return Err("a node or a block is not met exactly once".to_owned());
     }
     survey.check_triangles()
@@ -64,7 +66,11 @@ impl Survey<'_> {
         self.nodes[child.index()] += 1;
         for slot in 0..WIDTH {
             let Some(stored) = stored(node, slot)? else {
-                continue;
+                let nowhere = node.children[slot];
+                if nowhere.is_block() && nowhere.index() < self.tree.blocks.len() {
+                    continue;
+                }
+                return Err("a place without a child does not lead to a block".to_owned());
             };
             if !bounds.contains(&stored) {
                 return Err(format!("a box sticks out of the box above it, at depth {depth}"));

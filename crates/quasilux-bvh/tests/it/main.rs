@@ -7,4 +7,5 @@ mod groups;
 mod leaks;
 mod meshes;
 mod rays;
+mod strange;
 mod twin;

@@ -1,0 +1,67 @@
+//! Rays that are none: with coordinates that are not finite, or directions far from unit length.
+
+use crate::meshes::{Numbers, Triangles, ball, soup};
+use crate::rays::bits;
+use glam::DVec3;
+use quasilux_bvh::{Kernel, Ray, Shot, TriangleBvh};
+
+/// So many of the same ray are traced as a group, and one alone.
+const BATCHES: [usize; 2] = [1, 24];
+
+/// A tree with places without a child, one with few of them, and one without triangles.
+fn meshes() -> [Triangles; 3] {
+    let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let mut stack: Triangles = (0..20).map(|i| face.map(|p| p + DVec3::Z * f64::from(i))).collect();
+    stack.extend(soup(&mut Numbers(8), 200));
+    [vec![face], stack, Vec::new()]
+}
+
+fn each_bvh(check: impl Fn(&TriangleBvh)) {
+    for mesh in meshes() {
+        for kernel in Kernel::all() {
+            let bvh = TriangleBvh::build_for(mesh.clone(), kernel);
+            assert_eq!(bvh.validate(), Ok(()));
+            check(&bvh);
+        }
+    }
+}
+
+/// All answers about a ray, the first one from all triangles.
+fn answers(bvh: &TriangleBvh, ray: Ray) -> Vec<(Option<[u64; 5]>, bool)> {
+    let slow = bvh.closest_hit_by_brute_force(&ray, &[]);
+    let alone = (bits(bvh.closest_hit(&ray, &[])), bvh.is_occluded(&ray, &[]));
+    let mut all = vec![(bits(slow), slow.is_some()), alone];
+    for count in BATCHES {
+        let shots = vec![Shot { ray, excluded: [Shot::NONE; 2] }; count];
+        let (mut hits, mut occluded) = (vec![None; count], vec![false; count]);
+        bvh.closest_hits(&shots, &mut hits);
+        bvh.are_occluded(&shots, &mut occluded);
+        all.extend(hits.into_iter().map(bits).zip(occluded));
+    }
+    all
+}
+
+/// What such rays hit is not said, but they come to an end.
+#[test]
+fn huge_directions_come_to_an_end() {
+    each_bvh(|bvh| {
+        for size in [1e-300, 1e30, 1e39, 1e154, 1e300] {
+            for direction in [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 0.5)] {
+                answers(bvh, Ray::new(DVec3::new(0.2, 0.3, 0.5), direction * size));
+            }
+        }
+    });
+}
+
+#[test]
+fn huge_coordinates_are_answered_as_by_the_slow_twin() {
+    for kernel in Kernel::all() {
+        let bvh = TriangleBvh::build_for(ball(DVec3::ZERO, 1.0, 2), kernel);
+        for size in [1e3, 1e6, 1e7, 1e100, 1e299] {
+            for direction in [DVec3::NEG_Z, DVec3::Z, DVec3::X] {
+                let answers = answers(&bvh, Ray::new(DVec3::new(0.1, 0.2, size), direction));
+                assert!(answers.iter().all(|answer| *answer == answers[0]), "{size} {direction}");
+            }
+        }
+    }
+}
