@@ -95,6 +95,9 @@ impl Frame {
         }
         debug_assert!(origin.abs().max_element() <= REACH);
         let direction = ray.direction.as_vec3a();
+        if !direction.is_finite() {
+            return Framed::Misses;
+        }
         let kept = direction.abs().max(Vec3A::splat(LEAST_COMPONENT)).copysign(direction);
         let mut framed = FrameRay {
             origin: origin.as_vec3a(),
@@ -107,11 +110,12 @@ impl Frame {
         if framed.end >= 0.0 { Framed::Ray(framed) } else { Framed::Misses }
     }
 
-    /// A distance in the frame that is not less than `distance` along the ray.
+    /// A distance in the frame that is not less than `distance` along the ray; not a number where that is none.
     #[inline(always)]
     pub(crate) fn end(&self, moved: f64, distance: f64) -> f32 {
         // The move is off by less than 2^20 * 2^-50 = h / 64.
         const UP: f64 = 1.0 + 2.0 * H as f64;
-        (((distance * self.scale - moved) * UP + H as f64) as f32).min(FAR)
+        let end = ((distance * self.scale - moved) * UP + H as f64) as f32;
+        if end > FAR { FAR } else { end }
     }
 }

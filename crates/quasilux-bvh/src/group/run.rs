@@ -13,6 +13,9 @@ const LEAST: usize = 8;
 /// than 69 degrees away from that axis: its slopes aside are below 3.
 const LEAST_COSINE: f64 = 0.97;
 
+/// Larger than any cosine of unit vectors, as they come out of rounding.
+const LARGE: f64 = 1.1;
+
 /// How far apart rays of a run may start, in the frame.
 const SPREAD: f64 = 0.25;
 
@@ -76,18 +79,17 @@ impl Heading {
 fn together(shots: &[Shot], frame: &Frame, most: usize) -> usize {
     let first = &shots[0].ray;
     let near = |shot: &Shot| {
-        first.direction.dot(shot.ray.direction) >= LEAST_COSINE
+        (LEAST_COSINE..LARGE).contains(&first.direction.dot(shot.ray.direction))
             && (shot.ray.origin == first.origin || near_by(frame, shot.ray.origin, first.origin))
     };
     // Nearly all rays that belong to no run are told by this one.
     if !shots.get(LEAST - 1).is_some_and(near) {
         return 1;
     }
-    let count = shots.iter().take(most).take_while(|shot| near(shot)).count();
-    let inside = frame.point(first.origin).abs().max_element() <= INSIDE - SPREAD;
-    if inside { count } else { 1 }
+    let inside = frame.point(first.origin).abs().cmple(DVec3::splat(INSIDE - SPREAD)).all();
+    if inside { shots.iter().take(most).take_while(|shot| near(shot)).count() } else { 1 }
 }
 
 fn near_by(frame: &Frame, p: DVec3, q: DVec3) -> bool {
-    (frame.point(p) - frame.point(q)).abs().max_element() <= SPREAD
+    (frame.point(p) - frame.point(q)).abs().cmple(DVec3::splat(SPREAD)).all()
 }

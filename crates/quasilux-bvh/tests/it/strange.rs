@@ -41,6 +41,39 @@ fn answers(bvh: &TriangleBvh, ray: Ray) -> Vec<(Option<[u64; 5]>, bool)> {
     all
 }
 
+#[test]
+fn what_is_not_a_number_hits_nothing() {
+    let strange = [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    each_bvh(|bvh| {
+        let aside = DVec3::new(0.2, 0.3, 0.1);
+        for (height, strange) in [0.5, 40.0, 1e9].into_iter().flat_map(|h| strange.map(|s| (h, s)))
+        {
+            let ray = Ray::new(aside + DVec3::Z * height, DVec3::new(0.0, -0.28, -0.96));
+            for which in 1..8 {
+                let put = |v: DVec3| {
+                    let at = |axis: usize| if which >> axis & 1 == 1 { strange } else { v[axis] };
+                    DVec3::new(at(0), at(1), at(2))
+                };
+                let origin = Ray { origin: put(ray.origin), ..ray };
+                let direction = Ray { direction: put(ray.direction), ..ray };
+                for ray in [origin, direction] {
+                    for answer in answers(bvh, ray) {
+                        assert_eq!(answer, (None, false), "{ray:?}");
+                    }
+                }
+            }
+            for t_max in [f64::NAN, f64::NEG_INFINITY, -1.0, 0.0, -0.0] {
+                for answer in answers(bvh, ray.up_to(t_max)) {
+                    assert_eq!(answer, (None, false), "{:?}", ray.up_to(t_max));
+                }
+            }
+            for answer in answers(bvh, Ray { direction: DVec3::ZERO, ..ray }) {
+                assert_eq!(answer, (None, false));
+            }
+        }
+    });
+}
+
 /// What such rays hit is not said, but they come to an end.
 #[test]
 fn huge_directions_come_to_an_end() {
