@@ -23,7 +23,8 @@ pub(crate) fn edge_functions([a, b, c]: [[f64; 2]; 3]) -> [f64; 3] {
         left.minus(right)
     });
     let top = edges.iter().filter(|edge| edge.mantissa != 0).map(Wide::top).max().unwrap_or(0);
-    edges.map(|edge| edge.mantissa as f64 * power_of_two(edge.exponent - top))
+    // Only a zero, whose exponent says nothing, can have one above the top.
+    edges.map(|edge| edge.mantissa as f64 * power_of_two((edge.exponent - top).min(0)))
 }
 
 impl Wide {
@@ -116,5 +117,18 @@ mod tests {
         assert!(edges[1] < 0.0);
         assert_eq!(edge_functions([[0.0, 0.0]; 3]), [0.0; 3]);
         assert_eq!(edge_functions([[1.0, 1.0], [2.0, 2.0], [-5.0, -5.0]]), [0.0; 3]);
+    }
+
+    #[test]
+    fn products_that_cancel_do_not_show_how_large_they_were() {
+        let power = |exponent: i32| {
+            (0..exponent.abs()).fold(1.0, |x, _| if exponent < 0 { 0.5 * x } else { 2.0 * x })
+        };
+        for exponent in 600..950 {
+            let (small, large) = (power(-450), power(exponent));
+            let edges = edge_functions([[small, 0.0], [large, large], [0.5 * large, 0.5 * large]]);
+            assert_eq!(edges[0], 0.0);
+            assert_eq!(edges[1] / edges[2], -0.5, "2^{exponent}");
+        }
     }
 }
