@@ -11,6 +11,9 @@ use crate::{Corners, Hit, PreparedRay, Ray, intersect};
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// Corners are smaller, so that their differences and the frame's bounds are numbers.
+const LARGEST: f64 = 1e300;
+
 /// A triangle mesh that answers ray queries.
 pub struct TriangleBvh {
     pub(crate) frame: Frame,
@@ -22,7 +25,7 @@ impl TriangleBvh {
     /// Builds the hierarchy over triangles with corners below `1e300` in size.
     ///
     /// # Panics
-    /// With more than 2^30 triangles.
+    /// With more than 2^30 triangles, and for corners that are not below `1e300` in size.
     #[must_use]
     pub fn build(corners: Vec<[DVec3; 3]>) -> Self {
         Self::build_for(corners, Kernel::fastest())
@@ -31,11 +34,14 @@ impl TriangleBvh {
     /// The same for a kernel of choice, which must be one of [`Kernel::all`].
     ///
     /// # Panics
-    /// With more than 2^30 triangles, and for a kernel that this machine does not have.
+    /// As [`Self::build`], and for a kernel that this machine does not have.
     #[must_use]
     pub fn build_for(corners: Vec<[DVec3; 3]>, kernel: Kernel) -> Self {
         assert!(Kernel::all().contains(&kernel), "{kernel:?} is not on this machine");
         assert!(corners.len() <= 1 << 30, "too many triangles for 32-bit indices");
+        let are_small = |&p: &DVec3| p.abs().cmplt(DVec3::splat(LARGEST)).all();
+        let all_are_small = corners.par_iter().all(|corners| corners.iter().all(are_small));
+        assert!(all_are_small, "a corner is not below {LARGEST:e} in size");
         let points = corners.par_iter().flatten_iter().map(|&p| (p, p));
         let bounds = points.reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         let (low, high) = bounds.unwrap_or_default();

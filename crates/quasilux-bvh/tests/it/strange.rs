@@ -98,3 +98,15 @@ fn huge_coordinates_are_answered_as_by_the_slow_twin() {
         }
     }
 }
+
+#[test]
+fn corners_that_are_too_large_or_no_numbers_are_refused() {
+    for strange in [f64::NAN, f64::INFINITY, -1e300] {
+        for axis in 0..3 {
+            let mut face = [DVec3::ZERO, DVec3::X, DVec3::Y];
+            face[axis][axis] = strange;
+            let built = std::panic::catch_unwind(|| TriangleBvh::build(vec![face]).len());
+            assert!(built.is_err(), "{face:?}");
+        }
+    }
+}
