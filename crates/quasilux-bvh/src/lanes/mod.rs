@@ -1,6 +1,7 @@
-//! Eight single-precision numbers at once.
+//! Eight single-precision numbers at once, or four of double precision.
 //!
-//! What they are computed with differs in the last bits; the traversal allows for that.
+//! What eight are computed with differs in the last bits, for which the traversal allows; four are the
+//! same everywhere, since they decide.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
