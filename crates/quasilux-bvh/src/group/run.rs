@@ -87,7 +87,11 @@ fn together(shots: &[Shot], frame: &Frame, most: usize) -> usize {
         return 1;
     }
     let inside = frame.point(first.origin).abs().cmple(DVec3::splat(INSIDE - SPREAD)).all();
-    if inside { shots.iter().take(most).take_while(|shot| near(shot)).count() } else { 1 }
+    if !inside {
+        return 1;
+    }
+    // Not even the first one is near itself if its direction is no unit vector.
+    shots.iter().take(most).take_while(|shot| near(shot)).count().max(1)
 }
 
 fn near_by(frame: &Frame, p: DVec3, q: DVec3) -> bool {

@@ -87,6 +87,23 @@ fn huge_directions_come_to_an_end() {
 }
 
 #[test]
+fn directions_of_many_lengths_come_to_an_end() {
+    let lengths = [0.9, 1.2, 2.0, 0.5];
+    each_bvh(|bvh| {
+        for first in lengths {
+            let shot = |i: usize| {
+                let direction = DVec3::Z * if i == 0 { first } else { lengths[i % 4] };
+                Shot { ray: Ray::new(DVec3::splat(0.1), direction), excluded: [Shot::NONE; 2] }
+            };
+            for start in 0..4 {
+                let shots: Vec<Shot> = (start..40).map(shot).collect();
+                bvh.closest_hits(&shots, &mut vec![None; shots.len()]);
+            }
+        }
+    });
+}
+
+#[test]
 fn huge_coordinates_are_answered_as_by_the_slow_twin() {
     for kernel in Kernel::all() {
         let bvh = TriangleBvh::build_for(ball(DVec3::ZERO, 1.0, 2), kernel);
