@@ -6,7 +6,7 @@ use crate::intersect::intersect_with;
 use crate::kernel::wins;
 use crate::lanes::Quad;
 use crate::stream::{Passenger, Voyage};
-use crate::{Hit, PreparedRay, Shot, TriangleBvh};
+use crate::{Hit, Kernel, PreparedRay, Shot, TriangleBvh};
 
 impl TriangleBvh {
     /// [`Self::closest_hit`] of each of `shots`, in their order.
@@ -17,12 +17,7 @@ impl TriangleBvh {
     /// # Panics
     /// If there are not as many `hits` as `shots`, or more than 2^32 of them.
     pub fn closest_hits(&self, shots: &[Shot], hits: &mut [Option<Hit>]) {
-        self.each_run(
-            shots,
-            hits,
-            |group, party, hits| group.closest(self.kernel, party, hits),
-            |questions, hits| self.tree.stream(self.kernel, &mut Closest { questions, hits }),
-        );
+        self.answer(shots, hits);
     }
 
     /// [`Self::is_occluded`] of each of `shots`, in their order.
@@ -30,25 +25,11 @@ impl TriangleBvh {
     /// # Panics
     /// If there are not as many answers as `shots`, or more than 2^32 of them.
     pub fn are_occluded(&self, shots: &[Shot], occluded: &mut [bool]) {
-        self.each_run(
-            shots,
-            occluded,
-            |group, party, occluded| group.any(self.kernel, party, occluded),
-            |questions, occluded| {
-                self.tree.stream(self.kernel, &mut Occlusion { questions, occluded });
-            },
-        );
+        self.answer(shots, occluded);
     }
 
-    /// Answers runs of shots that belong together by `together`, and all others by `apart`.
-    #[inline(always)]
-    fn each_run<A>(
-        &self,
-        mut shots: &[Shot],
-        mut answers: &mut [A],
-        together: impl Fn(&mut Group, Party<'_>, &mut [A]) -> Result<usize, Parted>,
-        apart: impl Fn(Questions<'_>, &mut [A]),
-    ) {
+    /// Answers runs of shots that belong together as groups, and all others alone.
+    fn answer<A: Answer>(&self, mut shots: &[Shot], mut answers: &mut [A]) {
         assert_eq!(shots.len(), answers.len(), "as many answers as questions");
         let mut group = Group::new();
         let mut pace = Pace::new();
@@ -63,78 +44,69 @@ impl TriangleBvh {
                 Run::Together(_, heading) => {
                     let (tree, frame) = (&self.tree, &self.frame);
                     let party = Party { tree, frame, heading, shots: &shots[..count] };
-                    let cost = together(&mut group, party, now);
+                    let cost = A::of_group(&mut group, self.kernel, party, now);
                     pace.learn(count, cost);
                     cost
                 }
                 Run::Alone(_) => Err(Parted),
             };
             if cost.is_err() {
-                apart(Questions::new(self, &shots[..count]), now);
+                self.tree.stream(self.kernel, &mut Alone::new(self, &shots[..count], now));
             }
             (shots, answers) = (&shots[count..], later);
         }
     }
 }
 
-/// Rays that wait for their turn.
-struct Questions<'a> {
+/// Rays that fly alone, and where their answers go.
+struct Alone<'a, A> {
     bvh: &'a TriangleBvh,
     shots: &'a [Shot],
+    answers: &'a mut [A],
     next: u32,
 }
 
-/// The search for the closest hits.
-struct Closest<'a> {
-    questions: Questions<'a>,
-    hits: &'a mut [Option<Hit>],
+/// What is asked of a ray: the closest hit, or whether there is any.
+trait Answer: Copy {
+    /// The answer of a ray that hits nothing.
+    const NOTHING: Self;
+
+    /// The answer of a ray by itself.
+    fn of(bvh: &TriangleBvh, shot: &Shot) -> Self;
+
+    /// The answers of a group, and what they have cost.
+    fn of_group(
+        group: &mut Group,
+        kernel: Kernel,
+        party: Party<'_>,
+        answers: &mut [Self],
+    ) -> Result<usize, Parted>;
+
+    /// Takes account of a hit and says where the search for others ends, if that has changed.
+    fn take(&mut self, hit: Hit, end: impl Fn(f64) -> f32) -> Option<f32>;
+
+    /// Whether a triangle can still change the answer.
+    fn needs(&self, triangle: u32) -> bool;
 }
 
-/// The search for any hits.
-struct Occlusion<'a> {
-    questions: Questions<'a>,
-    occluded: &'a mut [bool],
-}
-
-impl<'a> Questions<'a> {
-    fn new(bvh: &'a TriangleBvh, shots: &'a [Shot]) -> Self {
+impl<'a, A: Answer> Alone<'a, A> {
+    fn new(bvh: &'a TriangleBvh, shots: &'a [Shot], answers: &'a mut [A]) -> Self {
         assert!(u32::try_from(shots.len()).is_ok(), "too many rays for 32-bit indices");
-        Self { bvh, shots, next: 0 }
-    }
-
-    /// The number of the next ray, and what becomes of it.
-    #[inline(always)]
-    fn next(&mut self) -> Option<(u32, Framed)> {
-        let number = self.next;
-        let shot = self.shots.get(number as usize)?;
-        self.next += 1;
-        Some((number, self.bvh.frame.ray(&shot.ray)))
-    }
-
-    #[inline(always)]
-    fn shot(&self, number: u32) -> &'a Shot {
-        &self.shots[number as usize]
-    }
-
-    /// What the ray hits of one triangle.
-    #[inline(always)]
-    fn hit<Q: Quad>(&self, ray: &PreparedRay, triangle: u32) -> Option<Hit> {
-        // SAFETY: the triangles of a valid tree exist.
-        let corners = unsafe { self.bvh.tree.corners.get_unchecked(triangle as usize) };
-        intersect_with::<Q>(ray, corners, triangle)
+        Self { bvh, shots, answers, next: 0 }
     }
 }
 
-impl Voyage for Closest<'_> {
+impl<A: Answer> Voyage for Alone<'_, A> {
     #[inline(always)]
     fn embark(&mut self) -> Option<Passenger> {
         loop {
-            let (number, framed) = self.questions.next()?;
-            self.hits[number as usize] = None;
-            match framed {
+            let number = self.next;
+            let shot = self.shots.get(number as usize)?;
+            self.next += 1;
+            self.answers[number as usize] = A::NOTHING;
+            match self.bvh.frame.ray(&shot.ray) {
                 Framed::Ray(ray) => {
-                    let excluded = self.questions.shot(number).excluded;
-                    return Some(Passenger { ray, number, excluded });
+                    return Some(Passenger { ray, number, excluded: shot.excluded });
                 }
                 Framed::Misses => {}
                 Framed::TooFar => self.strand(number),
@@ -148,17 +120,17 @@ impl Voyage for Closest<'_> {
         &Passenger { ray, number, .. }: &Passenger,
         triangles: impl Iterator<Item = u32>,
     ) -> f32 {
-        let prepared = PreparedRay::new(&self.questions.shot(number).ray);
-        let best = &mut self.hits[number as usize];
+        let prepared = PreparedRay::new(&self.shots[number as usize].ray);
+        let answer = &mut self.answers[number as usize];
         let mut end = ray.end;
         for triangle in triangles {
-            // A triangle that was cut lies in several blocks.
-            if best.is_none_or(|best| best.triangle != triangle)
-                && let Some(hit) = self.questions.hit::<Q>(&prepared, triangle)
-                && wins(&hit, best)
+            // SAFETY: the triangles of a valid tree exist.
+            let corners = unsafe { self.bvh.tree.corners.get_unchecked(triangle as usize) };
+            if answer.needs(triangle)
+                && let Some(hit) = intersect_with::<Q>(&prepared, corners, triangle)
+                && let Some(new) = answer.take(hit, |t| self.bvh.frame.end(ray.moved, t))
             {
-                end = self.questions.bvh.frame.end(ray.moved, hit.distance);
-                *best = Some(hit);
+                end = new;
             }
         }
         end
@@ -166,44 +138,65 @@ impl Voyage for Closest<'_> {
 
     #[cold]
     fn strand(&mut self, number: u32) {
-        let Shot { ray, excluded } = self.questions.shot(number);
-        self.hits[number as usize] = self.questions.bvh.closest_hit(ray, excluded);
+        self.answers[number as usize] = A::of(self.bvh, &self.shots[number as usize]);
     }
 }
 
-impl Voyage for Occlusion<'_> {
-    #[inline(always)]
-    fn embark(&mut self) -> Option<Passenger> {
-        loop {
-            let (number, framed) = self.questions.next()?;
-            self.occluded[number as usize] = false;
-            match framed {
-                Framed::Ray(ray) => {
-                    let excluded = self.questions.shot(number).excluded;
-                    return Some(Passenger { ray, number, excluded });
-                }
-                Framed::Misses => {}
-                Framed::TooFar => self.strand(number),
-            }
-        }
+impl Answer for Option<Hit> {
+    const NOTHING: Self = None;
+
+    fn of(bvh: &TriangleBvh, shot: &Shot) -> Self {
+        bvh.closest_hit(&shot.ray, &shot.excluded)
+    }
+
+    fn of_group(
+        group: &mut Group,
+        kernel: Kernel,
+        party: Party<'_>,
+        answers: &mut [Self],
+    ) -> Result<usize, Parted> {
+        group.closest(kernel, party, answers)
     }
 
     #[inline(always)]
-    fn decide<Q: Quad>(
-        &mut self,
-        &Passenger { ray, number, .. }: &Passenger,
-        mut triangles: impl Iterator<Item = u32>,
-    ) -> f32 {
-        let prepared = PreparedRay::new(&self.questions.shot(number).ray);
-        let occluded =
-            triangles.any(|triangle| self.questions.hit::<Q>(&prepared, triangle).is_some());
-        self.occluded[number as usize] = occluded;
-        if occluded { -1.0 } else { ray.end }
+    fn take(&mut self, hit: Hit, end: impl Fn(f64) -> f32) -> Option<f32> {
+        wins(&hit, self).then(|| {
+            *self = Some(hit);
+            end(hit.distance)
+        })
     }
 
-    #[cold]
-    fn strand(&mut self, number: u32) {
-        let Shot { ray, excluded } = self.questions.shot(number);
-        self.occluded[number as usize] = self.questions.bvh.is_occluded(ray, excluded);
+    /// One that was cut lies in several blocks.
+    #[inline(always)]
+    fn needs(&self, triangle: u32) -> bool {
+        self.is_none_or(|best| best.triangle != triangle)
+    }
+}
+
+impl Answer for bool {
+    const NOTHING: Self = false;
+
+    fn of(bvh: &TriangleBvh, shot: &Shot) -> Self {
+        bvh.is_occluded(&shot.ray, &shot.excluded)
+    }
+
+    fn of_group(
+        group: &mut Group,
+        kernel: Kernel,
+        party: Party<'_>,
+        answers: &mut [Self],
+    ) -> Result<usize, Parted> {
+        group.any(kernel, party, answers)
+    }
+
+    #[inline(always)]
+    fn take(&mut self, _hit: Hit, _end: impl Fn(f64) -> f32) -> Option<f32> {
+        *self = true;
+        Some(-1.0)
+    }
+
+    #[inline(always)]
+    fn needs(&self, _triangle: u32) -> bool {
+        !*self
     }
 }

@@ -1,8 +1,8 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
-use crate::end::{End, Growth};
 use crate::estimates::{Dimensions, Estimates};
-use crate::paths::{WAVE, Wave};
+use crate::path_end::{Growth, PathEnd};
+use crate::path_wave::{PathWave, WAVE};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::settings::Settings;
@@ -32,7 +32,7 @@ pub(crate) struct Gathering<'a, S> {
     targets: Vec<Target>,
     /// Direct light of point-like lights in lx, for targets that are points.
     exact_direct_lx: Vec<f64>,
-    end: End<S>,
+    end: PathEnd<S>,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -64,7 +64,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             invalid_points += 1;
         }
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
-        let (end, photons) = End::prepare(stage, settings, replicates, watch);
+        let (end, photons) = PathEnd::prepare(stage, settings, replicates, watch);
         Self {
             stage,
             scene,
@@ -84,7 +84,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 
     /// Traces the paths `piece`, of those that are left when the paths `indices` of all targets and
     /// replicates, in the order of [`Self::sums`], are put in one row.
-    fn trace_piece(&self, piece: &Range<u64>, indices: &Range<u64>, wave: &mut Wave) -> Piece {
+    fn trace_piece(&self, piece: &Range<u64>, indices: &Range<u64>, wave: &mut PathWave) -> Piece {
         let each = indices.end - indices.start;
         let numbers = piece.start / each..piece.end.div_ceil(each);
         let sections: Vec<Section<'_, S>> = numbers
@@ -153,12 +153,12 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         while done < paths {
             let round = done..(done + ROUND).min(paths);
             let pieces = (round.end - round.start).div_ceil(WAVE);
-            let trace = |wave: &mut Wave, piece: u64| {
+            let trace = |wave: &mut PathWave, piece: u64| {
                 let first = round.start + piece * WAVE;
                 self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
             };
             let found: Vec<Piece> =
-                (0..pieces).into_par_iter().map_init(Wave::default, trace).collect();
+                (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
             let (paths_before, rays_before) = (self.work.paths, self.work.rays);
             for Piece { first, sums, work } in found {
                 for (sum, found) in self.sums[first..].iter_mut().zip(sums) {

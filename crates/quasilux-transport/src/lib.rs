@@ -5,12 +5,11 @@
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
-//! light is followed, at `order` and `wave` for how photons travel together, at `paths` and `shadow`
-//! for how paths do, at `map` for where the two ways meet.
+//! light is followed, at `order` and `photon_wave` for how photons travel together, at
+//! `path_wave` and `shadow` for how paths do, at `map` for where the two ways meet.
 
 mod check;
 mod counting;
-mod end;
 pub mod estimates;
 mod gathering;
 pub mod interval;
@@ -19,8 +18,10 @@ mod map;
 pub mod observer;
 mod order;
 mod path;
-mod paths;
+mod path_end;
+mod path_wave;
 mod photon;
+mod photon_wave;
 mod photons;
 mod schedule;
 mod sections;
@@ -33,7 +34,6 @@ mod tally;
 mod targets;
 pub mod trial;
 mod watch;
-mod wave;
 mod world;
 
 pub use check::{CheckError, check};

@@ -8,7 +8,7 @@
 //! estimated by going on, and the difference to the map, weighted by how few they are, takes the
 //! map's error out again: the map is a control variate, and its elements cause no bias.
 
-use crate::end::Rest;
+use crate::path_end::Rest;
 use crate::shadow::{Offer, Shadows};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;

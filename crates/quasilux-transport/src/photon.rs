@@ -62,7 +62,7 @@ pub(crate) enum End {
     Endless,
 }
 
-/// Traces the photon of one index by itself: the slow twin of [`crate::wave::Wave`].
+/// Traces the photon of one index by itself: the slow twin of [`crate::photon_wave::PhotonWave`].
 pub(crate) fn trace_photon<S: Spectrum>(
     stage: &Stage<'_, S>,
     cursor: SampleCursor<'_>,

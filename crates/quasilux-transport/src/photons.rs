@@ -3,11 +3,11 @@
 use crate::estimates::FluxBalance;
 use crate::order::Waves;
 use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::photon_wave::PhotonWave;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::trial::Way;
 use crate::watch::Watch;
-use crate::wave::Wave;
 use quasilux_sampling::{PointSet, SampleCursor};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -42,8 +42,8 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     let waves_each = Waves::new(leading, indices.clone(), close_in);
     let waves = waves_each.len() * points.len() as u64;
     // One space for each thread of this pool.
-    let spaces: Vec<Mutex<Wave<'_, S>>> =
-        (0..rayon::current_num_threads()).map(|_| Mutex::new(Wave::new())).collect();
+    let spaces: Vec<Mutex<PhotonWave<'_, S>>> =
+        (0..rayon::current_num_threads()).map(|_| Mutex::new(PhotonWave::new())).collect();
     let trace = |number: u64| {
         let row = (number / waves_each.len()) as u32;
         let points = &points[row as usize];

@@ -1,8 +1,8 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
-use crate::end::Rest;
 use crate::path::{Ended, Start};
-use crate::paths::Wave;
+use crate::path_end::Rest;
+use crate::path_wave::PathWave;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::tally::{Quantum, Sum};
@@ -52,7 +52,7 @@ pub(crate) fn trace_sections<S: Spectrum>(
     stage: &Stage<'_, S>,
     sections: &[Section<'_, S>],
     quantum: Quantum,
-    wave: &mut Wave,
+    wave: &mut PathWave,
 ) -> Piece {
     let starts = sections.iter().flat_map(|section| section.starts(stage));
     let mut paths = wave.trace(stage, starts).into_iter();

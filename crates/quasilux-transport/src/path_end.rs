@@ -21,7 +21,7 @@ const CORRECTED_SHARE: f64 = 0.6;
 const BALANCE_PHOTONS: u64 = 1 << 12;
 
 /// What the paths end on.
-pub(crate) enum End<S> {
+pub(crate) enum PathEnd<S> {
     Nothing,
     /// One map, frozen before the first path, whose error is corrected.
     Plan {
@@ -59,7 +59,7 @@ pub(crate) enum Growth {
     Stopped,
 }
 
-impl<S: Spectrum> End<S> {
+impl<S: Spectrum> PathEnd<S> {
     /// Traces the photons that come before all paths.
     pub(crate) fn prepare(
         stage: &Stage<'_, S>,

@@ -14,7 +14,7 @@ use quasilux_bvh::{Hit, Shot};
 use quasilux_sampling::{PointSet, SampleCursor};
 
 /// Working space for one wave after the other.
-pub(crate) struct Wave<'p, S> {
+pub(crate) struct PhotonWave<'p, S> {
     photons: Vec<Photon<'p, S>>,
     /// The ray of each photon.
     shots: Vec<Shot>,
@@ -26,7 +26,7 @@ pub(crate) struct Wave<'p, S> {
     ahead: [Vec<f64>; 2],
 }
 
-impl<'p, S: Spectrum> Wave<'p, S> {
+impl<'p, S: Spectrum> PhotonWave<'p, S> {
     pub(crate) fn new() -> Self {
         Self {
             photons: Vec::new(),

@@ -18,7 +18,7 @@ pub(crate) const WAVE: u64 = 512;
 
 /// Working space of paths that travel together, used again for the next ones.
 #[derive(Default)]
-pub(crate) struct Wave {
+pub(crate) struct PathWave {
     work: PathWork,
     /// Starts where all point-like lights are tested.
     askers: Vec<Asker>,
@@ -30,7 +30,7 @@ pub(crate) struct Wave {
     rays: u64,
 }
 
-impl Wave {
+impl PathWave {
     /// Traces paths to their ends, in the order of `starts`.
     pub(crate) fn trace<'p, S: Spectrum>(
         &mut self,
