@@ -1,8 +1,8 @@
 //! With the eight-wide instructions of AVX-512: what they add to AVX2 here are masks, and a
 //! compression that needs no table.
 //!
-//! Without a machine that has it, this was tested in the emulator Bochs 2.7 as a Skylake-X: the test of all
-//! instructions and the example `hard_rays`, linked statically, in a Linux 6.1 with `clearcpuid=321,323`.
+//! Tested without a machine that has it: in the emulator Bochs 2.7 as a Skylake-X, under Linux with
+//! `clearcpuid=321,323`, by the test of all instructions and the example `hard_rays`, linked statically.
 
 use super::Lanes;
 use crate::node::{Child, WIDTH};
