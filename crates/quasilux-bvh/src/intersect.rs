@@ -70,14 +70,7 @@ impl PreparedRay {
     #[must_use]
     pub fn new(ray: &Ray) -> Self {
         let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
-        let size = d.map(f64::abs);
-        let z = if size[0] >= size[1] && size[0] >= size[2] {
-            0
-        } else if size[1] >= size[2] {
-            1
-        } else {
-            2
-        };
+        let z = longest_axis(ray.direction);
         let (x, y) = if d[z] < 0.0 { (BEFORE[z], AFTER[z]) } else { (AFTER[z], BEFORE[z]) };
         Self {
             origin: [x, y, z].map(|axis| o[axis]),
@@ -85,6 +78,19 @@ impl PreparedRay {
             axes: [x, y, z],
             shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
         }
+    }
+}
+
+/// The axis along which a direction moves most; among equals the first.
+#[inline(always)]
+pub(crate) fn longest_axis(direction: DVec3) -> usize {
+    let size = direction.to_array().map(f64::abs);
+    if size[0] >= size[1] && size[0] >= size[2] {
+        0
+    } else if size[1] >= size[2] {
+        1
+    } else {
+        2
     }
 }
 

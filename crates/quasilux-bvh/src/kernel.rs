@@ -1,165 +1,78 @@
-//! Triangles that answer ray queries.
+//! Which instructions are used, and the one place that chooses them.
 
-use crate::build::{Leaf, WideTree, build, collapse};
-use crate::frame::{Frame, FrameRay, Framed};
-use crate::node::{Block, NONE, Node};
-use crate::pages::list_in_large_pages;
-use crate::pending::Pending;
-use crate::traverse::{Kernel, Query, Tree};
-use crate::validate::validate;
-use crate::{Corners, Hit, PreparedRay, Ray, intersect};
-use glam::DVec3;
-use rayon::prelude::*;
+use crate::lanes::{Lanes, Portable};
 
-/// Corners are smaller, so that their differences and the frame's bounds are numbers.
-const LARGEST: f64 = 1e300;
-
-/// A triangle mesh that answers ray queries.
-pub struct TriangleBvh {
-    pub(crate) frame: Frame,
-    pub(crate) tree: Tree,
-    pub(crate) kernel: Kernel,
+/// Which instructions are used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kernel {
+    /// Those of every machine.
+    Portable,
+    /// AVX2 and fused multiply-add of x86-64.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// The masks of AVX-512 (F, VL, DQ), eight numbers wide.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
 }
 
-impl TriangleBvh {
-    /// Builds the hierarchy over triangles with corners below `1e300` in size.
-    ///
-    /// # Panics
-    /// With more than 2^30 triangles, and for corners that are not below `1e300` in size.
+impl Kernel {
+    /// The fastest one on this machine, as far as that is known: [`Self::Avx512`] was never timed, and
+    /// Embree is slower with it than with AVX2 on rays like ours.
     #[must_use]
-    pub fn build(corners: Vec<[DVec3; 3]>) -> Self {
-        Self::build_for(corners, Kernel::fastest())
-    }
-
-    /// The same for a kernel of choice, which must be one of [`Kernel::all`].
-    ///
-    /// # Panics
-    /// As [`Self::build`], and for a kernel that this machine does not have.
-    #[must_use]
-    pub fn build_for(corners: Vec<[DVec3; 3]>, kernel: Kernel) -> Self {
-        assert!(Kernel::all().contains(&kernel), "{kernel:?} is not on this machine");
-        assert!(corners.len() <= 1 << 30, "too many triangles for 32-bit indices");
-        let are_small = |&p: &DVec3| p.abs().cmplt(DVec3::splat(LARGEST)).all();
-        let all_are_small = corners.par_iter().all(|corners| corners.iter().all(are_small));
-        assert!(all_are_small, "a corner is not below {LARGEST:e} in size");
-        let points = corners.par_iter().flatten_iter().map(|&p| (p, p));
-        let bounds = points.reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let (low, high) = bounds.unwrap_or_default();
-        let frame = Frame::new(low, high);
-        let tree = if corners.is_empty() {
-            WideTree { nodes: vec![Node::EMPTY], leaves: vec![Leaf::new([].into_iter())] }
-        } else {
-            collapse(&build(&corners, frame))
-        };
-        let block = |leaf: &Leaf| {
-            let framed = |&t: &u32| (t, corners[t as usize].map(|p| frame.point(p)));
-            Block::new(leaf.triangles().iter().map(framed))
-        };
-        let mut blocks = list_in_large_pages(tree.leaves.len());
-        tree.leaves.par_iter().map(block).collect_into_vec(&mut blocks);
-        let mut nodes = list_in_large_pages(tree.nodes.len());
-        nodes.extend(tree.nodes);
-        let corners = corners.into_par_iter().map(Corners::new).collect();
-        Self { frame, tree: Tree { nodes, blocks, corners }, kernel }
-    }
-
-    /// The nearest triangle that the ray hits, none of `excluded`; ties go to the lowest index.
-    #[must_use]
-    pub fn closest_hit(&self, ray: &Ray, excluded: &[u32]) -> Option<Hit> {
-        let query = match self.frame.ray(ray) {
-            Framed::Ray(framed) => query(framed, excluded),
-            Framed::Misses => return None,
-            Framed::TooFar => return self.closest_hit_by_brute_force(ray, excluded),
-        };
-        let mut pending = Pending::new();
-        let mut end = self.tree.closest(self.kernel, &query, &mut pending);
-        let prepared = PreparedRay::new(ray);
-        let mut best = None;
-        while let Some(candidate) = pending.pop() {
-            if candidate.earliest <= end
-                && let Some(hit) = self.decide(&prepared, candidate.triangle, excluded)
-                && wins(&hit, &best)
-            {
-                end = end.min(self.frame.end(query.ray.moved, hit.distance));
-                best = Some(hit);
-            }
+    pub fn fastest() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if crate::lanes::Avx2::is_supported() {
+            return Self::Avx2;
         }
-        best
+        Self::Portable
     }
 
-    /// Whether the ray hits any triangle but `excluded`.
+    /// All that this machine can run.
     #[must_use]
-    pub fn is_occluded(&self, ray: &Ray, excluded: &[u32]) -> bool {
-        let query = match self.frame.ray(ray) {
-            Framed::Ray(framed) => query(framed, excluded),
-            Framed::Misses => return false,
-            Framed::TooFar => return self.closest_hit_by_brute_force(ray, excluded).is_some(),
-        };
-        let mut pending = Pending::new();
-        if self.tree.any(self.kernel, &query, &mut pending) {
-            return true;
+    pub fn all() -> Vec<Self> {
+        let mut all = vec![Self::Portable];
+        #[cfg(target_arch = "x86_64")]
+        {
+            all.extend(crate::lanes::Avx2::is_supported().then_some(Self::Avx2));
+            all.extend(crate::lanes::Avx512::is_supported().then_some(Self::Avx512));
         }
-        let prepared = PreparedRay::new(ray);
-        while let Some(candidate) = pending.pop() {
-            if self.decide(&prepared, candidate.triangle, excluded).is_some() {
-                return true;
-            }
-        }
-        false
+        all
     }
 
-    /// The slow twin of [`Self::closest_hit`]: every triangle is tried.
-    #[must_use]
-    pub fn closest_hit_by_brute_force(&self, ray: &Ray, excluded: &[u32]) -> Option<Hit> {
-        let prepared = PreparedRay::new(ray);
-        let mut best = None;
-        for triangle in 0..self.len() as u32 {
-            let hit = self.decide(&prepared, triangle, excluded).filter(|hit| wins(hit, &best));
-            best = hit.or(best);
-        }
-        best
-    }
-
+    /// Runs an errand with these instructions.
     #[inline(always)]
-    pub(crate) fn decide(&self, ray: &PreparedRay, triangle: u32, excluded: &[u32]) -> Option<Hit> {
-        if excluded.contains(&triangle) {
-            return None;
+    pub(crate) fn run<E: Errand>(self, errand: E) -> E::Result {
+        match self {
+            Self::Portable => errand.run::<Portable>(),
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: this kernel is only chosen where the features are there.
+            Self::Avx2 => unsafe { run_avx2(errand) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: this kernel is only chosen where the features are there.
+            Self::Avx512 => unsafe { run_avx512(errand) },
         }
-        intersect(ray, &self.tree.corners[triangle as usize], triangle)
-    }
-
-    /// Checks everything that queries rely on, and that no part of a triangle is out of their sight.
-    ///
-    /// # Errors
-    /// The first flaw that is found, which is a defect of the builder.
-    pub fn validate(&self) -> Result<(), String> {
-        validate(&self.tree, &self.frame)
-    }
-
-    /// The number of triangles.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.tree.corners.len()
-    }
-
-    /// Whether there are no triangles.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.tree.corners.is_empty()
     }
 }
 
-/// Excluded triangles that the traversal itself leaves out.
-fn query(ray: FrameRay, excluded: &[u32]) -> Query {
-    let at = |i: usize| excluded.get(i).copied().unwrap_or(NONE);
-    Query { ray, excluded: [at(0), at(1)], excludes_more: excluded.len() > 2 }
+/// Work that can be done with any instructions. `run` must be inlined into where they are enabled.
+pub(crate) trait Errand {
+    type Result;
+
+    fn run<L: Lanes>(self) -> Self::Result;
 }
 
-/// Whether `hit` comes before the best so far.
-#[inline(always)]
-pub(crate) fn wins(hit: &Hit, best: &Option<Hit>) -> bool {
-    best.is_none_or(|best| {
-        hit.distance < best.distance
-            || (hit.distance == best.distance && hit.triangle < best.triangle)
-    })
+/// # Safety
+/// The machine must have what [`crate::lanes::Avx2::is_supported`] asks for.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+unsafe fn run_avx2<E: Errand>(errand: E) -> E::Result {
+    errand.run::<crate::lanes::Avx2>()
+}
+
+/// # Safety
+/// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+unsafe fn run_avx512<E: Errand>(errand: E) -> E::Result {
+    errand.run::<crate::lanes::Avx512>()
 }

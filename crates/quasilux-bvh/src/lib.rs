@@ -40,13 +40,16 @@ mod many;
 mod node;
 mod pages;
 mod pending;
+mod prefetch;
 mod ray;
 mod sight;
 mod stream;
 mod traverse;
+mod triangle_bvh;
 mod validate;
+mod waiting;
 
 pub use intersect::{Corners, Hit, PreparedRay, intersect};
-pub use kernel::TriangleBvh;
+pub use kernel::Kernel;
 pub use ray::{Ray, Shot};
-pub use traverse::Kernel;
+pub use triangle_bvh::TriangleBvh;

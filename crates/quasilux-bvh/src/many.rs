@@ -1,12 +1,12 @@
 //! Many rays at once: the same answers as one by one, sooner.
 
 use crate::frame::Framed;
-use crate::group::{Group, Pace, Parted, Party, Run};
+use crate::group::{Answers, Group, Pace, Parted, Party, Run};
 use crate::intersect::intersect_with;
-use crate::kernel::wins;
 use crate::lanes::Quad;
 use crate::stream::{Passenger, Voyage};
-use crate::{Hit, Kernel, PreparedRay, Shot, TriangleBvh};
+use crate::triangle_bvh::wins;
+use crate::{Hit, PreparedRay, Shot, TriangleBvh};
 
 impl TriangleBvh {
     /// [`Self::closest_hit`] of each of `shots`, in their order.
@@ -44,7 +44,7 @@ impl TriangleBvh {
                 Run::Together(_, heading) => {
                     let (tree, frame) = (&self.tree, &self.frame);
                     let party = Party { tree, frame, heading, shots: &shots[..count] };
-                    let cost = A::of_group(&mut group, self.kernel, party, now);
+                    let cost = group.answer(self.kernel, party, A::of_group(now));
                     pace.learn(count, cost);
                     cost
                 }
@@ -74,13 +74,8 @@ trait Answer: Copy {
     /// The answer of a ray by itself.
     fn of(bvh: &TriangleBvh, shot: &Shot) -> Self;
 
-    /// The answers of a group, and what they have cost.
-    fn of_group(
-        group: &mut Group,
-        kernel: Kernel,
-        party: Party<'_>,
-        answers: &mut [Self],
-    ) -> Result<usize, Parted>;
+    /// Where the answers of a group go.
+    fn of_group(answers: &mut [Self]) -> Answers<'_>;
 
     /// Takes account of a hit and says where the search for others ends, if that has changed.
     fn take(&mut self, hit: Hit, end: impl Fn(f64) -> f32) -> Option<f32>;
@@ -149,13 +144,8 @@ impl Answer for Option<Hit> {
         bvh.closest_hit(&shot.ray, &shot.excluded)
     }
 
-    fn of_group(
-        group: &mut Group,
-        kernel: Kernel,
-        party: Party<'_>,
-        answers: &mut [Self],
-    ) -> Result<usize, Parted> {
-        group.closest(kernel, party, answers)
+    fn of_group(answers: &mut [Self]) -> Answers<'_> {
+        Answers::Closest(answers)
     }
 
     #[inline(always)]
@@ -180,13 +170,8 @@ impl Answer for bool {
         bvh.is_occluded(&shot.ray, &shot.excluded)
     }
 
-    fn of_group(
-        group: &mut Group,
-        kernel: Kernel,
-        party: Party<'_>,
-        answers: &mut [Self],
-    ) -> Result<usize, Parted> {
-        group.any(kernel, party, answers)
+    fn of_group(answers: &mut [Self]) -> Answers<'_> {
+        Answers::Occluded(answers)
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 use crate::frame::{FrameRay, H};
 use crate::lanes::Lanes;
 use crate::lanes::triple::{cross, dot, load, sub};
-use crate::node::{Block, Node, Slack, WIDTH};
+use crate::node::{Block, Node, Slack};
 
 /// A ray as boxes see it.
 pub(crate) struct Slabs<L> {
@@ -103,13 +103,6 @@ pub(crate) struct View<'a, L> {
     left: L,
 }
 
-/// Bounds of distances.
-pub(crate) struct Distances {
-    reach: [f32; WIDTH],
-    size: [f32; WIDTH],
-    slack: Slack,
-}
-
 impl<'a, L: Lanes> View<'a, L> {
     /// A view of the determinant and, times that, of the weights of second and third corner and the
     /// distance.
@@ -161,19 +154,14 @@ impl<'a, L: Lanes> View<'a, L> {
         !one & L::splat(slack.determinant()).at_most(self.size)
     }
 
-    #[inline(always)]
-    pub(crate) fn bounds(&self) -> Distances {
-        Distances { reach: self.reach.store(), size: self.size.store(), slack: *self.slack }
-    }
-
-    /// [`Distances::earliest`] of all lanes.
+    /// Before which distances the triangles cannot be hit.
     #[inline(always)]
     pub(crate) fn earliest(&self) -> L {
         let size = self.size.add(L::splat(self.slack.determinant()));
         self.reach.sub(L::splat(self.slack.distance)).div(size).mul(L::splat(DOWN))
     }
 
-    /// [`Distances::latest`] of all lanes.
+    /// Behind which distances those that are hit for sure cannot be hit.
     #[inline(always)]
     pub(crate) fn latest(&self) -> L {
         let size = self.size.sub(L::splat(0.5 * self.slack.determinant()));
@@ -184,19 +172,3 @@ impl<'a, L: Lanes> View<'a, L> {
 /// Rounds a distance down, and up, by more than its own arithmetic does.
 const DOWN: f32 = 1.0 - 8.0 * H;
 const UP: f32 = 1.0 + 8.0 * H;
-
-impl Distances {
-    /// The triangle cannot be hit before.
-    #[inline(always)]
-    pub(crate) fn earliest(&self, lane: usize) -> f32 {
-        let slack = &self.slack;
-        (self.reach[lane] - slack.distance) / (self.size[lane] + slack.determinant()) * DOWN
-    }
-
-    /// A triangle that is hit for sure cannot be hit behind.
-    #[inline(always)]
-    pub(crate) fn latest(&self, lane: usize) -> f32 {
-        let slack = &self.slack;
-        (self.reach[lane] + slack.distance) / (self.size[lane] - 0.5 * slack.determinant()) * UP
-    }
-}

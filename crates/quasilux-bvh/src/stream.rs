@@ -10,10 +10,12 @@
 //! A ray that needs more room than nearly all do leaves, and is traced alone.
 
 use crate::frame::FrameRay;
+use crate::kernel::{Errand, Kernel};
 use crate::lanes::{Lanes, Quad};
 use crate::node::{Child, NONE, WIDTH};
+use crate::prefetch::prefetch;
 use crate::sight::Sight;
-use crate::traverse::{Kernel, Tree, prefetch};
+use crate::traverse::Tree;
 use std::hint::select_unpredictable;
 
 /// Rays in flight.
@@ -107,34 +109,25 @@ impl Queues {
     }
 }
 
+/// The way of all rays of a voyage.
+struct Stream<'a, V> {
+    tree: &'a Tree,
+    voyage: &'a mut V,
+}
+
+impl<V: Voyage> Errand for Stream<'_, V> {
+    type Result = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        self.tree.fly::<L>(self.voyage);
+    }
+}
+
 impl Tree {
     /// Takes all rays of a voyage through the tree.
     pub(crate) fn stream(&self, kernel: Kernel, voyage: &mut impl Voyage) {
-        match kernel {
-            Kernel::Portable => self.fly::<crate::lanes::Portable>(voyage),
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: this kernel is only chosen where the features are there.
-            Kernel::Avx2 => unsafe { self.fly_avx2(voyage) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: this kernel is only chosen where the features are there.
-            Kernel::Avx512 => unsafe { self.fly_avx512(voyage) },
-        }
-    }
-
-    /// # Safety
-    /// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-    unsafe fn fly_avx512(&self, voyage: &mut impl Voyage) {
-        self.fly::<crate::lanes::Avx512>(voyage);
-    }
-
-    /// # Safety
-    /// The machine must have what [`crate::lanes::Avx2::is_supported`] asks for.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-    unsafe fn fly_avx2(&self, voyage: &mut impl Voyage) {
-        self.fly::<crate::lanes::Avx2>(voyage);
+        kernel.run(Stream { tree: self, voyage });
     }
 
     #[inline(always)]

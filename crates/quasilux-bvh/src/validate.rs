@@ -8,7 +8,8 @@
 use crate::cover::{Solid, is_covered};
 use crate::frame::{Frame, H};
 use crate::node::{Block, Child, GROWTH, NONE, Node, WIDTH};
-use crate::traverse::{MAX_DEPTH, Tree};
+use crate::traverse::Tree;
+use crate::waiting::MAX_DEPTH;
 use glam::Vec3A;
 
 /// How far inside of its box everything must be: the growth, but for the rounding of the box and of its

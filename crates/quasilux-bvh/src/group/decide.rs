@@ -6,9 +6,9 @@ use crate::group::found::{Another, Found};
 use crate::group::rays::Rays;
 use crate::group::{Heading, Party};
 use crate::intersect::least_area;
-use crate::kernel::wins;
 use crate::lanes::Quad;
 use crate::node::{NONE, WIDTH};
+use crate::triangle_bvh::wins;
 use crate::{Corners, Hit, PreparedRay, Shot, intersect};
 use glam::DVec3;
 

@@ -23,8 +23,9 @@ mod shaft;
 mod walk;
 
 use crate::frame::Frame;
-use crate::lanes::{Lanes, Portable};
-use crate::traverse::{Kernel, Tree};
+use crate::kernel::{Errand, Kernel};
+use crate::lanes::Lanes;
+use crate::traverse::Tree;
 use crate::{Hit, Shot};
 use eye::{OnePoint, Spread};
 use found::Found;
@@ -46,7 +47,7 @@ pub(crate) struct Group {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Parted;
 
-/// What is asked, of one group.
+/// The rays of one group, and where they fly.
 #[derive(Clone, Copy)]
 pub(crate) struct Party<'a> {
     pub(crate) tree: &'a Tree,
@@ -55,10 +56,26 @@ pub(crate) struct Party<'a> {
     pub(crate) shots: &'a [Shot],
 }
 
-/// Where answers go.
-enum Answers<'a> {
+/// What is asked of the rays, and where answers go.
+pub(crate) enum Answers<'a> {
     Closest(&'a mut [Option<Hit>]),
     Occluded(&'a mut [bool]),
+}
+
+/// The way of one group.
+struct Together<'a> {
+    group: &'a mut Group,
+    party: Party<'a>,
+    answers: Answers<'a>,
+}
+
+impl Errand for Together<'_> {
+    type Result = Result<usize, Parted>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Result {
+        self.group.trace::<L>(self.party, self.answers)
+    }
 }
 
 impl Group {
@@ -66,66 +83,15 @@ impl Group {
         Self { rays: Rays::new(), found: Found::new() }
     }
 
-    /// The closest hits of a run of rays, and what they cost by [`Pace`]'s measure.
-    pub(crate) fn closest(
-        &mut self,
-        kernel: Kernel,
-        party: Party<'_>,
-        hits: &mut [Option<Hit>],
-    ) -> Result<usize, Parted> {
-        self.trace_with(kernel, party, Answers::Closest(hits))
-    }
-
-    /// Whether the rays of a run are occluded, and what that cost by [`Pace`]'s measure.
-    pub(crate) fn any(
-        &mut self,
-        kernel: Kernel,
-        party: Party<'_>,
-        occluded: &mut [bool],
-    ) -> Result<usize, Parted> {
-        self.trace_with(kernel, party, Answers::Occluded(occluded))
-    }
-
+    /// Answers a run of rays, and returns what that cost by [`Pace`]'s measure.
     #[inline(always)]
-    fn trace_with(
+    pub(crate) fn answer(
         &mut self,
         kernel: Kernel,
         party: Party<'_>,
         answers: Answers<'_>,
     ) -> Result<usize, Parted> {
-        match kernel {
-            Kernel::Portable => self.trace::<Portable>(party, answers),
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: this kernel is only chosen where the features are there.
-            Kernel::Avx2 => unsafe { self.trace_avx2(party, answers) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: this kernel is only chosen where the features are there.
-            Kernel::Avx512 => unsafe { self.trace_avx512(party, answers) },
-        }
-    }
-
-    /// # Safety
-    /// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-    unsafe fn trace_avx512(
-        &mut self,
-        party: Party<'_>,
-        answers: Answers<'_>,
-    ) -> Result<usize, Parted> {
-        self.trace::<crate::lanes::Avx512>(party, answers)
-    }
-
-    /// # Safety
-    /// The machine must have what [`crate::lanes::Avx2::is_supported`] asks for.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-    unsafe fn trace_avx2(
-        &mut self,
-        party: Party<'_>,
-        answers: Answers<'_>,
-    ) -> Result<usize, Parted> {
-        self.trace::<crate::lanes::Avx2>(party, answers)
+        kernel.run(Together { group: self, party, answers })
     }
 
     #[inline(always)]

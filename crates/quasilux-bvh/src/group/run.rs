@@ -3,6 +3,7 @@
 use crate::Shot;
 use crate::frame::Frame;
 use crate::group::MOST;
+use crate::intersect::longest_axis;
 use glam::DVec3;
 
 /// Fewer are better off alone.
@@ -57,14 +58,7 @@ impl Run {
 
 impl Heading {
     fn of(direction: DVec3) -> Self {
-        let size = direction.abs();
-        let axis = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
+        let axis = longest_axis(direction);
         Self { axis, backward: direction[axis] < 0.0 }
     }
 

@@ -11,8 +11,9 @@ use crate::group::rays::Rays;
 use crate::group::shaft::Shaft;
 use crate::lanes::Lanes;
 use crate::node::{Child, Node, WIDTH};
-use crate::traverse::{STACK, Tree, prefetch};
-use std::mem::MaybeUninit;
+use crate::prefetch::prefetch;
+use crate::traverse::Tree;
+use crate::waiting::Waiting;
 
 impl Tree {
     /// Collects what the rays may hit, and returns what that cost.
@@ -27,9 +28,7 @@ impl Tree {
         let limit = Pace::limit(rays.vectors);
         let mut cost = 0;
         let mut depth = shaft.depth(rays);
-        let mut waiting_at = [const { MaybeUninit::<f32>::uninit() }; STACK];
-        let mut waiting = [const { MaybeUninit::<Child>::uninit() }; STACK];
-        let mut count = 0;
+        let mut waiting = Waiting::new();
         let mut child = Child::node(0);
         loop {
             if child.is_block() {
@@ -66,34 +65,14 @@ impl Tree {
                 let (near, limit) = shaft.cross(node, depth);
                 let met = near.at_most(limit);
                 if met != 0 {
-                    let nearest = near.smallest(limit);
-                    let others = met & !(1 << nearest);
                     self.prefetch(node, met);
-                    debug_assert!(count + WIDTH <= STACK);
-                    // SAFETY: a valid tree is not deeper than `MAX_DEPTH`, so that eight more have
-                    // room; `nearest` is a lane.
-                    unsafe {
-                        let to = waiting_at.as_mut_ptr().add(count).cast();
-                        let to_children = waiting.as_mut_ptr().add(count).cast();
-                        near.compress(&node.children, others, to, to_children);
-                        count += others.count_ones() as usize;
-                        child = *node.children.get_unchecked(nearest);
-                    }
+                    child = waiting.enter(node, near, limit, met);
                     continue;
                 }
             }
-            loop {
-                if count == 0 {
-                    return Ok(cost);
-                }
-                count -= 1;
-                // SAFETY: everything below `count` was written.
-                unsafe {
-                    if waiting_at.get_unchecked(count).assume_init() <= depth {
-                        child = waiting.get_unchecked(count).assume_init();
-                        break;
-                    }
-                }
+            match waiting.next(depth) {
+                Some(next) => child = next,
+                None => return Ok(cost),
             }
         }
     }
