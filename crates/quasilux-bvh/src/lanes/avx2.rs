@@ -1,5 +1,6 @@
 //! With AVX2 and fused multiply-add.
 
+use super::ymm::in_256_bits;
 use super::{Lanes, Quad};
 use crate::node::{Child, WIDTH};
 use std::arch::x86_64::*;
@@ -46,67 +47,7 @@ static LANES_OF: [u64; 256] = {
 impl Lanes for Avx2 {
     type Quad = Avx2Quad;
 
-    #[inline(always)]
-    fn load(from: &[f32; WIDTH]) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_loadu_ps(from.as_ptr()) })
-    }
-
-    #[inline(always)]
-    fn store(self) -> [f32; WIDTH] {
-        let mut to = [0.0; WIDTH];
-        // SAFETY: see above.
-        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) };
-        to
-    }
-
-    #[inline(always)]
-    fn splat(x: f32) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_set1_ps(x) })
-    }
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_add_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_fmadd_ps(self.0, a.0, b.0) })
-    }
-
-    #[inline(always)]
-    fn mul_sub(self, a: Self, b: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_fmsub_ps(self.0, a.0, b.0) })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_min_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_max_ps(self.0, other.0) })
-    }
+    in_256_bits!();
 
     #[inline(always)]
     fn flip_by(self, other: Self) -> Self {
@@ -175,18 +116,6 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn splat_from(x: &f32) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_broadcast_ss(x) })
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_div_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
     fn or_else(self, mask: u32, other: Self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_blendv_ps(other.0, self.0, _mm256_castsi256_ps(spread(mask))) })
@@ -202,17 +131,6 @@ impl Lanes for Avx2 {
                 to,
                 _mm256_blendv_epi8(_mm256_loadu_si256(to), number, spread(mask)),
             );
-        }
-    }
-
-    #[inline(always)]
-    fn least(self) -> f32 {
-        // SAFETY: see above.
-        unsafe {
-            let four =
-                _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
-            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-            _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
         }
     }
 }

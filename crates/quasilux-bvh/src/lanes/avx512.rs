@@ -5,6 +5,7 @@
 //! `clearcpuid=321,323`, by the test of all instructions and the example `hard_rays`, linked statically.
 
 use super::Lanes;
+use super::ymm::in_256_bits;
 use crate::node::{Child, WIDTH};
 use std::arch::x86_64::*;
 
@@ -30,67 +31,7 @@ impl Avx512 {
 impl Lanes for Avx512 {
     type Quad = super::Avx2Quad;
 
-    #[inline(always)]
-    fn load(from: &[f32; WIDTH]) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_loadu_ps(from.as_ptr()) })
-    }
-
-    #[inline(always)]
-    fn store(self) -> [f32; WIDTH] {
-        let mut to = [0.0; WIDTH];
-        // SAFETY: see above.
-        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) };
-        to
-    }
-
-    #[inline(always)]
-    fn splat(x: f32) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_set1_ps(x) })
-    }
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_add_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_fmadd_ps(self.0, a.0, b.0) })
-    }
-
-    #[inline(always)]
-    fn mul_sub(self, a: Self, b: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_fmsub_ps(self.0, a.0, b.0) })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_min_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_max_ps(self.0, other.0) })
-    }
+    in_256_bits!();
 
     #[inline(always)]
     fn flip_by(self, other: Self) -> Self {
@@ -166,18 +107,6 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn splat_from(x: &f32) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_broadcast_ss(x) })
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        // SAFETY: see above.
-        Self(unsafe { _mm256_div_ps(self.0, other.0) })
-    }
-
-    #[inline(always)]
     fn or_else(self, mask: u32, other: Self) -> Self {
         // SAFETY: see above.
         Self(unsafe { _mm256_mask_blend_ps(mask as u8, other.0, self.0) })
@@ -189,17 +118,6 @@ impl Lanes for Avx512 {
         unsafe {
             let number = _mm256_set1_epi32(number as i32);
             _mm256_mask_storeu_epi32(numbers.as_mut_ptr().cast(), mask as u8, number);
-        }
-    }
-
-    #[inline(always)]
-    fn least(self) -> f32 {
-        // SAFETY: see above.
-        unsafe {
-            let four =
-                _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
-            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-            _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
         }
     }
 }

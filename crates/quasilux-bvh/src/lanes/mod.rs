@@ -9,6 +9,8 @@ mod avx2;
 mod avx512;
 mod portable;
 pub(crate) mod triple;
+#[cfg(target_arch = "x86_64")]
+mod ymm;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::{Avx2, Avx2Quad};
