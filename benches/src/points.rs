@@ -8,6 +8,7 @@
 mod numpy;
 
 use numpy::Numpy;
+use quasilux_benches::median;
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 use std::hint::black_box;
 use std::time::Instant;
@@ -120,10 +121,4 @@ fn time(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
     start.elapsed().as_secs_f64()
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

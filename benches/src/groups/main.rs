@@ -5,15 +5,11 @@
 //! `closest_hits` group by group. The figures are medians over the rounds, in processor time;
 //! the ratio is that of the first way to the others within a round.
 
-#[path = "../rays/scenes.rs"]
-#[expect(dead_code, reason = "what only other benchmarks need")]
-mod scenes;
-
 use glam::DVec3;
+use quasilux_benches::meshes::{self, Scene};
+use quasilux_benches::{median, processor_time};
 use quasilux_bvh::{Hit, Ray, Shot, TriangleBvh};
-use quasilux_foreign::processor_seconds;
 use quasilux_sampling::{CoherentGroups, PointSet, Randomization, Sequence};
-use scenes::Scene;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::path::Path;
@@ -31,29 +27,29 @@ fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     let asked =
         |name: &str| wanted.is_empty() || wanted.iter().any(|word| name.starts_with(word.as_str()));
-    let kitchen = scenes::kitchen();
+    let kitchen = meshes::kitchen();
     if kitchen.is_none() {
         println!("left out: kitchens, since the file or zstd is missing");
     }
-    let nine = kitchen.as_ref().map(scenes::kitchens);
+    let nine = kitchen.as_ref().map(meshes::kitchens);
     println!(
         "Mrays/s {:<30}{:>10}{:>6}{:>9}{:>9}{:>9}{:>8}{:>8}",
         "", "photons", "group", "natural", "grouped", "at once", "ratio", "ratio"
     );
-    for scene in [office(), kitchen, nine].into_iter().flatten().chain([scenes::balls()]) {
+    for scene in [office(), kitchen, nine].into_iter().flatten().chain([meshes::balls()]) {
         if asked(scene.name) {
             measure(&scene);
         }
     }
     if asked("relief") && !wanted.is_empty() {
-        measure(&scenes::relief());
+        measure(&meshes::relief());
     }
 }
 
 /// The office of the examples, from below its second luminaire.
 fn office() -> Option<Scene> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/office/office.obj");
-    let corners = scenes::read_obj(&std::fs::read_to_string(file).ok()?);
+    let corners = meshes::read_obj(&std::fs::read_to_string(file).ok()?);
     Some(Scene { name: "office", corners, source: DVec3::new(3.0, 1.25, 2.45) })
 }
 
@@ -114,16 +110,4 @@ fn one_by_one(bvh: &TriangleBvh, shots: &[Shot], hits: &mut [Option<Hit>]) {
         *hit = bvh.closest_hit(&shot.ray, &shot.excluded);
     }
     black_box(hits);
-}
-
-fn processor_time(work: impl FnOnce()) -> f64 {
-    let start = processor_seconds();
-    work();
-    processor_seconds() - start
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

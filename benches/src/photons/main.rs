@@ -8,6 +8,7 @@
 
 mod scenes;
 
+use quasilux_benches::median;
 use quasilux_foreign::{all_processors_seconds, processor_seconds};
 use quasilux_transport::trial::{PhotonTrial, Step, Stopwatch, Way, try_photons};
 use quasilux_transport::{Estimator, Settings};
@@ -148,10 +149,4 @@ fn shares(named: &Named, pool: &ThreadPool) {
             1e6 * seconds / photons
         );
     }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

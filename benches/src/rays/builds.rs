@@ -5,8 +5,9 @@
 //! processors together, and of the ratios within a turn. With `taskset -c 0` in front all run on one
 //! thread.
 
-use crate::scenes::Scene;
-use crate::{median, time};
+use crate::time;
+use quasilux_benches::median;
+use quasilux_benches::meshes::Scene;
 use quasilux_bvh::TriangleBvh;
 use quasilux_foreign::{Embree, Quality, all_processors_seconds};
 use std::hint::black_box;

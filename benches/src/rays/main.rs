@@ -8,12 +8,12 @@
 
 mod builds;
 mod photons;
-mod scenes;
 
 use photons::{Shot, photon_rays};
+use quasilux_benches::meshes::{self, Scene};
+use quasilux_benches::{median, processor_time};
 use quasilux_bvh::{Shot as BvhShot, TriangleBvh};
-use quasilux_foreign::{Embree, Mesh, Quality, RayHit, processor_seconds};
-use scenes::Scene;
+use quasilux_foreign::{Embree, Mesh, Quality, RayHit};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -42,21 +42,21 @@ fn main() {
             measure(scene, embree.as_ref());
         }
     };
-    let kitchen = scenes::kitchen();
+    let kitchen = meshes::kitchen();
     if kitchen.is_none() {
         println!("left out: kitchens, since the file or zstd is missing");
     }
-    let nine = kitchen.as_ref().map(scenes::kitchens);
+    let nine = kitchen.as_ref().map(meshes::kitchens);
     let asked =
         |name: &str| wanted.is_empty() || wanted.iter().any(|word| name.starts_with(word.as_str()));
     for scene in [kitchen, nine].into_iter().flatten().filter(|scene| asked(scene.name)) {
         measure(scene);
     }
     if asked("room of balls") {
-        measure(scenes::balls());
+        measure(meshes::balls());
     }
     if asked("relief") {
-        measure(scenes::relief());
+        measure(meshes::relief());
     }
 }
 
@@ -131,16 +131,4 @@ fn time<R>(work: impl FnOnce() -> R) -> (f64, R) {
     let start = Instant::now();
     let result = work();
     (start.elapsed().as_secs_f64(), result)
-}
-
-fn processor_time(work: impl FnOnce()) -> f64 {
-    let start = processor_seconds();
-    work();
-    processor_seconds() - start
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

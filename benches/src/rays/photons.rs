@@ -1,7 +1,7 @@
 //! Rays as photons make them.
 
-use crate::scenes::{Numbers, Scene};
 use glam::DVec3;
+use quasilux_benches::meshes::{Numbers, Scene};
 use quasilux_bvh::{Ray, TriangleBvh};
 use std::f64::consts::TAU;
 

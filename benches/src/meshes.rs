@@ -5,21 +5,24 @@ use std::path::Path;
 use std::process::Command;
 
 /// Triangles, and an inner point to shoot photons from.
-pub(crate) struct Scene {
-    pub(crate) name: &'static str,
-    pub(crate) corners: Vec<[DVec3; 3]>,
-    pub(crate) source: DVec3,
+pub struct Scene {
+    /// What it is called in tables.
+    pub name: &'static str,
+    /// The corners of each triangle in m.
+    pub corners: Vec<[DVec3; 3]>,
+    /// The inner point in m.
+    pub source: DVec3,
 }
 
 impl Scene {
     /// The corners in single precision.
-    pub(crate) fn narrow(&self) -> Vec<[[f32; 3]; 3]> {
+    pub fn narrow(&self) -> Vec<[[f32; 3]; 3]> {
         self.corners.iter().map(|triangle| triangle.map(|p| p.as_vec3().to_array())).collect()
     }
 }
 
 /// A furnished kitchen of 57 000 triangles; `None` where the file or `zstd` is missing.
-pub(crate) fn kitchen() -> Option<Scene> {
+pub fn kitchen() -> Option<Scene> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../shared/data/scenes/obvhs-kitchen/kitchen.obj.zst");
     let output = Command::new("zstd").arg("-dcq").arg(file).output().ok()?;
@@ -29,7 +32,7 @@ pub(crate) fn kitchen() -> Option<Scene> {
 }
 
 /// Nine kitchens side by side, each turned by another angle about a slanted axis.
-pub(crate) fn kitchens(kitchen: &Scene) -> Scene {
+pub fn kitchens(kitchen: &Scene) -> Scene {
     let [low, high] = bounds(&kitchen.corners).expect("a kitchen has triangles");
     let axis = DVec3::new(0.2, 1.0, 0.3).normalize();
     let step = 0.8 * (high - low).max_element();
@@ -44,7 +47,7 @@ pub(crate) fn kitchens(kitchen: &Scene) -> Scene {
 }
 
 /// A closed room with 300 balls of 2048 triangles hanging in it.
-pub(crate) fn balls() -> Scene {
+pub fn balls() -> Scene {
     let mut corners = room(DVec3::ZERO, DVec3::new(10.0, 8.0, 3.0));
     let unit = ball(4);
     let numbers = &mut Numbers(7);
@@ -59,7 +62,7 @@ pub(crate) fn balls() -> Scene {
 }
 
 /// A closed room over a rough ground of ten million triangles.
-pub(crate) fn relief() -> Scene {
+pub fn relief() -> Scene {
     const CELLS: usize = 2236;
     let numbers = &mut Numbers(11);
     let heights: Vec<f64> = (0..(CELLS + 1) * (CELLS + 1)).map(|_| numbers.next()).collect();
@@ -83,10 +86,12 @@ pub(crate) fn relief() -> Scene {
 }
 
 /// Numbers in [0, 1) from a counter (Steele, Lea and Flood 2014, SplitMix64).
-pub(crate) struct Numbers(pub(crate) u64);
+pub struct Numbers(pub u64);
 
 impl Numbers {
-    pub(crate) fn next(&mut self) -> f64 {
+    /// The next one.
+    #[expect(clippy::should_implement_trait, reason = "they have no end")]
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -134,7 +139,7 @@ fn ball(level: u32) -> Vec<[DVec3; 3]> {
 }
 
 /// The polygons of a Wavefront file as fans of triangles.
-pub(crate) fn read_obj(text: &str) -> Vec<[DVec3; 3]> {
+pub fn read_obj(text: &str) -> Vec<[DVec3; 3]> {
     let mut points: Vec<DVec3> = Vec::new();
     let mut corners = Vec::new();
     for line in text.lines() {

@@ -1,0 +1,20 @@
+//! What the benchmarks have in common: meshes, the time that work takes, and medians.
+
+pub mod meshes;
+
+use quasilux_foreign::processor_seconds;
+
+/// Seconds that some work takes this thread on a processor.
+pub fn processor_time(work: impl FnOnce()) -> f64 {
+    let start = processor_seconds();
+    work();
+    processor_seconds() - start
+}
+
+/// The middle one of some numbers, of which there is one at least.
+#[must_use]
+pub fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
