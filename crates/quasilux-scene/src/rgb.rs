@@ -10,7 +10,7 @@ use std::ops::{Add, AddAssign, Mul};
 pub const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A linear RGB photometric triple: reflectances, or light in any photometric unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rgb(pub [f64; 3]);
 
 impl Rgb {

@@ -1,7 +1,7 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
 use crate::settings::{Estimator, Settings};
-use crate::world::{Scattering, World};
+use crate::world::World;
 use quasilux_scene::{Bsdf, Light, Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
@@ -49,9 +49,9 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
         match &sensor.shape {
             SensorShape::Points(points) => {
                 let is_off = |p: &quasilux_scene::SensorPoint| {
-                    !world.facet_under(p.position, p.normal).is_some_and(|at| {
-                        matches!(world.facet(&at).scattering, Scattering::Diffuse(_))
-                    })
+                    !world
+                        .facet_under(p.position, p.normal)
+                        .is_some_and(|at| world.bsdf(&at).keeps_illuminance())
                 };
                 if let Some(point) = points.iter().position(is_off) {
                     let point = point + 1;

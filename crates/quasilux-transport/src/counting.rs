@@ -4,8 +4,8 @@
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
 
 use crate::estimates::{Dimensions, Estimates};
-use crate::map::MapLayout;
-use crate::photon::{PhotonCounts, PhotonReceiver};
+use crate::map::{MapLayout, QUANTA_PER_PHOTON};
+use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::simulate::Estimation;
@@ -63,7 +63,7 @@ struct GridReceiver {
     first_counter: usize,
 }
 
-/// Photons counted in one replicate: all, and those straight from a light.
+/// Photons counted in one replicate, in quanta: all, and those straight from a light.
 struct Counters {
     all: Vec<AtomicU64>,
     direct: Vec<AtomicU64>,
@@ -121,8 +121,8 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
             let targets = self.receivers.targets.iter();
             targets
                 .map(|&(counter, area_m2)| {
-                    let photons = counts[counter as usize].load(Ordering::Relaxed);
-                    photons as f64 * photon_lm / area_m2
+                    let quanta = counts[counter as usize].load(Ordering::Relaxed);
+                    quanta as f64 / QUANTA_PER_PHOTON * photon_lm / area_m2
                 })
                 .collect()
         };
@@ -220,7 +220,8 @@ impl Receivers {
 
 impl GridReceiver {
     /// The counter of the cell that a flight passes through from the front, if any.
-    fn counter(&self, from: DVec3, direction: DVec3, length_m: f64) -> Option<usize> {
+    fn counter(&self, flight: &Flight) -> Option<usize> {
+        let &Flight { from, direction, length_m } = flight;
         let approach = self.normal.dot(direction);
         let height = self.normal.dot(self.origin - from);
         // Neither from behind nor away: most flights end here, before the division.
@@ -251,31 +252,32 @@ impl Counters {
         Self { all: zeros(), direct: zeros() }
     }
 
-    fn count(&self, counter: usize, bounces: u32) {
-        self.all[counter].fetch_add(1, Ordering::Relaxed);
+    fn count(&self, counter: usize, photons: f64, bounces: u32) {
+        let quanta = (photons * QUANTA_PER_PHOTON).round_ties_even() as u64;
+        self.all[counter].fetch_add(quanta, Ordering::Relaxed);
         if bounces == 0 {
-            self.direct[counter].fetch_add(1, Ordering::Relaxed);
+            self.direct[counter].fetch_add(quanta, Ordering::Relaxed);
         }
     }
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
-    fn flight(&mut self, from: DVec3, direction: DVec3, length_m: f64, bounces: u32) {
+    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
         for grid in &self.receivers.grids {
-            if let Some(counter) = grid.counter(from, direction, length_m) {
-                self.counters.count(counter, bounces);
+            if let Some(counter) = grid.counter(flight) {
+                self.counters.count(counter, weight.luminance(), bounces);
             }
         }
     }
 
-    fn landing(&mut self, at: &Interaction, _weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         if !self.receivers.reads_facet[at.facet as usize] {
             return;
         }
         let element = self.receivers.layout.element(at);
         let counter = self.receivers.counter_of_element[element];
         if counter != UNREAD {
-            self.counters.count(counter as usize, bounces);
+            self.counters.count(counter as usize, weight.luminance(), bounces);
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::targets::{Target, by_sensor, targets};
+use crate::vertex::Vertex;
 use crate::watch::Watch;
 use quasilux_scene::Scene;
 use rayon::prelude::*;
@@ -84,7 +85,12 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 
     /// Traces the paths `piece`, of those that are left when the paths `indices` of all targets and
     /// replicates, in the order of [`Self::sums`], are put in one row.
-    fn trace_piece(&self, piece: &Range<u64>, indices: &Range<u64>, wave: &mut PathWave) -> Piece {
+    fn trace_piece(
+        &self,
+        piece: &Range<u64>,
+        indices: &Range<u64>,
+        wave: &mut PathWave<S>,
+    ) -> Piece {
         let each = indices.end - indices.start;
         let numbers = piece.start / each..piece.end.div_ceil(each);
         let sections: Vec<Section<'_, S>> = numbers
@@ -153,7 +159,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         while done < paths {
             let round = done..(done + ROUND).min(paths);
             let pieces = (round.end - round.start).div_ceil(WAVE);
-            let trace = |wave: &mut PathWave, piece: u64| {
+            let trace = |wave: &mut PathWave<S>, piece: u64| {
                 let first = round.start + piece * WAVE;
                 self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
             };
@@ -236,13 +242,14 @@ fn exact_direct<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mu
     let light = |(targets, direct_lx): (&[Target], &mut [f64])| {
         let asker = |(who, target): (u32, &Target)| match *target {
             Target::Point { position, normal: n } => {
-                Some(Asker { who, from: stage.world.vantage_of_sensor(position, n), n })
+                let from = stage.world.vantage_of_sensor(position, n);
+                Some(Asker { who, vertex: Vertex::sensor(from, n) })
             }
             Target::Cell { .. } => None,
         };
-        let askers: Vec<Asker> = (0..).zip(targets).filter_map(asker).collect();
+        let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
         let mut shadows = Shadows::default();
-        let receive = |who: u32, illuminance_lx| direct_lx[who as usize] += illuminance_lx;
+        let receive = |who: u32, lx: S| direct_lx[who as usize] += lx.luminance();
         stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, receive);
         shadows.rays
     };

@@ -8,9 +8,11 @@
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
 //! `path_wave` and `shadow` for how paths do, at `map` for where the two ways meet.
 
+mod bsdf;
 mod check;
 mod counting;
 pub mod estimates;
+mod frame;
 mod gathering;
 pub mod interval;
 mod lights;
@@ -33,6 +35,7 @@ mod stage;
 mod tally;
 mod targets;
 pub mod trial;
+mod vertex;
 mod watch;
 mod world;
 

@@ -4,11 +4,10 @@
 //! needed and no element crosses an edge; the two sides of a facet are kept apart. An element's
 //! illuminance is `E = m flux / area`, m photons of equal flux (Voloboy, Dmitriev and Kopylov 2003).
 
-use crate::photon::PhotonReceiver;
+use crate::photon::{Flight, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
-use crate::world::{Interaction, Scattering, World};
-use glam::DVec3;
+use crate::world::{Facet, Interaction, World};
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicI64, Ordering};
 
@@ -16,8 +15,8 @@ use std::sync::atomic::{AtomicI64, Ordering};
 const ELEMENTS_ACROSS: f64 = 64.0;
 /// More elements than this make the elements larger, both sides counted once.
 const MOST_ELEMENTS: u64 = 1 << 22;
-/// Photon colours are rounded to this share of a photon.
-const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
+/// Photons are counted in so many quanta each: 2^39 photons fit a counter.
+pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
 
 /// Which element a place belongs to.
 pub(crate) struct MapLayout {
@@ -66,11 +65,10 @@ impl MapLayout {
     /// memory allows.
     pub(crate) fn new<S: Spectrum>(world: &World<S>, element_m: Option<f64>) -> Self {
         let mut element_m = element_m.unwrap_or(world.size_m() / ELEMENTS_ACROSS);
-        let parts = |facet: &crate::world::Facet<S>, element_m: f64| match facet.scattering {
-            Scattering::Diffuse(_) => {
-                (facet.longest_edge_m() / element_m).ceil().clamp(1.0, 65535.0)
-            }
-            Scattering::Mirror(_) => 0.0,
+        let parts = |facet: &Facet, element_m: f64| {
+            let counts = world.bsdf_of(facet).keeps_illuminance();
+            let parts = (facet.longest_edge_m() / element_m).ceil().clamp(1.0, 65535.0);
+            if counts { parts } else { 0.0 }
         };
         let total = |element_m: f64| -> f64 {
             world.facets.iter().map(|facet| parts(facet, element_m)).map(|n| n * n).sum()
@@ -170,7 +168,7 @@ impl<S: Spectrum> IlluminationMap<S> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
-    fn flight(&mut self, _from: DVec3, _direction: DVec3, _length_m: f64, _bounces: u32) {}
+    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         // Light straight from the lights is never read from the map.

@@ -8,11 +8,14 @@
 //! estimated by going on, and the difference to the map, weighted by how few they are, takes the
 //! map's error out again: the map is a control variate, and its elements cause no bias.
 
+use crate::bsdf::Mode;
+use crate::frame::Frame;
 use crate::path_end::Rest;
 use crate::shadow::{Offer, Shadows};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
-use crate::world::{Interaction, Scattering, Vantage, mirrored, to_world};
+use crate::vertex::Vertex;
+use crate::world::{Interaction, Vantage};
 use glam::DVec3;
 use quasilux_bvh::Shot;
 use quasilux_sampling::SampleCursor;
@@ -22,13 +25,13 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
 
-/// What one path found, in lx.
+/// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Gathered {
+pub(crate) struct Gathered<S> {
     /// Straight from the lights; of the point-like ones only where the start asks for it.
-    pub(crate) direct_lx: f64,
+    pub(crate) direct: S,
     /// After at least one bounce; may be negative where a map is corrected.
-    pub(crate) indirect_lx: f64,
+    pub(crate) indirect: S,
     /// Whether the path came to a surface that reflects, so that there may be indirect light.
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
@@ -36,20 +39,32 @@ pub(crate) struct Gathered {
 }
 
 /// A path that is over.
-pub(crate) struct Ended {
-    pub(crate) found: Gathered,
+pub(crate) struct Ended<S> {
+    pub(crate) found: Gathered<S>,
     /// How many coordinates it used.
     pub(crate) dimensions: u32,
 }
 
-/// Where a path starts: at a sensor point, on the side `n`.
+/// Where a path starts, and on what.
 pub(crate) struct Start<'p, S> {
     pub(crate) from: Vantage,
-    pub(crate) n: DVec3,
-    /// Whether what it finds holds the direct light of the point-like lights at its start.
-    pub(crate) tests_pointlikes: bool,
+    pub(crate) seeks: Seeks,
     pub(crate) rest: &'p Rest<'p, S>,
     pub(crate) cursor: SampleCursor<'p>,
+}
+
+/// What a path is to find.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Seeks {
+    /// The illuminance on the side `n`.
+    Illuminance {
+        n: DVec3,
+        /// Whether with the direct light of the point-like lights.
+        tests_pointlikes: bool,
+    },
+    /// The luminance seen along this unit vector.
+    #[expect(dead_code, reason = "cameras follow")]
+    Luminance { direction: DVec3 },
 }
 
 /// A path on its way.
@@ -61,39 +76,29 @@ pub(crate) struct Path<'p, S> {
     from: Vantage,
     /// Unit direction in which it goes on.
     direction: DVec3,
-    /// The cosine that the direction was sampled with, for the density; `None` after a mirror.
-    cos: Option<f64>,
-    /// Factors from radiance along the path to illuminance at its start.
+    /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
+    pdf_sr: Option<f64>,
+    /// Factors from radiance along the path to what its start seeks.
     beta: S,
     /// The same for what the next surface emits itself.
     beta_emitted: S,
-    is_first_diffuse: bool,
-    awaited: Awaited,
-    /// From the point-like lights at its start, in lx.
-    pointlikes_lx: f64,
-    found: Gathered,
-}
-
-/// What a vertex adds to its path once it is known which lights it sees.
-#[derive(Clone, Copy, Debug, Default)]
-struct Awaited {
-    /// Illuminance at the vertex from lights that it turned out to see, in lx.
-    arrived_lx: f64,
-    /// From that to illuminance at the start.
-    to_start: f64,
-    /// What the map gives, in lx at the start.
-    from_map_lx: f64,
+    /// Surfaces that keep illuminance to pass before it may end on a map.
+    passes: u32,
+    /// From lights that its last vertex turned out to see.
+    arrived: S,
+    /// From the point-like lights at its start.
+    pointlikes: S,
+    found: Gathered<S>,
 }
 
 /// What the paths that travel together ask of the lights, with working space.
-#[derive(Default)]
-pub(crate) struct PathWork {
-    pub(crate) shadows: Shadows,
-    offers: Vec<Offer>,
+pub(crate) struct PathWork<S> {
+    pub(crate) shadows: Shadows<S>,
+    offers: Vec<Offer<S>>,
     weights: Vec<f64>,
 }
 
-/// How a path goes on from a diffuse surface: factors on what the next surface sends.
+/// How a path goes on from a surface: factors on what the next surface sends.
 pub(crate) struct Onward {
     /// On the light that the next surface emits itself.
     pub(crate) emitted: f64,
@@ -101,33 +106,53 @@ pub(crate) struct Onward {
     pub(crate) everything: f64,
 }
 
+impl<S: Spectrum> Start<'_, S> {
+    /// The start where it wants all point-like lights tested.
+    pub(crate) fn vertex_that_tests_pointlikes(&self) -> Option<Vertex<'static, S>> {
+        match self.seeks {
+            Seeks::Illuminance { n, tests_pointlikes: true } => Some(Vertex::sensor(self.from, n)),
+            _ => None,
+        }
+    }
+}
+
 impl<'p, S: Spectrum> Path<'p, S> {
-    /// The path number `number`; it asks for the light of the area lights and the luminaires with an
-    /// area at its start.
+    /// The path number `number`; where it seeks illuminance it asks for the light of the area lights
+    /// and the luminaires with an area at its start.
     pub(crate) fn start(
         stage: &Stage<'_, S>,
         number: u32,
-        Start { from, n, rest, mut cursor, .. }: Start<'p, S>,
-        work: &mut PathWork,
+        start: Start<'p, S>,
+        work: &mut PathWork<S>,
     ) -> Self {
-        let first = sample_cosine_hemisphere(cursor.next_2d());
-        let beta = S::white() * PI;
+        let Start { from, seeks, rest, mut cursor } = start;
+        let (direction, pdf_sr, beta, passes) = match seeks {
+            Seeks::Illuminance { n, .. } => {
+                let first = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
+                let direction = Frame::around(n).to_world(first);
+                (direction, Some(first.z * FRAC_1_PI), S::white() * PI, 0)
+            }
+            Seeks::Luminance { direction } => (direction, None, S::white(), 1),
+        };
         let mut path = Self {
             number,
             rest,
             cursor,
             from,
-            direction: to_world(n, first),
-            cos: Some(first[2]),
+            direction,
+            pdf_sr,
             beta,
             beta_emitted: beta,
-            is_first_diffuse: true,
-            awaited: Awaited { to_start: 1.0, ..Awaited::default() },
-            pointlikes_lx: 0.0,
+            passes,
+            arrived: S::black(),
+            pointlikes: S::black(),
             found: Gathered::default(),
         };
-        path.ask_emitters(stage, n, work);
-        path.ask_area_luminaires(stage, n, work);
+        if let Seeks::Illuminance { n, .. } = seeks {
+            let vertex = Vertex::sensor(from, n);
+            path.ask_emitters(stage, &vertex, work);
+            path.ask_area_luminaires(stage, &vertex, work);
+        }
         path
     }
 
@@ -136,14 +161,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.from.shot(self.direction)
     }
 
-    /// Light in lx that the path asked for has arrived where it asked.
-    pub(crate) fn receive(&mut self, illuminance_lx: f64) {
-        self.awaited.arrived_lx += illuminance_lx;
+    /// Light that the path asked for has arrived where it asked.
+    pub(crate) fn receive(&mut self, light: S) {
+        self.arrived += light;
     }
 
-    /// Light in lx of a point-like light has arrived at its start.
-    pub(crate) fn receive_at_start(&mut self, illuminance_lx: f64) {
-        self.pointlikes_lx += illuminance_lx;
+    /// Light of a point-like light has arrived at its start.
+    pub(crate) fn receive_at_start(&mut self, light: S) {
+        self.pointlikes += light;
     }
 
     /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere; whether
@@ -153,29 +178,47 @@ impl<'p, S: Spectrum> Path<'p, S> {
         stage: &Stage<'_, S>,
         bounces: u32,
         at: Option<&Interaction>,
-        work: &mut PathWork,
+        work: &mut PathWork<S>,
     ) -> bool {
-        self.add_awaited(bounces);
+        self.add_arrived(bounces);
         let Some(at) = at else { return false };
         self.add_emitted(stage, bounces, at);
-        let scattering = stage.world.facet(at).scattering;
-        let reflected = self.beta * scattering.reflectance();
+        let bsdf = stage.world.bsdf(at);
+        let frame = at.frame();
+        let wo = frame.to_local(-self.direction);
+        let goes_on = self.beta * bsdf.albedo(wo, at.front);
         let is_last = stage.max_bounces.is_some_and(|most| bounces >= most);
-        if is_last || reflected.max_channel() == 0.0 {
+        if is_last || goes_on.max_channel() == 0.0 {
             return false;
         }
         self.found.reflected = true;
-        self.from = stage.world.vantage(at);
-        match scattering {
-            Scattering::Mirror(_) => self.reflect(bounces, reflected, at.n),
-            Scattering::Diffuse(_) => self.scatter(stage, bounces, reflected, at, work),
+        if !bsdf.is_specular() {
+            self.ask_all(stage, at, work);
         }
+        let onward =
+            if bsdf.keeps_illuminance() { self.end_on_map(stage, bounces, at) } else { None };
+        let onward = onward.unwrap_or_else(|| self.survive(bounces, goes_on));
+        let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
+        if onward.everything == 0.0 && !seeks_emitters {
+            return false;
+        }
+        let Some(next) = bsdf.sample(wo, at.front, Mode::Radiance, &mut self.cursor) else {
+            return false;
+        };
+        let world = &stage.world;
+        self.from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+        self.direction = frame.to_world(next.wi);
+        self.pdf_sr = next.pdf_sr;
+        let beta = self.beta * next.weight;
+        self.beta = beta * onward.everything;
+        self.beta_emitted = beta * onward.emitted;
+        true
     }
 
     /// What it found. All that it asked for must have arrived.
-    pub(crate) fn end(mut self) -> Ended {
-        self.add_awaited(1);
-        self.found.direct_lx += self.pointlikes_lx;
+    pub(crate) fn end(mut self) -> Ended<S> {
+        self.add_arrived(1);
+        self.found.direct += self.pointlikes;
         Ended { found: self.found, dimensions: self.cursor.used() }
     }
 
@@ -184,121 +227,121 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.found.endless = true;
     }
 
-    /// Goes on in the mirror direction.
-    fn reflect(&mut self, bounces: u32, reflected: S, n: DVec3) -> bool {
-        let factor = self.survive(bounces, reflected).everything;
-        self.direction = mirrored(self.direction, n);
-        self.cos = None;
-        self.beta = reflected * factor;
-        self.beta_emitted = self.beta;
-        factor != 0.0
-    }
-
-    /// Asks for the direct light on a diffuse surface and goes on for the rest.
-    fn scatter(
+    /// Takes the light that the map keeps here, where the path may end on one: how it goes on then.
+    fn end_on_map(
         &mut self,
         stage: &Stage<'_, S>,
         bounces: u32,
-        reflected: S,
         at: &Interaction,
-        work: &mut PathWork,
-    ) -> bool {
-        // From illuminance here to illuminance at the start.
-        let to_start = reflected * FRAC_1_PI;
-        self.awaited.to_start = to_start.luminance();
-        self.ask_area_luminaires(stage, at.n, work);
-        self.ask_pointlikes(stage, at.n, work);
-        self.ask_emitters(stage, at.n, work);
-        let map_stands = self.is_first_diffuse && (bounces == 0 || stage.max_bounces.is_none());
-        let onward = match self.rest {
-            Rest::Map(end) if map_stands => {
-                let from_map = (to_start * end.illuminance_lx(at)).luminance();
-                let onward = end.correct(&mut self.cursor);
-                self.awaited.from_map_lx = from_map * (1.0 - onward.everything);
-                onward
-            }
-            _ => self.survive(bounces, reflected),
-        };
-        let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
-        if onward.everything == 0.0 && !seeks_emitters {
-            return false;
+    ) -> Option<Onward> {
+        let Rest::Map(end) = self.rest else { return None };
+        let passed = self.passes == 0;
+        self.passes = self.passes.saturating_sub(1);
+        // The light on the map has any number of bounces behind it, or one less than is wanted.
+        if !(passed && (bounces == 0 || stage.max_bounces.is_none())) {
+            return None;
         }
-        self.is_first_diffuse = false;
-        let local = sample_cosine_hemisphere([self.cursor.rest_1d(), self.cursor.next_1d()]);
-        self.direction = to_world(at.n, local);
-        self.cos = Some(local[2]);
-        self.beta = to_start * (PI * onward.everything);
-        self.beta_emitted = to_start * (PI * onward.emitted);
-        true
+        let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
+        let onward = end.correct(&mut self.cursor);
+        *self.found.after(bounces + 1) +=
+            to_start * end.illuminance_lx(at) * (1.0 - onward.everything);
+        self.passes = u32::MAX;
+        Some(onward)
     }
 
-    /// Russian roulette after the first bounces, by the reflectance of the channel that is left
+    /// Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
-    fn survive(&mut self, bounces: u32, reflected: S) -> Onward {
+    fn survive(&mut self, bounces: u32, goes_on: S) -> Onward {
         if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
-        let reflectance = reflected.max_channel() / self.beta.max_channel();
-        let survives = self.cursor.choose_bool(reflectance);
-        let factor = if survives { 1.0 / reflectance } else { 0.0 };
+        let albedo = goes_on.max_channel() / self.beta.max_channel();
+        let survives = self.cursor.choose_bool(albedo);
+        let factor = if survives { 1.0 / albedo.min(1.0) } else { 0.0 };
         Onward { emitted: factor, everything: factor }
     }
 
+    /// Asks for the light of all kinds of lights on a surface.
+    fn ask_all(&mut self, stage: &Stage<'_, S>, at: &Interaction, work: &mut PathWork<S>) {
+        let vertex = Vertex::surface(&stage.world, at, self.direction, self.beta);
+        self.ask_area_luminaires(stage, &vertex, work);
+        self.ask_pointlikes(stage, &vertex, work);
+        self.ask_emitters(stage, &vertex, work);
+    }
+
     /// Asks for the light of one point on the area lights.
-    fn ask_emitters(&mut self, stage: &Stage<'_, S>, n: DVec3, work: &mut PathWork) {
+    fn ask_emitters(
+        &mut self,
+        stage: &Stage<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
         if let Some(emitters) = &stage.lights.emitters {
             let u = self.cursor.next_2d();
-            self.ask(emitters.offer(&stage.world, self.from.position(), n, u), work);
+            self.ask(emitters.offer(&stage.world, vertex, u), vertex, work);
         }
     }
 
     /// Asks for the light of one place on the luminaires with an area.
-    fn ask_area_luminaires(&mut self, stage: &Stage<'_, S>, n: DVec3, work: &mut PathWork) {
+    fn ask_area_luminaires(
+        &mut self,
+        stage: &Stage<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
         let lights = &stage.lights.area_luminaires;
         if !lights.is_empty() {
             let u = self.cursor.next_2d();
-            self.ask(lights.offer(self.from.position(), n, u, &mut work.weights), work);
+            self.ask(lights.offer(vertex, u, &mut work.weights), vertex, work);
         }
     }
 
     /// Asks for the light of one point-like light.
-    fn ask_pointlikes(&mut self, stage: &Stage<'_, S>, n: DVec3, work: &mut PathWork) {
+    fn ask_pointlikes(
+        &mut self,
+        stage: &Stage<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
         let lights = &stage.lights.pointlikes;
         if !lights.is_empty() {
             let u = self.cursor.next_1d();
-            self.ask(lights.offer(self.from.position(), n, u, &mut work.offers), work);
+            self.ask(lights.offer(vertex, u, &mut work.offers), vertex, work);
         }
     }
 
-    fn ask(&self, offer: Option<Offer>, work: &mut PathWork) {
+    fn ask(&self, offer: Option<Offer<S>>, vertex: &Vertex<'_, S>, work: &mut PathWork<S>) {
         if let Some(offer) = offer {
-            work.shadows.ask(self.number, self.from, &offer);
+            work.shadows.ask(self.number, vertex, &offer);
         }
     }
 
     /// Adds what the vertex after `bounces` reflections was waiting for.
-    fn add_awaited(&mut self, bounces: u32) {
-        let Awaited { arrived_lx, to_start, from_map_lx } = std::mem::take(&mut self.awaited);
-        let found_lx = self.found.after(bounces);
-        *found_lx += to_start * arrived_lx;
-        *found_lx += from_map_lx;
+    fn add_arrived(&mut self, bounces: u32) {
+        *self.found.after(bounces) += std::mem::take(&mut self.arrived);
     }
 
     /// Adds the light that the place where the ray ends emits itself.
     fn add_emitted(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
         let emitted_cd_m2 = stage.world.emitted_cd_m2(at);
         if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &stage.lights.emitters) {
-            let shared = |cos| emitters.weight_of_direction(&stage.world, at, self.direction, cos);
-            let weight = self.cos.map_or(1.0, shared);
-            *self.found.after(bounces) += self.beta_emitted.luminance() * emitted_cd_m2 * weight;
+            let shared = |pdf| emitters.weight_of_direction(&stage.world, at, self.direction, pdf);
+            let weight = self.pdf_sr.map_or(1.0, shared);
+            *self.found.after(bounces) += self.beta_emitted * (emitted_cd_m2 * weight);
         }
     }
 }
 
-impl Gathered {
+impl<S> Gathered<S> {
     /// Where light belongs that arrives at the vertex after `bounces` reflections, or that the ray
     /// from there runs into.
-    fn after(&mut self, bounces: u32) -> &mut f64 {
-        if bounces == 0 { &mut self.direct_lx } else { &mut self.indirect_lx }
+    fn after(&mut self, bounces: u32) -> &mut S {
+        if bounces == 0 { &mut self.direct } else { &mut self.indirect }
+    }
+}
+
+impl<S> Default for PathWork<S> {
+    fn default() -> Self {
+        Self { shadows: Shadows::default(), offers: Vec::new(), weights: Vec::new() }
     }
 }

@@ -17,11 +17,10 @@ use std::mem::take;
 pub(crate) const WAVE: u64 = 512;
 
 /// Working space of paths that travel together, used again for the next ones.
-#[derive(Default)]
-pub(crate) struct PathWave {
-    work: PathWork,
+pub(crate) struct PathWave<S: 'static> {
+    work: PathWork<S>,
     /// Starts where all point-like lights are tested.
-    askers: Vec<Asker>,
+    askers: Vec<Asker<'static, S>>,
     /// Numbers of the paths that are on their way.
     travelling: Vec<u32>,
     shots: Vec<Shot>,
@@ -30,9 +29,23 @@ pub(crate) struct PathWave {
     rays: u64,
 }
 
-impl PathWave {
+impl<S: 'static> Default for PathWave<S> {
+    fn default() -> Self {
+        Self {
+            work: PathWork::default(),
+            askers: Vec::new(),
+            travelling: Vec::new(),
+            shots: Vec::new(),
+            hits: Vec::new(),
+            arrivals: Vec::new(),
+            rays: 0,
+        }
+    }
+}
+
+impl<S: Spectrum> PathWave<S> {
     /// Traces paths to their ends, in the order of `starts`.
-    pub(crate) fn trace<'p, S: Spectrum>(
+    pub(crate) fn trace<'p>(
         &mut self,
         stage: &Stage<'_, S>,
         starts: impl Iterator<Item = Start<'p, S>>,
@@ -40,8 +53,8 @@ impl PathWave {
         let mut paths = Vec::with_capacity(WAVE as usize);
         self.askers.clear();
         for (number, start) in (0..).zip(starts) {
-            let Start { from, n, tests_pointlikes, .. } = start;
-            self.askers.extend(tests_pointlikes.then_some(Asker { who: number, from, n }));
+            let vertex = start.vertex_that_tests_pointlikes();
+            self.askers.extend(vertex.map(|vertex| Asker { who: number, vertex }));
             paths.push(Path::start(stage, number, start, &mut self.work));
         }
         self.answer(stage, &mut paths);
@@ -65,19 +78,14 @@ impl PathWave {
     }
 
     /// Gives the starts that want it the direct light of the point-like lights.
-    fn test_pointlikes<S: Spectrum>(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |who: u32, lx: f64| paths[who as usize].receive_at_start(lx);
+    fn test_pointlikes(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
+        let receive = |who: u32, light: S| paths[who as usize].receive_at_start(light);
         let Stage { world, lights, .. } = stage;
         lights.pointlikes.all(world, &self.askers, &mut self.work.shadows, receive);
     }
 
     /// Takes all paths that are on their way to their next vertex.
-    fn advance<S: Spectrum>(
-        &mut self,
-        stage: &Stage<'_, S>,
-        bounces: u32,
-        paths: &mut [Path<'_, S>],
-    ) {
+    fn advance(&mut self, stage: &Stage<'_, S>, bounces: u32, paths: &mut [Path<'_, S>]) {
         let Self { work, travelling, shots, hits, arrivals, rays, .. } = self;
         shots.clear();
         shots.extend(travelling.iter().map(|&number| paths[number as usize].shot()));
@@ -91,8 +99,8 @@ impl PathWave {
     }
 
     /// Gives the paths the light that they asked for.
-    fn answer<S: Spectrum>(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |who: u32, illuminance_lx| paths[who as usize].receive(illuminance_lx);
+    fn answer(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
+        let receive = |who: u32, light: S| paths[who as usize].receive(light);
         self.work.shadows.answer(&stage.world, receive);
     }
 }

@@ -1,15 +1,16 @@
 //! One photon, from its light to its end: what happens to it at each step.
 //!
-//! Photons carry equal flux. At each surface they survive with the probability that keeps their
+//! Photons start with equal flux. At each surface they survive with the probability that keeps their
 //! luminance: what is absorbed is absorbed whole, so counting photons balances the flux exactly,
-//! and on grey surfaces the weight never changes (Voloboy, Dmitriev and Kopylov 2003).
+//! and on grey surfaces the weight never changes (Voloboy, Dmitriev and Kopylov 2003). Only rough
+//! surfaces, whose directions cannot be drawn in exact proportion, leave it slightly changed.
 
+use crate::bsdf::Mode;
 use crate::lights::Emission;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
-use crate::world::{Interaction, Scattering, mirrored, to_world};
+use crate::world::Interaction;
 use glam::DVec3;
-use quasilux_sampling::warp::sample_cosine_hemisphere;
 use quasilux_sampling::{DimensionHistogram, SampleCursor};
 use std::ops::AddAssign;
 
@@ -34,17 +35,25 @@ pub(crate) struct PhotonCounts {
 /// What sees photons on their way.
 pub(crate) trait PhotonReceiver<S> {
     /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
-    /// `bounces` reflections. Its luminance is that of one whole photon.
-    fn flight(&mut self, from: DVec3, direction: DVec3, length_m: f64, bounces: u32);
+    /// `bounces` reflections; `weight` is its colour, of luminance one or near it.
+    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32);
 
-    /// A photon lands on a diffuse surface; `weight` is its colour, of luminance one.
+    /// A photon lands on a surface that keeps illuminance.
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32);
+}
+
+/// A straight piece of a photon's way.
+pub(crate) struct Flight {
+    pub(crate) from: DVec3,
+    pub(crate) direction: DVec3,
+    /// Infinite where it leaves the scene.
+    pub(crate) length_m: f64,
 }
 
 /// A photon on its way, but for where it flies.
 pub(crate) struct Photon<'p, S> {
     pub(crate) cursor: SampleCursor<'p>,
-    /// Its colour, of luminance one.
+    /// Its colour: the flux that it carries, as a share of that of one photon at its start.
     pub(crate) weight: S,
 }
 
@@ -107,9 +116,9 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         receiver: &mut impl PhotonReceiver<S>,
     ) {
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
-        receiver.flight(from, direction, length_m, bounces);
+        receiver.flight(&Flight { from, direction, length_m }, self.weight, bounces);
         if let Some(at) = found
-            && let Scattering::Diffuse(_) = stage.world.facet(at).scattering
+            && stage.world.bsdf(at).keeps_illuminance()
         {
             receiver.landing(at, self.weight, bounces);
         }
@@ -124,24 +133,23 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         bounces: u32,
     ) -> Fate {
         let Some(at) = found else { return Fate::Ends(End::Lost) };
-        let scattering = stage.world.facet(at).scattering;
-        let reflected = self.weight * scattering.reflectance();
-        let survival = reflected.luminance();
+        let (bsdf, frame) = (stage.world.bsdf(at), at.frame());
+        let wo = frame.to_local(-direction);
+        let survival =
+            (self.weight * bsdf.albedo(wo, at.front)).luminance() / self.weight.luminance();
         if !self.cursor.choose_bool(survival) {
             return Fate::Ends(End::Absorbed);
         }
         if stage.max_bounces.is_some_and(|most| bounces >= most) {
             return Fate::Ends(End::Cut);
         }
-        self.weight = reflected * (1.0 / survival);
-        let direction = match scattering {
-            Scattering::Mirror(_) => mirrored(direction, at.n),
-            Scattering::Diffuse(_) => {
-                let u = [self.cursor.rest_1d(), self.cursor.next_1d()];
-                to_world(at.n, sample_cosine_hemisphere(u))
-            }
+        let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, &mut self.cursor) else {
+            return Fate::Ends(End::Absorbed);
         };
-        Fate::GoesOn(Emission { from: stage.world.vantage(at), direction })
+        self.weight = self.weight * next.weight * (1.0 / survival);
+        let from =
+            if next.wi.z > 0.0 { stage.world.vantage(at) } else { stage.world.vantage_behind(at) };
+        Fate::GoesOn(Emission { from, direction: frame.to_world(next.wi) })
     }
 }
 
@@ -172,9 +180,9 @@ impl AddAssign for PhotonCounts {
 
 /// Receives nothing, or what the inner one receives.
 impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
-    fn flight(&mut self, from: DVec3, direction: DVec3, length_m: f64, bounces: u32) {
+    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
         if let Some(receiver) = self {
-            receiver.flight(from, direction, length_m, bounces);
+            receiver.flight(flight, weight, bounces);
         }
     }
 

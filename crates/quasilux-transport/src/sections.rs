@@ -1,6 +1,6 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
-use crate::path::{Ended, Start};
+use crate::path::{Ended, Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
 use crate::spectrum::Spectrum;
@@ -52,7 +52,7 @@ pub(crate) fn trace_sections<S: Spectrum>(
     stage: &Stage<'_, S>,
     sections: &[Section<'_, S>],
     quantum: Quantum,
-    wave: &mut PathWave,
+    wave: &mut PathWave<S>,
 ) -> Piece {
     let starts = sections.iter().flat_map(|section| section.starts(stage));
     let mut paths = wave.trace(stage, starts).into_iter();
@@ -85,15 +85,16 @@ impl<S: Spectrum> Section<'_, S> {
                 }
             };
             let from = stage.world.vantage_of_sensor(position, n);
-            Start { from, n, tests_pointlikes, rest: &self.rest, cursor }
+            let seeks = Seeks::Illuminance { n, tests_pointlikes };
+            Start { from, seeks, rest: &self.rest, cursor }
         })
     }
 }
 
 impl PathSums {
-    fn add(&mut self, Ended { found, .. }: &Ended, quantum: Quantum) {
-        self.direct.add(found.direct_lx, quantum);
-        self.indirect.add_signed(found.indirect_lx, quantum);
+    fn add<S: Spectrum>(&mut self, Ended { found, .. }: &Ended<S>, quantum: Quantum) {
+        self.direct.add(found.direct.luminance(), quantum);
+        self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
     }
 
@@ -112,7 +113,7 @@ impl AddAssign for PathSums {
 }
 
 impl WorkCounts {
-    fn add(&mut self, path: &Ended) {
+    fn add<S>(&mut self, path: &Ended<S>) {
         self.paths += 1;
         self.dimensions.record(path.dimensions);
         self.endless += u64::from(path.found.endless);

@@ -5,7 +5,16 @@ use std::ops::{Add, AddAssign, Mul};
 
 /// Light or reflectance in as many channels as the scene needs.
 pub(crate) trait Spectrum:
-    Copy + Send + Sync + Add<Output = Self> + AddAssign + Mul<Output = Self> + Mul<f64, Output = Self>
+    Copy
+    + std::fmt::Debug
+    + Default
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + AddAssign
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
 {
     /// Number of channels.
     const CHANNELS: usize;
@@ -22,6 +31,10 @@ pub(crate) trait Spectrum:
     /// One in each channel: all lights are white.
     fn white() -> Self {
         Self::from_channels(|_| 1.0)
+    }
+    /// Nothing in each channel.
+    fn black() -> Self {
+        Self::from_channels(|_| 0.0)
     }
 }
 

@@ -1,11 +1,12 @@
 //! The scene as rays see it: facets, the hierarchy over them, and where rays may start.
 
+use crate::bsdf::Bsdf;
+use crate::frame::Frame;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 use quasilux_bvh::{Hit, Ray, Shot, TriangleBvh};
 use quasilux_sampling::warp::sample_triangle;
-use quasilux_scene::bsdf::Mirror;
-use quasilux_scene::{Bsdf, Light, Scene};
+use quasilux_scene::{Light, Scene};
 
 /// Hits are drawn this share of the way to their facet's centroid, so that none lies on an edge
 /// and a neighbour's plane cannot be on the wrong side of it.
@@ -19,29 +20,14 @@ const LEAST_OFFSET: f64 = 8.0 * f64::EPSILON;
 /// Shadow rays end this share of their length before the light, which may lie on a surface.
 const SHORTENING: f64 = 1e-9;
 
-/// How a facet scatters.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Scattering<S> {
-    /// Lambertian, with this reflectance.
-    Diffuse(S),
-    /// Perfect mirror, with this reflectance.
-    Mirror(S),
-}
-
-impl<S: Copy> Scattering<S> {
-    pub(crate) fn reflectance(self) -> S {
-        let (Self::Diffuse(reflectance) | Self::Mirror(reflectance)) = self;
-        reflectance
-    }
-}
-
 /// A triangle with all that transport needs to know of it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Facet<S> {
+pub(crate) struct Facet {
     corners: [DVec3; 3],
     /// Unit normal of the front side.
     pub(crate) front_normal: DVec3,
-    pub(crate) scattering: Scattering<S>,
+    /// Which of the world's [`Bsdf`]s.
+    material: u32,
     /// Luminance of the front side in cd/m^2, 0 for most.
     pub(crate) emitted_cd_m2: f64,
 }
@@ -70,7 +56,8 @@ pub(crate) struct Vantage {
 
 /// The scene as rays see it.
 pub(crate) struct World<S> {
-    pub(crate) facets: Vec<Facet<S>>,
+    pub(crate) facets: Vec<Facet>,
+    bsdfs: Vec<Bsdf<S>>,
     bvh: TriangleBvh,
     /// The emitting facets again, where some lie flush in another surface: they come first there.
     flush_emitters: Option<FlushEmitters>,
@@ -91,14 +78,11 @@ struct FlushEmitters {
 impl<S: Spectrum> World<S> {
     pub(crate) fn new(scene: &Scene) -> Self {
         let mesh = &scene.mesh;
-        let mut facets: Vec<Facet<S>> = (0..mesh.triangles.len() as u32)
+        let mut facets: Vec<Facet> = (0..mesh.triangles.len() as u32)
             .map(|triangle| Facet {
                 corners: mesh.corners(triangle),
                 front_normal: mesh.front_normal(triangle),
-                scattering: match &scene.material(triangle).bsdf {
-                    Bsdf::Diffuse(diffuse) => Scattering::Diffuse(S::from_rgb(diffuse.reflectance)),
-                    Bsdf::Mirror(mirror) => Scattering::Mirror(S::from_rgb(mirror.reflectance)),
-                },
+                material: mesh.material_of[triangle as usize],
                 emitted_cd_m2: 0.0,
             })
             .collect();
@@ -116,6 +100,7 @@ impl<S: Spectrum> World<S> {
         let least_m = LEAST_OFFSET * low.abs().max(high.abs()).max_element();
         let mut world = Self {
             facets,
+            bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
             bvh,
             flush_emitters: None,
             bounds,
@@ -137,8 +122,18 @@ impl<S: Spectrum> World<S> {
         self.size_m
     }
 
-    pub(crate) fn facet(&self, at: &Interaction) -> &Facet<S> {
+    pub(crate) fn facet(&self, at: &Interaction) -> &Facet {
         &self.facets[at.facet as usize]
+    }
+
+    /// How the surface scatters there.
+    pub(crate) fn bsdf(&self, at: &Interaction) -> &Bsdf<S> {
+        self.bsdf_of(self.facet(at))
+    }
+
+    /// How a facet scatters.
+    pub(crate) fn bsdf_of(&self, facet: &Facet) -> &Bsdf<S> {
+        &self.bsdfs[facet.material as usize]
     }
 
     /// Luminance in cd/m^2 that the place emits toward the side it was hit from.
@@ -217,6 +212,11 @@ impl<S: Spectrum> World<S> {
         Vantage { position: at.position + at.n * self.offset_m, facet: at.facet }
     }
 
+    /// Where rays leave from that go on from a hit on the other side.
+    pub(crate) fn vantage_behind(&self, at: &Interaction) -> Vantage {
+        Vantage { position: at.position - at.n * self.offset_m, facet: at.facet }
+    }
+
     /// Where rays leave from a facet's front side.
     pub(crate) fn vantage_on_front(&self, facet: u32, position: DVec3) -> Vantage {
         let n = self.facets[facet as usize].front_normal;
@@ -272,7 +272,7 @@ impl FlushEmitters {
     }
 }
 
-impl<S> Facet<S> {
+impl Facet {
     /// The point with these barycentric weights.
     pub(crate) fn point(&self, [a, b, c]: [f64; 3]) -> DVec3 {
         self.corners[0] * a + self.corners[1] * b + self.corners[2] * c
@@ -310,34 +310,9 @@ impl Vantage {
     }
 }
 
-/// The mirror direction of a ray that arrives along `direction` at a side with normal `n`.
-pub(crate) fn mirrored(direction: DVec3, n: DVec3) -> DVec3 {
-    Mirror::reflect(-direction, n)
-}
-
-/// A direction given in the frame whose z axis is the unit vector `n`, in world coordinates.
-///
-/// The frame is continuous in `n` but for one pole (Duff et al. 2017, "Building an Orthonormal
-/// Basis, Revisited", JCGT 6(1)).
-pub(crate) fn to_world(n: DVec3, [x, y, z]: [f64; 3]) -> DVec3 {
-    let sign = 1.0_f64.copysign(n.z);
-    let a = -1.0 / (sign + n.z);
-    let b = n.x * n.y * a;
-    let tangent = DVec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x);
-    let bitangent = DVec3::new(b, sign + n.y * n.y * a, -n.y);
-    tangent * x + bitangent * y + n * z
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn frames_are_orthonormal() {
-        for n in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::new(0.6, -0.64, 0.48)] {
-            let [x, y, z] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]].map(|e| to_world(n, e));
-            assert!((x.cross(y) - z).length() < 1e-15 && (z - n).length() < 1e-15);
-            assert!((x.length() - 1.0).abs() < 1e-15 && x.dot(y).abs() < 1e-15);
-        }
+impl Interaction {
+    /// The local frame on the side that was hit.
+    pub(crate) fn frame(&self) -> Frame {
+        Frame::around(self.n)
     }
 }

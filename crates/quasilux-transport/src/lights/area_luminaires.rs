@@ -13,6 +13,7 @@
 
 use crate::shadow::Offer;
 use crate::spectrum::Spectrum;
+use crate::vertex::Vertex;
 use crate::world::World;
 use glam::DVec3;
 use quasilux_photometry::SurfacePoint;
@@ -63,25 +64,25 @@ impl<'a> AreaLuminaires<'a> {
 
     /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the way.
     pub(crate) fn may_light(&self, position: DVec3, n: DVec3) -> bool {
-        self.0.iter().any(|light| light.importance_lx(position, n) != 0.0)
+        self.0.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
     }
 
-    /// An estimate of the illuminance from all of them on the side `n` of a surface: what one place
-    /// on one of them offers. `weights` is working space.
-    pub(crate) fn offer(
+    /// An estimate of what all of them give: what one place on one of them offers. `weights` is
+    /// working space.
+    pub(crate) fn offer<S: Spectrum>(
         &self,
-        position: DVec3,
-        n: DVec3,
+        vertex: &Vertex<'_, S>,
         u: [f64; 2],
         weights: &mut Vec<f64>,
-    ) -> Option<Offer> {
+    ) -> Option<Offer<S>> {
+        let (position, side) = (vertex.position(), vertex.only_side());
         weights.clear();
-        weights.extend(self.0.iter().map(|light| light.importance_lx(position, n)));
+        weights.extend(self.0.iter().map(|light| light.importance_lx(position, side)));
         let Some(choice) = choose_weights(u[0], weights.iter().copied()) else {
-            return Offer::without_choice(weights.iter().sum(), n);
+            return Offer::without_choice(weights.iter().sum());
         };
-        let offer = self.0[choice.index].offer(position, n, [choice.rest, u[1]])?;
-        Some(Offer { illuminance_lx: offer.illuminance_lx / choice.probability, ..offer })
+        let offer = self.0[choice.index].offer(vertex, [choice.rest, u[1]])?;
+        Some(Offer { light: offer.light * (1.0 / choice.probability), ..offer })
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their light
@@ -94,21 +95,23 @@ impl<'a> AreaLuminaires<'a> {
 impl AreaLuminaire<'_> {
     /// About what it gives to the side `n` of a surface unshadowed, in lx: the light of a point, the
     /// distance softened by the shape's extent, and a share for what the shape has beside its
-    /// centre. 0 only where all of the shape is behind the surface.
-    fn importance_lx(&self, position: DVec3, n: DVec3) -> f64 {
+    /// centre. 0 only where all of the shape is behind the surface; with no side nothing is behind.
+    fn importance_lx(&self, position: DVec3, side: Option<DVec3>) -> f64 {
         let toward = self.luminaire.position - position;
-        if n.dot(toward) <= -self.radius_m {
+        if side.is_some_and(|n| n.dot(toward) <= -self.radius_m) {
             return 0.0;
         }
         let square_m2 = toward.length_squared() + self.radius_m * self.radius_m;
         let direction = toward.normalize_or_zero();
         let intensity_cd = self.luminaire.intensity_cd(-direction);
         let mean_cd = self.flux_lm / (4.0 * PI);
-        (intensity_cd * n.dot(direction).max(0.0) + DEFENSIVE_SHARE * mean_cd) / square_m2
+        let cos = side.map_or(1.0, |n| n.dot(direction).max(0.0));
+        (intensity_cd * cos + DEFENSIVE_SHARE * mean_cd) / square_m2
     }
 
     /// One place on the shape, with the estimator at the head of this module.
-    fn offer(&self, position: DVec3, n: DVec3, u: [f64; 2]) -> Option<Offer> {
+    fn offer<S: Spectrum>(&self, vertex: &Vertex<'_, S>, u: [f64; 2]) -> Option<Offer<S>> {
+        let position = vertex.position();
         let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
         let luminaire_from_world = world_from_luminaire.transpose();
         let from_centre = luminaire_from_world * (position - self.luminaire.position);
@@ -118,7 +121,7 @@ impl AreaLuminaire<'_> {
         let toward = place_m(self.luminaire, &place) - position;
         let distance_m = toward.length();
         let direction = toward / distance_m;
-        let cos = n.dot(direction);
+        let cos = vertex.cos(direction);
         let share = shape.pdf_silhouette(luminaire_from_world * -direction, &place);
         if cos <= 0.0 || share <= 0.0 {
             return None;
@@ -126,7 +129,7 @@ impl AreaLuminaire<'_> {
         let ratio = share / shape.pdf_silhouette(centre_direction, &place);
         let intensity_cd = self.luminaire.intensity_cd(-direction);
         let illuminance_lx = intensity_cd * ratio * cos / (distance_m * distance_m);
-        Offer::unless_dark(direction, distance_m, illuminance_lx)
+        Offer::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
     }
 }
 

@@ -1,18 +1,19 @@
 //! Emitting facets seen from a surface, by two strategies that share their weight.
 //!
 //! Light that reaches a surface straight from an area light is estimated both by a point on the
-//! light, uniform over its area within equal luminance, and by a cosine-distributed direction that
-//! happens to meet a light; each is weighted by the balance heuristic (Veach 1997, section 9.2.2).
+//! light, uniform over its area within equal luminance, and by the direction in which the path goes
+//! on, which may happen to meet a light; each is weighted by the balance heuristic (Veach 1997, section 9.2.2).
 //! Densities are compared in solid angle, sr^-1.
 
 use crate::shadow::Offer;
 use crate::spectrum::Spectrum;
+use crate::vertex::Vertex;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_sampling::Discrete;
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::{Light, Scene};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::PI;
 
 /// All emitting facets, to be chosen in proportion to luminance times area.
 pub(crate) struct Emitters {
@@ -65,43 +66,43 @@ impl Emitters {
         Place { facet, position: world.facets[facet as usize].point(weights) }
     }
 
-    /// What one point on the lights gives to the side `n` of a surface, weighted against directions;
+    /// What one point on the lights gives, weighted against the direction in which the path goes on;
     /// `None` from behind either.
     pub(crate) fn offer<S: Spectrum>(
         &self,
         world: &World<S>,
-        position: DVec3,
-        n: DVec3,
+        vertex: &Vertex<'_, S>,
         u: [f64; 2],
-    ) -> Option<Offer> {
+    ) -> Option<Offer<S>> {
         let place = self.place(world, u);
         let facet = &world.facets[place.facet as usize];
-        let toward = place.position - position;
+        let toward = place.position - vertex.position();
         let distance_m = toward.length();
         let direction = toward / distance_m;
-        let cos = n.dot(direction);
+        let cos = vertex.cos(direction);
         let cos_light = -facet.front_normal.dot(direction);
         if cos <= 0.0 || cos_light <= 0.0 {
             return None;
         }
         // L cos / (pdf of the light's point + pdf of the direction), the weight multiplied out.
         let pdf_light = self.pdf_sr(facet.emitted_cd_m2, distance_m, cos_light);
-        let illuminance_lx = facet.emitted_cd_m2 * cos / (pdf_light + cos * FRAC_1_PI);
-        Some(Offer { direction, distance_m, facet: place.facet, illuminance_lx })
+        let illuminance_lx = facet.emitted_cd_m2 * cos / (pdf_light + vertex.pdf_sr(direction));
+        let light = vertex.weight(direction) * illuminance_lx;
+        let offer = Offer { direction, distance_m, facet: place.facet, light };
+        (light.luminance() != 0.0).then_some(offer)
     }
 
-    /// The weight of light found by a cosine-distributed direction whose cosine was `cos`.
+    /// The weight of light found by a direction of this density in sr^-1.
     pub(crate) fn weight_of_direction<S: Spectrum>(
         &self,
         world: &World<S>,
         at: &Interaction,
         direction: DVec3,
-        cos: f64,
+        pdf_sr: f64,
     ) -> f64 {
         let cos_light = -at.n.dot(direction);
-        let pdf_direction = cos * FRAC_1_PI;
         let pdf_light = self.pdf_sr(world.emitted_cd_m2(at), at.distance_m, cos_light);
-        pdf_direction / (pdf_direction + pdf_light)
+        pdf_sr / (pdf_sr + pdf_light)
     }
 
     /// Density in sr^-1 with which [`Self::offer`] finds a point on a facet of this luminance:

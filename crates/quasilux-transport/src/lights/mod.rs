@@ -8,8 +8,9 @@ pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
 pub(crate) use pointlike::PointLikes;
 
+use crate::frame::Frame;
 use crate::spectrum::Spectrum;
-use crate::world::{Vantage, World, to_world};
+use crate::world::{Vantage, World};
 use area_luminaires::place_m;
 use glam::DVec3;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
@@ -105,7 +106,8 @@ impl<'a> Lights<'a> {
         let n = world.facets[place.facet as usize].front_normal;
         Some(Emission {
             from: world.vantage_on_front(place.facet, place.position),
-            direction: to_world(n, sample_cosine_hemisphere(cursor.next_2d())),
+            direction: Frame::around(n)
+                .to_world(DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()))),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::shadow::{Asker, Offer, Shadows};
 use crate::spectrum::Spectrum;
+use crate::vertex::Vertex;
 use crate::world::World;
 use glam::DVec3;
 use quasilux_sampling::choose_weights;
@@ -37,52 +38,50 @@ impl<'a> PointLikes<'a> {
         self.0.iter().map(|light| (position(light), light.flux_lm()))
     }
 
-    /// What all of them give, every one tested: tells `receive` who gets how much light in lx. One light
-    /// comes after the other, so that rays toward the same light are neighbours.
+    /// What all of them give, every one tested: tells `receive` who gets how much. One light comes
+    /// after the other, so that rays toward the same light are neighbours.
     pub(crate) fn all<S: Spectrum>(
         &self,
         world: &World<S>,
-        askers: &[Asker],
-        shadows: &mut Shadows,
-        mut receive: impl FnMut(u32, f64),
+        askers: &[Asker<'_, S>],
+        shadows: &mut Shadows<S>,
+        mut receive: impl FnMut(u32, S),
     ) {
         for light in &self.0 {
-            for &Asker { who, from, n } in askers {
-                if let Some(offer) = offer(light, from.position(), n) {
-                    shadows.ask(who, from, &offer);
+            for Asker { who, vertex } in askers {
+                if let Some(offer) = offer(light, vertex) {
+                    shadows.ask(*who, vertex, &offer);
                 }
             }
             shadows.answer(world, &mut receive);
         }
     }
 
-    /// An estimate of what all of them give to the side `n` of a surface from one light, chosen with
-    /// `u` in proportion to what it would give unshadowed: its only variance comes from shadows.
-    /// `offers` is working space.
-    pub(crate) fn offer(
+    /// An estimate of what all of them give from one light, chosen with `u` in proportion to what it
+    /// would give unshadowed: its only variance comes from shadows. `offers` is working space.
+    pub(crate) fn offer<S: Spectrum>(
         &self,
-        position: DVec3,
-        n: DVec3,
+        vertex: &Vertex<'_, S>,
         u: f64,
-        offers: &mut Vec<Offer>,
-    ) -> Option<Offer> {
+        offers: &mut Vec<Offer<S>>,
+    ) -> Option<Offer<S>> {
         offers.clear();
-        offers.extend(self.0.iter().filter_map(|light| offer(light, position, n)));
-        let weights = offers.iter().map(|offer| offer.illuminance_lx);
-        let total_lx = weights.clone().sum();
-        let Some(choice) = choose_weights(u, weights) else {
-            return Offer::without_choice(total_lx, n);
+        offers.extend(self.0.iter().filter_map(|light| offer(light, vertex)));
+        let weights = offers.iter().map(|offer| offer.light.luminance());
+        let Some(choice) = choose_weights(u, weights.clone()) else {
+            return Offer::without_choice(weights.sum());
         };
-        Some(Offer { illuminance_lx: total_lx, ..offers[choice.index] })
+        let chosen = offers[choice.index];
+        Some(Offer { light: chosen.light * (1.0 / choice.probability), ..chosen })
     }
 }
 
-/// E = I cos / d^2 on the side `n` at `position`; `None` from behind.
-fn offer(light: &Light, position: DVec3, n: DVec3) -> Option<Offer> {
-    let toward = self::position(light) - position;
+/// E = I cos / d^2; `None` from behind.
+fn offer<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Offer<S>> {
+    let toward = self::position(light) - vertex.position();
     let distance_m = toward.length();
     let direction = toward / distance_m;
-    let cos = n.dot(direction);
+    let cos = vertex.cos(direction);
     if cos <= 0.0 {
         return None;
     }
@@ -91,7 +90,8 @@ fn offer(light: &Light, position: DVec3, n: DVec3) -> Option<Offer> {
         Light::Luminaire(luminaire) => luminaire.intensity_cd(-direction),
         Light::Area(_) => unreachable!("area lights are not point-like"),
     };
-    Offer::unless_dark(direction, distance_m, intensity_cd * cos / (distance_m * distance_m))
+    let illuminance_lx = intensity_cd * cos / (distance_m * distance_m);
+    Offer::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
 }
 
 fn position(light: &Light) -> DVec3 {
