@@ -1,6 +1,7 @@
 //! What the benchmarks have in common: meshes, the time that work takes, and medians.
 
 pub mod meshes;
+pub mod scenes;
 
 use quasilux_foreign::processor_seconds;
 

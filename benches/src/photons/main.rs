@@ -6,14 +6,12 @@
 //! rounds, of the time on the clock and of processor time, and of the ratio of processor times within
 //! a round. Then what a wave spends its time on, on one thread.
 
-mod scenes;
-
 use quasilux_benches::median;
+use quasilux_benches::scenes::{self, Named};
 use quasilux_foreign::{all_processors_seconds, processor_seconds};
 use quasilux_transport::trial::{PhotonTrial, Step, Stopwatch, Way, try_photons};
 use quasilux_transport::{Estimator, Settings};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use scenes::Named;
 use std::ops::Range;
 use std::sync::Mutex;
 use std::time::Instant;

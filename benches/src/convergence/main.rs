@@ -1,0 +1,110 @@
+//! cargo run --release -p quasilux-benches --bin convergence [cube|office] [ESTIMATOR...] [2^N] [random] [bounces=N]
+//! [element=METRES]
+//!
+//! How the error falls, and at what price. At each checkpoint: indices per replicate, rays, processor
+//! seconds so far, the relative error of one replicate (from the spread of 16, root mean square over all
+//! sensor points) and of their mean, the slope of the former since four checkpoints before, and the
+//! efficiency 1 / (squared error of the mean x processor seconds).
+//!
+//! `cube` is the diffuse cube of Voloboy, Dmitriev and Kopylov (2003) with nine points on each face,
+//! `office` the example with 68 points.
+
+use quasilux_benches::scenes;
+use quasilux_foreign::all_processors_seconds;
+use quasilux_sampling::Sequence;
+use quasilux_scene::Scene;
+use quasilux_transport::{Control, Estimates, Estimator, Observer, Settings, simulate};
+
+/// Checkpoints that a slope spans.
+const SPAN: usize = 4;
+
+/// Writes a line at each checkpoint.
+struct Table {
+    start: f64,
+    errors: Vec<(u64, f64)>,
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let given = |name: &str| words.iter().any(|word| word == name);
+    let limit = words.iter().find_map(|word| word.strip_prefix("2^")?.parse().ok()).unwrap_or(12);
+    let max_bounces = words.iter().find_map(|word| word.strip_prefix("bounces=")?.parse().ok());
+    let map_element_m = words.iter().find_map(|word| word.strip_prefix("element=")?.parse().ok());
+    let sequence = if given("random") { Sequence::Random } else { Sequence::Sobol };
+    let chosen: Vec<Estimator> =
+        Estimator::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
+    let estimators =
+        if chosen.is_empty() { vec![Estimator::Path, Estimator::Bidirectional] } else { chosen };
+    for name in ["cube", "office"]
+        .into_iter()
+        .filter(|name| given(name) || !(given("cube") || given("office")))
+    {
+        let scene = scene(name);
+        for &estimator in &estimators {
+            println!("{name}, {}, {}", estimator.name(), sequence.name());
+            println!(
+                "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
+                "indices", "rays", "seconds", "one, %", "mean, %", "slope", "efficiency"
+            );
+            let settings = Settings {
+                estimator,
+                sequence,
+                max_bounces,
+                map_element_m,
+                rel_tol: 0.0,
+                max_samples: Some(1 << limit),
+                ..Settings::default()
+            };
+            let mut table = Table { start: all_processors_seconds(), errors: Vec::new() };
+            let _ = simulate(&scene, &settings, &mut table);
+        }
+    }
+}
+
+fn scene(name: &'static str) -> Scene {
+    let mut scene = scenes::example(name).scene;
+    scene.sensors = match name {
+        "cube" => scenes::cube_sensors(),
+        _ => scenes::office_sensors(),
+    };
+    scene
+}
+
+impl Observer for Table {
+    fn checkpoint(&mut self, estimates: &Estimates) -> Control {
+        let seconds = all_processors_seconds() - self.start;
+        let one = spread(estimates);
+        let replicates = estimates.sensors[0].replicate_lx.len() as f64;
+        let mean = one / replicates.sqrt();
+        self.errors.push((estimates.samples, one));
+        let before = self.errors.len().checked_sub(SPAN + 1).map(|place| self.errors[place]);
+        let slope = before.map_or(f64::NAN, |(samples, error)| {
+            libm::log(one / error) / libm::log(estimates.samples as f64 / samples as f64)
+        });
+        println!(
+            "{:>9}{:>14}{seconds:>10.2}{:>14.4}{:>14.4}{slope:>8.2}{:>12.0}",
+            estimates.samples,
+            estimates.rays,
+            100.0 * one,
+            100.0 * mean,
+            1.0 / (mean * mean * seconds)
+        );
+        Control::Continue
+    }
+}
+
+/// The relative standard deviation of replicates, root mean square over all points.
+fn spread(estimates: &Estimates) -> f64 {
+    let (mut sum, mut points) = (0.0, 0);
+    for sensor in &estimates.sensors {
+        let rows = &sensor.replicate_lx;
+        for point in 0..rows[0].len() {
+            let mean = rows.iter().map(|row| row[point]).sum::<f64>() / rows.len() as f64;
+            let squares =
+                rows.iter().map(|row| (row[point] / mean - 1.0) * (row[point] / mean - 1.0));
+            sum += squares.sum::<f64>() / (rows.len() - 1) as f64;
+            points += 1;
+        }
+    }
+    (sum / f64::from(points)).sqrt()
+}
