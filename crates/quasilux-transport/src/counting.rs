@@ -76,7 +76,7 @@ struct SensorReceiver<'a> {
 
 impl<'a, S: Spectrum> Counting<'a, S> {
     pub(crate) fn new(stage: &'a Stage<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
-        let receivers = Receivers::new(&stage.world, scene, settings.map_element_m);
+        let receivers = Receivers::new(&stage.world, scene, settings);
         let replicates = settings.effective_replicates();
         let counters = (0..replicates).map(|_| Counters::new(receivers.counters)).collect();
         Self { stage, scene, receivers, counters, samples: 0, photons: PhotonCounts::default() }
@@ -156,8 +156,8 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
 }
 
 impl Receivers {
-    fn new<S: Spectrum>(world: &World<S>, scene: &Scene, element_m: Option<f64>) -> Self {
-        let layout = MapLayout::new(world, element_m);
+    fn new<S: Spectrum>(world: &World<S>, scene: &Scene, settings: &Settings) -> Self {
+        let layout = MapLayout::new(world, settings);
         let mut receivers = Self {
             grids: Vec::new(),
             reads_facet: vec![false; world.facets.len()],
@@ -206,11 +206,12 @@ impl Receivers {
             None => (fresh, 1.0),
             Some(at) => {
                 self.reads_facet[at.facet as usize] = true;
-                let counter = &mut self.counter_of_element[self.layout.element(&at)];
+                let place = self.layout.locate(&at);
+                let counter = &mut self.counter_of_element[place.element];
                 if *counter == UNREAD {
                     *counter = fresh;
                 }
-                (*counter, self.layout.element_area_m2(&at))
+                (*counter, place.area_m2)
             }
         };
         self.targets.push((counter, area_m2));
@@ -274,8 +275,8 @@ impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
         if !self.receivers.reads_facet[at.facet as usize] {
             return;
         }
-        let element = self.receivers.layout.element(at);
-        let counter = self.receivers.counter_of_element[element];
+        let place = self.receivers.layout.locate(at);
+        let counter = self.receivers.counter_of_element[place.element];
         if counter != UNREAD {
             self.counters.count(counter as usize, weight.luminance(), bounces);
         }

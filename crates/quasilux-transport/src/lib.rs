@@ -44,5 +44,5 @@ pub use estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates};
 pub use interval::Interval;
 pub use observer::{Control, Observer, Progress};
 pub use quasilux_sampling::DimensionHistogram;
-pub use settings::{Estimator, Settings};
+pub use settings::{Estimator, Reconstruction, Settings};
 pub use simulate::simulate;

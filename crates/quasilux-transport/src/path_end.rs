@@ -1,6 +1,6 @@
 //! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
 
-use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally};
+use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
 use crate::path::Onward;
 use crate::photon::PhotonCounts;
 use crate::photons::{PhotonBatch, trace_photons};
@@ -26,13 +26,16 @@ pub(crate) enum PathEnd<S> {
     /// One map, frozen before the first path, whose error is corrected.
     Plan {
         layout: MapLayout,
-        map: IlluminationMap<S>,
+        tally: MapTally<S>,
+        /// Flux of a photon.
+        flux_lm: f64,
     },
     /// A map for each replicate that grows with it.
     Own {
         layout: MapLayout,
         tallies: Vec<MapTally<S>>,
-        maps: Vec<IlluminationMap<S>>,
+        /// Flux of a photon.
+        flux_lm: f64,
     },
 }
 
@@ -47,7 +50,7 @@ pub(crate) enum Rest<'m, S> {
 /// How paths end on a map.
 pub(crate) struct MapEnd<'m, S> {
     pub(crate) layout: &'m MapLayout,
-    pub(crate) map: &'m IlluminationMap<S>,
+    pub(crate) map: IlluminationMap<'m, S>,
     /// Share of the paths that go on to correct the map; `None` leaves its bias.
     pub(crate) corrected_share: Option<f64>,
 }
@@ -68,7 +71,7 @@ impl<S: Spectrum> PathEnd<S> {
         watch: &mut Watch<'_>,
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
-        let mut plan = |photons: u64, receiver: Option<MapReceiver<'_, S>>| {
+        let plan = |photons: u64, receiver: Option<MapReceiver<'_, S>>, watch: &mut Watch<'_>| {
             let batch = PhotonBatch {
                 stream: Stream::PlanPhotons,
                 replicates: 0..1,
@@ -78,18 +81,17 @@ impl<S: Spectrum> PathEnd<S> {
             trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
         };
         if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
-            return (Self::Nothing, plan(BALANCE_PHOTONS, None));
+            return (Self::Nothing, plan(BALANCE_PHOTONS, None, watch));
         }
-        let layout = MapLayout::new(&stage.world, settings.map_element_m);
+        let (layout, mut counts) = refined(stage, settings, watch);
         if settings.estimator == Estimator::BidirectionalMap {
             let tallies = (0..replicates).map(|_| MapTally::new(&layout)).collect();
-            return (Self::Own { layout, tallies, maps: Vec::new() }, PhotonCounts::default());
+            return (Self::Own { layout, tallies, flux_lm: 0.0 }, counts);
         }
         let photons = (2 * layout.len() as u64).next_power_of_two().clamp(1 << 14, 1 << 19);
         let tally = MapTally::new(&layout);
-        let counts = plan(photons, Some(MapReceiver::new(stage, &layout, &tally)));
-        let map = tally.read(&layout, stage.lights.flux_lm / photons as f64);
-        (Self::Plan { layout, map }, counts)
+        counts += plan(photons, Some(MapReceiver::new(stage, &layout, &tally)), watch);
+        (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
 
     /// Adds the photons `indices` to maps that grow.
@@ -99,7 +101,7 @@ impl<S: Spectrum> PathEnd<S> {
         indices: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> Growth {
-        let Self::Own { layout, tallies, maps } = self else { return Growth::None };
+        let Self::Own { layout, tallies, flux_lm } = self else { return Growth::None };
         let samples = indices.end;
         let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
         let batch = PhotonBatch {
@@ -110,8 +112,7 @@ impl<S: Spectrum> PathEnd<S> {
         };
         let traced = trace_photons(stage, &batch, receiver, watch);
         let Some(counts) = traced else { return Growth::Stopped };
-        let flux_lm = stage.lights.flux_lm / samples as f64;
-        *maps = tallies.iter().map(|tally| tally.read(layout, flux_lm)).collect();
+        *flux_lm = stage.lights.flux_lm / samples as f64;
         Growth::NewMaps(counts)
     }
 
@@ -119,11 +120,12 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn rest(&self, replicate: u32) -> Rest<'_, S> {
         match self {
             Self::Nothing => Rest::Path,
-            Self::Plan { layout, map } => {
+            Self::Plan { layout, tally, flux_lm } => {
+                let map = tally.read(*flux_lm);
                 Rest::Map(MapEnd { layout, map, corrected_share: Some(CORRECTED_SHARE) })
             }
-            Self::Own { layout, maps, .. } => {
-                let map = &maps[replicate as usize];
+            Self::Own { layout, tallies, flux_lm } => {
+                let map = tallies[replicate as usize].read(*flux_lm);
                 Rest::Map(MapEnd { layout, map, corrected_share: None })
             }
         }
@@ -133,7 +135,7 @@ impl<S: Spectrum> PathEnd<S> {
 impl<S: Spectrum> MapEnd<'_, S> {
     /// Illuminance in lx that the map has at a place.
     pub(crate) fn illuminance_lx(&self, at: &Interaction) -> S {
-        self.map.illuminance_lx(self.layout.element(at))
+        self.map.illuminance_lx(&self.layout.locate(at))
     }
 
     /// Whether this path corrects the map. The direction to a light that the next surface emits is

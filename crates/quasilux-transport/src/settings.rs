@@ -1,5 +1,6 @@
 //! What a simulation is asked to do.
 
+pub use crate::map::Reconstruction;
 use quasilux_sampling::{Randomization, Sequence};
 
 /// How illuminance is estimated: a closed set.
@@ -61,8 +62,17 @@ pub struct Settings {
     pub max_bounces: Option<u32>,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point.
     pub max_samples: Option<u64>,
-    /// Longest edge of an illumination map element in m; `None` derives it from the scene's size.
+    /// Longest edge of an illumination map element in m before any is split; `None` derives it from
+    /// the scene's size.
     pub map_element_m: Option<f64>,
+    /// Most elements of the illumination map, both sides of a facet counted once; each diffuse
+    /// triangle has one at least. In each replicate, an element side where photons land takes 4
+    /// bytes, times 3 if it is linear, times 3 in a scene with colours.
+    pub map_elements: u64,
+    /// Whether elements are split where pilot photons show that the illumination varies in them.
+    pub map_adaptive: bool,
+    /// What the photons in an element say about its illuminance.
+    pub map_reconstruction: Reconstruction,
 }
 
 impl Settings {
@@ -89,6 +99,9 @@ impl Default for Settings {
             max_bounces: None,
             max_samples: None,
             map_element_m: None,
+            map_elements: 1 << 22,
+            map_adaptive: true,
+            map_reconstruction: Reconstruction::Linear,
         }
     }
 }

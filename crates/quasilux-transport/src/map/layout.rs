@@ -1,0 +1,207 @@
+//! Which element a place belongs to.
+
+use super::reconstruction::Reconstruction;
+use super::subdivision::{InCell, cut, split};
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::world::{Facet, Interaction, World};
+use glam::DVec3;
+use quasilux_sampling::warp::sample_triangle;
+
+/// Elements a metre of scene size get where nothing is asked for.
+const ELEMENTS_ACROSS: f64 = 64.0;
+/// Marks what is split in a tree.
+const SPLIT: u32 = 1 << 31;
+/// Most elements on one side of all facets.
+const MOST_LEAVES: u64 = SPLIT as u64 - 1;
+/// Most parts along an edge.
+const MOST_PARTS: f64 = 32_768.0;
+
+/// Which element a place belongs to.
+pub(crate) struct MapLayout {
+    facets: Vec<Subdivision>,
+    trees: Trees,
+    reconstruction: Reconstruction,
+}
+
+/// A place in an element of the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// Number of the element, its side included.
+    pub(crate) element: usize,
+    /// Barycentric weights within the element.
+    pub(crate) barycentric: [f64; 3],
+    /// The element's area in m^2.
+    pub(crate) area_m2: f64,
+    /// By how much the facet's second and third weight grow with those of the element; negative where
+    /// it is turned by half a turn.
+    step: f64,
+}
+
+/// How a facet is cut at first.
+#[derive(Clone, Copy)]
+struct Subdivision {
+    /// Number of the facet's first tree.
+    first: u32,
+    /// Parts along each edge; 0 where nothing is counted.
+    parts: u32,
+    area_m2: f64,
+}
+
+/// One tree for each part of the facets: how it is split further. Each entry is the number of a
+/// leaf, or [`SPLIT`] with the number of a list of four entries.
+struct Trees {
+    /// The entry of each tree; none where each is a leaf with its own number.
+    roots: Vec<u32>,
+    lists: Vec<[u32; 4]>,
+    leaves: usize,
+}
+
+impl MapLayout {
+    /// Elements no longer than is asked for, or by default a share of the scene's size, as far as
+    /// `map_elements` allows; nothing is split.
+    pub(crate) fn new<S: Spectrum>(world: &World<S>, settings: &Settings) -> Self {
+        let element_m = settings.map_element_m.unwrap_or(world.size_m() / ELEMENTS_ACROSS);
+        Self::regular(world, element_m, settings)
+    }
+
+    /// The same with elements no longer than `element_m`.
+    pub(super) fn regular<S: Spectrum>(
+        world: &World<S>,
+        mut element_m: f64,
+        settings: &Settings,
+    ) -> Self {
+        let parts = |facet: &Facet, element_m: f64| {
+            let counts = world.bsdf_of(facet).keeps_illuminance();
+            let parts = (facet.longest_edge_m() / element_m).ceil().clamp(1.0, MOST_PARTS);
+            if counts { parts } else { 0.0 }
+        };
+        let total = |element_m: f64| -> f64 {
+            world.facets.iter().map(|facet| parts(facet, element_m)).map(|n| n * n).sum()
+        };
+        // Each facet has one element at least.
+        let most = settings.map_elements.min(MOST_LEAVES).max(world.facets.len() as u64) as f64;
+        while total(element_m) > most {
+            element_m *= 1.125;
+        }
+        let mut trees = 0;
+        let facets = world
+            .facets
+            .iter()
+            .map(|facet| {
+                let (parts, first) = (parts(facet, element_m) as u32, trees);
+                trees += parts * parts;
+                Subdivision { first, parts, area_m2: facet.area_m2() }
+            })
+            .collect();
+        let trees = Trees { roots: Vec::new(), lists: Vec::new(), leaves: trees as usize };
+        Self { facets, trees, reconstruction: settings.map_reconstruction }
+    }
+
+    /// What photons say about an element.
+    pub(crate) fn reconstruction(&self) -> Reconstruction {
+        self.reconstruction
+    }
+
+    /// Number of elements, each side of a facet counted.
+    pub(crate) fn len(&self) -> usize {
+        2 * self.trees.leaves
+    }
+
+    /// Elements on one side of all facets.
+    pub(super) fn leaves(&self) -> usize {
+        self.trees.leaves
+    }
+
+    /// The element under a place on a facet that keeps illuminance, on the side that was hit.
+    pub(crate) fn locate(&self, at: &Interaction) -> Place {
+        let facet = self.facets[at.facet as usize];
+        let part = cut(at.barycentric, facet.parts);
+        let (leaf, cell) = self.trees.descend(facet.first as usize + part.number, part);
+        // Sides that see no light lie together, so that they take no memory.
+        let element = if at.front { leaf } else { self.trees.leaves + leaf };
+        let area_m2 = facet.area_m2 * (cell.step * cell.step);
+        Place { element, barycentric: cell.weights, area_m2, step: cell.step }
+    }
+
+    /// A place that is uniform in the element under `at`, on the same side, with its barycentric
+    /// weights in the element. Its density is 1 / area (m^-2).
+    pub(crate) fn sample_element<S>(
+        &self,
+        world: &World<S>,
+        at: &Interaction,
+        u: [f64; 2],
+    ) -> (Interaction, [f64; 3]) {
+        let place = self.locate(at);
+        let weights = sample_triangle(u);
+        let moved = |corner: usize| {
+            let shift = place.step * (weights[corner] - place.barycentric[corner]);
+            (at.barycentric[corner] + shift).clamp(0.0, 1.0)
+        };
+        let (b, c) = (moved(1), moved(2));
+        let barycentric = [(1.0 - b - c).max(0.0), b, c];
+        let position: DVec3 = world.facets[at.facet as usize].point(barycentric);
+        (Interaction { barycentric, position, ..*at }, weights)
+    }
+
+    /// [`Reconstruction::kernel_times_area`] of the map's elements.
+    pub(crate) fn kernel_times_area(&self, at: [f64; 3], of_photon: [f64; 3]) -> f64 {
+        self.reconstruction.kernel_times_area(at, of_photon)
+    }
+
+    /// The layout with those leaves split for which `is_split` says so.
+    pub(super) fn split(self, is_split: impl Fn(usize) -> bool) -> Self {
+        Self { trees: self.trees.split(is_split), ..self }
+    }
+}
+
+impl Trees {
+    /// The leaf of a tree that holds a place, and where in it.
+    #[inline]
+    fn descend(&self, tree: usize, mut at: InCell) -> (usize, InCell) {
+        let Some(&root) = self.roots.get(tree) else { return (tree, at) };
+        let mut entry = root;
+        while entry & SPLIT != 0 {
+            let child = split(at.weights);
+            entry = self.lists[(entry & !SPLIT) as usize][child.number];
+            at = InCell { step: at.step * child.step, ..child };
+        }
+        (entry as usize, at)
+    }
+
+    /// Numbers the leaves anew, in the order of trees and of children: neighbours stay together.
+    fn split(self, is_split: impl Fn(usize) -> bool) -> Self {
+        let before = self;
+        let count = if before.roots.is_empty() { before.leaves } else { before.roots.len() };
+        let mut after = Self { roots: Vec::with_capacity(count), lists: Vec::new(), leaves: 0 };
+        for tree in 0..count {
+            let entry = before.roots.get(tree).map_or(tree as u32, |&root| root);
+            let root = after.copy(&before, entry, &is_split);
+            after.roots.push(root);
+        }
+        after
+    }
+
+    /// Takes over what is at `entry` of `before`, its leaves split or not.
+    fn copy(&mut self, before: &Self, entry: u32, is_split: &impl Fn(usize) -> bool) -> u32 {
+        let children = match entry & SPLIT {
+            0 if !is_split(entry as usize) => return self.leaf(),
+            0 => None,
+            _ => Some(before.lists[(entry & !SPLIT) as usize]),
+        };
+        let list = self.lists.len();
+        self.lists.push([0; 4]);
+        for child in 0..4 {
+            self.lists[list][child] = match children {
+                None => self.leaf(),
+                Some(entries) => self.copy(before, entries[child], is_split),
+            };
+        }
+        SPLIT | list as u32
+    }
+
+    fn leaf(&mut self) -> u32 {
+        self.leaves += 1;
+        (self.leaves - 1) as u32
+    }
+}

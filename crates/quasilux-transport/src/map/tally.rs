@@ -1,0 +1,126 @@
+//! Photons counted by element, and the illuminance that follows from them.
+
+use super::blocks::Blocks;
+use super::layout::{MapLayout, Place};
+use super::reconstruction::Reconstruction;
+use crate::photon::{Flight, PhotonReceiver};
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::world::Interaction;
+use std::marker::PhantomData;
+
+/// Photons are counted in so many quanta each: 2^44 photons fit a counter.
+pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
+
+/// The photons counted by each element, writable by all threads. Elements where nothing lands take
+/// next to no memory; others take 4 bytes for each moment and channel.
+pub(crate) struct MapTally<S> {
+    sums: Blocks,
+    reconstruction: Reconstruction,
+    channels: PhantomData<S>,
+}
+
+/// The illuminance that a tally stands for when each photon carries a certain flux.
+pub(crate) struct IlluminationMap<'m, S> {
+    tally: &'m MapTally<S>,
+    lm_per_quantum: f64,
+}
+
+/// Counts landings of photons that the backward path does not count itself.
+#[derive(Clone, Copy)]
+pub(crate) struct MapReceiver<'a, S> {
+    layout: &'a MapLayout,
+    tally: &'a MapTally<S>,
+    /// Photons with more bounces are left out: their light bounces once more before a sensor.
+    most_bounces: u32,
+}
+
+impl<S: Spectrum> MapTally<S> {
+    pub(crate) fn new(layout: &MapLayout) -> Self {
+        let reconstruction = layout.reconstruction();
+        let moments = reconstruction.moments() * S::CHANNELS;
+        Self { sums: Blocks::new(layout.len() * moments), reconstruction, channels: PhantomData }
+    }
+
+    /// Counts a photon with this colour.
+    pub(crate) fn add(&self, place: &Place, weight: S) {
+        let first = self.first(place);
+        match self.reconstruction {
+            Reconstruction::Constant => {
+                for channel in 0..S::CHANNELS {
+                    self.sums.add(first + channel, quanta(weight.channel(channel)));
+                }
+            }
+            Reconstruction::Linear => {
+                for channel in 0..S::CHANNELS {
+                    for (corner, share) in place.barycentric.into_iter().enumerate() {
+                        let moment = quanta(weight.channel(channel) * share);
+                        self.sums.add(first + 3 * channel + corner, moment);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The map at this moment, while no photons fly; one photon carries `flux_lm`.
+    pub(crate) fn read(&self, flux_lm: f64) -> IlluminationMap<'_, S> {
+        IlluminationMap { tally: self, lm_per_quantum: flux_lm / QUANTA_PER_PHOTON }
+    }
+
+    /// Forgets all photons.
+    pub(crate) fn clear(&mut self) {
+        self.sums.clear();
+    }
+
+    fn first(&self, place: &Place) -> usize {
+        place.element * self.reconstruction.moments() * S::CHANNELS
+    }
+}
+
+impl<S: Spectrum> IlluminationMap<'_, S> {
+    /// Illuminance in lx at a place. Linear ones may be negative in places.
+    pub(crate) fn illuminance_lx(&self, place: &Place) -> S {
+        let MapTally { sums, reconstruction, .. } = self.tally;
+        let first = self.tally.first(place);
+        let sum = |number: usize| sums.get(first + number) as f64;
+        let lx_per_quantum = self.lm_per_quantum / place.area_m2;
+        S::from_channels(|channel| {
+            let quanta = match reconstruction {
+                Reconstruction::Constant => sum(channel),
+                // The kernel summed over photons: it is linear in their weights.
+                Reconstruction::Linear => (0..3)
+                    .map(|corner| {
+                        (12.0 * place.barycentric[corner] - 3.0) * sum(3 * channel + corner)
+                    })
+                    .sum(),
+            };
+            quanta * lx_per_quantum
+        })
+    }
+}
+
+fn quanta(photons: f64) -> u64 {
+    (photons * QUANTA_PER_PHOTON).round_ties_even() as u64
+}
+
+impl<'a, S: Spectrum> MapReceiver<'a, S> {
+    pub(crate) fn new(stage: &Stage<'_, S>, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
+        Self { layout, tally, most_bounces: most_bounces(stage) }
+    }
+}
+
+/// Bounces of the photons whose light may come to a sensor after one more.
+pub(super) fn most_bounces<S>(stage: &Stage<'_, S>) -> u32 {
+    stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(1))
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
+    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
+
+    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+        // Light straight from the lights is never read from the map.
+        if (1..=self.most_bounces).contains(&bounces) {
+            self.tally.add(&self.layout.locate(at), weight);
+        }
+    }
+}
