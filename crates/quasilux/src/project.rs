@@ -5,7 +5,7 @@ use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
-use quasilux_transport::{Estimator, Settings};
+use quasilux_transport::{Estimator, Reconstruction, Settings};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -94,6 +94,14 @@ pub(crate) fn settings(
     settings.rel_tol = arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
     settings.confidence = placed(&section.confidence).unwrap_or(defaults.confidence);
     settings.map_element_m = placed(&section.map_element_m);
+    settings.map_elements =
+        section.map_elements.as_ref().map_or(defaults.map_elements, |at| at.value);
+    settings.map_adaptive =
+        section.map_adaptive.as_ref().map_or(defaults.map_adaptive, |at| at.value);
+    if let Some(name) = &section.map_reconstruction {
+        let known = &Reconstruction::NAMES;
+        settings.map_reconstruction = names::in_project(section, "reconstruction", name, known)?;
+    }
     settings.replicates = section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
     settings.seed =
         arguments.seed.or(section.seed.as_ref().map(|at| at.value)).unwrap_or(defaults.seed);

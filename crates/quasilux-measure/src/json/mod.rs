@@ -4,9 +4,10 @@
 //! one project write the same bytes but for `seconds` and `threads`. Unknown figures are `null`.
 //! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
 //! sensor its `counts` along u and v; and in `run` the rest of what makes a run repeatable
-//! (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`), `flux_cut_lm`, the flux
-//! that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
-//! coordinates, in one list each, all of more than 1023 together at its end.
+//! (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`, `map_elements`,
+//! `map_adaptive`, `map_reconstruction`), `flux_cut_lm`, the flux that `max_bounces` cut, and
+//! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
+//! all of more than 1023 together at its end.
 
 mod layout;
 
@@ -99,6 +100,9 @@ struct RunEntry<'a> {
     tolerance_reached: bool,
     max_bounces: Option<u32>,
     map_element_m: Option<f64>,
+    map_elements: u64,
+    map_adaptive: bool,
+    map_reconstruction: &'static str,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
     #[serde(serialize_with = "finite_or_null")]
@@ -191,6 +195,9 @@ impl<'a> RunEntry<'a> {
             tolerance_reached: run.tolerance_reached,
             max_bounces: run.settings.max_bounces,
             map_element_m: run.settings.map_element_m,
+            map_elements: run.settings.map_elements,
+            map_adaptive: run.settings.map_adaptive,
+            map_reconstruction: run.settings.map_reconstruction.name(),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

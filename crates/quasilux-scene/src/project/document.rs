@@ -186,6 +186,13 @@ impl<'a> Value<'a> {
         }
     }
 
+    pub(super) fn boolean(&self) -> Result<bool, LoadError> {
+        match self.value.get_ref() {
+            DeValue::Boolean(value) => Ok(*value),
+            _ => Err(self.unexpected("true or false")),
+        }
+    }
+
     /// One of a list of names; those in `planned` are known but not built yet.
     pub(super) fn name(&self, known: &[&str], planned: &[&str]) -> Result<&'a str, LoadError> {
         let expected = known.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();

@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 9] = [
+const KEYS: [&str; 12] = [
     "estimator",
     "sequence",
     "randomization",
@@ -16,10 +16,15 @@ const KEYS: [&str; 9] = [
     "seed",
     "max_bounces",
     "map_element_m",
+    "map_elements",
+    "map_adaptive",
+    "map_reconstruction",
 ];
 
 /// Most replicates that a project file may ask for.
 const MAX_REPLICATES: u64 = 65_536;
+/// Most elements that an illumination map can have.
+const MAX_MAP_ELEMENTS: u64 = (1 << 31) - 1;
 
 /// The `[simulation]` table; what the file does not give is `None`. Numbers are in range, names
 /// are unchecked.
@@ -44,6 +49,12 @@ pub struct SimulationSection {
     pub max_bounces: Option<Placed<Option<u32>>>,
     /// Longest edge of an illumination map element in m, above 0.
     pub map_element_m: Option<Placed<f64>>,
+    /// Most elements of the illumination map, at least 1.
+    pub map_elements: Option<Placed<u64>>,
+    /// Whether elements are split where the illumination varies.
+    pub map_adaptive: Option<Placed<bool>>,
+    /// Name of what is made of the photons in an element.
+    pub map_reconstruction: Option<Placed<String>>,
 }
 
 impl SimulationSection {
@@ -93,6 +104,12 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         })?,
         max_bounces: placed(&section, "max_bounces", |value| bounces(&value))?,
         map_element_m: number("map_element_m", "a length in m above 0", |x| x > 0.0)?,
+        map_elements: placed(&section, "map_elements", |value| {
+            let expected = format!("an integer from 1 to {MAX_MAP_ELEMENTS}");
+            value.integer(&expected, 1..=MAX_MAP_ELEMENTS)
+        })?,
+        map_adaptive: placed(&section, "map_adaptive", |value| value.boolean())?,
+        map_reconstruction: name("map_reconstruction")?,
     })
 }
 

@@ -224,6 +224,13 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         17,
         "a length in m above 0",
     ),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\n[simulation]\nmap_elements = 0",
+        17,
+        "an integer from 1 to 2147483647",
+    ),
+    case("spacing = 0.25", "spacing = 0.25\n[simulation]\nmap_adaptive = 1", 17, "true or false"),
     case("spacing = 0.25", "spacing = 0.25\nspacing = 0.5", 16, "duplicate key"),
     case(
         "spacing = 0.25",

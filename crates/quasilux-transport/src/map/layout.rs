@@ -10,6 +10,8 @@ use quasilux_sampling::warp::sample_triangle;
 
 /// Elements a metre of scene size get where nothing is asked for.
 const ELEMENTS_ACROSS: f64 = 64.0;
+/// The same where pilot photons decide which of them are split.
+const COARSE_ELEMENTS_ACROSS: f64 = 16.0;
 /// Marks what is split in a tree.
 const SPLIT: u32 = 1 << 31;
 /// Most elements on one side of all facets.
@@ -35,7 +37,7 @@ pub(crate) struct Place {
     pub(crate) area_m2: f64,
     /// By how much the facet's second and third weight grow with those of the element; negative where
     /// it is turned by half a turn.
-    step: f64,
+    pub(super) step: f64,
 }
 
 /// How a facet is cut at first.
@@ -59,18 +61,18 @@ struct Trees {
 
 impl MapLayout {
     /// Elements no longer than is asked for, or by default a share of the scene's size, as far as
-    /// `map_elements` allows; nothing is split.
+    /// `map_elements` allows.
     pub(crate) fn new<S: Spectrum>(world: &World<S>, settings: &Settings) -> Self {
-        let element_m = settings.map_element_m.unwrap_or(world.size_m() / ELEMENTS_ACROSS);
-        Self::regular(world, element_m, settings)
+        Self::regular(world, ELEMENTS_ACROSS, settings)
     }
 
-    /// The same with elements no longer than `element_m`.
-    pub(super) fn regular<S: Spectrum>(
-        world: &World<S>,
-        mut element_m: f64,
-        settings: &Settings,
-    ) -> Self {
+    /// The same with a larger default, for those that are split where there is need.
+    pub(super) fn coarse<S: Spectrum>(world: &World<S>, settings: &Settings) -> Self {
+        Self::regular(world, COARSE_ELEMENTS_ACROSS, settings)
+    }
+
+    fn regular<S: Spectrum>(world: &World<S>, across: f64, settings: &Settings) -> Self {
+        let mut element_m = settings.map_element_m.unwrap_or(world.size_m() / across);
         let parts = |facet: &Facet, element_m: f64| {
             let counts = world.bsdf_of(facet).keeps_illuminance();
             let parts = (facet.longest_edge_m() / element_m).ceil().clamp(1.0, MOST_PARTS);
@@ -203,5 +205,123 @@ impl Trees {
     fn leaf(&mut self) -> u32 {
         self.leaves += 1;
         (self.leaves - 1) as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::fixture::{Numbers, at, square};
+
+    /// The layout of [`square`] with leaves split by chance, three times over.
+    fn ragged(world: &World<f64>, numbers: &mut Numbers) -> MapLayout {
+        let settings = Settings { map_element_m: Some(0.8), ..Settings::default() };
+        let mut layout = MapLayout::new(world, &settings);
+        for _ in 0..3 {
+            let chosen: Vec<bool> = (0..layout.leaves()).map(|_| numbers.next() < 0.4).collect();
+            layout = layout.split(|leaf| chosen[leaf]);
+        }
+        layout
+    }
+
+    /// Corners of all leaves as facet and second and third weights, by bisecting edges: in the order
+    /// of their numbers.
+    fn leaves_by_brute_force(layout: &MapLayout) -> Vec<(u32, [[f64; 2]; 3])> {
+        fn add(trees: &Trees, entry: u32, facet: u32, t: [[f64; 2]; 3], leaves: &mut [Vec<Leaf>]) {
+            if entry & SPLIT == 0 {
+                leaves[entry as usize].push((facet, t));
+                return;
+            }
+            let middle = |i: usize, j: usize| [0, 1].map(|k| 0.5 * (t[i][k] + t[j][k]));
+            let (far_a, far_b, far_c) = (middle(1, 2), middle(2, 0), middle(0, 1));
+            let children = [
+                [t[0], far_c, far_b],
+                [far_c, t[1], far_a],
+                [far_b, far_a, t[2]],
+                [far_a, far_b, far_c],
+            ];
+            for (child, t) in trees.lists[(entry & !SPLIT) as usize].into_iter().zip(children) {
+                add(trees, child, facet, t, leaves);
+            }
+        }
+        type Leaf = (u32, [[f64; 2]; 3]);
+        let mut leaves: Vec<Vec<Leaf>> = vec![Vec::new(); layout.leaves()];
+        for (facet, cut) in (0..).zip(&layout.facets) {
+            let n = f64::from(cut.parts);
+            let mut tree = cut.first;
+            for row in 0..cut.parts {
+                for column in 0..cut.parts - row {
+                    let corner =
+                        |i: u32, j: u32| [f64::from(row + i) / n, f64::from(column + j) / n];
+                    let mut cells = vec![[corner(0, 0), corner(1, 0), corner(0, 1)]];
+                    if row + column + 1 < cut.parts {
+                        cells.push([corner(1, 1), corner(0, 1), corner(1, 0)]);
+                    }
+                    for cell in cells {
+                        let root = layout.trees.roots[tree as usize];
+                        add(&layout.trees, root, facet, cell, &mut leaves);
+                        tree += 1;
+                    }
+                }
+            }
+        }
+        assert!(leaves.iter().all(|found| found.len() == 1), "numbers come once each");
+        leaves.into_iter().map(|found| found[0]).collect()
+    }
+
+    #[test]
+    fn places_are_found_as_by_brute_force() {
+        let (world, numbers) = (square(), &mut Numbers(1));
+        let layout = ragged(&world, numbers);
+        let leaves = leaves_by_brute_force(&layout);
+        assert_eq!(layout.len(), 2 * leaves.len());
+        for _ in 0..20_000 {
+            let at = at(&world, numbers);
+            let place = layout.locate(&at);
+            let leaf = if at.front { place.element } else { place.element - leaves.len() };
+            let (facet, corners) = leaves[leaf];
+            assert_eq!(facet, at.facet);
+            // The place is where its weights say that it is.
+            for k in 0..2 {
+                let moved: f64 = (0..3).map(|i| corners[i][k] * place.barycentric[i]).sum();
+                assert!((moved - at.barycentric[1 + k]).abs() < 1e-12);
+            }
+            let [a, b, c] = corners;
+            let share = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            let area_m2 = world.facets[facet as usize].area_m2() * share.abs();
+            assert!((place.area_m2 / area_m2 - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn sampled_places_lie_in_the_same_element() {
+        let (world, numbers) = (square(), &mut Numbers(2));
+        let layout = ragged(&world, numbers);
+        for _ in 0..20_000 {
+            let at = at(&world, numbers);
+            let u = [numbers.next(), numbers.next()];
+            let (sampled, weights) = layout.sample_element(&world, &at, u);
+            let (place, found) = (layout.locate(&at), layout.locate(&sampled));
+            // Rounding may move a place over an edge, but not far.
+            let margin = weights.into_iter().fold(1.0, f64::min);
+            assert!(found.element == place.element || margin < 1e-12);
+            if margin >= 1e-12 {
+                assert!((0..3).all(|i| (found.barycentric[i] - weights[i]).abs() < 1e-11));
+                let facet = &world.facets[at.facet as usize];
+                assert!((sampled.position - facet.point(sampled.barycentric)).length() < 1e-12);
+            }
+            assert_eq!((sampled.facet, sampled.front), (at.facet, at.front));
+        }
+    }
+
+    #[test]
+    fn elements_stay_within_their_bound() {
+        let world = square();
+        for map_elements in [1, 2, 100, 1000] {
+            let settings =
+                Settings { map_elements, map_element_m: Some(0.001), ..Settings::default() };
+            let leaves = MapLayout::new(&world, &settings).leaves() as u64;
+            assert!(leaves <= map_elements.max(2) && 2 * leaves > map_elements, "{leaves}");
+        }
     }
 }

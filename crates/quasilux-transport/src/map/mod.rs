@@ -10,6 +10,8 @@
 //! at `reconstruction` for what photons make of an element, at `tally` for how they are counted.
 
 mod blocks;
+#[cfg(test)]
+mod fixture;
 mod layout;
 mod reconstruction;
 mod refine;

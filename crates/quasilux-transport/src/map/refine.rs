@@ -37,12 +37,12 @@ pub(crate) fn refined<S: Spectrum>(
     settings: &Settings,
     watch: &mut Watch<'_>,
 ) -> (MapLayout, PhotonCounts) {
-    let mut layout = MapLayout::new(&stage.world, settings);
     let mut counts = PhotonCounts::default();
     let most_bounces = most_bounces(stage);
     if !settings.map_adaptive || most_bounces == 0 {
-        return (layout, counts);
+        return (MapLayout::new(&stage.world, settings), counts);
     }
+    let mut layout = MapLayout::coarse(&stage.world, settings);
     let mut indices = 0..FIRST_PHOTONS;
     for _ in 0..ROUNDS {
         let affordable = settings.map_elements.saturating_sub(layout.leaves() as u64) / 3;
@@ -53,10 +53,9 @@ pub(crate) fn refined<S: Spectrum>(
         let pilot = Pilot { layout: &layout, parts: &parts, most_bounces };
         counts += pilot.trace(stage, indices.clone(), watch);
         let chosen = chosen(&layout, &parts, affordable as usize);
-        if chosen.is_empty() {
-            break;
+        if !chosen.is_empty() {
+            layout = layout.split(|leaf| chosen.binary_search(&leaf).is_ok());
         }
-        layout = layout.split(|leaf| chosen.binary_search(&leaf).is_ok());
         indices = indices.end..2 * indices.end;
     }
     (layout, counts)
@@ -178,5 +177,74 @@ impl Misfit {
         }
         let squares: f64 = rests.iter().map(|rest| rest * rest).sum();
         (squares > self.critical * mean).then_some(squares - self.freedom * mean)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::fixture::{Numbers, at, square};
+    use crate::world::World;
+
+    #[test]
+    fn centres_lie_in_their_parts() {
+        let (world, settings) = (square(), Settings::default());
+        let layout = MapLayout::new(&world, &settings);
+        let any = layout.locate(&at(&world, &mut Numbers(1)));
+        for number in 0..PARTS {
+            assert_eq!(part(&Place { barycentric: centre(number), ..any }), number);
+        }
+    }
+
+    /// Leaves of [`square`] chosen after independent photons on its front, accepted by a density along x
+    /// that is at most 1.
+    fn chosen_under(
+        layout: &MapLayout,
+        world: &World<f64>,
+        density: impl Fn(f64) -> f64,
+        affordable: usize,
+    ) -> Vec<usize> {
+        let (parts, numbers) = (Blocks::new(PARTS * layout.len()), &mut Numbers(7));
+        for _ in 0..400_000 {
+            let at = Interaction { front: true, ..at(world, numbers) };
+            if numbers.next() < density(at.position.x) {
+                let place = layout.locate(&at);
+                parts.add(PARTS * place.element + part(&place), 1);
+            }
+        }
+        chosen(layout, &parts, affordable)
+    }
+
+    /// Seed 7; each element is chosen by chance with a probability of 1e-3, so among 256 elements more
+    /// than 4 are with one of 1e-5. A step to four times the light is found in most elements that it cuts.
+    #[test]
+    fn elements_are_split_at_an_edge_and_not_where_light_is_even() {
+        let world = square();
+        for map_reconstruction in [Reconstruction::Constant, Reconstruction::Linear] {
+            let settings =
+                Settings { map_reconstruction, map_element_m: Some(0.2), ..Settings::default() };
+            let layout = MapLayout::new(&world, &settings);
+            let even = chosen_under(&layout, &world, |_| 0.8, 1000);
+            assert!(even.len() <= 4, "{even:?}");
+            let large =
+                MapLayout::new(&world, &Settings { map_element_m: Some(0.8), ..settings.clone() });
+            let slope = chosen_under(&large, &world, |x| 0.1 + 0.45 * x, 1000);
+            match map_reconstruction {
+                Reconstruction::Constant => assert_eq!(slope.len(), large.leaves()),
+                Reconstruction::Linear => assert!(slope.len() <= 2, "{slope:?}"),
+            }
+            let step = |x: f64| if x < 0.77 { 0.2 } else { 0.8 };
+            let edge = chosen_under(&layout, &world, step, 1000);
+            let numbers = &mut Numbers(9);
+            let mut lies_near = vec![false; layout.leaves()];
+            for _ in 0..100_000 {
+                let at = Interaction { front: true, ..at(&world, numbers) };
+                lies_near[layout.locate(&at).element] |= (at.position.x - 0.77).abs() < 0.01;
+            }
+            let found = edge.iter().filter(|&&leaf| lies_near[leaf]).count();
+            let near = lies_near.iter().filter(|near| **near).count();
+            assert!(edge.len() - found <= 4 && 2 * found > near, "{found} of {near}");
+            assert_eq!(chosen_under(&layout, &world, step, 3).len(), 3);
+        }
     }
 }

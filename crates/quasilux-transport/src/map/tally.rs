@@ -124,3 +124,40 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::fixture::{Numbers, at, square};
+    use crate::settings::Settings;
+
+    /// Photons at the three places of a rule that is exact for quadratic functions, as many as a linear
+    /// function says: its projection is that function, or its mean.
+    #[test]
+    fn linear_illumination_is_projected_exactly() {
+        let (world, numbers) = (square(), &mut Numbers(3));
+        let function = |[a, b, c]: [f64; 3]| 5.0 * a + 0.25 * b + 2.0 * c;
+        for map_reconstruction in [Reconstruction::Constant, Reconstruction::Linear] {
+            let settings = Settings { map_reconstruction, ..Settings::default() };
+            let layout = MapLayout::new(&world, &settings);
+            let mut tally = MapTally::<f64>::new(&layout);
+            for _ in 0..100 {
+                let place = layout.locate(&at(&world, numbers));
+                let gauss = |corner| {
+                    std::array::from_fn(|i| [1.0 / 6.0, 2.0 / 3.0][usize::from(i == corner)])
+                };
+                for barycentric in [0, 1, 2].map(gauss) {
+                    tally.add(&Place { barycentric, ..place }, function(barycentric));
+                }
+                let found = tally.read(place.area_m2 / 3.0).illuminance_lx(&place);
+                let wanted = match map_reconstruction {
+                    Reconstruction::Constant => function([1.0 / 3.0; 3]),
+                    Reconstruction::Linear => function(place.barycentric),
+                };
+                assert!((found - wanted).abs() < 2e-5, "{found}, wanted {wanted}");
+                tally.clear();
+                assert_eq!(tally.read(1.0).illuminance_lx(&place), 0.0);
+            }
+        }
+    }
+}

@@ -5,6 +5,7 @@ mod area_luminaires;
 mod balance;
 mod coverage;
 mod cube;
+mod element_size;
 mod furnace;
 mod hall;
 mod scenes;
