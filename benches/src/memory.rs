@@ -2,8 +2,7 @@
 //!
 //! Memory for ten million triangles: a closed room over a rough ground, read from a Wavefront file that
 //! is made on the spot, with an illumination map of as many elements. Each line is a process of its
-//! own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all. The last run has
-//! photons enough to land in nearly all parts of the map.
+//! own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all.
 
 use glam::DVec3;
 use quasilux_benches::meshes::Numbers;
@@ -17,14 +16,11 @@ use std::process::Command;
 const CELLS: usize = 2236;
 const TRIANGLES: f64 = (2 * CELLS * CELLS + 12) as f64;
 
-const RUNS: [[&str; 4]; 6] = [
-    // estimator, reconstruction, replicates, binary logarithm of samples
+/// Estimator, elements, replicates and binary logarithm of the samples.
+const RUNS: [[&str; 4]; 3] = [
     ["path", "linear", "16", "4"],
     ["bidirectional", "linear", "16", "10"],
-    ["bidirectional-map", "constant", "16", "17"],
-    ["bidirectional-map", "linear", "1", "17"],
     ["bidirectional-map", "linear", "16", "17"],
-    ["bidirectional-map", "linear", "16", "18"],
 ];
 
 fn main() {
@@ -119,7 +115,7 @@ fn relief() -> Scene {
 fn ground() -> String {
     let numbers = &mut Numbers(11);
     let mut text = String::from("o ground\nusemtl ground\n");
-    let mut vertex = |text: &mut String, p: DVec3| {
+    let vertex = |text: &mut String, p: DVec3| {
         writeln!(text, "v {:.4} {:.4} {:.4}", p.x, p.y, p.z).expect("text takes everything");
     };
     for corner in 0..8 {
