@@ -1,24 +1,28 @@
-//! Checks that need the whole scene: a sensor inside a wall sees nothing, and hides a mistake.
+//! Checks that need the whole scene: a sensor or camera inside a wall sees nothing, and hides a
+//! mistake.
 //!
-//! "Wall" is any solid that holds the sensor and no light: a closed room around its lights is
+//! "Wall" is any solid that holds it and no light: a closed room around its lights is
 //! none.
 
 use crate::light::AreaLight;
-use crate::project::{Project, SensorEntry};
+use crate::project::{CameraEntry, Project, SensorEntry};
 use crate::solids::{Solid, solids_of};
-use crate::{Light, LoadError, Mesh, Scene, SensorPoint, SensorShape, Warning};
+use crate::{Camera, Light, LoadError, Mesh, Scene, SensorPoint, SensorShape, Warning};
 use glam::DVec3;
 
 /// Triangles that may be tested in all before the search for sensors in walls is given up: some
 /// seconds at most.
 const MAX_TRIANGLE_TESTS: u64 = 200_000_000;
 
+/// What a sensor or camera needs.
+const EXPECTED: &str = "expected a place that light can reach";
+
 /// A sensor point on a surface is judged by the place this share of the scene's size in front.
 const HAIR: f64 = 1e-6;
 
-/// Refuses `points` sensors with a point inside a wall, and grids that are altogether inside;
-/// warns of grids with some cells inside.
-pub(crate) fn sensors_in_walls(
+/// Refuses cameras and `points` sensors with a point inside a wall, and grids that are altogether
+/// inside; warns of grids with some cells inside.
+pub(crate) fn places_in_walls(
     scene: &Scene,
     project: &Project,
     warnings: &mut Vec<Warning>,
@@ -35,7 +39,7 @@ pub(crate) fn sensors_in_walls(
     for entry in &project.sensors {
         check_sensor(entry, &mut walls, project, warnings)?;
     }
-    Ok(())
+    project.cameras.iter().try_for_each(|entry| check_camera(entry, &mut walls, project))
 }
 
 fn check_sensor(
@@ -52,22 +56,34 @@ fn check_sensor(
     else {
         return Ok(());
     };
-    let expected = "expected a place that light can reach";
+
     let wall = format!("inside the closed object \"{object}\", which holds no light");
     if let SensorShape::Points(_) = entry.sensor.shape {
         let place = entry.point_places.get(first).copied().unwrap_or(entry.place);
-        let message = format!("point {} of sensor \"{name}\" lies {wall}; {expected}", first + 1);
+        let message = format!("point {} of sensor \"{name}\" lies {wall}; {EXPECTED}", first + 1);
         return Err(project.error(place, message));
     }
     let count = inside.iter().flatten().count();
     if count == points.len() {
         return Err(
-            project.error(entry.place, format!("sensor \"{name}\" lies {wall}; {expected}"))
+            project.error(entry.place, format!("sensor \"{name}\" lies {wall}; {EXPECTED}"))
         );
     }
     let message = format!("{count} of {} points of sensor \"{name}\" lie {wall}", points.len());
     warnings.push(Warning::new(&project.file, Some(entry.place), message));
     Ok(())
+}
+
+fn check_camera(
+    entry: &CameraEntry,
+    walls: &mut Walls<'_>,
+    project: &Project,
+) -> Result<(), LoadError> {
+    let Camera { name, position, target, .. } = &entry.camera;
+    let eye = SensorPoint { position: *position, normal: (*target - *position).normalize() };
+    let Some(object) = walls.around(&eye) else { return Ok(()) };
+    let wall = format!("inside the closed object \"{object}\", which holds no light");
+    Err(project.error(entry.place, format!("camera \"{name}\" lies {wall}; {EXPECTED}")))
 }
 
 /// The solids of a scene, of which some are walls.

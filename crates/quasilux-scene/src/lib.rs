@@ -7,6 +7,7 @@
 //! the way from bytes to a [`Scene`].
 
 pub mod bsdf;
+pub mod camera;
 mod checks;
 pub mod error;
 mod geometry;
@@ -21,6 +22,7 @@ pub mod sensor;
 mod solids;
 
 pub use bsdf::Bsdf;
+pub use camera::{Camera, View};
 pub use error::{LoadError, Place, Placed, Warning};
 pub use light::Light;
 pub use load::{Files, Loaded, load};

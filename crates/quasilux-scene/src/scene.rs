@@ -1,6 +1,6 @@
 //! The scene: built once, checked once, then immutable.
 
-use crate::{Bsdf, Light, Mesh, Sensor};
+use crate::{Bsdf, Camera, Light, Mesh, Sensor};
 
 /// Everything that exists in a room.
 #[derive(Clone, Debug, Default)]
@@ -11,8 +11,10 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// The lights; at least one with a positive flux.
     pub lights: Vec<Light>,
-    /// The sensors; names are unique.
+    /// The sensors; names are unique among sensors and cameras.
     pub sensors: Vec<Sensor>,
+    /// The cameras; at least one where there is no sensor.
+    pub cameras: Vec<Camera>,
 }
 
 /// A named surface material.

@@ -44,7 +44,8 @@ pub fn load(
     let materials = materials::resolve(&project, &geometry, &mut warnings)?;
     let lights = lights::place(&project, &geometry, files, &mut warnings)?;
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
-    let scene = Scene { mesh: geometry.mesh, materials, lights, sensors };
-    checks::sensors_in_walls(&scene, &project, &mut warnings)?;
+    let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
+    let scene = Scene { mesh: geometry.mesh, materials, lights, sensors, cameras };
+    checks::places_in_walls(&scene, &project, &mut warnings)?;
     Ok(Loaded { scene, simulation: project.simulation, warnings })
 }

@@ -4,16 +4,19 @@
 //! keys, wrong types and values out of range are refused with their place and the nearest valid
 //! key.
 
+mod cameras;
 mod document;
 mod grid;
 mod lights;
 mod luminaires;
 mod materials;
+mod names;
 mod sensors;
 mod simulation;
 
 pub use simulation::SimulationSection;
 
+pub(crate) use cameras::CameraEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::MaterialEntry;
@@ -21,6 +24,7 @@ pub(crate) use sensors::SensorEntry;
 
 use crate::{LoadError, Place, Placed};
 use document::{Section, Source};
+use names::Names;
 use toml::de::DeTable;
 
 /// The axis that points up in the geometry files.
@@ -41,12 +45,14 @@ pub(crate) struct Project {
     pub(crate) materials: Vec<MaterialEntry>,
     pub(crate) luminaires: Vec<LuminaireEntry>,
     pub(crate) lights: Vec<LightEntry>,
-    /// At least one.
     pub(crate) sensors: Vec<SensorEntry>,
+    /// At least one where there is no sensor.
+    pub(crate) cameras: Vec<CameraEntry>,
     pub(crate) simulation: SimulationSection,
 }
 
-const SECTIONS: [&str; 6] = ["scene", "materials", "luminaires", "lights", "sensors", "simulation"];
+const SECTIONS: [&str; 7] =
+    ["scene", "materials", "luminaires", "lights", "sensors", "cameras", "simulation"];
 
 impl Project {
     pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Self, LoadError> {
@@ -58,7 +64,7 @@ impl Project {
             source.error(offset, format!("not valid TOML: {message}"))
         })?;
         let root = source.root(table.get_ref());
-        root.only(&SECTIONS, &["cameras"]).map_err(|error| plural_cameras(&root, error))?;
+        root.only(&SECTIONS, &[])?;
 
         let (geometry, up) = scene_section(&root)?;
         let luminaires = luminaires::read(&root)?;
@@ -66,14 +72,24 @@ impl Project {
         if luminaires.is_empty() && lights.is_empty() {
             return Err(root.error("no lights; expected at least one [[luminaires]] or [[lights]]"));
         }
+        let materials = materials::read(&root)?;
+        let mut names = Names::default();
+        let sensors = sensors::read(&root, &mut names)?;
+        let cameras = cameras::read(&root, &mut names)?;
+        if sensors.is_empty() && cameras.is_empty() {
+            let message =
+                "no sensors and no cameras; expected at least one [[sensors]] or [[cameras]]";
+            return Err(root.error(message));
+        }
         Ok(Self {
             file: file.to_owned(),
             geometry,
             up,
-            materials: materials::read(&root)?,
+            materials,
             luminaires,
             lights,
-            sensors: sensors::read(&root)?,
+            sensors,
+            cameras,
             simulation: simulation::read(file, &root)?,
         })
     }
@@ -82,16 +98,6 @@ impl Project {
 impl Project {
     pub(crate) fn error(&self, place: Place, message: impl Into<String>) -> LoadError {
         LoadError::new(&self.file, Some(place), message)
-    }
-}
-
-fn plural_cameras(root: &Section<'_>, error: LoadError) -> LoadError {
-    let cameras = root.entries().into_iter().find(|(key, _)| key.value == "cameras");
-    match cameras {
-        Some((key, _)) if Some(key.place) == error.place() => {
-            LoadError::new(error.file(), error.place(), "cameras are not built yet")
-        }
-        _ => error,
     }
 }
 

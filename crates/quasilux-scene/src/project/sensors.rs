@@ -2,6 +2,7 @@
 
 use super::document::{Section, Value};
 use super::grid::{cells_along, en12464_cell_m};
+use super::names::Names;
 use crate::{Grid, LoadError, Place, Quantity, Sensor, SensorPoint, SensorShape};
 use glam::DVec3;
 
@@ -12,9 +13,6 @@ const POINTS_KEYS: [&str; 4] = ["name", "kind", "points", "normals"];
 /// Most cells that all grids of a project may have together.
 const MAX_CELLS: f64 = 1e7;
 
-/// Longest name of a sensor in bytes: it becomes a file name.
-const MAX_NAME_BYTES: usize = 100;
-
 /// One sensor, and where its parts are.
 #[derive(Clone, Debug)]
 pub(crate) struct SensorEntry {
@@ -24,14 +22,14 @@ pub(crate) struct SensorEntry {
     pub(crate) sensor: Sensor,
 }
 
-pub(super) fn read(root: &Section<'_>) -> Result<Vec<SensorEntry>, LoadError> {
+pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<SensorEntry>, LoadError> {
     let mut entries: Vec<SensorEntry> = Vec::new();
     let mut cells = 0.0;
     for section in root.tables("sensors")? {
         let kind = section.require("kind", "\"grid\" or \"points\"")?;
         let kind = kind.name(&["grid", "points"], &["cylindrical", "mesh", "surface"])?;
         section.only(if kind == "grid" { &GRID_KEYS } else { &POINTS_KEYS }, &[])?;
-        let name = name(&section, &entries)?;
+        let name = names.of_sensor(&section)?;
         let place = section.place();
         entries.push(if kind == "grid" {
             let shape = SensorShape::Grid(grid(&section, &mut cells)?);
@@ -42,39 +40,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<SensorEntry>, LoadError> {
             SensorEntry { place, point_places, sensor: Sensor { name, shape } }
         });
     }
-    if entries.is_empty() {
-        return Err(root.error("no sensors; expected at least one [[sensors]]"));
-    }
     Ok(entries)
-}
-
-/// A name that is unique, and a file name on every system.
-fn name(section: &Section<'_>, earlier: &[SensorEntry]) -> Result<String, LoadError> {
-    let expected = "a name for the sensor and its result files";
-    let value = section.require("name", expected)?;
-    let name = value.string(expected)?;
-    let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
-    let reserved = ["con", "prn", "aux", "nul"].iter().any(|word| name.eq_ignore_ascii_case(word));
-    let edges = name.starts_with(['.', ' ', '-']) || name.ends_with(['.', ' ']);
-    if name.is_empty()
-        || name.len() > MAX_NAME_BYTES
-        || name.contains(forbidden)
-        || edges
-        || reserved
-    {
-        return Err(value.unexpected(
-            "a name that can be a file name: up to 100 bytes without / \\ : * ? \" < > |",
-        ));
-    }
-    let same = |entry: &&SensorEntry| entry.sensor.name.to_lowercase() == name.to_lowercase();
-    if let Some(first) = earlier.iter().find(same) {
-        let (other, line) = (&first.sensor.name, first.place.line);
-        return Err(value.error(format!(
-            "two sensors are named \"{other}\", the first on line {line}; expected unique names, \
-             whatever their case"
-        )));
-    }
-    Ok(name.to_owned())
 }
 
 fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {

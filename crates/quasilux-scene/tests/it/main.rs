@@ -1,6 +1,7 @@
 //! Projects loaded from maps of files: what is right, what is refused, and where.
 
 mod bad_input;
+mod cameras;
 mod corpus;
 mod gltf;
 mod mutations;

@@ -168,7 +168,7 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         "spacing = 0.25",
         "spacing = 0.25\n[[sensors]]\nname = \"Plane\"\nkind = \"points\"\npoints = [[0, 0, 1]]\nnormals = [[0, 0, 1]]",
         17,
-        "two sensors are named \"plane\", the first on line 9",
+        "the same name as the sensor \"plane\" on line 9",
     ),
     case(
         "spacing = 0.25",
@@ -181,12 +181,6 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         "spacing = 0.25\n[[sensors]]\nname = \"p\"\nkind = \"points\"\npoints = []\nnormals = []",
         19,
         "at least one position",
-    ),
-    case(
-        "spacing = 0.25",
-        "spacing = 0.25\n[[cameras]]\nname = \"eye\"",
-        16,
-        "cameras are not built yet",
     ),
     case(
         "spacing = 0.25",

@@ -90,3 +90,17 @@ fn lights_on_the_surface_of_a_room_light_it() {
         assert!(load_text(&project, &files()).unwrap().warnings.is_empty(), "{position}");
     }
 }
+
+#[test]
+fn a_camera_in_a_cupboard_is_refused() {
+    let camera = |x_m: f64| {
+        format!(
+            "{PROJECT}[[cameras]]\nname = \"eye\"\nposition = [{x_m}, 0.5, 1]\ntarget = [2, 0.5, 1]\n\
+             vertical_fov_deg = 50\nresolution = [4, 3]\n"
+        )
+    };
+    assert!(load_text(&camera(0.5), &files()).is_ok());
+    let text = load_text(&camera(0.3), &files()).unwrap_err().to_string();
+    let expected = "room.toml:16:1: camera \"eye\" lies inside the closed object \"cupboard\"";
+    assert!(text.starts_with(expected), "{text}");
+}

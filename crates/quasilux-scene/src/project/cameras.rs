@@ -1,0 +1,90 @@
+//! `[[cameras]]`: where pictures are taken from.
+
+use super::document::{Section, Value};
+use super::names::Names;
+use crate::{Camera, LoadError, Place};
+use glam::DVec3;
+
+const KEYS: [&str; 6] = ["name", "position", "target", "up", "vertical_fov_deg", "resolution"];
+
+/// Most pixels along an edge.
+const MAX_EDGE: u64 = 16_384;
+/// Most pixels that all cameras of a project may have together.
+const MAX_PIXELS: u64 = 1 << 24;
+/// Sine of the smallest angle between `up` and the line of sight: a microradian.
+const LEAST_SINE: f64 = 1e-6;
+
+/// One camera, and where it is.
+#[derive(Clone, Debug)]
+pub(crate) struct CameraEntry {
+    pub(crate) place: Place,
+    pub(crate) camera: Camera,
+}
+
+pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<CameraEntry>, LoadError> {
+    let mut pixels = 0;
+    let read = |section: &Section<'_>| {
+        section.only(&KEYS, &[])?;
+        let camera = camera(section, names, &mut pixels)?;
+        Ok(CameraEntry { place: section.place(), camera })
+    };
+    root.tables("cameras")?.iter().map(read).collect()
+}
+
+fn camera(section: &Section<'_>, names: &mut Names, pixels: &mut u64) -> Result<Camera, LoadError> {
+    let name = names.of_camera(section)?;
+    let position = "a position [x, y, z] in m";
+    let at = |key| section.require(key, position)?.vector(position);
+    let (position, target) = (at("position")?, at("target")?);
+    let Some(forward) = (target - position).try_normalize() else {
+        let message = "\"target\" is \"position\"; expected another point, to look at";
+        return Err(section.require("target", "a position")?.error(message));
+    };
+    let fov = "an angle in degrees between 0 and 180";
+    let fov_deg = section
+        .require("vertical_fov_deg", fov)?
+        .number(fov, |fov_deg| fov_deg > 0.0 && fov_deg < 180.0)?;
+    Ok(Camera {
+        name,
+        position,
+        target,
+        up: up(section, forward)?,
+        vertical_fov_rad: fov_deg.to_radians(),
+        resolution: resolution(section, pixels)?,
+    })
+}
+
+/// The direction that is given, or z.
+fn up(section: &Section<'_>, forward: DVec3) -> Result<DVec3, LoadError> {
+    let across = |up: DVec3| forward.cross(up).length() >= LEAST_SINE;
+    let Some(value) = section.get("up") else {
+        return Some(DVec3::Z).filter(|up| across(*up)).ok_or_else(|| {
+            section.error("the camera looks along the default \"up\", [0, 0, 1]; expected \"up\"")
+        });
+    };
+    let expected = "a direction [x, y, z] with a length";
+    let up = value.vector(expected)?.try_normalize().ok_or_else(|| value.unexpected(expected))?;
+    Some(up).filter(|up| across(*up)).ok_or_else(|| {
+        value.error(
+            "\"up\" is parallel to the line from position to target; expected a direction across it",
+        )
+    })
+}
+
+fn resolution(section: &Section<'_>, pixels: &mut u64) -> Result<[u32; 2], LoadError> {
+    let expected = format!("[width, height] in pixels, 1 to {MAX_EDGE} each");
+    let value = section.require("resolution", &expected)?;
+    let edges = value.array(&expected)?;
+    let [width, height] = edges.as_slice() else {
+        return Err(value.unexpected(&expected));
+    };
+    let edge = |n: &Value<'_>| n.integer(&expected, 1..=MAX_EDGE);
+    let [width, height] = [edge(width)?, edge(height)?];
+    *pixels += width * height;
+    if *pixels > MAX_PIXELS {
+        return Err(value.error(format!(
+            "the pictures have {pixels} pixels so far; expected at most {MAX_PIXELS} in all"
+        )));
+    }
+    Ok([width as u32, height as u32])
+}
