@@ -2,9 +2,10 @@
 
 use crate::{Report, RunFacts};
 use glam::DVec3;
-use quasilux_scene::{Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
+use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
-    DimensionHistogram, Dimensions, Estimates, Estimator, FluxBalance, SensorEstimates, Settings,
+    CameraEstimates, DimensionHistogram, Dimensions, Estimates, Estimator, FluxBalance, Pixel,
+    SensorEstimates, Settings,
 };
 
 /// A grid in the xy plane.
@@ -81,6 +82,39 @@ pub(crate) fn noiseless(values: &[f64]) -> Report {
     report
 }
 
+/// A camera "view" alone, with the luminance of each pixel; half-widths are 0.5 cd/m2, and unknown
+/// without light.
+pub(crate) fn picture(resolution: [u32; 2], luminance_cd_m2: impl Fn(u32, u32) -> f64) -> Report {
+    let [width, height] = resolution;
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let pixels: Vec<Pixel> = places
+        .map(|(x, y)| {
+            let luminance_cd_m2 = luminance_cd_m2(x, y) as f32;
+            Pixel {
+                rgb_cd_m2: [1.1, 0.98, 0.9].map(|share| share * luminance_cd_m2),
+                luminance_cd_m2,
+                half_width_cd_m2: (luminance_cd_m2 > 0.0).then_some(0.5),
+            }
+        })
+        .collect();
+    let sum: f64 = pixels.iter().map(|pixel| f64::from(pixel.luminance_cd_m2)).sum();
+    let (mut scene, mut estimates) = scene_and_estimates(Vec::new());
+    scene.cameras.push(Camera {
+        name: "view".into(),
+        position: DVec3::ZERO,
+        target: DVec3::X,
+        up: DVec3::Z,
+        vertical_fov_rad: 1.0,
+        resolution,
+    });
+    estimates.cameras.push(CameraEstimates {
+        replicate_mean_cd_m2: vec![sum / pixels.len() as f64; 16],
+        pixels: pixels.into(),
+        samples: 16,
+    });
+    Report::new(&scene, &Settings::default(), &estimates, RunFacts::default())
+}
+
 /// One point, one replicate.
 pub(crate) fn without_intervals() -> Report {
     let point = SensorPoint { position: DVec3::new(0.0, 0.0, 0.5), normal: DVec3::Z };
@@ -118,6 +152,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
     });
     let estimates = Estimates {
         sensors: figures.collect(),
+        cameras: Vec::new(),
         samples: 65_536,
         rays: 187_654_321,
         flux: FluxBalance {

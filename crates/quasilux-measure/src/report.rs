@@ -4,6 +4,7 @@
 //! that made it. Nothing in a [`Report`] is infinite or not a number: such a figure is `None`, and a
 //! warning says so.
 
+use crate::CameraReport;
 use glam::DVec3;
 use quasilux_scene::{Grid, Scene, SensorShape};
 use quasilux_transport::{Dimensions, Estimates, FluxBalance, Interval, Settings};
@@ -26,6 +27,8 @@ pub struct RunFacts {
 pub struct Report {
     /// One entry a sensor, in the order of the scene.
     pub sensors: Vec<SensorReport>,
+    /// One entry a camera, in the order of the scene.
+    pub cameras: Vec<CameraReport>,
     /// How the results were made.
     pub run: Run,
     /// Whether values may be biased beyond what their intervals say; a warning says why.
@@ -121,6 +124,9 @@ impl Report {
         assert_eq!(scene.sensors.len(), estimates.sensors.len(), "estimates of another scene");
         let sensors: Vec<SensorReport> =
             (0..scene.sensors.len()).map(|s| SensorReport::new(scene, estimates, s)).collect();
+        assert_eq!(scene.cameras.len(), estimates.cameras.len(), "estimates of another scene");
+        let cameras =
+            (0..scene.cameras.len()).map(|c| CameraReport::new(scene, estimates, c)).collect();
         let mut warnings = facts.warnings;
         warnings.extend_from_slice(&estimates.warnings);
         if estimates.biased && !warnings.iter().any(|w| w.contains("bias")) {
@@ -132,6 +138,7 @@ impl Report {
         warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
         Self {
             sensors,
+            cameras,
             run: Run {
                 version: facts.version,
                 settings: settings.clone(),

@@ -37,6 +37,9 @@ pub struct View {
 }
 
 impl Camera {
+    /// What the name of its false-colour picture ends with, after its own name.
+    pub const FALSE_COLOUR_ENDING: &'static str = "-falsecolour";
+
     /// The number of pixels.
     #[must_use]
     pub fn pixels(&self) -> usize {

@@ -2,6 +2,7 @@
 
 use crate::Interval;
 use crate::interval::jackknife;
+use crate::picture::CameraEstimates;
 use quasilux_sampling::DimensionHistogram;
 
 /// The state of a simulation at a checkpoint that all replicates have completed.
@@ -9,6 +10,8 @@ use quasilux_sampling::DimensionHistogram;
 pub struct Estimates {
     /// One entry a sensor, in the order of the scene.
     pub sensors: Vec<SensorEstimates>,
+    /// One entry a camera, in the order of the scene; none before the sensors are done.
+    pub cameras: Vec<CameraEstimates>,
     /// Indices used so far by each replicate: photons, and paths for each sensor point.
     pub samples: u64,
     /// Rays traced so far, all kinds and replicates together.

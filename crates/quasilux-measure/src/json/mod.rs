@@ -3,15 +3,18 @@
 //! The order of keys is fixed and numbers are the shortest that read back exactly, so two runs of
 //! one project write the same bytes but for `seconds` and `threads`. Unknown figures are `null`.
 //! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
-//! sensor its `counts` along u and v; and in `run` the rest of what makes a run repeatable
-//! (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`, `map_elements`,
-//! `map_adaptive`, `map_reconstruction`), `flux_cut_lm`, the flux that `max_bounces` cut, and
-//! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
-//! all of more than 1023 together at its end.
+//! sensor its `counts` along u and v; in `cameras` the files of each camera, the paths of each pixel
+//! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
+//! run repeatable (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
+//! `map_elements`, `map_adaptive`, `map_reconstruction`), `flux_cut_lm`, the flux that `max_bounces`
+//! cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list
+//! each, all of more than 1023 together at its end.
 
+mod camera;
 mod layout;
 
 use crate::{Figure, PointReport, Report, Run, SensorReport, Summary};
+use camera::CameraEntry;
 use layout::Layout;
 use quasilux_transport::DimensionHistogram;
 use serde::{Serialize, Serializer};
@@ -44,6 +47,7 @@ struct Document<'a> {
     format: &'static str,
     biased: bool,
     sensors: Vec<SensorEntry<'a>>,
+    cameras: Vec<CameraEntry<'a>>,
     run: RunEntry<'a>,
     warnings: &'a [String],
 }
@@ -135,6 +139,7 @@ impl<'a> Document<'a> {
             format: FORMAT,
             biased: report.biased,
             sensors: report.sensors.iter().map(SensorEntry::of).collect(),
+            cameras: report.cameras.iter().map(CameraEntry::of).collect(),
             run: RunEntry::of(&report.run),
             warnings: &report.warnings,
         }
@@ -165,9 +170,15 @@ impl PointEntry {
     }
 }
 
+impl FigureEntry {
+    fn of(figure: Figure) -> Self {
+        Self { value: figure.value, half_width: figure.half_width }
+    }
+}
+
 impl SummaryEntry {
     fn of(summary: &Summary) -> Self {
-        let entry = |f: Figure| FigureEntry { value: f.value, half_width: f.half_width };
+        let entry = FigureEntry::of;
         Self {
             average_lx: entry(summary.average_lx),
             minimum_lx: entry(summary.minimum_lx),
@@ -243,7 +254,7 @@ mod tests {
     #[test]
     fn keys_and_their_order() {
         let text = json(&example::office());
-        assert_order(&text, &["format", "biased", "sensors", "run", "warnings"]);
+        assert_order(&text, &["format", "biased", "sensors", "cameras", "run", "warnings"]);
         assert_order(&text, &["name", "kind", "counts", "points", "summary"]);
         let point = ["position", "normal", "illuminance_lx", "half_width_lx", "direct_lx"];
         assert_order(&text, &point);
@@ -279,6 +290,22 @@ mod tests {
         assert_eq!(document["run"]["dimension_counts"], counts);
         assert_eq!(document["run"]["max_bounces"], Value::Null);
         assert_eq!(document["warnings"], serde_json::json!(["a \"quoted\" warning"]));
+    }
+
+    #[test]
+    fn cameras_have_files_and_figures() {
+        let report = example::picture([4, 2], |x, _| if x == 0 { 20.0 } else { 4.0 });
+        let document: Value = serde_json::from_str(&json(&report)).expect("valid JSON");
+        let camera = serde_json::json!({
+            "name": "view",
+            "resolution": [4, 2],
+            "samples": 16,
+            "files": ["view.exr", "view.png", "view-falsecolour.png"],
+            "mean_luminance_cd_m2": {"value": 8.0, "half_width": 0.0},
+            "maximum_luminance_cd_m2": 20.0,
+            "mean_half_width_cd_m2": 0.5,
+        });
+        assert_eq!(document["cameras"], serde_json::json!([camera]));
     }
 
     #[test]

@@ -68,15 +68,7 @@ impl Canvas {
 
     /// The picture as a PNG file.
     pub(crate) fn to_png(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-        let mut writer = encoder.write_header().expect("memory takes a header");
-        writer.write_image_data(self.pixels.as_flattened()).expect("memory takes a picture");
-        writer.finish().expect("memory takes an end");
-        bytes
+        srgb_png([self.width as u32, self.height as u32], self.pixels.as_flattened())
     }
 
     /// The pixels within `reach` of the segments: corner and size, `None` where there are none.
@@ -90,6 +82,19 @@ impl Canvas {
         let to = [to[0].min(size[0]), to[1].min(size[1])];
         (from[0] < to[0] && from[1] < to[1]).then(|| (from, [to[0] - from[0], to[1] - from[1]]))
     }
+}
+
+/// A PNG file of sRGB pixels, row by row from the top.
+pub(crate) fn srgb_png([width, height]: [u32; 2], pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    let mut writer = encoder.write_header().expect("memory takes a header");
+    writer.write_image_data(pixels).expect("memory takes a picture");
+    writer.finish().expect("memory takes an end");
+    bytes
 }
 
 /// Distance from a point to a segment.

@@ -21,6 +21,7 @@ const TOP: usize = 30;
 const SUMMARY_GAP: &str = "     ";
 const SUMMARY_LINE: usize = 22;
 const BELOW_PLOT: usize = 62;
+const BELOW_PICTURE: usize = 22;
 const LEGEND_HEIGHT: usize = 20;
 const BELOW_LEGEND: usize = 36;
 const FOOTER_LINE: usize = 18;
@@ -44,11 +45,20 @@ impl Layout {
         let px_per_m = PLOT_LONG / u_m.max(v_m);
         let plot_size =
             [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
+        Self::around(plot_size, BELOW_PLOT, summary)
+    }
+
+    /// The layout around a picture of this size without axes.
+    pub(crate) fn without_axes(plot_size: [usize; 2], summary: &[String]) -> Self {
+        Self::around(plot_size, BELOW_PICTURE, summary)
+    }
+
+    fn around(plot_size: [usize; 2], below_plot: usize, summary: &[String]) -> Self {
         let content_width = plot_size[0].max(CONTENT_LEAST);
         let summary_lines = wrapped(summary, content_width as f64);
         let plot_top = TOP + TITLE_PX as usize + 18 + SUMMARY_LINE * summary_lines.len() + 10;
         let plot_corner = [LEFT + (content_width - plot_size[0]) / 2, plot_top];
-        let legend_top = plot_top + plot_size[1] + BELOW_PLOT;
+        let legend_top = plot_top + plot_size[1] + below_plot;
         Self {
             size: [
                 LEFT + content_width + RIGHT,

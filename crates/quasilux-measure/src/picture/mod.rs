@@ -1,25 +1,34 @@
-//! The false-colour picture of a grid: flat cells in true proportion, contour lines at round
-//! illuminances, the number of each cell where it fits, axes in metres and a legend in lux.
+//! Pictures: false colours with a scale for grids and cameras, and what a camera sees.
 //!
+//! The false-colour picture of a grid has flat cells in true proportion, contour lines at round
+//! illuminances, the number of each cell where it fits, axes in metres and a legend in lux.
 //! Cells show what was computed, one value each; only the contour lines interpolate (bilinear between
 //! cell centres, on straight on to the border).
 
 mod axis;
+mod camera;
 mod canvas;
 mod colour_map;
 mod contour;
+mod frame;
 mod glyphs;
 mod label;
 mod layout;
+mod luminance_scale;
 mod plot;
 mod scale;
 mod text;
+mod tone_map;
 
-use crate::number::{brief, count, figure_text};
+pub use camera::camera_false_colour_png;
+pub use tone_map::tone_mapped_png;
+
+use crate::number::figure_text;
 use crate::{Figure, Report, SensorReport};
 use axis::Axis;
 use canvas::Canvas;
 use colour_map::Colour;
+use frame::Legend;
 use glam::DVec2;
 use layout::Layout;
 use scale::LuxScale;
@@ -41,12 +50,23 @@ pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8
     let scale = LuxScale::of(sensor);
     let layout = Layout::of(grid.u.length(), grid.v.length(), &summary(sensor));
     let mut canvas = Canvas::new(layout.size[0], layout.size[1]);
-    draw_title(&mut canvas, &layout, sensor);
+    frame::draw_title(&mut canvas, &layout, &sensor.name);
     plot::draw(&mut canvas, &layout, sensor, &scale);
     draw_axes(&mut canvas, &layout, &grid);
-    draw_legend(&mut canvas, &layout, &scale);
-    draw_footer(&mut canvas, &layout, report);
+    frame::draw_legend(&mut canvas, &layout, &legend(&scale));
+    frame::draw_footer(&mut canvas, &layout, report, report.run.samples);
     Some(canvas.to_png())
+}
+
+/// The scale as a legend, with the levels of the contour lines.
+fn legend(scale: &LuxScale) -> Legend {
+    let share = |lx: &f64| scale.share(*lx);
+    let ticks = scale.ticks.values.iter();
+    Legend {
+        unit: "lx",
+        marks: scale.levels.values.iter().map(share).collect(),
+        ticks: ticks.map(|lx| (share(lx), scale.ticks.label(*lx))).collect(),
+    }
 }
 
 /// The figures under the title, each as one piece of text.
@@ -61,18 +81,6 @@ fn summary(sensor: &SensorReport) -> Vec<String> {
         piece("maximum", summary.maximum_lx, " lx"),
         piece("uniformity", summary.uniformity, ""),
     ]
-}
-
-fn draw_title(canvas: &mut Canvas, layout: &Layout, sensor: &SensorReport) {
-    let left = layout.content_left();
-    let title = text::fitted(&sensor.name, layout::TITLE_PX, layout.content_width());
-    let mut style = TextStyle::new(layout::TITLE_PX, INK, Align::Left);
-    style.stroke_px = 2.4;
-    text::draw(canvas, &title, DVec2::new(left, layout.title_base()), style);
-    for (k, line) in layout.summary_lines.iter().enumerate() {
-        let at = DVec2::new(left, layout.summary_base(k));
-        text::draw(canvas, line, at, TextStyle::new(layout::SUMMARY_PX, INK, Align::Left));
-    }
 }
 
 fn draw_axes(canvas: &mut Canvas, layout: &Layout, grid: &quasilux_scene::Grid) {
@@ -104,70 +112,6 @@ fn draw_axes(canvas: &mut Canvas, layout: &Layout, grid: &quasilux_scene::Grid) 
     style.direction = DVec2::NEG_Y;
     let at = DVec2::new(x as f64 - 18.5 - widest, bottom - 0.5 * h as f64);
     text::draw(canvas, &across.title, at, style);
-}
-
-fn draw_legend(canvas: &mut Canvas, layout: &Layout, scale: &LuxScale) {
-    let ([x, y], [w, h]) = (layout.legend_corner, layout.legend_size);
-    for column in 0..w {
-        let colour = colour_map::colour((column as f64 + 0.5) / w as f64);
-        canvas.fill([x + column, y], [1, h], colour);
-    }
-    let top = y as f64;
-    let place = |lx: f64| (x as f64 + scale.share(lx) * w as f64).floor() + 0.5;
-    for &lx in &scale.levels.values {
-        let ends = [DVec2::new(place(lx), top), DVec2::new(place(lx), top + h as f64)];
-        canvas.stroke(&[ends], 1.0, colour_map::ink_on(scale.colour(lx)));
-    }
-    let style = TextStyle::new(layout::SMALL_PX, SOFT_INK, Align::Centre);
-    let below = top + h as f64;
-    let mut free_from = f64::NEG_INFINITY;
-    for &lx in &scale.ticks.values {
-        let column = place(lx);
-        canvas.stroke(
-            &[[DVec2::new(column, below + 1.0), DVec2::new(column, below + 5.0)]],
-            1.0,
-            SOFT_INK,
-        );
-        let number = scale.ticks.label(lx);
-        let half_px = 0.5 * text::width_px(&number, layout::SMALL_PX);
-        if column - half_px > free_from {
-            text::draw(canvas, &number, DVec2::new(column, below + 19.5), style);
-            free_from = column + half_px + 8.0;
-        }
-    }
-    let unit = TextStyle::new(layout::SUMMARY_PX, INK, Align::Left);
-    let base = top + 0.5 * (h as f64 + layout::SUMMARY_PX);
-    text::draw(canvas, "lx", DVec2::new((x + w) as f64 + 10.0, base), unit);
-}
-
-/// How the numbers were made: they never go without.
-fn draw_footer(canvas: &mut Canvas, layout: &Layout, report: &Report) {
-    let run = &report.run;
-    let made = format!(
-        "quasilux {}: {}, {}, {}, {} x {} samples, {} % intervals",
-        run.version,
-        run.settings.estimator.name(),
-        run.settings.sequence.name(),
-        run.settings.randomization.name(),
-        run.replicates,
-        count(run.samples),
-        brief(100.0 * run.confidence, 4),
-    );
-    let caution = if report.biased {
-        "values may be biased beyond their intervals"
-    } else if run.settings.rel_tol > 0.0 && !run.tolerance_reached {
-        "stopped before the wanted tolerance was reached"
-    } else {
-        ""
-    };
-    let left = layout.content_left();
-    for (k, (line, colour)) in
-        [(made.as_str(), SOFT_INK), (caution, CAUTION_INK)].into_iter().enumerate()
-    {
-        let line = text::fitted(line, layout::SMALL_PX, layout.content_width());
-        let style = TextStyle::new(layout::SMALL_PX, colour, Align::Left);
-        text::draw(canvas, &line, DVec2::new(left, layout.footer_base(k)), style);
-    }
 }
 
 #[cfg(test)]

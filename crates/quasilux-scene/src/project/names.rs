@@ -1,14 +1,11 @@
 //! Names of sensors and cameras: they become names of result files, so they are unique together.
 
 use super::document::Section;
-use crate::LoadError;
+use crate::{Camera, LoadError};
 use std::collections::HashMap;
 
 /// Longest name in bytes.
 const MAX_BYTES: usize = 100;
-
-/// What a camera's false-colour picture is called, after the camera's name.
-const FALSE_COLOUR: &str = "-falsecolour";
 
 /// The names that are taken, in lower case: some file systems do not tell cases apart.
 #[derive(Default)]
@@ -31,7 +28,7 @@ impl Names {
 
     /// The name of a camera, which takes that of its second picture too.
     pub(super) fn of_camera(&mut self, section: &Section<'_>) -> Result<String, LoadError> {
-        self.take(section, "camera", &["", FALSE_COLOUR])
+        self.take(section, "camera", &["", Camera::FALSE_COLOUR_ENDING])
     }
 
     fn take(

@@ -1,0 +1,69 @@
+//! The results of one camera, and what its files are called.
+
+use crate::Figure;
+use quasilux_scene::{Camera, Scene};
+use quasilux_transport::{Estimates, Pixel};
+use std::sync::Arc;
+
+/// The picture of one camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraReport {
+    /// The camera's name.
+    pub name: String,
+    /// Width and height in pixels.
+    pub resolution: [u32; 2],
+    /// Paths of each pixel in each replicate.
+    pub samples: u64,
+    /// The pixels, row by row from the top left corner.
+    pub pixels: Arc<[Pixel]>,
+    /// Mean luminance of the picture in cd/m2.
+    pub mean_cd_m2: Figure,
+    /// Largest luminance of a pixel in cd/m2; higher than the true one by the pixel's noise.
+    pub maximum_cd_m2: Option<f64>,
+    /// Half-width of the interval of a pixel in cd/m2, mean over all that have one.
+    pub mean_half_width_cd_m2: Option<f64>,
+}
+
+/// Names of a camera's files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CameraFiles {
+    /// Luminances and colours as numbers.
+    pub exr: String,
+    /// What it looks like.
+    pub png: String,
+    /// Luminances in false colours.
+    pub false_colour_png: String,
+}
+
+impl CameraReport {
+    pub(crate) fn new(scene: &Scene, estimates: &Estimates, index: usize) -> Self {
+        let camera = &scene.cameras[index];
+        let found = &estimates.cameras[index];
+        assert_eq!(found.pixels.len(), camera.pixels(), "a picture of another camera");
+        let luminances = found.pixels.iter().map(|pixel| f64::from(pixel.luminance_cd_m2));
+        let half_widths = || found.pixels.iter().filter_map(|pixel| pixel.half_width_cd_m2);
+        let known = half_widths().count();
+        let sum: f64 = half_widths().map(f64::from).sum();
+        Self {
+            name: camera.name.clone(),
+            resolution: camera.resolution,
+            samples: found.samples,
+            pixels: Arc::clone(&found.pixels),
+            mean_cd_m2: estimates.picture_mean(index).into(),
+            maximum_cd_m2: luminances.reduce(f64::max).filter(|x| x.is_finite()),
+            mean_half_width_cd_m2: (known > 0)
+                .then(|| sum / known as f64)
+                .filter(|x| x.is_finite()),
+        }
+    }
+
+    /// Names of its files.
+    #[must_use]
+    pub fn files(&self) -> CameraFiles {
+        CameraFiles {
+            exr: format!("{}.exr", self.name),
+            png: format!("{}.png", self.name),
+            false_colour_png: format!("{}{}.png", self.name, Camera::FALSE_COLOUR_ENDING),
+        }
+    }
+}
