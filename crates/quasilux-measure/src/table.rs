@@ -1,7 +1,7 @@
-//! The table on the terminal: one line a sensor, each figure with its interval.
+//! The table on the terminal: one line a sensor or camera, each figure with its interval.
 
 use crate::number::{FigureText, brief, count, figure_text};
-use crate::{Figure, Report, SensorReport};
+use crate::{CameraReport, Figure, Report, SensorReport, Summary};
 use std::fmt::Write;
 
 /// Whether the table may use colours.
@@ -25,26 +25,14 @@ enum Emphasis {
 /// Columns between two figures.
 const GAP: &str = "   ";
 
-/// Average, minimum, maximum and uniformity of each sensor, how they were made, and the warnings.
+/// Average, minimum, maximum and uniformity of each sensor, the luminances of each picture, how they
+/// were made, and the warnings.
 #[must_use]
 pub fn table(report: &Report, style: Style) -> String {
-    let mut columns = [
-        Column::left("sensor", report, |s| printable(&s.name)),
-        Column::left("points", report, points),
-        Column::figures("average", " lx", report, |s| s.summary.average_lx),
-        Column::figures("minimum", " lx", report, |s| s.summary.minimum_lx),
-        Column::figures("maximum", " lx", report, |s| s.summary.maximum_lx),
-        Column::figures("uniformity", "", report, |s| s.summary.uniformity),
-    ];
-    columns.iter_mut().for_each(Column::align);
-    let lines = (0..=report.sensors.len()).map(|row| {
-        let cells: Vec<&str> = columns.iter().map(|c| c.cells[row].as_str()).collect();
-        cells.join(GAP).trim_end().to_owned()
-    });
-    let mut text = String::new();
-    for (row, line) in lines.enumerate() {
-        text += &if row == 0 { style.paint(Emphasis::Strong, &line) } else { line };
-        text.push('\n');
+    let mut text = sensors(report, style);
+    if !report.cameras.is_empty() {
+        let gap = if text.is_empty() { "" } else { "\n" };
+        text = format!("{text}{gap}{}", cameras(report, style));
     }
     let faint = style.paint(Emphasis::Faint, &format!("{}; ", run_facts(report)));
     let (emphasis, verdict) = verdict(report);
@@ -52,6 +40,60 @@ pub fn table(report: &Report, style: Style) -> String {
     for warning in &report.warnings {
         let mark = style.paint(Emphasis::Caution, "warning:");
         writeln!(text, "{mark} {}", printable(warning)).expect("strings grow");
+    }
+    text
+}
+
+/// One line a sensor; nothing without sensors.
+fn sensors(report: &Report, style: Style) -> String {
+    let cells = |cell: fn(&SensorReport) -> String| report.sensors.iter().map(cell);
+    let figures = |figure: fn(&Summary) -> Figure| {
+        report.sensors.iter().map(move |sensor| figure(&sensor.summary))
+    };
+    lines(
+        [
+            Column::left("sensor", cells(|s| printable(&s.name))),
+            Column::left("points", cells(points)),
+            Column::figures("average", " lx", figures(|s| s.average_lx)),
+            Column::figures("minimum", " lx", figures(|s| s.minimum_lx)),
+            Column::figures("maximum", " lx", figures(|s| s.maximum_lx)),
+            Column::figures("uniformity", "", figures(|s| s.uniformity)),
+        ],
+        style,
+    )
+}
+
+/// One line a camera.
+fn cameras(report: &Report, style: Style) -> String {
+    let cells = |cell: fn(&CameraReport) -> String| report.cameras.iter().map(cell);
+    let cd_m2 = |value: Option<f64>, before: &str, digits| {
+        value.map_or_else(|| "-".into(), |x| format!("{before}{} cd/m²", brief(x, digits)))
+    };
+    let maxima = report.cameras.iter().map(|c| cd_m2(c.maximum_cd_m2, "", 4));
+    let half_widths = report.cameras.iter().map(|c| cd_m2(c.mean_half_width_cd_m2, "± ", 2));
+    lines(
+        [
+            Column::left("camera", cells(|c| printable(&c.name))),
+            Column::left("pixels", cells(|c| format!("{} x {}", c.resolution[0], c.resolution[1]))),
+            Column::left("samples", cells(|c| count(c.samples))),
+            Column::figures("mean", " cd/m²", report.cameras.iter().map(|c| c.mean_cd_m2)),
+            Column::left("maximum", maxima),
+            Column::left("one pixel", half_widths),
+        ],
+        style,
+    )
+}
+
+/// Columns as lines of text, the first one emphasised; nothing where there is only that one.
+fn lines<const N: usize>(mut columns: [Column; N], style: Style) -> String {
+    columns.iter_mut().for_each(Column::align);
+    let rows = columns[0].cells.len();
+    let mut text = String::new();
+    for row in (0..rows).take_while(|_| rows > 1) {
+        let cells: Vec<&str> = columns.iter().map(|c| c.cells[row].as_str()).collect();
+        let line = cells.join(GAP).trim_end().to_owned();
+        text += &if row == 0 { style.paint(Emphasis::Strong, &line) } else { line };
+        text.push('\n');
     }
     text
 }
@@ -77,20 +119,13 @@ struct Column {
 }
 
 impl Column {
-    fn left(header: &str, report: &Report, cell: impl Fn(&SensorReport) -> String) -> Self {
-        let cells = std::iter::once(header.to_owned()).chain(report.sensors.iter().map(cell));
-        Self { cells: cells.collect() }
+    fn left(header: &str, cells: impl Iterator<Item = String>) -> Self {
+        Self { cells: std::iter::once(header.to_owned()).chain(cells).collect() }
     }
 
     /// A column of figures, their plus-minus signs one below the other.
-    fn figures(
-        header: &str,
-        unit: &str,
-        report: &Report,
-        figure: impl Fn(&SensorReport) -> Figure,
-    ) -> Self {
-        let texts: Vec<FigureText> =
-            report.sensors.iter().map(|s| figure_text(figure(s))).collect();
+    fn figures(header: &str, unit: &str, figures: impl Iterator<Item = Figure>) -> Self {
+        let texts: Vec<FigureText> = figures.map(figure_text).collect();
         let value_width = texts.iter().map(|t| width(&t.value)).max().unwrap_or(0);
         let half_width_width =
             texts.iter().flat_map(|t| &t.half_width).map(|h| width(h)).max().unwrap_or(0);
@@ -139,7 +174,9 @@ fn run_facts(report: &Report) -> String {
 fn verdict(report: &Report) -> (Emphasis, String) {
     let wanted = report.run.settings.rel_tol;
     let percent = brief(100.0 * wanted, 4);
-    if wanted <= 0.0 {
+    if report.sensors.is_empty() && report.run.tolerance_reached {
+        (Emphasis::Good, "every picture has all its paths".into())
+    } else if wanted <= 0.0 {
         (Emphasis::Faint, "no tolerance was asked for".into())
     } else if report.run.tolerance_reached {
         (Emphasis::Good, format!("tolerance of {percent} % reached at every point"))

@@ -26,6 +26,14 @@ pub enum CheckError {
         /// Name of the sensor.
         sensor: String,
     },
+    /// Photons never meet a pinhole.
+    #[error(
+        "camera \"{camera}\": the estimator \"photon\" takes no pictures; use another estimator"
+    )]
+    CameraOfPhotons {
+        /// Name of the camera.
+        camera: String,
+    },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -42,6 +50,9 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     if settings.estimator != Estimator::Photon {
         return Ok(());
+    }
+    if let Some(camera) = scene.cameras.first() {
+        return Err(CheckError::CameraOfPhotons { camera: camera.name.clone() });
     }
     let world = World::<f64>::new(scene);
     for sensor in &scene.sensors {

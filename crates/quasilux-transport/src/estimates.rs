@@ -12,7 +12,8 @@ pub struct Estimates {
     pub sensors: Vec<SensorEstimates>,
     /// One entry a camera, in the order of the scene; none before the sensors are done.
     pub cameras: Vec<CameraEstimates>,
-    /// Indices used so far by each replicate: photons, and paths for each sensor point.
+    /// Indices used so far by each replicate: photons, and paths for each sensor point; without
+    /// sensors those of a pixel.
     pub samples: u64,
     /// Rays traced so far, all kinds and replicates together.
     pub rays: u64,
@@ -27,7 +28,7 @@ pub struct Estimates {
     /// Two-sided miss probability that this checkpoint may spend, at most `1 - confidence`: looking
     /// several times shares one budget.
     pub miss_probability: f64,
-    /// Whether every sensor point reached the wanted tolerance.
+    /// Whether every sensor point reached the wanted tolerance, and every picture got all its paths.
     pub tolerance_reached: bool,
     /// Sensor points where light may be that no path or photon has found: their value is what was
     /// found, and nothing is known of its error.

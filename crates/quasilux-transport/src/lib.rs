@@ -26,6 +26,7 @@ mod photon;
 mod photon_wave;
 mod photons;
 mod picture;
+mod pixels;
 mod schedule;
 mod sections;
 pub mod settings;

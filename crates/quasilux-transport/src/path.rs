@@ -63,7 +63,6 @@ pub(crate) enum Seeks {
         tests_pointlikes: bool,
     },
     /// The luminance seen along this unit vector.
-    #[expect(dead_code, reason = "cameras follow")]
     Luminance { direction: DVec3 },
 }
 

@@ -113,7 +113,8 @@ impl AddAssign for PathSums {
 }
 
 impl WorkCounts {
-    fn add<S>(&mut self, path: &Ended<S>) {
+    /// Counts one path; its rays are counted where they are traced.
+    pub(crate) fn add<S>(&mut self, path: &Ended<S>) {
         self.paths += 1;
         self.dimensions.record(path.dimensions);
         self.endless += u64::from(path.found.endless);

@@ -60,7 +60,8 @@ pub struct Settings {
     pub seed: u64,
     /// Bounces after which light is cut: `Some(0)` leaves the direct light, `None` cuts nothing.
     pub max_bounces: Option<u32>,
-    /// Limit on the number of indices per replicate: photons, and paths for each sensor point.
+    /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
+    /// pixel of a camera gets so many paths, or 16 without a limit.
     pub max_samples: Option<u64>,
     /// Longest edge of an illumination map element in m before any is split; `None` derives it from
     /// the scene's size.

@@ -6,6 +6,7 @@ use crate::estimates::Estimates;
 use crate::gathering::Gathering;
 use crate::interval::Interval;
 use crate::observer::{Control, Observer};
+use crate::pixels::add_pictures;
 use crate::schedule::Schedule;
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
@@ -18,7 +19,8 @@ use quasilux_scene::{Rgb, Scene};
 const LEAST_TRIES: f64 = (1 << 14) as f64;
 
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
-/// first, or the observer stops it; at least up to the first checkpoint.
+/// first, or the observer stops it; at least up to the first checkpoint. Then takes the pictures of the
+/// cameras, with a fixed number of paths a pixel.
 ///
 /// The result is a function of scene and settings, whatever the number of threads; an observer
 /// that stops a run only picks which checkpoint is the last. Work is shared by the threads of the
@@ -62,7 +64,9 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
         }
     };
     let first = estimation.first_checkpoint();
-    let mut schedule = Schedule::new(1.0 - settings.confidence, first, settings.max_samples);
+    // Without sensors there is nothing to wait for.
+    let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
+    let mut schedule = Schedule::new(1.0 - settings.confidence, first, limit);
     let mut last = None;
     loop {
         let samples = schedule.next_checkpoint();
@@ -91,7 +95,10 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
             break;
         }
     }
-    last.expect("a run is never stopped before its first checkpoint")
+    drop(estimation);
+    let mut estimates = last.expect("a run is never stopped before its first checkpoint");
+    add_pictures(&stage, scene, settings, &mut estimates, &mut watch);
+    estimates
 }
 
 /// How near a run is to its tolerance.

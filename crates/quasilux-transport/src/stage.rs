@@ -29,6 +29,13 @@ pub(crate) enum Stream {
     PlanPhotons,
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
+    /// Paths through one pixel of one camera.
+    Pixel {
+        /// Number of the camera.
+        camera: u32,
+        /// Number of the pixel in its picture.
+        pixel: u32,
+    },
 }
 
 impl<'a, S: Spectrum> Stage<'a, S> {
@@ -59,6 +66,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             Stream::Photons => 0,
             Stream::PlanPhotons => 1,
             Stream::Paths(point) => 2 + point,
+            Stream::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         };
         let Settings { mut sequence, randomization, seed, .. } = *self.settings;
         if let (Sequence::Hammersley { .. }, Stream::PlanPhotons) = (sequence, stream) {

@@ -46,6 +46,15 @@ impl<'o> Watch<'o> {
         control == Control::Continue || self.progress.samples == 0
     }
 
+    /// Counts the work at a picture, of whose pass a share is done. Whether to go on.
+    #[must_use]
+    pub(crate) fn tick_picture(&mut self, paths: u64, rays: u64, share: f64) -> bool {
+        self.progress.paths += paths;
+        self.progress.rays += rays;
+        self.progress.done = Some(share);
+        self.observer.progress(&self.progress) == Control::Continue
+    }
+
     pub(crate) fn checkpoint(&mut self, estimates: &Estimates, largest: Option<f64>) -> Control {
         self.progress.samples = estimates.samples;
         self.progress.largest_relative_half_width = largest;

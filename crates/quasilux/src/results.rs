@@ -1,7 +1,10 @@
-//! Results on disk: a document, a spreadsheet for each sensor, a picture for each grid.
+//! Results on disk: a document, a spreadsheet for each sensor, a picture for each grid, three for each
+//! camera.
 
 use crate::exit::Refusal;
-use quasilux_measure::{Report, csv, false_colour_png, json};
+use quasilux_measure::{
+    Report, camera_false_colour_png, csv, exr, false_colour_png, json, tone_mapped_png,
+};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -20,6 +23,13 @@ pub(crate) fn write(folder: &Path, report: &Report) -> Result<(), Refusal> {
         if let Some(png) = false_colour_png(sensor, report) {
             write_whole(&file("png"), &png)?;
         }
+    }
+    for camera in &report.cameras {
+        let files = camera.files();
+        write_whole(&folder.join(files.exr), &exr(camera))?;
+        write_whole(&folder.join(files.png), &tone_mapped_png(camera))?;
+        let false_colours = camera_false_colour_png(camera, report);
+        write_whole(&folder.join(files.false_colour_png), &false_colours)?;
     }
     Ok(())
 }
