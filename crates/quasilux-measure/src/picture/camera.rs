@@ -9,7 +9,7 @@ use crate::number::{brief, figure_text};
 use crate::{CameraReport, Report};
 
 /// Small pictures are enlarged by a whole number, as long as they stay within this many pixels.
-const LONG_PX: usize = 900;
+const LONG_PX: usize = 1000;
 
 /// The luminances of a camera as a PNG file. Pixels of small pictures are drawn as squares.
 #[must_use]
@@ -61,7 +61,7 @@ mod tests {
         let report = picture([30, 20], |x, y| if y == 0 { 200.0 } else { 1.0 + f64::from(x) });
         let camera = &report.cameras[0];
         let (size, pixels) = decoded(&camera_false_colour_png(camera, &report));
-        let layout = Layout::without_axes([900, 600], &summary(camera));
+        let layout = Layout::without_axes([990, 660], &summary(camera));
         assert_eq!(size, layout.size);
         let at = |x: usize, y: usize| {
             let [left, top] = layout.plot_corner;
@@ -69,9 +69,9 @@ mod tests {
             [pixels[index], pixels[index + 1], pixels[index + 2]]
         };
         let scale = LuminanceScale::of(&camera.pixels);
-        assert_eq!([at(0, 0), at(899, 29)], [colour_map::colour(1.0); 2]);
-        assert_eq!([at(0, 30), at(29, 599)], [scale.colour(1.0); 2]);
-        assert_eq!(at(899, 30), scale.colour(30.0));
+        assert_eq!([at(0, 0), at(989, 32)], [colour_map::colour(1.0); 2]);
+        assert_eq!([at(0, 33), at(32, 659)], [scale.colour(1.0); 2]);
+        assert_eq!(at(989, 33), scale.colour(30.0));
     }
 
     #[test]

@@ -50,7 +50,9 @@ impl Layout {
 
     /// The layout around a picture of this size without axes.
     pub(crate) fn without_axes(plot_size: [usize; 2], summary: &[String]) -> Self {
-        Self::around(plot_size, BELOW_PICTURE, summary)
+        let mut layout = Self::around(plot_size, BELOW_PICTURE, summary);
+        layout.plot_corner[0] = LEFT;
+        layout
     }
 
     fn around(plot_size: [usize; 2], below_plot: usize, summary: &[String]) -> Self {

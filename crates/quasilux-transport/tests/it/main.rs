@@ -3,6 +3,7 @@
 mod agreement;
 mod area_luminaires;
 mod balance;
+mod cameras;
 mod coverage;
 mod cube;
 mod element_size;
