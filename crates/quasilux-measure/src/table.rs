@@ -269,6 +269,20 @@ mod tests {
     }
 
     #[test]
+    fn cameras_have_lines_of_their_own() {
+        let mut report = example::picture([40, 30], |_, _| 8.0);
+        let text = table(&report, Style::Plain);
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].starts_with("camera   pixels    samples   mean"), "{text}");
+        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m²";
+        assert_eq!(lines[1], wanted, "{text}");
+        assert!(text.contains("every picture has all its paths"), "{text}");
+        report.sensors = example::office().sensors;
+        let text = table(&report, Style::Plain);
+        assert!(text.contains("\n\ncamera") && text.starts_with("sensor"), "{text}");
+    }
+
+    #[test]
     fn a_sensor_without_intervals_has_values_alone() {
         let text = table(&example::without_intervals(), Style::Plain);
         assert!(text.contains("100.0 lx") && !text.contains('±'), "{text}");

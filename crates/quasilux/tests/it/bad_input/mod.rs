@@ -3,6 +3,7 @@
 //! Each case is one change to a good project, or arguments that make no sense.
 
 mod arguments;
+mod cameras;
 mod geometry;
 mod photometry;
 mod project;

@@ -131,7 +131,7 @@ fn sensors() {
             Case::new("no sensors")
                 .replace(PLANE, "")
                 .replace(PROBES, "")
-                .says(&["project.toml:1:1", "no sensors"]),
+                .says(&["project.toml:1:1", "no sensors and no cameras"]),
             Case::new("a sensor inside a wall")
                 .replace("[[1, 0.5, 0.7]]", "[[1.8, 1.8, 0.5]]")
                 .says(&["project.toml:25:", "\"probes\"", "\"wood\""]),
@@ -164,9 +164,6 @@ fn sensors() {
             Case::new("a normal without length")
                 .replace("normals = [[0, 0, 1]]", "normals = [[0, 0, 0]]")
                 .says(&["project.toml:26:", "length"]),
-            Case::new("cameras")
-                .replace("[simulation]", "[[cameras]]\nname = \"door\"\n[simulation]")
-                .says(&["project.toml:28:3:", "not built yet"]),
         ],
     );
 }
