@@ -119,7 +119,8 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
         Estimator::Path | Estimator::Bidirectional => {}
     }
     let has_pointlike = scene.lights.iter().any(|light| !matches!(light, Light::Area(_)));
-    let has_mirror = scene.materials.iter().any(|m| matches!(m.bsdf, Bsdf::Mirror(_)));
+    let is_specular = |bsdf: &Bsdf| bsdf.is_specular();
+    let has_mirror = scene.materials.iter().any(|m| is_specular(&m.bsdf));
     if has_pointlike && has_mirror && settings.estimator != Estimator::Photon {
         caveats.push(
             "light of points and luminaires that mirrors send straight to a diffuse surface or a \

@@ -37,7 +37,7 @@ pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer)
 
 /// Whether one channel is enough.
 pub(crate) fn is_grey(scene: &Scene) -> bool {
-    scene.materials.iter().all(|material| material.bsdf.reflectance().is_grey())
+    scene.materials.iter().all(|material| material.bsdf.is_grey())
 }
 
 /// An estimator at work: one variant of [`Estimator`] or several close ones.

@@ -31,10 +31,10 @@ pub(super) fn resolve(
     geometry.mesh.material_of.iter().for_each(|&material| triangles[material as usize] += 1);
     let materials = geometry.materials.iter().zip(triangles).map(|(material, count)| {
         let bsdf = match (entry_of(project, &material.name), material.reflectance) {
-            (Some(entry), _) => entry.bsdf,
+            (Some(entry), _) => entry.bsdf.clone(),
             (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
             (None, None) => {
-                let bsdf = default.map_or_else(grey, |entry| entry.bsdf);
+                let bsdf = default.map_or_else(grey, |entry| entry.bsdf.clone());
                 if count > 0 {
                     warnings.push(undefined(material, count, &bsdf));
                 }
@@ -64,7 +64,10 @@ fn grey() -> Bsdf {
 }
 
 fn undefined(material: &FileMaterial, count: u64, bsdf: &Bsdf) -> Warning {
-    let used = format!("reflectance {} is used", bsdf.reflectance().luminance());
+    let used = match bsdf.reflectance() {
+        Some(reflectance) => format!("reflectance {} is used", reflectance.luminance()),
+        None => format!("the default {} is used", bsdf.kind()),
+    };
     let message = if material.name == DEFAULT_MATERIAL {
         format!("{count} triangles have no material: {used}")
     } else {

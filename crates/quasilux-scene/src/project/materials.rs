@@ -1,13 +1,30 @@
 //! `[materials.NAME]`: what the project file says about the materials of the geometry.
 
 use super::document::{Section, Value};
-use crate::bsdf::{Diffuse, Mirror};
+use super::pane;
+use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Placed, Rgb};
 
-const PLANNED_KINDS: [&str; 8] =
-    ["bsdf", "conductor", "dielectric", "glass", "glossy", "phong", "plastic", "translucent"];
-const PLANNED_KEYS: [&str; 6] =
-    ["bsdf", "eta", "roughness", "specular", "transmittance", "texture"];
+/// What each kind may hold beside `kind`.
+const KINDS: [(&str, &[&str]); 6] = [
+    ("diffuse", &["reflectance", "transmittance"]),
+    ("mirror", &["reflectance"]),
+    ("dielectric", &["eta"]),
+    ("pane", &["eta", "transmittance", "reflectance"]),
+    ("conductor", &["reflectance", "roughness", "alpha"]),
+    ("plastic", &["reflectance", "eta", "roughness", "alpha"]),
+];
+const PLANNED_KINDS: [&str; 3] = ["bsdf", "glossy", "phong"];
+const PLANNED_KEYS: [&str; 3] = ["bsdf", "specular", "texture"];
+
+/// Of glass, and of most plastics and varnishes.
+const DEFAULT_ETA: f64 = 1.5;
+
+/// Roughness below which a surface is as good as smooth; its square is the least alpha.
+const LEAST_ROUGHNESS: f64 = 0.02;
+const LEAST_ALPHA: f64 = 0.0004;
+
+pub(super) const SHARES: &str = "a number or [r, g, b] within 0 to 1";
 
 /// One material.
 #[derive(Clone, Debug)]
@@ -31,25 +48,103 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> 
 }
 
 fn bsdf(section: &Section<'_>) -> Result<Bsdf, LoadError> {
-    section.only(&["kind", "reflectance"], &PLANNED_KEYS)?;
-    let kind = section.get("kind").map(|kind| kind.name(&["diffuse", "mirror"], &PLANNED_KINDS));
+    let names = KINDS.map(|(name, _)| name);
+    let kind = section.get("kind").map(|kind| kind.name(&names, &PLANNED_KINDS));
     let kind = kind.transpose()?.unwrap_or("diffuse");
-    let reflectance =
-        reflectance(section.require("reflectance", "a number or [r, g, b] within 0 to 1")?)?;
+    refuse_keys_of_other_kinds(section, kind)?;
     Ok(match kind {
-        "mirror" => Bsdf::Mirror(Mirror { reflectance }),
-        _ => Bsdf::Diffuse(Diffuse { reflectance }),
+        "mirror" => Bsdf::Mirror(Mirror { reflectance: reflectance(section)? }),
+        "dielectric" => Bsdf::Dielectric(Dielectric { eta: eta(section)? }),
+        "pane" => Bsdf::Pane(pane::read(section)?),
+        "conductor" => Bsdf::Conductor(Conductor {
+            reflectance: reflectance(section)?,
+            alpha: alpha(section, "; kind = \"mirror\" is smooth")?,
+        }),
+        "plastic" => Bsdf::Plastic(Plastic {
+            reflectance: reflectance(section)?,
+            eta: index(section, "a refractive index above 1, at most 5", |x| x > 1.0 && x <= 5.0)?,
+            alpha: alpha(section, "")?,
+        }),
+        _ => diffuse(section)?,
     })
 }
 
-fn reflectance(value: Value<'_>) -> Result<Rgb, LoadError> {
-    let expected = "a number or [r, g, b] within 0 to 1";
-    let share = |value: &Value<'_>| value.number(expected, |x| (0.0..=1.0).contains(&x));
-    match value.array(expected) {
+fn refuse_keys_of_other_kinds(section: &Section<'_>, kind: &str) -> Result<(), LoadError> {
+    let keys_of =
+        |name: &str| KINDS.iter().find(|(known, _)| *known == name).map(|(_, keys)| *keys);
+    let known: Vec<&str> = ["kind"].iter().chain(keys_of(kind).unwrap_or(&[])).copied().collect();
+    for (key, value) in section.entries() {
+        let has_key = |(_, keys): &&(&str, &[&str])| keys.contains(&key.value);
+        if !known.contains(&key.value) && KINDS.iter().any(|kind| has_key(&kind)) {
+            let kinds: Vec<String> =
+                KINDS.iter().filter(has_key).map(|(name, _)| format!("\"{name}\"")).collect();
+            return Err(value.error(format!(
+                "\"{}\" goes with kind = {}, not with \"{kind}\"; expected {}",
+                key.value,
+                kinds.join(" or "),
+                known.join(", ")
+            )));
+        }
+    }
+    section.only(&known, &PLANNED_KEYS)
+}
+
+fn diffuse(section: &Section<'_>) -> Result<Bsdf, LoadError> {
+    let reflectance = reflectance(section)?;
+    let Some(value) = section.get("transmittance") else {
+        return Ok(Bsdf::Diffuse(Diffuse { reflectance }));
+    };
+    let transmittance = shares(value)?;
+    let sum = (reflectance + transmittance).max_channel();
+    // A hair above one is the rounding of shares that add up to one.
+    if sum > 1.0 + 1e-12 {
+        let message = format!(
+            "reflectance and transmittance add up to {sum}; expected at most 1 in each channel"
+        );
+        return Err(value.error(message));
+    }
+    Ok(Bsdf::Translucent(Translucent { reflectance, transmittance }))
+}
+
+fn reflectance(section: &Section<'_>) -> Result<Rgb, LoadError> {
+    shares(section.require("reflectance", SHARES)?)
+}
+
+/// The refractive index of a body or a pane; that of glass if not given.
+pub(super) fn eta(section: &Section<'_>) -> Result<f64, LoadError> {
+    index(section, "a refractive index within 0.2 to 5, not 1", |x| {
+        (0.2..=5.0).contains(&x) && x != 1.0
+    })
+}
+
+fn index(
+    section: &Section<'_>,
+    expected: &str,
+    accept: impl Fn(f64) -> bool,
+) -> Result<f64, LoadError> {
+    section.get("eta").map_or(Ok(DEFAULT_ETA), |eta| eta.number(expected, accept))
+}
+
+/// Given as such, or as a roughness, whose square it is: equal steps of roughness look alike.
+fn alpha(section: &Section<'_>, smooth: &str) -> Result<f64, LoadError> {
+    let value = section.exactly_one(&["roughness", "alpha"])?;
+    if value.key == "alpha" {
+        let expected = format!("a number within {LEAST_ALPHA} to 1{smooth}");
+        return value.number(&expected, |x| (LEAST_ALPHA..=1.0).contains(&x));
+    }
+    let expected = format!("a number within {LEAST_ROUGHNESS} to 1{smooth}");
+    let roughness = value.number(&expected, |x| (LEAST_ROUGHNESS..=1.0).contains(&x))?;
+    Ok(roughness * roughness)
+}
+
+/// One share for all channels, or one for each.
+pub(super) fn shares(value: Value<'_>) -> Result<Rgb, LoadError> {
+    let share = |value: &Value<'_>| value.number(SHARES, |x| (0.0..=1.0).contains(&x));
+    match value.array(SHARES) {
         Err(_) => Ok(Rgb::grey(share(&value)?)),
         Ok(channels) => match channels.as_slice() {
             [r, g, b] => Ok(Rgb([share(r)?, share(g)?, share(b)?])),
-            _ => Err(value.unexpected(expected)),
+            _ => Err(value.unexpected(SHARES)),
         },
     }
 }

@@ -11,6 +11,7 @@ mod lights;
 mod luminaires;
 mod materials;
 mod names;
+mod pane;
 mod sensors;
 mod simulation;
 

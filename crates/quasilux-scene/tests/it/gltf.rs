@@ -77,7 +77,7 @@ fn hierarchy_names_and_colours() {
     assert_eq!(scene.mesh.objects, ["floor", "square"]);
     assert_eq!(scene.mesh.object_of, [0, 0, 1, 1]);
     assert_eq!(scene.materials[0].name, "oak");
-    assert_eq!(scene.materials[0].bsdf.reflectance(), Rgb([0.5, 0.25, 0.125]));
+    assert_eq!(scene.materials[0].bsdf.reflectance(), Some(Rgb([0.5, 0.25, 0.125])));
     // A quarter turn about y takes x to -z and -z to -x; then 10 m along x; then z up.
     for (corner, expected) in scene.mesh.corners(0).iter().zip([
         DVec3::new(10.0, 0.0, 0.0),

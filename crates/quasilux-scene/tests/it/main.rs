@@ -4,6 +4,7 @@ mod bad_input;
 mod cameras;
 mod corpus;
 mod gltf;
+mod materials;
 mod mutations;
 mod obj;
 mod project;

@@ -19,8 +19,8 @@ fn names_materials_and_polygons_are_kept() {
     let names: Vec<_> = scene.materials.iter().map(|m| m.name.as_str()).collect();
     assert_eq!(names, ["wood", "steel"]);
     assert_eq!(scene.mesh.material_of, [0, 0, 1, 1, 0, 0, 0, 0]);
-    assert_eq!(scene.materials[0].bsdf.reflectance(), Rgb::grey(0.4));
-    assert_eq!(scene.materials[1].bsdf.reflectance(), Rgb::grey(0.6));
+    assert_eq!(scene.materials[0].bsdf.reflectance(), Some(Rgb::grey(0.4)));
+    assert_eq!(scene.materials[1].bsdf.reflectance(), Some(Rgb::grey(0.6)));
     assert_eq!(scene.mesh.positions.len(), 6);
     // The L-shaped leg covers 3 m^2, all of it facing up.
     let up: f64 = (4..8).map(|t| scene.mesh.double_area_vector(t).z / 2.0).sum();
@@ -50,14 +50,14 @@ fn triangles_without_material_get_the_default() {
     let files = MapFiles::room().with("room.obj", ROOM_OBJ.replace("usemtl wood\n", ""));
     let loaded = load_text(PROJECT, &files).unwrap();
     assert_eq!(loaded.scene.materials[0].name, "default");
-    assert_eq!(loaded.scene.materials[0].bsdf.reflectance(), Rgb::grey(0.5));
+    assert_eq!(loaded.scene.materials[0].bsdf.reflectance(), Some(Rgb::grey(0.5)));
     assert_eq!(
         warnings_of(&loaded),
         ["room.obj: 2 triangles have no material: reflectance 0.5 is used"]
     );
     let project = PROJECT.to_owned() + "[materials.default]\nreflectance = 0.1\n";
     let loaded = load_text(&project, &files).unwrap();
-    assert_eq!(loaded.scene.materials[0].bsdf.reflectance(), Rgb::grey(0.1));
+    assert_eq!(loaded.scene.materials[0].bsdf.reflectance(), Some(Rgb::grey(0.1)));
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
 }
 

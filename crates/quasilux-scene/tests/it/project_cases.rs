@@ -66,9 +66,9 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     ),
     case(
         "[\"room.obj\"]",
-        "[\"room.obj\"]\n[materials.wood]\nkind = \"glass\"",
+        "[\"room.obj\"]\n[materials.wood]\nkind = \"phong\"",
         4,
-        "\"glass\" is not built yet",
+        "\"phong\" is not built yet",
     ),
     case(
         "[\"room.obj\"]",

@@ -5,21 +5,44 @@
 //! a path `wo` is where it comes from, for a photon where light comes from: the functions are
 //! reciprocal but for the square of the index of refraction, which [`Mode`] tells apart.
 
+mod albedo_curve;
+mod caught;
+mod conductor;
+mod dielectric;
 mod diffuse;
+mod fresnel;
+mod ggx;
+mod lobes;
 mod mirror;
+mod pane;
+mod plastic;
+#[cfg(test)]
+mod tests;
+mod translucent;
+
+pub(crate) use pane::Pane;
 
 use crate::spectrum::Spectrum;
+use conductor::Conductor;
+use dielectric::Dielectric;
 use diffuse::Diffuse;
 use glam::DVec3;
 use mirror::Mirror;
+use plastic::Plastic;
 use quasilux_sampling::SampleCursor;
 use quasilux_scene::bsdf as scene;
+use translucent::Translucent;
 
 /// How a surface scatters light, on both sides.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Bsdf<S> {
     Diffuse(Diffuse<S>),
     Mirror(Mirror<S>),
+    Translucent(Translucent<S>),
+    Dielectric(Dielectric),
+    Pane(Pane<S>),
+    Conductor(Conductor<S>),
+    Plastic(Plastic<S>),
 }
 
 /// What travels.
@@ -45,12 +68,25 @@ pub(crate) struct BsdfSample<S> {
 impl<S: Spectrum> Bsdf<S> {
     /// What a scene says of a surface, in the channels of this simulation.
     pub(crate) fn new(bsdf: &quasilux_scene::Bsdf) -> Self {
+        use quasilux_scene::Bsdf as In;
         match bsdf {
-            quasilux_scene::Bsdf::Diffuse(scene::Diffuse { reflectance }) => {
+            In::Diffuse(scene::Diffuse { reflectance }) => {
                 Self::Diffuse(Diffuse { reflectance: S::from_rgb(*reflectance) })
             }
-            quasilux_scene::Bsdf::Mirror(scene::Mirror { reflectance }) => {
+            In::Mirror(scene::Mirror { reflectance }) => {
                 Self::Mirror(Mirror { reflectance: S::from_rgb(*reflectance) })
+            }
+            In::Translucent(sheet) => {
+                let shares = [sheet.reflectance, sheet.transmittance].map(S::from_rgb);
+                Self::Translucent(Translucent::new(shares[0], shares[1]))
+            }
+            In::Dielectric(scene::Dielectric { eta }) => Self::Dielectric(Dielectric::new(*eta)),
+            In::Pane(pane) => Self::Pane(Pane::new(pane)),
+            In::Conductor(scene::Conductor { reflectance, alpha }) => {
+                Self::Conductor(Conductor::new(S::from_rgb(*reflectance), *alpha))
+            }
+            In::Plastic(scene::Plastic { reflectance, eta, alpha }) => {
+                Self::Plastic(Plastic::new(S::from_rgb(*reflectance), *eta, *alpha))
             }
         }
     }
@@ -58,32 +94,34 @@ impl<S: Spectrum> Bsdf<S> {
     /// Whether it scatters into finitely many directions only, so that no light can be connected to it.
     pub(crate) fn is_specular(&self) -> bool {
         match self {
-            Self::Diffuse(_) => false,
-            Self::Mirror(_) => true,
+            Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => true,
+            Self::Diffuse(_) | Self::Translucent(_) | Self::Conductor(_) | Self::Plastic(_) => {
+                false
+            }
         }
     }
 
     /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map can
     /// stand on it.
     pub(crate) fn keeps_illuminance(&self) -> bool {
-        match self {
-            Self::Diffuse(_) => true,
-            Self::Mirror(_) => false,
-        }
+        matches!(self, Self::Diffuse(_))
     }
 
     /// Whether light passes through to the other side by more than finitely many directions.
     pub(crate) fn transmits(&self) -> bool {
-        match self {
-            Self::Diffuse(_) | Self::Mirror(_) => false,
-        }
+        matches!(self, Self::Translucent(_))
     }
 
     /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front side.
-    pub(crate) fn albedo(&self, _wo: DVec3, _front: bool) -> S {
+    pub(crate) fn albedo(&self, wo: DVec3, _front: bool) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.reflectance,
             Self::Mirror(mirror) => mirror.reflectance,
+            Self::Translucent(translucent) => translucent.albedo(),
+            Self::Dielectric(_) => S::white(),
+            Self::Pane(pane) => pane.albedo(wo),
+            Self::Conductor(conductor) => conductor.albedo(wo),
+            Self::Plastic(plastic) => plastic.albedo(wo),
         }
     }
 
@@ -92,29 +130,40 @@ impl<S: Spectrum> Bsdf<S> {
     pub(crate) fn sample(
         &self,
         wo: DVec3,
-        _front: bool,
-        _mode: Mode,
+        front: bool,
+        mode: Mode,
         cursor: &mut SampleCursor<'_>,
     ) -> Option<BsdfSample<S>> {
         match self {
             Self::Diffuse(diffuse) => Some(diffuse.sample([cursor.rest_1d(), cursor.next_1d()])),
             Self::Mirror(mirror) => Some(mirror.sample(wo)),
+            Self::Translucent(translucent) => Some(translucent.sample(cursor)),
+            Self::Dielectric(dielectric) => Some(dielectric.sample(wo, front, mode, cursor)),
+            Self::Pane(pane) => pane.sample(wo, cursor),
+            Self::Conductor(conductor) => conductor.sample(wo, cursor),
+            Self::Plastic(plastic) => plastic.sample(wo, cursor),
         }
     }
 
     /// The scattering function f in sr^-1, without the cosine; 0 for mirror directions.
-    pub(crate) fn evaluate(&self, _wo: DVec3, wi: DVec3, _front: bool, _mode: Mode) -> S {
+    pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, _front: bool, _mode: Mode) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.evaluate(wi),
-            Self::Mirror(_) => S::black(),
+            Self::Translucent(translucent) => translucent.evaluate(wi),
+            Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => S::black(),
+            Self::Conductor(conductor) => conductor.evaluate(wo, wi),
+            Self::Plastic(plastic) => plastic.evaluate(wo, wi),
         }
     }
 
     /// Density in sr^-1 with which [`Self::sample`] draws `wi`; 0 for mirror directions.
-    pub(crate) fn pdf_sr(&self, _wo: DVec3, wi: DVec3, _front: bool) -> f64 {
+    pub(crate) fn pdf_sr(&self, wo: DVec3, wi: DVec3, _front: bool) -> f64 {
         match self {
             Self::Diffuse(diffuse) => diffuse.pdf_sr(wi),
-            Self::Mirror(_) => 0.0,
+            Self::Translucent(translucent) => translucent.pdf_sr(wi),
+            Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => 0.0,
+            Self::Conductor(conductor) => conductor.pdf_sr(wo, wi),
+            Self::Plastic(plastic) => plastic.pdf_sr(wo, wi),
         }
     }
 }

@@ -1,0 +1,38 @@
+//! Flat panes: windows, glass partitions.
+
+use super::AngularTable;
+use crate::Rgb;
+
+/// A flat pane drawn as a single sheet, both sides alike: light goes straight through or is mirrored.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pane {
+    /// Clear: both boundaries reflect, and light goes to and fro between them.
+    Clear {
+        /// Refractive index; not 1.
+        eta: f64,
+    },
+    /// As clear, but that at all angles less is let through.
+    Tinted {
+        /// Refractive index; not 1.
+        eta: f64,
+        /// Transmitted over incident flux at normal incidence, each channel from 0 to that of a
+        /// clear pane.
+        transmittance: Rgb,
+    },
+    /// Measured by angle, both at most 1 together.
+    Measured {
+        /// Transmitted over incident flux.
+        transmittance: AngularTable,
+        /// Reflected over incident flux.
+        reflectance: AngularTable,
+    },
+}
+
+impl Pane {
+    /// What a clear pane of this index lets through at normal incidence: `2 eta / (eta^2 + 1)`, from
+    /// `(1 - r) / (1 + r)` with `r = ((eta - 1) / (eta + 1))^2` at each boundary.
+    #[must_use]
+    pub fn clear_transmittance(eta: f64) -> f64 {
+        2.0 * eta / (eta * eta + 1.0)
+    }
+}
