@@ -80,3 +80,83 @@ fn clear_reflectance(cos: f64, eta: f64) -> f64 {
     let boundary = Boundary::new(cos, eta);
     boundary.across / (1.0 + boundary.across) + boundary.within / (1.0 + boundary.within)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quasilux_sampling::{PointSet, Randomization, Sequence};
+    use quasilux_scene::Rgb;
+    use quasilux_scene::bsdf::AngularNode;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// Light that passes after 0, 2, 4, ... inner reflections, by Fresnel's sines and tangents.
+    fn series(theta_rad: f64, eta: f64) -> f64 {
+        let refracted = libm::asin(libm::sin(theta_rad) / eta);
+        let (less, more) = (theta_rad - refracted, theta_rad + refracted);
+        let through = |root: f64| {
+            let r = root * root;
+            (0..200)
+                .fold((0.0, (1.0 - r) * (1.0 - r)), |(sum, term), _| (sum + term, term * r * r))
+                .0
+        };
+        let across = through(libm::sin(less) / libm::sin(more));
+        let within = through(libm::tan(less) / libm::tan(more));
+        0.5 * (across + within)
+    }
+
+    #[test]
+    fn a_clear_pane_lets_the_series_through_and_mirrors_the_rest() {
+        for eta in [1.3, 1.5, 1.9] {
+            let pane = Pane::<f64>::new(&scene::Pane::Clear { eta });
+            for theta_rad in [0.01, 0.3, 0.8, 1.2, 1.5] {
+                let cos = libm::cos(theta_rad);
+                let through = pane.pane_transmittance(cos);
+                assert!((through - series(theta_rad, eta)).abs() < 1e-9, "{eta} {theta_rad}");
+                assert!((through + pane.pane_reflectance(cos) - 1.0).abs() < 1e-14);
+            }
+            // Stokes at normal incidence.
+            let normal = scene::Pane::clear_transmittance(eta);
+            assert!((pane.pane_transmittance(1.0) - normal).abs() < 1e-14);
+            assert!(pane.pane_transmittance(0.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_tinted_pane_is_a_clear_one_scaled() {
+        let transmittance = Rgb([0.4, 0.6, 0.2]);
+        let tinted = Pane::<Rgb>::new(&scene::Pane::Tinted { eta: 1.5, transmittance });
+        let clear = Pane::<f64>::new(&scene::Pane::Clear { eta: 1.5 });
+        for cos in [1.0, 0.6, 0.1] {
+            let scale = clear.pane_transmittance(cos) / clear.pane_transmittance(1.0);
+            for channel in 0..3 {
+                let found = tinted.pane_transmittance(cos).channel(channel);
+                assert!((found - transmittance.0[channel] * scale).abs() < 1e-15);
+            }
+            assert_eq!(tinted.pane_reflectance(cos), Rgb::grey(clear.pane_reflectance(cos)));
+        }
+    }
+
+    #[test]
+    fn samples_share_light_as_the_tables_say() {
+        let table = |shares: [f64; 2]| {
+            let nodes = [0.0, FRAC_PI_2].into_iter().zip(shares);
+            let node = |(theta_rad, share)| AngularNode { theta_rad, share };
+            AngularTable::new(nodes.map(node).collect()).unwrap()
+        };
+        let (transmittance, reflectance) = (table([0.8, 0.0]), table([0.0, 0.5]));
+        let pane = Pane::<f64>::new(&scene::Pane::Measured { transmittance, reflectance });
+        let cos = libm::cos(0.5 * FRAC_PI_2);
+        let wo = DVec3::new(0.0, (1.0 - cos * cos).sqrt(), cos);
+        assert!((pane.albedo(wo) - 0.65).abs() < 1e-14);
+        let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+        let mut mirrored = 0;
+        for index in 0..1024 {
+            let next = pane.sample(wo, &mut SampleCursor::new(&points, index)).unwrap();
+            assert!((next.weight - 0.65).abs() < 1e-14 && next.pdf_sr.is_none());
+            mirrored += u32::from(next.wi.z > 0.0);
+            assert!(next.wi == -wo || next.wi == DVec3::new(0.0, -wo.y, wo.z));
+        }
+        // 1024 Sobol' points lie evenly within two.
+        assert!((f64::from(mirrored) - 1024.0 * 0.25 / 0.65).abs() <= 2.0, "{mirrored}");
+    }
+}

@@ -9,6 +9,7 @@ mod cube;
 mod element_size;
 mod furnace;
 mod hall;
+mod materials;
 mod scenes;
 mod traps;
 mod ways;

@@ -1,0 +1,117 @@
+//! Rooms of every material.
+
+use crate::scenes::{all_walls_emit, diffuse, mirror, point_light, points, room};
+use glam::DVec3;
+use quasilux_scene::bsdf::{Conductor, Dielectric, Pane, Plastic, Translucent};
+use quasilux_scene::{Bsdf, Grid, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
+use quasilux_transport::{Estimator, Settings, simulate};
+use std::f64::consts::PI;
+
+fn conductor(reflectance: f64, alpha: f64) -> Bsdf {
+    Bsdf::Conductor(Conductor { reflectance: Rgb::grey(reflectance), alpha })
+}
+
+fn plastic(reflectance: f64, alpha: f64) -> Bsdf {
+    Bsdf::Plastic(Plastic { reflectance: Rgb::grey(reflectance), eta: 1.5, alpha })
+}
+
+fn translucent(reflectance: f64, transmittance: f64) -> Bsdf {
+    let [reflectance, transmittance] = [reflectance, transmittance].map(Rgb::grey);
+    Bsdf::Translucent(Translucent { reflectance, transmittance })
+}
+
+/// Adds a box of one material, its normals outward.
+fn add_box(scene: &mut Scene, low: DVec3, high: DVec3, bsdf: Bsdf) {
+    let inner = room(high - low, bsdf.clone());
+    let material = scene.materials.len() as u32;
+    scene.materials.push(Material { name: format!("box {material}"), bsdf });
+    let first = scene.mesh.positions.len() as u32;
+    scene.mesh.positions.extend(inner.mesh.positions.iter().map(|&position| position + low));
+    for [a, b, c] in inner.mesh.triangles {
+        scene.mesh.triangles.push([first + a, first + c, first + b]);
+        scene.mesh.material_of.push(material);
+        scene.mesh.object_of.push(0);
+    }
+}
+
+/// What stands in a furnace absorbs nothing, whatever it is: all illuminances stay those of the empty
+/// furnace, pi L / (1 - r), in front of it, beside it and behind it.
+#[test]
+fn white_bodies_vanish_in_a_furnace() {
+    let bodies = [
+        mirror(1.0),
+        Bsdf::Dielectric(Dielectric { eta: 1.5 }),
+        Bsdf::Pane(Pane::Clear { eta: 1.5 }),
+        translucent(0.3, 0.7),
+        conductor(1.0, 0.05),
+        conductor(1.0, 0.6),
+        plastic(1.0, 0.05),
+        plastic(1.0, 0.6),
+    ];
+    for body in bodies {
+        let mut scene = room(DVec3::new(2.0, 2.0, 2.0), diffuse(0.5));
+        all_walls_emit(&mut scene, 100.0);
+        add_box(&mut scene, DVec3::splat(0.7), DVec3::new(1.3, 1.2, 1.4), body.clone());
+        let places = [
+            (DVec3::new(0.69, 1.0, 1.0), DVec3::X),
+            (DVec3::new(1.0, 1.0, 0.5), DVec3::Z),
+            (DVec3::new(1.6, 1.9, 0.1), DVec3::new(-0.6, -0.8, 0.0)),
+        ];
+        scene.sensors.push(points("probes", &places));
+        for estimator in [Estimator::Path, Estimator::Bidirectional] {
+            let settings = Settings { estimator, rel_tol: 0.004, ..Settings::default() };
+            let estimates = simulate(&scene, &settings, &mut ());
+            for interval in estimates.point_intervals(0) {
+                let wanted = PI * 100.0 / 0.5;
+                let found = format!("{body:?} {estimator:?}: {interval:?}, wanted {wanted}");
+                let allowed = 1.5 * interval.half_width.unwrap() + 1e-3 * wanted;
+                assert!((interval.value - wanted).abs() <= allowed, "{found}");
+            }
+        }
+    }
+}
+
+/// A closed room of one material and one source: the mean light of its walls is F / (A (1 - r)) for
+/// whatever scatters with an albedo r that does not depend on the angle. Photons count it.
+#[test]
+fn photons_keep_the_balance_between_walls_of_every_material() {
+    let grid = |origin: DVec3, u: DVec3, v: DVec3, normal: DVec3| {
+        SensorShape::Grid(Grid { origin, u, v, counts: [1, 1], normal, quantity: Quantity::Mean })
+    };
+    // A tenth of the wall is a grey absorber that sees what the material sends there: all of it ends
+    // there, F lm in all, whatever the way.
+    for body in [
+        mirror(1.0),
+        Bsdf::Dielectric(Dielectric { eta: 1.5 }),
+        Bsdf::Pane(Pane::Clear { eta: 1.5 }),
+        translucent(0.3, 0.7),
+        conductor(1.0, 0.05),
+        conductor(1.0, 0.6),
+        plastic(1.0, 0.05),
+        plastic(1.0, 0.6),
+    ] {
+        let mut scene = room(DVec3::ONE, diffuse(0.0));
+        add_box(&mut scene, DVec3::splat(0.3), DVec3::splat(0.7), body.clone());
+        scene.lights.push(point_light(DVec3::new(0.12, 0.15, 0.2), 10.0));
+        for (axis, side) in [(0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0), (2, 0.0), (2, 1.0)] {
+            let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
+            let (n, u, v) = [(x, y, z), (y, z, x), (z, x, y)][axis];
+            let normal = if side == 0.0 { n } else { -n };
+            // A hair in front of the wall.
+            let origin = n * side + normal * 1e-6;
+            let shape = grid(origin, u, v, normal);
+            scene.sensors.push(Sensor { name: format!("{axis} {side}"), shape });
+        }
+        let settings = Settings {
+            estimator: Estimator::Photon,
+            max_samples: Some(1 << 12),
+            ..Settings::default()
+        };
+        let estimates = simulate(&scene, &settings, &mut ());
+        let flux_lm: f64 = (0..6).map(|sensor| estimates.point_intervals(sensor)[0].value).sum();
+        let wanted = 4.0 * PI * 10.0;
+        // 2^16 photons in all; weights of rough surfaces vary by a tenth or so.
+        let found = format!("{body:?}: {flux_lm}, wanted {wanted}");
+        assert!((flux_lm / wanted - 1.0).abs() < 2e-3, "{found}");
+    }
+}
