@@ -1,8 +1,8 @@
 //! Checks that need the whole scene: a sensor or camera inside a wall sees nothing, and hides a
 //! mistake.
 //!
-//! "Wall" is any solid that holds it and no light: a closed room around its lights is
-//! none.
+//! "Wall" is any solid of opaque surfaces that holds it and no light: a closed room around its
+//! lights is none.
 
 use crate::light::AreaLight;
 use crate::project::{CameraEntry, Project, SensorEntry};
@@ -12,7 +12,7 @@ use glam::DVec3;
 
 /// Triangles that may be tested in all before the search for sensors in walls is given up: some
 /// seconds at most.
-const MAX_TRIANGLE_TESTS: u64 = 200_000_000;
+pub(crate) const MAX_TRIANGLE_TESTS: u64 = 200_000_000;
 
 /// What a sensor or camera needs.
 const EXPECTED: &str = "expected a place that light can reach";
@@ -30,10 +30,12 @@ pub(crate) fn places_in_walls(
     let Some([low, high]) = scene.mesh.bounds() else {
         return Ok(());
     };
+    // Glass and panes let light in.
+    let opaque = solids_of(&scene.mesh).into_iter().filter(|solid| !solid.transmits(scene));
     let mut walls = Walls {
         scene,
         hair_m: HAIR * (high - low).length(),
-        solids: solids_of(&scene.mesh).into_iter().map(|solid| (solid, None)).collect(),
+        solids: opaque.map(|solid| (solid, None)).collect(),
         tests_left: MAX_TRIANGLE_TESTS,
     };
     for entry in &project.sensors {
@@ -125,7 +127,7 @@ impl Walls<'_> {
 
 /// Whether a light is inside the solid, on its surface or part of it; `None` when the tests are used
 /// up. A recessed luminaire lies on the surface: it is looked for a hair to each side.
-fn holds_light(
+pub(crate) fn holds_light(
     scene: &Scene,
     solid: &Solid,
     contains: &mut impl FnMut(DVec3) -> Option<bool>,

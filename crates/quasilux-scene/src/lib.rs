@@ -9,6 +9,7 @@
 pub mod bsdf;
 pub mod camera;
 mod checks;
+mod enclosures;
 pub mod error;
 mod geometry;
 pub mod light;

@@ -81,6 +81,27 @@ impl Bsdf {
         }
     }
 
+    /// Whether light passes through to the other side.
+    #[must_use]
+    pub const fn transmits(&self) -> bool {
+        matches!(self, Self::Translucent(_) | Self::Dielectric(_) | Self::Pane(_))
+    }
+
+    /// Of the light that meets it, the most that is not absorbed, for whatever direction but grazing
+    /// ones: less than 1 where light ends.
+    #[must_use]
+    pub fn most_kept(&self) -> Rgb {
+        match self {
+            Self::Diffuse(diffuse) => diffuse.reflectance,
+            Self::Mirror(mirror) => mirror.reflectance,
+            Self::Translucent(translucent) => translucent.reflectance + translucent.transmittance,
+            Self::Dielectric(_) => Rgb::WHITE,
+            Self::Pane(pane) => pane.most_kept(),
+            Self::Conductor(conductor) => conductor.reflectance,
+            Self::Plastic(plastic) => plastic.reflectance,
+        }
+    }
+
     /// Whether it scatters light into single directions only.
     #[must_use]
     pub const fn is_specular(&self) -> bool {

@@ -1,6 +1,6 @@
 //! Flat panes: windows, glass partitions.
 
-use super::AngularTable;
+use super::{AngularNode, AngularTable};
 use crate::Rgb;
 
 /// A flat pane drawn as a single sheet, both sides alike: light goes straight through or is mirrored.
@@ -29,6 +29,20 @@ pub enum Pane {
 }
 
 impl Pane {
+    /// As [`super::Bsdf::most_kept`].
+    pub(super) fn most_kept(&self) -> Rgb {
+        match self {
+            Self::Clear { .. } => Rgb::WHITE,
+            Self::Tinted { eta, transmittance } => {
+                *transmittance * (1.0 / Self::clear_transmittance(*eta))
+            }
+            Self::Measured { transmittance, reflectance } => {
+                let sum = |node: &AngularNode| node.share + reflectance.at_angle(node.theta_rad);
+                Rgb::grey(transmittance.nodes().iter().map(sum).fold(1.0, f64::min))
+            }
+        }
+    }
+
     /// What a clear pane of this index lets through at normal incidence: `2 eta / (eta^2 + 1)`, from
     /// `(1 - r) / (1 + r)` with `r = ((eta - 1) / (eta + 1))^2` at each boundary.
     #[must_use]

@@ -5,7 +5,7 @@ mod materials;
 mod photometry;
 
 use crate::project::{Project, SimulationSection};
-use crate::{LoadError, Scene, Warning, checks, geometry};
+use crate::{LoadError, Scene, Warning, checks, enclosures, geometry};
 
 /// How loaders reach files: the command line implements it over the file system, tests over maps.
 pub trait Files {
@@ -46,6 +46,8 @@ pub fn load(
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
     let scene = Scene { mesh: geometry.mesh, materials, lights, sensors, cameras };
+    enclosures::light_must_end(&scene, &project)?;
+    enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
     checks::places_in_walls(&scene, &project, &mut warnings)?;
     Ok(Loaded { scene, simulation: project.simulation, warnings })
 }

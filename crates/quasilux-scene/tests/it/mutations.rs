@@ -84,7 +84,8 @@ fn assert_mixed(loaded: usize) {
 #[test]
 fn project_files() {
     let project = PROJECT.to_owned()
-        + "[materials.wood]\nreflectance = [0.5, 0.25, 0.125]\n[[sensors]]\nname = \"p\"\n\
+        + "[materials.wood]\nreflectance = [0.5, 0.25, 0.125]\n[materials.default]\n\
+           kind = \"pane\"\ntransmittance = [[0, 0.9], [90, 0]]\n[[sensors]]\nname = \"p\"\n\
            kind = \"points\"\npoints = [[0, 0, 1]]\nnormals = [[0, 0, 1]]\n[simulation]\n\
            estimator = \"path\"\nreplicates = 16\nmax_bounces = \"unlimited\"\n";
     let files = MapFiles::room();

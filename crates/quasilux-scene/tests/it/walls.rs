@@ -49,6 +49,53 @@ fn a_point_in_a_cupboard_is_refused_at_its_line() {
 }
 
 #[test]
+fn a_point_behind_glass_is_accepted() {
+    let panes = "[materials.wood]\nkind = \"pane\"\n";
+    assert!(load_text(&(probe("[0.2, 0.3, 0.4]") + panes), &files()).unwrap().warnings.is_empty());
+}
+
+#[test]
+fn a_closed_hall_where_nothing_absorbs_is_refused() {
+    let hall = |reflectance: &str| {
+        let wood = format!("[materials.wood]\nkind = \"mirror\"\nreflectance = {reflectance}\n");
+        load_text(&(probe("[0.9, 0.5, 0.5]") + &wood), &files())
+    };
+    let error = hall("1").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "room.toml:16:12: nothing absorbs light in the closed object \"room\", so that it would grow \
+         for ever; expected a reflectance below 1 on some surface"
+    );
+    assert!(hall("[0.5, 1, 0.5]").is_err() && hall("0.999").is_ok());
+}
+
+#[test]
+fn glass_is_closed_and_faces_outward() {
+    let glass = "[materials.wood]\nkind = \"dielectric\"\n";
+    let warnings = |obj: &str| {
+        let files = MapFiles::room().with("room.obj", obj);
+        warnings_of(&load_text(&(PROJECT.to_owned() + glass), &files).unwrap())
+    };
+    let obj = box_obj("glass", [0.0; 3], [1.0; 3], 1);
+    assert!(warnings(&obj).is_empty(), "{:?}", warnings(&obj));
+    let open = obj.rsplit_once("f ").unwrap().0;
+    assert!(
+        warnings(open)[0].contains("10 triangles of kind \"dielectric\" are not part of a closed")
+    );
+    let inward: String = obj
+        .lines()
+        .map(|line| match line.strip_prefix("f ") {
+            Some(face) => {
+                let corners: Vec<&str> = face.split(' ').rev().collect();
+                format!("f {}\n", corners.join(" "))
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    assert!(warnings(&inward)[0].contains("12 triangles of kind \"dielectric\" face the inside"));
+}
+
+#[test]
 fn points_on_and_beside_the_cupboard_are_accepted() {
     // On its top, on the floor of the room, beside it, and outside of everything.
     let project = probe("[0.2, 0.3, 1.5], [2, 2, -1], [0.41, 0.3, 0.4], [0, 0, 9]");

@@ -3,7 +3,8 @@
 use crate::scenes::{all_walls_emit, diffuse, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Pane, Plastic, Translucent};
-use quasilux_scene::{Bsdf, Grid, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
+use quasilux_scene::light::AreaLight;
+use quasilux_scene::{Bsdf, Grid, Light, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
 use quasilux_transport::{Estimator, Settings, simulate};
 use std::f64::consts::PI;
 
@@ -58,28 +59,23 @@ fn white_bodies_vanish_in_a_furnace() {
             (DVec3::new(1.6, 1.9, 0.1), DVec3::new(-0.6, -0.8, 0.0)),
         ];
         scene.sensors.push(points("probes", &places));
-        for estimator in [Estimator::Path, Estimator::Bidirectional] {
-            let settings = Settings { estimator, rel_tol: 0.004, ..Settings::default() };
-            let estimates = simulate(&scene, &settings, &mut ());
-            for interval in estimates.point_intervals(0) {
-                let wanted = PI * 100.0 / 0.5;
-                let found = format!("{body:?} {estimator:?}: {interval:?}, wanted {wanted}");
-                let allowed = 1.5 * interval.half_width.unwrap() + 1e-3 * wanted;
-                assert!((interval.value - wanted).abs() <= allowed, "{found}");
-            }
+        let settings = Settings { rel_tol: 0.004, ..Settings::default() };
+        let estimates = simulate(&scene, &settings, &mut ());
+        for interval in estimates.point_intervals(0) {
+            let wanted = PI * 100.0 / 0.5;
+            let found = format!("{body:?}: {interval:?}, wanted {wanted}");
+            let allowed = 1.5 * interval.half_width.unwrap() + 1e-3 * wanted;
+            assert!((interval.value - wanted).abs() <= allowed, "{found}");
         }
     }
 }
 
-/// A closed room of one material and one source: the mean light of its walls is F / (A (1 - r)) for
-/// whatever scatters with an albedo r that does not depend on the angle. Photons count it.
+/// Whatever stands in a black room and absorbs nothing, all light ends on the walls.
 #[test]
-fn photons_keep_the_balance_between_walls_of_every_material() {
+fn photons_leave_white_bodies_for_the_walls() {
     let grid = |origin: DVec3, u: DVec3, v: DVec3, normal: DVec3| {
         SensorShape::Grid(Grid { origin, u, v, counts: [1, 1], normal, quantity: Quantity::Mean })
     };
-    // A tenth of the wall is a grey absorber that sees what the material sends there: all of it ends
-    // there, F lm in all, whatever the way.
     for body in [
         mirror(1.0),
         Bsdf::Dielectric(Dielectric { eta: 1.5 }),
@@ -113,5 +109,116 @@ fn photons_keep_the_balance_between_walls_of_every_material() {
         // 2^16 photons in all; weights of rough surfaces vary by a tenth or so.
         let found = format!("{body:?}: {flux_lm}, wanted {wanted}");
         assert!((flux_lm / wanted - 1.0).abs() < 2e-3, "{found}");
+    }
+}
+
+/// In glass of index n in equilibrium with a furnace, radiance is n^2 times as high. At the centre of a
+/// ball no direction is trapped by total reflection.
+#[test]
+fn radiance_rises_with_the_square_of_the_index() {
+    let mut scene = room(DVec3::splat(2.0), diffuse(0.5));
+    all_walls_emit(&mut scene, 100.0);
+    add_ball(&mut scene, DVec3::ONE, 0.6, Bsdf::Dielectric(Dielectric { eta: 1.5 }));
+    scene.sensors.push(points("centre", &[(DVec3::ONE, DVec3::new(0.48, 0.6, 0.64))]));
+    let settings = Settings { rel_tol: 0.004, ..Settings::default() };
+    let interval = simulate(&scene, &settings, &mut ()).point_intervals(0)[0];
+    let wanted = 1.5 * 1.5 * PI * 100.0 / 0.5;
+    let allowed = 1.5 * interval.half_width.unwrap() + 1e-3 * wanted;
+    assert!((interval.value - wanted).abs() <= allowed, "{interval:?}, wanted {wanted}");
+}
+
+/// Paths scale radiance where it is refracted and photons do not: under a body below a panel both
+/// find the same light.
+#[test]
+fn paths_and_photons_agree_under_bodies_of_every_material() {
+    let pane = Bsdf::Pane(Pane::Tinted { eta: 1.5, transmittance: Rgb::grey(0.5) });
+    let glass = Bsdf::Dielectric(Dielectric { eta: 1.5 });
+    for body in [glass, pane, translucent(0.3, 0.5), conductor(0.7, 0.1), plastic(0.4, 0.1)] {
+        let mut scene = room(DVec3::splat(2.0), diffuse(0.4));
+        let first = scene.mesh.triangles.len() as u32;
+        add_box(&mut scene, DVec3::new(0.7, 0.7, 1.8), DVec3::new(1.3, 1.3, 1.9), diffuse(0.2));
+        let triangles: Vec<u32> = (first..first + 12).collect();
+        let area_m2 = triangles.iter().map(|&triangle| scene.mesh.area_m2(triangle)).sum();
+        let light = AreaLight { material: 1, triangles, area_m2, luminance_cd_m2: 1000.0 };
+        scene.lights.push(Light::Area(light));
+        add_ball(&mut scene, DVec3::new(1.0, 1.0, 0.9), 0.4, body.clone());
+        scene.sensors.push(Sensor {
+            name: "below".to_owned(),
+            shape: SensorShape::Grid(Grid {
+                origin: DVec3::new(0.6, 0.6, 0.2),
+                u: DVec3::X * 0.8,
+                v: DVec3::Y * 0.8,
+                counts: [1, 1],
+                normal: DVec3::Z,
+                quantity: Quantity::Mean,
+            }),
+        });
+        let [path, photon] = [Estimator::Path, Estimator::Photon].map(|estimator| {
+            let settings = Settings { estimator, rel_tol: 0.005, ..Settings::default() };
+            simulate(&scene, &settings, &mut ()).point_intervals(0)[0]
+        });
+        let joint = path.half_width.unwrap() + photon.half_width.unwrap();
+        let found = format!("{body:?}: {path:?} {photon:?}");
+        assert!((path.value - photon.value).abs() <= joint, "{found}");
+    }
+}
+
+/// Nothing absorbs light in a hall of perfect mirrors, alone or around a ball of glass: photons and
+/// paths are cut, and whoever reads the values is told that they mean little.
+#[test]
+fn halls_of_perfect_mirrors_end_with_a_warning() {
+    let glass = Bsdf::Dielectric(Dielectric { eta: 1.5 });
+    for ball in [None, Some(glass)] {
+        let mut scene = room(DVec3::new(4.0, 3.0, 2.0), mirror(1.0));
+        if let Some(bsdf) = ball.clone() {
+            add_ball(&mut scene, DVec3::new(2.0, 1.5, 1.0), 0.5, bsdf);
+        }
+        scene.lights.push(point_light(DVec3::new(0.4, 0.3, 0.3), 10.0));
+        scene.sensors.push(Sensor {
+            name: "plane".to_owned(),
+            shape: SensorShape::Grid(Grid {
+                origin: DVec3::new(0.0, 0.0, 0.4),
+                u: DVec3::X * 4.0,
+                v: DVec3::Y * 3.0,
+                counts: [2, 2],
+                normal: DVec3::Z,
+                quantity: Quantity::Mean,
+            }),
+        });
+        for estimator in [Estimator::Photon, Estimator::Path] {
+            let settings =
+                Settings { estimator, replicates: 2, max_samples: Some(16), ..Settings::default() };
+            let estimates = simulate(&scene, &settings, &mut ());
+            let warns =
+                |text: &str| estimates.warnings.iter().any(|warning| warning.contains(text));
+            assert!(warns("light is trapped here"), "{:?}", estimates.warnings);
+            assert!(estimates.biased);
+        }
+    }
+}
+
+/// Adds a ball of 128 facets: an octahedron with its edges halved twice, its normals outward.
+fn add_ball(scene: &mut Scene, centre: DVec3, radius_m: f64, bsdf: Bsdf) {
+    let material = scene.materials.len() as u32;
+    scene.materials.push(Material { name: format!("ball {material}"), bsdf });
+    let axes = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y];
+    let mut facets = Vec::new();
+    for i in 0..4 {
+        facets.push([axes[i], axes[(i + 1) % 4], DVec3::Z]);
+        facets.push([axes[(i + 1) % 4], axes[i], DVec3::NEG_Z]);
+    }
+    for _ in 0..2 {
+        let halve = |[a, b, c]: [DVec3; 3]| {
+            let [p, q, r] = [(a + b).normalize(), (b + c).normalize(), (c + a).normalize()];
+            [[a, p, r], [p, b, q], [r, q, c], [p, q, r]]
+        };
+        facets = facets.into_iter().flat_map(halve).collect();
+    }
+    for facet in facets {
+        let first = scene.mesh.positions.len() as u32;
+        scene.mesh.positions.extend(facet.map(|corner| centre + corner * radius_m));
+        scene.mesh.triangles.push([first, first + 1, first + 2]);
+        scene.mesh.material_of.push(material);
+        scene.mesh.object_of.push(0);
     }
 }
