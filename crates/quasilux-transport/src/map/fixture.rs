@@ -19,6 +19,7 @@ pub(super) fn square() -> World<f64> {
         },
         materials: vec![Material { name: "grey".to_owned(), bsdf }],
         lights: Vec::new(),
+        cameras: Vec::new(),
         sensors: Vec::new(),
     })
 }
