@@ -31,8 +31,8 @@ pub(crate) struct Gathering<'a, S> {
     stage: &'a Stage<'a, S>,
     scene: &'a Scene,
     targets: Vec<Target>,
-    /// Direct light of point-like lights in lx, for targets that are points.
-    exact_direct_lx: Vec<f64>,
+    /// Of each target that is a point.
+    exact: Vec<Exact>,
     end: PathEnd<S>,
     replicates: u32,
     quantum: Quantum,
@@ -47,6 +47,14 @@ pub(crate) struct Gathering<'a, S> {
     samples_direct: Vec<bool>,
 }
 
+/// What a sensor point gets of point-like lights, without sampling, in lx.
+#[derive(Clone, Copy, Default)]
+struct Exact {
+    direct_lx: f64,
+    /// By mirrors alone.
+    mirrored_lx: f64,
+}
+
 impl<'a, S: Spectrum> Gathering<'a, S> {
     pub(crate) fn new(
         stage: &'a Stage<'a, S>,
@@ -57,9 +65,9 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
         let mut work = WorkCounts::default();
-        let mut exact_direct_lx = exact_direct(stage, &targets, &mut work.rays);
+        let mut exact = exact(stage, &targets, &mut work.rays);
         let mut invalid_points = 0;
-        for value_lx in exact_direct_lx.iter_mut().filter(|value_lx| !value_lx.is_finite()) {
+        for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
             // A light right at a sensor point has no illuminance to speak of.
             *value_lx = 0.0;
             invalid_points += 1;
@@ -69,7 +77,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         Self {
             stage,
             scene,
-            exact_direct_lx,
+            exact,
             end,
             replicates,
             quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
@@ -188,17 +196,17 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let mean = |sum: Sum| self.quantum.value(sum) / n;
         let row = |r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates);
-            own.zip(&self.exact_direct_lx)
-                .map(|(sums, exact_lx)| exact_lx + (mean(sums.direct) + mean(sums.indirect)))
+            own.zip(&self.exact)
+                .map(|(sums, exact)| exact.sum_lx() + (mean(sums.direct) + mean(sums.indirect)))
                 .collect()
         };
         let rows: Vec<Vec<f64>> = (0..replicates).map(row).collect();
         let direct_lx: Vec<f64> = self
             .sums
             .chunks_exact(replicates)
-            .zip(&self.exact_direct_lx)
-            .map(|(own, exact_lx)| {
-                exact_lx + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
+            .zip(&self.exact)
+            .map(|(own, Exact { direct_lx, .. })| {
+                direct_lx + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
             })
             .collect();
         Estimates {
@@ -236,10 +244,23 @@ fn samples_direct<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> bool {
         }
 }
 
-/// Direct light of the point-like lights at each target that is a point, in lx: all of them tested.
-fn exact_direct<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) -> Vec<f64> {
-    let mut direct_lx = vec![0.0; targets.len()];
-    let light = |(targets, direct_lx): (&[Target], &mut [f64])| {
+impl Exact {
+    fn sum_lx(&self) -> f64 {
+        self.direct_lx + self.mirrored_lx
+    }
+
+    /// What the results cannot hold.
+    fn invalid(&mut self) -> impl Iterator<Item = &mut f64> {
+        let Self { direct_lx, mirrored_lx } = self;
+        [direct_lx, mirrored_lx].into_iter().filter(|value_lx| !value_lx.is_finite())
+    }
+}
+
+/// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of them
+/// tested.
+fn exact<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) -> Vec<Exact> {
+    let mut exact = vec![Exact::default(); targets.len()];
+    let light = |(targets, exact): (&[Target], &mut [Exact])| {
         let asker = |(who, target): (u32, &Target)| match *target {
             Target::Point { position, normal: n } => {
                 let from = stage.world.vantage_of_sensor(position, n);
@@ -249,11 +270,13 @@ fn exact_direct<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mu
         };
         let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
         let mut shadows = Shadows::default();
-        let receive = |who: u32, lx: S| direct_lx[who as usize] += lx.luminance();
+        let receive = |who: u32, lx: S| exact[who as usize].direct_lx += lx.luminance();
         stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, receive);
+        let receive = |who: u32, lx: S| exact[who as usize].mirrored_lx += lx.luminance();
+        stage.images.all(stage, &askers, &mut shadows, receive);
         shadows.rays
     };
-    let chunks = targets.par_chunks(TARGETS).zip(direct_lx.par_chunks_mut(TARGETS));
+    let chunks = targets.par_chunks(TARGETS).zip(exact.par_chunks_mut(TARGETS));
     *rays += chunks.map(light).sum::<u64>();
-    direct_lx
+    exact
 }

@@ -33,6 +33,7 @@ mod sections;
 pub mod settings;
 mod shadow;
 mod simulate;
+mod specular;
 mod spectrum;
 mod stage;
 mod tally;

@@ -12,6 +12,7 @@ use crate::bsdf::Mode;
 use crate::frame::Frame;
 use crate::path_end::Rest;
 use crate::shadow::{Offer, Shadows};
+use crate::specular::ImageOffers;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::vertex::Vertex;
@@ -32,7 +33,7 @@ pub(crate) struct Gathered<S> {
     pub(crate) direct: S,
     /// After at least one bounce; may be negative where a map is corrected.
     pub(crate) indirect: S,
-    /// Whether the path came to a surface that reflects, so that there may be indirect light.
+    /// Whether the path came to a surface where there may be indirect light that it can find.
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
     pub(crate) endless: bool,
@@ -94,6 +95,7 @@ pub(crate) struct Path<'p, S> {
 pub(crate) struct PathWork<S> {
     pub(crate) shadows: Shadows<S>,
     offers: Vec<Offer<S>>,
+    images: ImageOffers<S>,
     weights: Vec<f64>,
 }
 
@@ -170,6 +172,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.pointlikes += light;
     }
 
+    /// Light of an image of a point-like light has arrived at its start.
+    pub(crate) fn receive_image_at_start(&mut self, light: S) {
+        self.found.indirect += light;
+    }
+
     /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere; whether
     /// the path goes on. All that it asked for before must have arrived.
     pub(crate) fn arrive(
@@ -190,9 +197,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if is_last || goes_on.max_channel() == 0.0 {
             return false;
         }
-        self.found.reflected = true;
+        // Past mirrors alone, paths find nothing but facets that emit.
+        self.found.reflected |= !bsdf.is_specular() || stage.lights.emitters.is_some();
         if !bsdf.is_specular() {
-            self.ask_all(stage, at, work);
+            self.ask_all(stage, bounces + 1, at, work);
         }
         let onward =
             if bsdf.keeps_illuminance() { self.end_on_map(stage, bounces, at) } else { None };
@@ -261,10 +269,21 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// Asks for the light of all kinds of lights on a surface.
-    fn ask_all(&mut self, stage: &Stage<'_, S>, at: &Interaction, work: &mut PathWork<S>) {
+    fn ask_all(
+        &mut self,
+        stage: &Stage<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+        work: &mut PathWork<S>,
+    ) {
         let vertex = Vertex::surface(&stage.world, at, self.direction, self.beta);
         self.ask_area_luminaires(stage, &vertex, work);
         self.ask_pointlikes(stage, &vertex, work);
+        if !stage.images.is_empty() {
+            let u = self.cursor.next_1d();
+            let PathWork { shadows, images, .. } = work;
+            stage.images.ask_some(stage, (self.number, &vertex), bounces, u, (images, shadows));
+        }
         self.ask_emitters(stage, &vertex, work);
     }
 
@@ -341,6 +360,11 @@ impl<S> Gathered<S> {
 
 impl<S> Default for PathWork<S> {
     fn default() -> Self {
-        Self { shadows: Shadows::default(), offers: Vec::new(), weights: Vec::new() }
+        Self {
+            shadows: Shadows::default(),
+            offers: Vec::new(),
+            images: ImageOffers::default(),
+            weights: Vec::new(),
+        }
     }
 }

@@ -82,6 +82,8 @@ impl<S: Spectrum> PathWave<S> {
         let receive = |who: u32, light: S| paths[who as usize].receive_at_start(light);
         let Stage { world, lights, .. } = stage;
         lights.pointlikes.all(world, &self.askers, &mut self.work.shadows, receive);
+        let receive = |who: u32, light: S| paths[who as usize].receive_image_at_start(light);
+        stage.images.all(stage, &self.askers, &mut self.work.shadows, receive);
     }
 
     /// Takes all paths that are on their way to their next vertex.

@@ -74,6 +74,9 @@ pub struct Settings {
     pub map_adaptive: bool,
     /// What the photons in an element say about its illuminance.
     pub map_reconstruction: Reconstruction,
+    /// How many plane mirrors, one after the other, images of point-like lights are followed through;
+    /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
+    pub image_depth: Option<u32>,
 }
 
 impl Settings {
@@ -103,6 +106,7 @@ impl Default for Settings {
             map_elements: 1 << 22,
             map_adaptive: true,
             map_reconstruction: Reconstruction::Linear,
+            image_depth: None,
         }
     }
 }

@@ -41,6 +41,8 @@ pub(crate) struct Shadows<S> {
 struct Question<S> {
     who: u32,
     light: S,
+    /// How many of the rays, in their order, look along the way.
+    sights: u32,
 }
 
 impl<S: Spectrum> Offer<S> {
@@ -74,14 +76,25 @@ impl<S: Spectrum> Shadows<S> {
     pub(crate) fn ask(&mut self, who: u32, vertex: &Vertex<'_, S>, offer: &Offer<S>) {
         let from = vertex.vantage(offer.direction);
         self.sights.push(from.sight(offer.direction, offer.distance_m, offer.facet));
-        self.questions.push(Question { who, light: offer.light });
+        self.questions.push(Question { who, light: offer.light, sights: 1 });
+    }
+
+    /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as they
+    /// follow a way over mirrors.
+    pub(crate) fn ask_way(&mut self, who: u32, light: S, look: impl FnOnce(&mut Vec<Shot>)) {
+        let before = self.sights.len();
+        look(&mut self.sights);
+        let sights = (self.sights.len() - before) as u32;
+        self.questions.push(Question { who, light, sights });
     }
 
     /// Tells `receive` who gets how much light, in the order asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S)) {
         world.are_visible(&self.sights, &mut self.visible);
-        for (question, visible) in self.questions.iter().zip(&self.visible) {
-            if *visible {
+        let mut visible = self.visible.iter();
+        for question in &self.questions {
+            let hidden = visible.by_ref().take(question.sights as usize).filter(|v| !**v).count();
+            if hidden == 0 {
                 receive(question.who, question.light);
             }
         }

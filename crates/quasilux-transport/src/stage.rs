@@ -2,6 +2,7 @@
 
 use crate::lights::Lights;
 use crate::settings::Settings;
+use crate::specular::SpecularImages;
 use crate::spectrum::Spectrum;
 use crate::trial::Stopwatch;
 use crate::world::World;
@@ -12,6 +13,8 @@ use quasilux_scene::Scene;
 pub(crate) struct Stage<'a, S> {
     pub(crate) world: World<S>,
     pub(crate) lights: Lights<'a>,
+    /// Of the point-like lights, in mirrors.
+    pub(crate) images: SpecularImages,
     pub(crate) max_bounces: Option<u32>,
     /// What a reader of the results must know of the lights' places.
     pub(crate) warning: Option<String>,
@@ -42,6 +45,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
         let world = World::new(scene);
         let lights = Lights::new(scene, &world);
+        let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
         let cut = lights.area_luminaires.cut_by_surfaces(&world);
         let warning = (cut > 0).then(|| {
             format!(
@@ -53,6 +57,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         Self {
             world,
             lights,
+            images,
             max_bounces: settings.max_bounces,
             warning,
             stopwatch: None,

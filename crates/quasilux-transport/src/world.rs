@@ -117,6 +117,11 @@ impl<S: Spectrum> World<S> {
         self.bounds
     }
 
+    /// A length that is nothing beside the scene, in m.
+    pub(crate) fn hair_m(&self) -> f64 {
+        self.hair_m
+    }
+
     /// The largest extent, in m.
     pub(crate) fn size_m(&self) -> f64 {
         self.size_m
@@ -223,6 +228,11 @@ impl<S: Spectrum> World<S> {
         Vantage { position: position + n * self.offset_m, facet }
     }
 
+    /// Where rays leave from a point of a facet, on the side `n`.
+    pub(crate) fn vantage_before(&self, facet: u32, position: DVec3, n: DVec3) -> Vantage {
+        Vantage { position: position + n * self.offset_m, facet }
+    }
+
     /// Where rays leave from a sensor point: a hair in front of it.
     pub(crate) fn vantage_of_sensor(&self, position: DVec3, normal: DVec3) -> Vantage {
         Vantage { position: position + normal * self.hair_m, facet: u32::MAX }
@@ -273,6 +283,10 @@ impl FlushEmitters {
 }
 
 impl Facet {
+    pub(crate) fn corners(&self) -> [DVec3; 3] {
+        self.corners
+    }
+
     /// The point with these barycentric weights.
     pub(crate) fn point(&self, [a, b, c]: [f64; 3]) -> DVec3 {
         self.corners[0] * a + self.corners[1] * b + self.corners[2] * c

@@ -112,6 +112,15 @@ impl<S: Spectrum> Bsdf<S> {
         matches!(self, Self::Translucent(_))
     }
 
+    /// What it mirrors of light that comes at this cosine, where all of the rest is absorbed or goes straight
+    /// on, so that images can be followed; `None` for other surfaces.
+    pub(crate) fn image_reflectance(&self, _cos: f64) -> Option<S> {
+        match self {
+            Self::Diffuse(_) => None,
+            Self::Mirror(mirror) => Some(mirror.reflectance),
+        }
+    }
+
     /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front side.
     pub(crate) fn albedo(&self, wo: DVec3, _front: bool) -> S {
         match self {

@@ -38,6 +38,11 @@ impl<'a> PointLikes<'a> {
         self.0.iter().map(|light| (position(light), light.flux_lm()))
     }
 
+    /// Luminous intensity in cd of the light `index` toward a unit direction.
+    pub(crate) fn intensity_cd(&self, index: u32, direction: DVec3) -> f64 {
+        intensity_cd(self.0[index as usize], direction)
+    }
+
     /// What all of them give, every one tested: tells `receive` who gets how much. One light comes
     /// after the other, so that rays toward the same light are neighbours.
     pub(crate) fn all<S: Spectrum>(
@@ -85,13 +90,16 @@ fn offer<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Offer<S>>
     if cos <= 0.0 {
         return None;
     }
-    let intensity_cd = match light {
-        Light::Point(point) => point.intensity_cd,
-        Light::Luminaire(luminaire) => luminaire.intensity_cd(-direction),
-        Light::Area(_) => unreachable!("area lights are not point-like"),
-    };
-    let illuminance_lx = intensity_cd * cos / (distance_m * distance_m);
+    let illuminance_lx = intensity_cd(light, -direction) * cos / (distance_m * distance_m);
     Offer::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
+}
+
+fn intensity_cd(light: &Light, direction: DVec3) -> f64 {
+    match light {
+        Light::Point(point) => point.intensity_cd,
+        Light::Luminaire(luminaire) => luminaire.intensity_cd(direction),
+        Light::Area(_) => unreachable!("area lights are not point-like"),
+    }
 }
 
 fn position(light: &Light) -> DVec3 {

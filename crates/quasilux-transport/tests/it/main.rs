@@ -10,6 +10,7 @@ mod element_size;
 mod furnace;
 mod hall;
 mod materials;
+mod images;
 mod scenes;
 mod traps;
 mod ways;

@@ -1,0 +1,284 @@
+//! The images of lights in plane mirrors: a tree, from each light to what its mirrors show of it.
+//!
+//! An image in a mirror is a light behind the mirror's plane, and its image in the next mirror is found
+//! in the same way (Allen and Berkley 1979, "Image method for efficiently simulating small-room
+//! acoustics"; Borish 1984, "Extension of the image model to arbitrary polyhedra", whose tests of
+//! validity and visibility are the ones here and in `chain`). Left out is what cannot be seen from
+//! anywhere: images of a mirror that the beam of the one before misses. The tree is made level by level
+//! and ends where the mirrors of a chain together reflect less than [`LEAST_REFLECTED`], at the
+//! depth that is asked for, or before the level that would make it too large.
+
+use super::cone::Cone;
+use super::planes::{MirrorPlane, MirrorPlanes};
+use glam::DVec3;
+use std::ops::Range;
+
+/// Chains of mirrors that reflect less than this, all together, are dropped.
+const LEAST_REFLECTED: f64 = 1e-4;
+/// Images that are taken whatever depth is asked for.
+const MOST_IMAGES: usize = 4096;
+/// Where no depth is asked for, levels past [`SURE_DEPTH`] come only while all images stay this few.
+const FEW_IMAGES: usize = 1024;
+const SURE_DEPTH: u32 = 4;
+
+/// All images of all lights.
+pub(crate) struct Images {
+    /// The lights themselves come first, as images of depth zero; children follow each other.
+    pub(crate) nodes: Vec<Image>,
+    pub(crate) lights: usize,
+    /// Whether mirrors show more that would count.
+    pub(crate) goes_on: bool,
+}
+
+/// A light, or what a chain of mirrors shows of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Image {
+    pub(crate) light: u32,
+    /// The image that the last mirror of the chain reflects; its own number for a light.
+    pub(crate) parent: u32,
+    /// The last mirror; meaningless for a light.
+    pub(crate) plane: u32,
+    /// How many mirrors.
+    pub(crate) depth: u32,
+    pub(crate) position: DVec3,
+    /// Holds all places from which it can be seen.
+    pub(crate) beam: Cone,
+    reflected: f64,
+    children: Range<u32>,
+}
+
+impl Images {
+    /// The images of lights at `positions` in m, through up to `depth` mirrors; `slack_m` is a
+    /// length that counts as nothing.
+    pub(crate) fn new(
+        mirrors: &MirrorPlanes,
+        positions: impl Iterator<Item = DVec3>,
+        depth: Option<u32>,
+        slack_m: f64,
+    ) -> Self {
+        let light = |(light, position): (u32, DVec3)| Image {
+            light,
+            parent: light,
+            plane: 0,
+            depth: 0,
+            position,
+            beam: Cone::EVERYWHERE,
+            reflected: 1.0,
+            children: 0..0,
+        };
+        let nodes: Vec<Image> = (0..).zip(positions).map(light).collect();
+        let mut images = Self { lights: nodes.len(), nodes, goes_on: false };
+        let mut level = 0..images.lights;
+        while !level.is_empty() {
+            let next = images.nodes.len();
+            let deeper = images.nodes[level.start].depth + 1;
+            let (fits, most) = match depth {
+                Some(depth) => (deeper <= depth, MOST_IMAGES),
+                None if deeper <= SURE_DEPTH => (true, MOST_IMAGES),
+                None => (true, FEW_IMAGES),
+            };
+            // One image past the end tells that there is more.
+            let most = images.lights + if fits { most } else { next - images.lights };
+            if !images.add_level(mirrors, level.clone(), most, slack_m) {
+                images.nodes.truncate(next);
+                images.nodes[level].iter_mut().for_each(|image| image.children = 0..0);
+                images.goes_on = true;
+                break;
+            }
+            level = next..images.nodes.len();
+        }
+        images
+    }
+
+    /// Adds the images of these images; `false` where there would be more than `most` nodes.
+    fn add_level(
+        &mut self,
+        mirrors: &MirrorPlanes,
+        level: Range<usize>,
+        most: usize,
+        slack_m: f64,
+    ) -> bool {
+        for parent in level {
+            let first = self.nodes.len() as u32;
+            for plane in 0..mirrors.planes.len() as u32 {
+                let Some(image) = self.image_in(mirrors, parent, plane, slack_m) else { continue };
+                if self.nodes.len() >= most {
+                    return false;
+                }
+                self.nodes.push(image);
+            }
+            self.nodes[parent].children = first..self.nodes.len() as u32;
+        }
+        true
+    }
+
+    /// What one more mirror shows of an image, where any of it may be seen.
+    fn image_in(
+        &self,
+        mirrors: &MirrorPlanes,
+        parent: usize,
+        plane: u32,
+        slack_m: f64,
+    ) -> Option<Image> {
+        let before = &self.nodes[parent];
+        let mirror = &mirrors.planes[plane as usize];
+        let reflected = before.reflected * mirror.reflectance;
+        let window = (before.depth > 0).then(|| &mirrors.planes[before.plane as usize]);
+        let is_same = before.depth > 0 && before.plane == plane;
+        if is_same || reflected < LEAST_REFLECTED || mirror.height_m(before.position).abs() <= slack_m
+        {
+            return None;
+        }
+        if window.is_some_and(|window| !is_before(window, mirror, before.position, slack_m)) {
+            return None;
+        }
+        let seen = beam_on(before, window, mirror, slack_m)?;
+        let beam = before.beam.narrower(seen);
+        Some(Image {
+            light: before.light,
+            parent: parent as u32,
+            plane,
+            depth: before.depth + 1,
+            position: mirror.mirrored(before.position),
+            beam: beam.mirrored(mirror.normal),
+            reflected,
+            children: 0..0,
+        })
+    }
+
+    /// The image that the mirror `plane` shows of `image`, if it is one of these.
+    pub(crate) fn child(&self, image: u32, plane: u32) -> Option<u32> {
+        let children = self.nodes[image as usize].children.clone();
+        let own = &self.nodes[children.start as usize..children.end as usize];
+        let place = own.binary_search_by_key(&plane, |child| child.plane).ok()?;
+        Some(children.start + place as u32)
+    }
+
+    /// All images in mirrors, without the lights themselves, with their numbers.
+    pub(crate) fn mirrored(&self) -> impl Iterator<Item = (u32, &Image)> {
+        (0..).zip(&self.nodes).skip(self.lights)
+    }
+}
+
+/// Whether light of an image leaves any of `window` on the side of `mirror` that it comes from.
+fn is_before(window: &MirrorPlane, mirror: &MirrorPlane, image: DVec3, slack_m: f64) -> bool {
+    let side = mirror.height_m(image).signum();
+    let corners = window.facets.iter().flat_map(|facet| facet.corners);
+    corners.into_iter().any(|corner| mirror.height_m(corner) * side > slack_m)
+}
+
+/// A cone around all of a mirror that the light of an image may reach, which comes through `window`.
+fn beam_on(
+    image: &Image,
+    window: Option<&MirrorPlane>,
+    mirror: &MirrorPlane,
+    slack_m: f64,
+) -> Option<Cone> {
+    let mut corners = Vec::new();
+    for facet in &mirror.facets {
+        let first = corners.len();
+        match window {
+            None => corners.extend(facet.corners),
+            Some(window) => {
+                let beyond = -window.height_m(image.position).signum();
+                let height_m = |point| window.height_m(point) * beyond + slack_m;
+                clip(&facet.corners, height_m, &mut corners);
+            }
+        }
+        let part = &corners[first..];
+        let is_seen =
+            !part.is_empty() && image.beam.meets(&Cone::around(image.position, part));
+        if !is_seen {
+            corners.truncate(first);
+        }
+    }
+    (!corners.is_empty()).then(|| Cone::around(image.position, &corners))
+}
+
+/// Adds the corners of the part of a polygon where `height` is positive.
+fn clip(polygon: &[DVec3], height: impl Fn(DVec3) -> f64, corners: &mut Vec<DVec3>) {
+    for (i, &from) in polygon.iter().enumerate() {
+        let to = polygon[(i + 1) % polygon.len()];
+        let (start, end) = (height(from), height(to));
+        if start > 0.0 {
+            corners.push(from);
+        }
+        if (start > 0.0) != (end > 0.0) {
+            corners.push(from + (to - from) * (start / (start - end)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::Mirrors;
+    use super::*;
+
+    const SLACK_M: f64 = 1e-9;
+
+    fn images(mirrors: &Mirrors, at: DVec3, depth: Option<u32>) -> Images {
+        let planes = MirrorPlanes::new(&mirrors.world());
+        Images::new(&planes, [at].into_iter(), depth, SLACK_M)
+    }
+
+    /// Two facing mirrors at x = 0 and x = 1 show a light at x = 0.3 at -x + 2 m and x + 2 m.
+    #[test]
+    fn facing_mirrors_show_a_row() {
+        let mut mirrors = Mirrors::new(0.5);
+        for x in [0.0, 1.0] {
+            mirrors.add_square(DVec3::X * x, DVec3::Y, DVec3::Z);
+        }
+        let images = images(&mirrors, DVec3::X * 0.3, None);
+        let mut places: Vec<f64> = images.nodes.iter().map(|image| image.position.x).collect();
+        places.sort_by(f64::total_cmp);
+        // 0.5^13 = 1.2e-4 is the last product above 1e-4.
+        let mut expected: Vec<f64> = (-13..=13)
+            .map(|m: i32| f64::from(m) + if m % 2 == 0 { 0.3 } else { 0.7 })
+            .collect();
+        expected.sort_by(f64::total_cmp);
+        assert_eq!(places.len(), 27);
+        assert!(places.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{places:?}");
+        assert!(!images.goes_on);
+    }
+
+    /// Three mirrors in a corner: 3, 6 and 6 chains show seven places; a fourth bounce cannot be.
+    #[test]
+    fn a_corner_shows_seven_images() {
+        let mut mirrors = Mirrors::new(1.0);
+        mirrors.add_corner();
+        let light = DVec3::new(0.2, 0.3, 0.4);
+        let images = images(&mirrors, light, None);
+        let depths = [0, 1, 2, 3, 4].map(|d| images.nodes.iter().filter(|i| i.depth == d).count());
+        assert_eq!(depths, [1, 3, 6, 6, 0]);
+        assert!(!images.goes_on);
+        for image in &images.nodes {
+            assert!((image.position.abs() - light).length() < 1e-12);
+        }
+        let (first, _) = images.mirrored().next().unwrap();
+        assert_eq!(images.child(0, images.nodes[first as usize].plane), Some(first));
+        assert_eq!(images.child(first, images.nodes[first as usize].plane), None);
+    }
+
+    #[test]
+    fn what_the_depth_cuts_is_known() {
+        let mut mirrors = Mirrors::new(0.9);
+        mirrors.add_corner();
+        let light = DVec3::new(0.2, 0.3, 0.4);
+        for (depth, count, goes_on) in [(0, 1, true), (2, 10, true), (3, 16, false), (9, 16, false)] {
+            let images = images(&mirrors, light, Some(depth));
+            assert_eq!((images.nodes.len(), images.goes_on), (count, goes_on), "{depth}");
+        }
+    }
+
+    /// A mirror wide of the beam of the one before shows nothing of it.
+    #[test]
+    fn beams_miss_mirrors() {
+        let mut mirrors = Mirrors::new(0.9);
+        // On the floor around the origin, on the ceiling far away.
+        mirrors.add([(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)].map(|(x, y)| DVec3::new(x, y, 0.)));
+        mirrors.add([(9., -1.), (10., -1.), (10., 1.), (9., 1.)].map(|(x, y)| DVec3::new(x, y, 3.)));
+        let images = images(&mirrors, DVec3::new(0.0, 0.0, 1.0), None);
+        assert_eq!(images.nodes.len(), 3);
+        assert!(!images.goes_on);
+    }
+}

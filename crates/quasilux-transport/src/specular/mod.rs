@@ -1,0 +1,175 @@
+//! Point-like lights in plane mirrors: light that no sampling finds, since nothing runs into a point.
+//!
+//! `planes` finds the mirrors, `images` what they show of each light, `chain` the way from an image
+//! to a place, and `trail` which photons took such a way and are left out where images are counted.
+//!
+//! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
+//! reflect, I in the direction in which the light really leaves.
+
+mod chain;
+mod cone;
+#[cfg(test)]
+mod fixtures;
+mod images;
+mod planes;
+
+use crate::lights::PointLikes;
+use crate::shadow::{Asker, Shadows};
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::vertex::Vertex;
+use crate::world::World;
+use chain::{Links, Way};
+use images::Images;
+use planes::MirrorPlanes;
+use quasilux_sampling::choose_weights;
+
+/// So many images at a vertex are all tested; of more one is chosen.
+const ALL_TESTED: usize = 8;
+
+/// All that mirrors show of point-like lights.
+pub(crate) struct SpecularImages {
+    mirrors: MirrorPlanes,
+    images: Images,
+}
+
+/// What images offer to one place, and working space.
+pub(crate) struct ImageOffers<S> {
+    links: Links,
+    offers: Vec<ImageOffer<S>>,
+}
+
+/// What one image gives to a place unless something stands in the way.
+struct ImageOffer<S> {
+    image: u32,
+    way: Way<S>,
+    light: S,
+}
+
+impl SpecularImages {
+    /// The images that count, through up to `depth` mirrors.
+    pub(crate) fn new<S: Spectrum>(
+        world: &World<S>,
+        lights: &PointLikes<'_>,
+        depth: Option<u32>,
+    ) -> Self {
+        let mirrors = MirrorPlanes::new(world);
+        let positions = lights.iter().map(|(position, _)| position);
+        let images = Images::new(&mirrors, positions, depth, world.hair_m());
+        Self { mirrors, images }
+    }
+
+    /// Whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.images.nodes.len() == self.images.lights
+    }
+
+    /// What all of them give to the starts of paths, every one tested: tells `receive` who gets how much.
+    pub(crate) fn all<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        askers: &[Asker<'_, S>],
+        shadows: &mut Shadows<S>,
+        receive: impl FnMut(u32, S),
+    ) {
+        if self.is_empty() {
+            return;
+        }
+        let mut found = ImageOffers::default();
+        for Asker { who, vertex } in askers {
+            self.find(stage, vertex, 0, &mut found);
+            for offer in &found.offers {
+                self.ask(stage, (*who, vertex), offer, &found.links, shadows);
+            }
+        }
+        shadows.answer(&stage.world, receive);
+    }
+
+    /// Asks for the light that a path gets from images at a vertex after `bounces` bounces: of all where
+    /// they are few, else of one, chosen with `u` in proportion to what it would give unshadowed.
+    pub(crate) fn ask_some<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        (who, vertex): (u32, &Vertex<'_, S>),
+        bounces: u32,
+        u: f64,
+        (found, shadows): (&mut ImageOffers<S>, &mut Shadows<S>),
+    ) {
+        self.find(stage, vertex, bounces, found);
+        let ImageOffers { links, offers } = found;
+        if offers.len() > ALL_TESTED {
+            let weights = offers.iter().map(|offer| offer.light.luminance());
+            // Without a choice a figure is not finite: then the tally must see it.
+            if let Some(choice) = choose_weights(u, weights) {
+                offers.swap(0, choice.index);
+                offers.truncate(1);
+                offers[0].light = offers[0].light * (1.0 / choice.probability);
+            }
+        }
+        for offer in offers.iter() {
+            self.ask(stage, (who, vertex), offer, links, shadows);
+        }
+    }
+
+    /// Finds what all images may give to a vertex after `bounces` bounces.
+    fn find<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        vertex: &Vertex<'_, S>,
+        bounces: u32,
+        found: &mut ImageOffers<S>,
+    ) {
+        let ImageOffers { links, offers } = found;
+        links.clear();
+        offers.clear();
+        let (world, lights) = (&stage.world, &stage.lights.pointlikes);
+        let most = stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(bounces));
+        let place = vertex.position();
+        for (image, node) in self.images.mirrored() {
+            if node.depth > most {
+                break;
+            }
+            let toward_m = node.position - place;
+            if vertex.cos(toward_m) <= 0.0 || !node.beam.holds(-toward_m) {
+                continue;
+            }
+            let Some(way) = links.unfold(world, &self.mirrors, &self.images, image, place) else {
+                continue;
+            };
+            let distance_m = toward_m.length();
+            let direction = toward_m / distance_m;
+            let intensity_cd = lights.intensity_cd(node.light, way.leaves);
+            let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
+            let light = vertex.weight(direction) * way.reflected * illuminance_lx;
+            let is_known = |other: &ImageOffer<S>| {
+                self.images.nodes[other.image as usize].light == node.light
+                    && links.are_same(&other.way, &way, world.hair_m())
+            };
+            if light.luminance() != 0.0 && !offers.iter().any(is_known) {
+                offers.push(ImageOffer { image, way, light });
+            }
+        }
+    }
+
+    fn ask<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        (who, vertex): (u32, &Vertex<'_, S>),
+        offer: &ImageOffer<S>,
+        links: &Links,
+        shadows: &mut Shadows<S>,
+    ) {
+        let image = &self.images.nodes[offer.image as usize];
+        let from = vertex.vantage(image.position - vertex.position());
+        let light_m = self.images.nodes[image.light as usize].position;
+        shadows.ask_way(who, offer.light, |sights| {
+            links.sights(&stage.world, &offer.way, from, light_m, sights);
+        });
+    }
+}
+
+impl<S> Default for ImageOffers<S> {
+    fn default() -> Self {
+        Self { links: Links::default(), offers: Vec::new() }
+    }
+}
