@@ -2,7 +2,7 @@
 
 use crate::settings::{Estimator, Settings};
 use crate::world::World;
-use quasilux_scene::{Light, Quantity, Scene, SensorShape};
+use quasilux_scene::{Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -117,15 +117,6 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 .to_owned(),
         ),
         Estimator::Path | Estimator::Bidirectional => {}
-    }
-    let has_pointlike = scene.lights.iter().any(|light| !matches!(light, Light::Area(_)));
-    let has_specular = scene.materials.iter().any(|material| material.bsdf.is_specular());
-    if has_pointlike && has_specular && settings.estimator != Estimator::Photon {
-        caveats.push(
-            "light of points and luminaires that mirrors and glass send straight to a diffuse surface \
-             or a sensor is not counted by paths yet; the estimator \"photon\" counts it"
-                .to_owned(),
-        );
     }
     caveats
 }

@@ -4,6 +4,7 @@
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
 
 use crate::estimates::{Dimensions, Estimates};
+use crate::grid_plane::GridPlane;
 use crate::map::{MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
 use crate::photons::{PhotonBatch, trace_photons};
@@ -15,7 +16,6 @@ use crate::targets::by_sensor;
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::{Interaction, World};
-use glam::DVec3;
 use quasilux_scene::sensor::Grid;
 use quasilux_scene::{Scene, SensorShape};
 use std::ops::Range;
@@ -53,13 +53,7 @@ struct Receivers {
 
 /// A grid as photons see it.
 struct GridReceiver {
-    grid: Grid,
-    /// A point of the plane, a hair in front of the grid.
-    origin: DVec3,
-    /// The plane's unit normal, on the grid's front side.
-    normal: DVec3,
-    /// Reciprocal edges: scalar products with them are 0 to 1 across the grid.
-    dual: [DVec3; 2],
+    plane: GridPlane,
     first_counter: usize,
 }
 
@@ -180,20 +174,9 @@ impl Receivers {
     }
 
     fn add_grid<S: Spectrum>(&mut self, world: &World<S>, grid: &Grid) {
-        let plane = grid.u.cross(grid.v);
-        let cell_area_m2 = plane.length() / grid.cells() as f64;
-        let plane = plane.normalize() * grid.normal.dot(plane).signum();
-        let dual = |edge: DVec3, other: DVec3| {
-            let across = other.cross(plane);
-            across / edge.dot(across)
-        };
-        self.grids.push(GridReceiver {
-            grid: *grid,
-            origin: world.vantage_of_sensor(grid.origin, plane).position(),
-            normal: plane,
-            dual: [dual(grid.u, grid.v), dual(grid.v, grid.u)],
-            first_counter: self.counters,
-        });
+        let plane = GridPlane::new(world, grid);
+        let cell_area_m2 = plane.cell_area_m2();
+        self.grids.push(GridReceiver { plane, first_counter: self.counters });
         let first = self.counters as u32;
         self.targets.extend((0..grid.cells() as u32).map(|cell| (first + cell, cell_area_m2)));
         self.counters += grid.cells();
@@ -219,34 +202,6 @@ impl Receivers {
     }
 }
 
-impl GridReceiver {
-    /// The counter of the cell that a flight passes through from the front, if any.
-    fn counter(&self, flight: &Flight) -> Option<usize> {
-        let &Flight { from, direction, length_m } = flight;
-        let approach = self.normal.dot(direction);
-        let height = self.normal.dot(self.origin - from);
-        // Neither from behind nor away: most flights end here, before the division.
-        if !(approach < 0.0 && height < 0.0) {
-            return None;
-        }
-        let t = height / approach;
-        if !(t > 0.0 && t < length_m) {
-            return None;
-        }
-        let place = from + direction * t - self.origin;
-        let [columns, rows] = self.grid.counts;
-        let column = part(self.dual[0].dot(place), columns)?;
-        let row = part(self.dual[1].dot(place), rows)?;
-        Some(self.first_counter + row * columns as usize + column)
-    }
-}
-
-/// Which of `count` equal parts of [0, 1) holds `share`, if any.
-fn part(share: f64, count: u32) -> Option<usize> {
-    let inside = (0.0..1.0).contains(&share);
-    inside.then(|| ((share * f64::from(count)) as u32).min(count - 1) as usize)
-}
-
 impl Counters {
     fn new(counters: usize) -> Self {
         let zeros = || (0..counters).map(|_| AtomicU64::new(0)).collect();
@@ -265,8 +220,8 @@ impl Counters {
 impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
     fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
         for grid in &self.receivers.grids {
-            if let Some(counter) = grid.counter(flight) {
-                self.counters.count(counter, weight.luminance(), bounces);
+            if let Some(cell) = grid.plane.cell(flight) {
+                self.counters.count(grid.first_counter + cell, weight.luminance(), bounces);
             }
         }
     }

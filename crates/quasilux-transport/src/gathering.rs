@@ -9,6 +9,7 @@ use crate::settings::Settings;
 use crate::shadow::{Asker, Shadows};
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
+use crate::specular::HiddenLight;
 use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::targets::{Target, by_sensor, targets};
@@ -34,6 +35,7 @@ pub(crate) struct Gathering<'a, S> {
     /// Of each target that is a point.
     exact: Vec<Exact>,
     end: PathEnd<S>,
+    hidden: Option<HiddenLight<S>>,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -73,12 +75,14 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             invalid_points += 1;
         }
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
+        let hidden = HiddenLight::new(stage, settings, &targets);
         let (end, photons) = PathEnd::prepare(stage, settings, replicates, watch);
         Self {
             stage,
             scene,
             exact,
             end,
+            hidden,
             replicates,
             quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
@@ -120,6 +124,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             target: self.targets[target as usize],
             points: self.stage.points(replicate, Stream::Paths(target)),
             rest: self.end.rest(replicate),
+            hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
             indices,
         }
     }
@@ -162,6 +167,10 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 indices.start = 0;
             }
         }
+        if let Some(hidden) = &mut self.hidden {
+            let Some(rays) = hidden.grow(self.stage, &(0..samples), watch) else { return false };
+            self.work.rays += rays;
+        }
         let paths = (indices.end - indices.start) * self.sums.len() as u64;
         let mut done = 0;
         while done < paths {
@@ -194,11 +203,17 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let n = self.samples as f64;
         let replicates = self.replicates as usize;
         let mean = |sum: Sum| self.quantum.value(sum) / n;
+        let hidden_lx = |r: usize, target: usize| {
+            self.hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(r, target))
+        };
         let row = |r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates);
-            own.zip(&self.exact)
-                .map(|(sums, exact)| exact.sum_lx() + (mean(sums.direct) + mean(sums.indirect)))
-                .collect()
+            let own = own.zip(&self.exact).enumerate();
+            own.map(|(target, (sums, exact))| {
+                let sampled_lx = mean(sums.direct) + mean(sums.indirect);
+                exact.sum_lx() + sampled_lx + hidden_lx(r, target)
+            })
+            .collect()
         };
         let rows: Vec<Vec<f64>> = (0..replicates).map(row).collect();
         let direct_lx: Vec<f64> = self
@@ -206,7 +221,8 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             .chunks_exact(replicates)
             .zip(&self.exact)
             .map(|(own, Exact { direct_lx, .. })| {
-                direct_lx + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
+                direct_lx
+                    + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
             })
             .collect();
         Estimates {

@@ -12,8 +12,8 @@ use crate::bsdf::Mode;
 use crate::frame::Frame;
 use crate::path_end::Rest;
 use crate::shadow::{Offer, Shadows};
-use crate::specular::ImageOffers;
 use crate::spectrum::Spectrum;
+use crate::specular::{HiddenEnd, ImageOffers};
 use crate::stage::Stage;
 use crate::vertex::Vertex;
 use crate::world::{Interaction, Vantage};
@@ -51,6 +51,8 @@ pub(crate) struct Start<'p, S> {
     pub(crate) from: Vantage,
     pub(crate) seeks: Seeks,
     pub(crate) rest: &'p Rest<'p, S>,
+    /// Light that it cannot find by itself.
+    pub(crate) hidden: Option<HiddenEnd<'p, S>>,
     pub(crate) cursor: SampleCursor<'p>,
 }
 
@@ -72,6 +74,7 @@ pub(crate) struct Path<'p, S> {
     /// Its number among those that travel together.
     number: u32,
     rest: &'p Rest<'p, S>,
+    hidden: Option<HiddenEnd<'p, S>>,
     cursor: SampleCursor<'p>,
     from: Vantage,
     /// Unit direction in which it goes on.
@@ -126,7 +129,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, seeks, rest, mut cursor } = start;
+        let Start { from, seeks, rest, hidden, mut cursor } = start;
         let (direction, pdf_sr, beta, passes) = match seeks {
             Seeks::Illuminance { n, .. } => {
                 let first = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
@@ -138,6 +141,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let mut path = Self {
             number,
             rest,
+            hidden,
             cursor,
             from,
             direction,
@@ -202,6 +206,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if !bsdf.is_specular() {
             self.ask_all(stage, bounces + 1, at, work);
         }
+        if bsdf.keeps_illuminance() {
+            self.add_hidden(stage, bounces, at);
+        }
         let onward =
             if bsdf.keeps_illuminance() { self.end_on_map(stage, bounces, at) } else { None };
         let onward = onward.unwrap_or_else(|| self.survive(bounces, goes_on));
@@ -254,6 +261,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
             to_start * end.illuminance_lx(at) * (1.0 - onward.everything);
         self.passes = u32::MAX;
         Some(onward)
+    }
+
+    /// Adds the light at a surface that no path finds.
+    fn add_hidden(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
+        let Some(hidden) = self.hidden else { return };
+        let most = stage.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
+        let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
+        *self.found.after(bounces + 1) += to_start * hidden.illuminance_lx(&stage.world, at, most);
     }
 
     /// Russian roulette after the first bounces, by the albedo of the channel that is left

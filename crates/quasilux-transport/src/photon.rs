@@ -8,6 +8,7 @@
 use crate::bsdf::Mode;
 use crate::lights::Emission;
 use crate::spectrum::Spectrum;
+use crate::specular::Trail;
 use crate::stage::Stage;
 use crate::world::Interaction;
 use glam::DVec3;
@@ -34,12 +35,28 @@ pub(crate) struct PhotonCounts {
 
 /// What sees photons on their way.
 pub(crate) trait PhotonReceiver<S> {
+    /// Whether photons end where [`Trail::Found`] begins: nobody looks at them further.
+    const SPECULAR_ONLY: bool = false;
+
     /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
     /// `bounces` reflections; `weight` is its colour, of luminance one or near it.
     fn flight(&mut self, flight: &Flight, weight: S, bounces: u32);
 
     /// A photon lands on a surface that keeps illuminance.
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32);
+
+    /// The flight of a photon that came by specular surfaces alone from a light that nothing runs
+    /// into; a flight like others unless somebody sees such light in another way.
+    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
+        let _ = trail;
+        self.flight(flight, weight, bounces);
+    }
+
+    /// The landing of such a photon.
+    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
+        let _ = trail;
+        self.landing(at, weight, bounces);
+    }
 }
 
 /// A straight piece of a photon's way.
@@ -55,6 +72,9 @@ pub(crate) struct Photon<'p, S> {
     pub(crate) cursor: SampleCursor<'p>,
     /// Its colour: the flux that it carries, as a share of that of one photon at its start.
     pub(crate) weight: S,
+    pub(crate) trail: Trail,
+    /// Whether it ends where paths find it.
+    specular_only: bool,
 }
 
 /// What becomes of a photon at a surface.
@@ -78,7 +98,7 @@ pub(crate) fn trace_photon<S: Spectrum>(
     receiver: &mut impl PhotonReceiver<S>,
     counts: &mut PhotonCounts,
 ) {
-    let mut photon = Photon::new(cursor);
+    let mut photon = Photon::new(cursor).for_receiver(receiver);
     let Some(mut start) = photon.emit(stage) else { return };
     counts.emitted += 1;
     for bounces in 0..MOST_EVENTS {
@@ -97,12 +117,19 @@ pub(crate) fn trace_photon<S: Spectrum>(
 impl<'p, S: Spectrum> Photon<'p, S> {
     /// The photon that takes its coordinates from `cursor`.
     pub(crate) fn new(cursor: SampleCursor<'p>) -> Self {
-        Self { cursor, weight: S::white() }
+        Self { cursor, weight: S::white(), trail: Trail::Found, specular_only: false }
+    }
+
+    /// The photon as a receiver wants it.
+    pub(crate) fn for_receiver<R: PhotonReceiver<S>>(self, _: &R) -> Self {
+        Self { specular_only: R::SPECULAR_ONLY, ..self }
     }
 
     /// Leaves its light; `None` where nothing emits.
     pub(crate) fn emit(&mut self, stage: &Stage<'_, S>) -> Option<Emission> {
-        stage.lights.emit(&stage.world, &mut self.cursor)
+        let emitted = stage.lights.emit(&stage.world, &mut self.cursor)?;
+        self.trail = emitted.trail;
+        Some(emitted.emission)
     }
 
     /// Shows a flight to the receiver, and where it landed.
@@ -116,11 +143,18 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         receiver: &mut impl PhotonReceiver<S>,
     ) {
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
-        receiver.flight(&Flight { from, direction, length_m }, self.weight, bounces);
-        if let Some(at) = found
-            && stage.world.bsdf(at).keeps_illuminance()
-        {
-            receiver.landing(at, self.weight, bounces);
+        let flight = Flight { from, direction, length_m };
+        let landing = found.filter(|at| stage.world.bsdf(at).keeps_illuminance());
+        if self.trail == Trail::Found || bounces == 0 {
+            receiver.flight(&flight, self.weight, bounces);
+            if let Some(at) = landing {
+                receiver.landing(at, self.weight, bounces);
+            }
+        } else {
+            receiver.specular_flight(&flight, self.weight, bounces, self.trail);
+            if let Some(at) = landing {
+                receiver.specular_landing(at, self.weight, bounces, self.trail);
+            }
         }
     }
 
@@ -147,6 +181,10 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             return Fate::Ends(End::Absorbed);
         };
         self.weight = self.weight * next.weight * (1.0 / survival);
+        self.trail = self.trail.after(&stage.images, bsdf, at.facet, next.wi.z > 0.0);
+        if self.specular_only && self.trail == Trail::Found {
+            return Fate::Ends(End::Cut);
+        }
         let from =
             if next.wi.z > 0.0 { stage.world.vantage(at) } else { stage.world.vantage_behind(at) };
         Fate::GoesOn(Emission { from, direction: frame.to_world(next.wi) })
@@ -180,6 +218,8 @@ impl AddAssign for PhotonCounts {
 
 /// Receives nothing, or what the inner one receives.
 impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
+    const SPECULAR_ONLY: bool = R::SPECULAR_ONLY;
+
     fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
         if let Some(receiver) = self {
             receiver.flight(flight, weight, bounces);
@@ -189,6 +229,18 @@ impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         if let Some(receiver) = self {
             receiver.landing(at, weight, bounces);
+        }
+    }
+
+    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
+        if let Some(receiver) = self {
+            receiver.specular_flight(flight, weight, bounces, trail);
+        }
+    }
+
+    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
+        if let Some(receiver) = self {
+            receiver.specular_landing(at, weight, bounces, trail);
         }
     }
 }

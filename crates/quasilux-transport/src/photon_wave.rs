@@ -49,7 +49,10 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     ) {
         let lap = |step| stage.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
         self.photons.clear();
-        self.photons.extend(indices.map(|index| Photon::new(SampleCursor::new(points, index))));
+        self.photons.extend(
+            indices
+                .map(|index| Photon::new(SampleCursor::new(points, index)).for_receiver(receiver)),
+        );
         self.supply(points);
         lap(Step::Sampling);
         self.emit(stage);

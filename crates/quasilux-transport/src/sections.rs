@@ -4,6 +4,7 @@ use crate::path::{Ended, Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
 use crate::spectrum::Spectrum;
+use crate::specular::HiddenEnd;
 use crate::stage::Stage;
 use crate::tally::{Quantum, Sum};
 use crate::targets::Target;
@@ -35,6 +36,7 @@ pub(crate) struct Section<'g, S> {
     pub(crate) target: Target,
     pub(crate) points: PointSet,
     pub(crate) rest: Rest<'g, S>,
+    pub(crate) hidden: Option<HiddenEnd<'g, S>>,
     pub(crate) indices: Range<u64>,
 }
 
@@ -86,7 +88,7 @@ impl<S: Spectrum> Section<'_, S> {
             };
             let from = stage.world.vantage_of_sensor(position, n);
             let seeks = Seeks::Illuminance { n, tests_pointlikes };
-            Start { from, seeks, rest: &self.rest, cursor }
+            Start { from, seeks, rest: &self.rest, hidden: self.hidden, cursor }
         })
     }
 }

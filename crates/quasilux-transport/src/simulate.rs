@@ -80,6 +80,13 @@ fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Obser
         estimates.biased |= is_biased(scene, settings);
         estimates.warnings.extend(caveats(scene, settings));
         estimates.warnings.extend(stage.warning.clone());
+        if let (Some(ways), true) = (&stage.hides, settings.estimator != Estimator::Photon) {
+            estimates.biased = true;
+            estimates.warnings.push(format!(
+                "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
+                 density: it is blurred over about the length of a map element, and missing on rough surfaces"
+            ));
+        }
         let convergence = Convergence::of(&estimates);
         estimates.unresolved_points = convergence.unresolved;
         estimates.warnings.extend(warnings_of_values(&estimates));

@@ -2,8 +2,8 @@
 
 use crate::lights::Lights;
 use crate::settings::Settings;
-use crate::specular::SpecularImages;
 use crate::spectrum::Spectrum;
+use crate::specular::SpecularImages;
 use crate::trial::Stopwatch;
 use crate::world::World;
 use quasilux_sampling::{PointSet, Sequence, stream_key};
@@ -15,6 +15,8 @@ pub(crate) struct Stage<'a, S> {
     pub(crate) lights: Lights<'a>,
     /// Of the point-like lights, in mirrors.
     pub(crate) images: SpecularImages,
+    /// What light of points and luminaires only photons find, in words.
+    pub(crate) hides: Option<String>,
     pub(crate) max_bounces: Option<u32>,
     /// What a reader of the results must know of the lights' places.
     pub(crate) warning: Option<String>,
@@ -30,6 +32,8 @@ pub(crate) enum Stream {
     Photons,
     /// Photons of a plan, left out of the estimate.
     PlanPhotons,
+    /// Photons that look for what paths cannot find.
+    HiddenPhotons,
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
     /// Paths through one pixel of one camera.
@@ -46,6 +50,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         let world = World::new(scene);
         let lights = Lights::new(scene, &world);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
+        let hides = images.hides(&world, &lights);
         let cut = lights.area_luminaires.cut_by_surfaces(&world);
         let warning = (cut > 0).then(|| {
             format!(
@@ -58,6 +63,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             world,
             lights,
             images,
+            hides,
             max_bounces: settings.max_bounces,
             warning,
             stopwatch: None,
@@ -70,11 +76,14 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         let id = match stream {
             Stream::Photons => 0,
             Stream::PlanPhotons => 1,
+            Stream::HiddenPhotons => u64::MAX,
             Stream::Paths(point) => 2 + point,
             Stream::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         };
         let Settings { mut sequence, randomization, seed, .. } = *self.settings;
-        if let (Sequence::Hammersley { .. }, Stream::PlanPhotons) = (sequence, stream) {
+        if let (Sequence::Hammersley { .. }, Stream::PlanPhotons | Stream::HiddenPhotons) =
+            (sequence, stream)
+        {
             // A plan has its own number of photons.
             sequence = Sequence::Halton;
         }

@@ -102,6 +102,7 @@ pub(crate) fn settings(
         let known = &Reconstruction::NAMES;
         settings.map_reconstruction = names::in_project(section, "reconstruction", name, known)?;
     }
+    settings.image_depth = section.image_depth.as_ref().map(|at| at.value);
     settings.replicates = section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
     settings.seed =
         arguments.seed.or(section.seed.as_ref().map(|at| at.value)).unwrap_or(defaults.seed);

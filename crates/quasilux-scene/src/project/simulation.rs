@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "estimator",
     "sequence",
     "randomization",
@@ -19,12 +19,16 @@ const KEYS: [&str; 12] = [
     "map_elements",
     "map_adaptive",
     "map_reconstruction",
+    "image_depth",
 ];
 
 /// Most replicates that a project file may ask for.
 const MAX_REPLICATES: u64 = 65_536;
 /// Most elements that an illumination map can have.
 const MAX_MAP_ELEMENTS: u64 = (1 << 31) - 1;
+
+/// Most mirrors in a chain that a project file may ask for.
+const MAX_IMAGE_DEPTH: u64 = 1000;
 
 /// The `[simulation]` table; what the file does not give is `None`. Numbers are in range, names
 /// are unchecked.
@@ -55,6 +59,8 @@ pub struct SimulationSection {
     pub map_adaptive: Option<Placed<bool>>,
     /// Name of what is made of the photons in an element.
     pub map_reconstruction: Option<Placed<String>>,
+    /// Mirrors, one after the other, that images of point-like lights are followed through.
+    pub image_depth: Option<Placed<u32>>,
 }
 
 impl SimulationSection {
@@ -110,6 +116,10 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         })?,
         map_adaptive: placed(&section, "map_adaptive", |value| value.boolean())?,
         map_reconstruction: name("map_reconstruction")?,
+        image_depth: placed(&section, "image_depth", |value| {
+            let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");
+            value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)
+        })?,
     })
 }
 

@@ -225,6 +225,12 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         "an integer from 1 to 2147483647",
     ),
     case("spacing = 0.25", "spacing = 0.25\n[simulation]\nmap_adaptive = 1", 17, "true or false"),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\n[simulation]\nimage_depth = -1",
+        17,
+        "an integer from 0 to 1000",
+    ),
     case("spacing = 0.25", "spacing = 0.25\nspacing = 0.5", 16, "duplicate key"),
     case(
         "spacing = 0.25",

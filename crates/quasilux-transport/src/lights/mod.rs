@@ -10,6 +10,7 @@ pub(crate) use pointlike::PointLikes;
 
 use crate::frame::Frame;
 use crate::spectrum::Spectrum;
+use crate::specular::Trail;
 use crate::world::{Vantage, World};
 use area_luminaires::place_m;
 use glam::DVec3;
@@ -28,6 +29,12 @@ pub(crate) struct Lights<'a> {
     by_flux: Option<Discrete>,
     /// Sum of their fluxes in lm.
     pub(crate) flux_lm: f64,
+}
+
+/// A photon that has just left its light.
+pub(crate) struct Emitted {
+    pub(crate) emission: Emission,
+    pub(crate) trail: Trail,
 }
 
 /// A photon at the moment it leaves its light, or a surface.
@@ -79,7 +86,7 @@ impl<'a> Lights<'a> {
         &self,
         world: &World<S>,
         cursor: &mut SampleCursor<'_>,
-    ) -> Option<Emission> {
+    ) -> Option<Emitted> {
         let choice = cursor.choose_leading(self.by_flux.as_ref()?);
         let u = [cursor.rest_1d(), cursor.next_1d()];
         if let Some(light) = self.pointlikes.get(choice.index) {
@@ -93,21 +100,22 @@ impl<'a> Lights<'a> {
                 }
                 Light::Area(_) => return None,
             };
-            return Some(Emission { from: world.vantage_of_light(position, direction), direction });
+            let from = world.vantage_of_light(position, direction);
+            let trail = Trail::Shown(choice.index as u32);
+            return Some(Emitted { emission: Emission { from, direction }, trail });
         }
         if let Some(luminaire) = self.area_luminaires.get(choice.index - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
             let place = luminaire.shape.sample_silhouette(towards, cursor.next_2d());
             let direction = luminaire.world_from_luminaire * towards;
             let from = world.vantage_of_light(place_m(luminaire, &place), direction);
-            return Some(Emission { from, direction });
+            return Some(Emitted { emission: Emission { from, direction }, trail: Trail::Hidden });
         }
         let place = self.emitters.as_ref()?.place(world, u);
         let n = world.facets[place.facet as usize].front_normal;
-        Some(Emission {
-            from: world.vantage_on_front(place.facet, place.position),
-            direction: Frame::around(n)
-                .to_world(DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()))),
-        })
+        let local = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
+        let direction = Frame::around(n).to_world(local);
+        let from = world.vantage_on_front(place.facet, place.position);
+        Some(Emitted { emission: Emission { from, direction }, trail: Trail::Found })
     }
 }

@@ -16,6 +16,7 @@ use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::specular::Trail;
 use crate::stage::{Stage, Stream};
 use crate::trial::Way;
 use crate::watch::Watch;
@@ -92,6 +93,9 @@ impl<S: Spectrum> PhotonReceiver<S> for Pilot<'_> {
             self.parts.add(PARTS * place.element + part(&place), 1);
         }
     }
+
+    /// The map leaves it out, too.
+    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: Trail) {}
 }
 
 /// The part of its element that holds a place.

@@ -5,6 +5,7 @@ use super::layout::{MapLayout, Place};
 use super::reconstruction::Reconstruction;
 use crate::photon::{Flight, PhotonReceiver};
 use crate::spectrum::Spectrum;
+use crate::specular::Trail;
 use crate::stage::Stage;
 use crate::world::Interaction;
 use std::marker::PhantomData;
@@ -124,6 +125,9 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
             self.tally.add(&self.layout.locate(at), weight);
         }
     }
+
+    /// Paths count light that images show, and what none shows is added beside the map.
+    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: Trail) {}
 }
 
 #[cfg(test)]

@@ -65,7 +65,8 @@ mod tests {
         for i in 0..10 {
             for j in 0..10 - i {
                 let (a, b) = (f64::from(i) / 9.0, f64::from(j) / 9.0);
-                let place = corners[0] + (corners[1] - corners[0]) * a + (corners[2] - corners[0]) * b;
+                let place =
+                    corners[0] + (corners[1] - corners[0]) * a + (corners[2] - corners[0]) * b;
                 assert!(cone.holds(place - apex), "{place}");
             }
         }

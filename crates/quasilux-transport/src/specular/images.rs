@@ -125,7 +125,9 @@ impl Images {
         let reflected = before.reflected * mirror.reflectance;
         let window = (before.depth > 0).then(|| &mirrors.planes[before.plane as usize]);
         let is_same = before.depth > 0 && before.plane == plane;
-        if is_same || reflected < LEAST_REFLECTED || mirror.height_m(before.position).abs() <= slack_m
+        if is_same
+            || reflected < LEAST_REFLECTED
+            || mirror.height_m(before.position).abs() <= slack_m
         {
             return None;
         }
@@ -154,9 +156,17 @@ impl Images {
         Some(children.start + place as u32)
     }
 
-    /// All images in mirrors, without the lights themselves, with their numbers.
-    pub(crate) fn mirrored(&self) -> impl Iterator<Item = (u32, &Image)> {
-        (0..).zip(&self.nodes).skip(self.lights)
+    /// Numbers of the images in mirrors, without the lights themselves, by depth: the first `sure` of
+    /// them, and of the others every `stride`th, from the one that `phase` in [0, 1) picks.
+    pub(crate) fn mirrored(
+        &self,
+        sure: usize,
+        stride: usize,
+        phase: f64,
+    ) -> impl Iterator<Item = usize> {
+        let thin = (self.lights + sure).min(self.nodes.len());
+        let first = thin + (phase * stride as f64) as usize;
+        (self.lights..thin).chain((first..self.nodes.len()).step_by(stride))
     }
 }
 
@@ -186,8 +196,7 @@ fn beam_on(
             }
         }
         let part = &corners[first..];
-        let is_seen =
-            !part.is_empty() && image.beam.meets(&Cone::around(image.position, part));
+        let is_seen = !part.is_empty() && image.beam.meets(&Cone::around(image.position, part));
         if !is_seen {
             corners.truncate(first);
         }
@@ -232,9 +241,8 @@ mod tests {
         let mut places: Vec<f64> = images.nodes.iter().map(|image| image.position.x).collect();
         places.sort_by(f64::total_cmp);
         // 0.5^13 = 1.2e-4 is the last product above 1e-4.
-        let mut expected: Vec<f64> = (-13..=13)
-            .map(|m: i32| f64::from(m) + if m % 2 == 0 { 0.3 } else { 0.7 })
-            .collect();
+        let mut expected: Vec<f64> =
+            (-13..=13).map(|m: i32| f64::from(m) + if m % 2 == 0 { 0.3 } else { 0.7 }).collect();
         expected.sort_by(f64::total_cmp);
         assert_eq!(places.len(), 27);
         assert!(places.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{places:?}");
@@ -254,7 +262,11 @@ mod tests {
         for image in &images.nodes {
             assert!((image.position.abs() - light).length() < 1e-12);
         }
-        let (first, _) = images.mirrored().next().unwrap();
+        let all = |sure, stride, phase| images.mirrored(sure, stride, phase).collect::<Vec<_>>();
+        assert_eq!(all(15, 1, 0.9), (1..16).collect::<Vec<_>>());
+        assert_eq!(all(99, 4, 0.9), all(15, 1, 0.0));
+        assert_eq!(all(3, 5, 0.5), [1, 2, 3, 6, 11]);
+        let first = images.mirrored(1, 1, 0.0).next().unwrap() as u32;
         assert_eq!(images.child(0, images.nodes[first as usize].plane), Some(first));
         assert_eq!(images.child(first, images.nodes[first as usize].plane), None);
     }
@@ -264,7 +276,8 @@ mod tests {
         let mut mirrors = Mirrors::new(0.9);
         mirrors.add_corner();
         let light = DVec3::new(0.2, 0.3, 0.4);
-        for (depth, count, goes_on) in [(0, 1, true), (2, 10, true), (3, 16, false), (9, 16, false)] {
+        for (depth, count, goes_on) in [(0, 1, true), (2, 10, true), (3, 16, false), (9, 16, false)]
+        {
             let images = images(&mirrors, light, Some(depth));
             assert_eq!((images.nodes.len(), images.goes_on), (count, goes_on), "{depth}");
         }
@@ -275,8 +288,10 @@ mod tests {
     fn beams_miss_mirrors() {
         let mut mirrors = Mirrors::new(0.9);
         // On the floor around the origin, on the ceiling far away.
-        mirrors.add([(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)].map(|(x, y)| DVec3::new(x, y, 0.)));
-        mirrors.add([(9., -1.), (10., -1.), (10., 1.), (9., 1.)].map(|(x, y)| DVec3::new(x, y, 3.)));
+        mirrors
+            .add([(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)].map(|(x, y)| DVec3::new(x, y, 0.)));
+        mirrors
+            .add([(9., -1.), (10., -1.), (10., 1.), (9., 1.)].map(|(x, y)| DVec3::new(x, y, 3.)));
         let images = images(&mirrors, DVec3::new(0.0, 0.0, 1.0), None);
         assert_eq!(images.nodes.len(), 3);
         assert!(!images.goes_on);

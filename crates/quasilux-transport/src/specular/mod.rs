@@ -10,22 +10,31 @@ mod chain;
 mod cone;
 #[cfg(test)]
 mod fixtures;
+mod hidden;
 mod images;
 mod planes;
+mod trail;
 
-use crate::lights::PointLikes;
+use crate::lights::{Lights, PointLikes};
 use crate::shadow::{Asker, Shadows};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::vertex::Vertex;
-use crate::world::World;
+use crate::world::{Facet, World};
 use chain::{Links, Way};
 use images::Images;
 use planes::MirrorPlanes;
 use quasilux_sampling::choose_weights;
 
+pub(crate) use hidden::{HiddenEnd, HiddenLight};
+pub(crate) use trail::Trail;
+
 /// So many images at a vertex are all tested; of more one is chosen.
 const ALL_TESTED: usize = 8;
+/// So many images, those of least depth, are considered at each vertex, and at most so many of the others,
+/// evenly spaced: far images are many and give little.
+const SURE: usize = 64;
+const THINNED: usize = 64;
 
 /// All that mirrors show of point-like lights.
 pub(crate) struct SpecularImages {
@@ -46,6 +55,17 @@ struct ImageOffer<S> {
     light: S,
 }
 
+/// Which images are considered past the first [`SURE`]: every `stride`th from `phase` on.
+#[derive(Clone, Copy)]
+struct Thinning {
+    stride: usize,
+    phase: f64,
+}
+
+impl Thinning {
+    const NONE: Self = Self { stride: 1, phase: 0.0 };
+}
+
 impl SpecularImages {
     /// The images that count, through up to `depth` mirrors.
     pub(crate) fn new<S: Spectrum>(
@@ -57,6 +77,43 @@ impl SpecularImages {
         let positions = lights.iter().map(|(position, _)| position);
         let images = Images::new(&mirrors, positions, depth, world.hair_m());
         Self { mirrors, images }
+    }
+
+    /// What a mirror facet shows of an image.
+    fn shown_by(&self, image: u32, facet: u32) -> Option<u32> {
+        self.images.child(image, self.mirrors.of_facet(facet)?)
+    }
+
+    /// What specular surfaces do with the light of points and luminaires that no image shows and no
+    /// path finds, in words.
+    pub(crate) fn hides<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        lights: &Lights<'_>,
+    ) -> Option<String> {
+        let is_specular = |facet: &Facet| world.bsdf_of(facet).is_specular();
+        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0).is_some();
+        let mut specular = world.facets.iter().filter(|facet| is_specular(facet)).peekable();
+        let no_light = lights.pointlikes.is_empty() && lights.area_luminaires.is_empty();
+        if no_light || specular.peek().is_none() {
+            return None;
+        }
+        let mut ways = Vec::new();
+        if !lights.area_luminaires.is_empty() {
+            ways.push("from luminous shapes by mirrors".to_owned());
+        }
+        if specular.any(|facet| !is_shown(facet)) {
+            ways.push("through refracting bodies".to_owned());
+        }
+        if self.mirrors.curved_facets > 0 {
+            let facets = self.mirrors.curved_facets;
+            ways.push(format!("by curved mirrors ({facets} facets in many small planes)"));
+        }
+        if self.images.goes_on {
+            let depth = self.images.nodes.last().map_or(0, |image| image.depth);
+            ways.push(format!("over more than {depth} mirrors one after the other"));
+        }
+        (!ways.is_empty()).then(|| ways.join(", "))
     }
 
     /// Whether there are none.
@@ -77,7 +134,7 @@ impl SpecularImages {
         }
         let mut found = ImageOffers::default();
         for Asker { who, vertex } in askers {
-            self.find(stage, vertex, 0, &mut found);
+            self.find(stage, vertex, 0, Thinning::NONE, &mut found);
             for offer in &found.offers {
                 self.ask(stage, (*who, vertex), offer, &found.links, shadows);
             }
@@ -85,8 +142,10 @@ impl SpecularImages {
         shadows.answer(&stage.world, receive);
     }
 
-    /// Asks for the light that a path gets from images at a vertex after `bounces` bounces: of all where
-    /// they are few, else of one, chosen with `u` in proportion to what it would give unshadowed.
+    /// Asks for the light that a path gets from images at a vertex after `bounces` bounces, with the
+    /// coordinate `u`: of all where they are few. Of very many, far ones are thinned out; of those that
+    /// give anything unshadowed, one is chosen in proportion to what it gives where they are more than
+    /// [`ALL_TESTED`].
     pub(crate) fn ask_some<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
@@ -95,7 +154,10 @@ impl SpecularImages {
         u: f64,
         (found, shadows): (&mut ImageOffers<S>, &mut Shadows<S>),
     ) {
-        self.find(stage, vertex, bounces, found);
+        let others = self.images.nodes.len().saturating_sub(self.images.lights + SURE);
+        let stride = others.div_ceil(THINNED).max(1);
+        self.find(stage, vertex, bounces, Thinning { stride, phase: u }, found);
+        let u = (u * stride as f64).fract();
         let ImageOffers { links, offers } = found;
         if offers.len() > ALL_TESTED {
             let weights = offers.iter().map(|offer| offer.light.luminance());
@@ -117,6 +179,7 @@ impl SpecularImages {
         stage: &Stage<'_, S>,
         vertex: &Vertex<'_, S>,
         bounces: u32,
+        Thinning { stride, phase }: Thinning,
         found: &mut ImageOffers<S>,
     ) {
         let ImageOffers { links, offers } = found;
@@ -125,7 +188,8 @@ impl SpecularImages {
         let (world, lights) = (&stage.world, &stage.lights.pointlikes);
         let most = stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(bounces));
         let place = vertex.position();
-        for (image, node) in self.images.mirrored() {
+        for (count, number) in self.images.mirrored(SURE, stride, phase).enumerate() {
+            let (image, node) = (number as u32, &self.images.nodes[number]);
             if node.depth > most {
                 break;
             }
@@ -140,7 +204,8 @@ impl SpecularImages {
             let direction = toward_m / distance_m;
             let intensity_cd = lights.intensity_cd(node.light, way.leaves);
             let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
-            let light = vertex.weight(direction) * way.reflected * illuminance_lx;
+            let stands_for = if count < SURE { 1.0 } else { stride as f64 };
+            let light = vertex.weight(direction) * way.reflected * (illuminance_lx * stands_for);
             let is_known = |other: &ImageOffer<S>| {
                 self.images.nodes[other.image as usize].light == node.light
                     && links.are_same(&other.way, &way, world.hair_m())

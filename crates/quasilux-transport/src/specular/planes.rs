@@ -174,13 +174,19 @@ mod tests {
         let planes = MirrorPlanes::new(&mirrors.world());
         let facets: Vec<usize> = planes.planes.iter().map(|plane| plane.facets.len()).collect();
         assert_eq!((facets, planes.curved_facets), (vec![4, 2], 0));
-        assert_eq!((planes.of_facet(3), planes.of_facet(5), planes.of_facet(6)), (Some(0), Some(1), None));
+        assert_eq!(
+            (planes.of_facet(3), planes.of_facet(5), planes.of_facet(6)),
+            (Some(0), Some(1), None)
+        );
         let plane = &planes.planes[0];
         assert_eq!(plane.mirrored(DVec3::new(0.3, 0.2, 0.7)), DVec3::new(0.3, 0.2, -0.7));
         let facet = |x, y, slack_m| {
             plane.facet_at(DVec3::new(x, y, 0.0), slack_m).map(|mirror| mirror.facet)
         };
-        assert_eq!([facet(0.7, 0.2, 0.0), facet(0.2, 0.7, 0.0), facet(1.1, 0.5, 0.0)], [Some(0), Some(1), None]);
+        assert_eq!(
+            [facet(0.7, 0.2, 0.0), facet(0.2, 0.7, 0.0), facet(1.1, 0.5, 0.0)],
+            [Some(0), Some(1), None]
+        );
         assert_eq!(facet(1.0 + 1e-9, 0.5, 1e-8), Some(0));
     }
 
@@ -195,7 +201,9 @@ mod tests {
         for i in 0..300 {
             mirrors.add([at(i, 0.0), at(i + 1, 0.0), at(i + 1, 1.0), at(i, 1.0)]);
         }
-        mirrors.add([DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y].map(|p| p - DVec3::Z * 0.3));
+        mirrors.add(
+            [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y].map(|p| p - DVec3::Z * 0.3),
+        );
         let planes = MirrorPlanes::new(&mirrors.world());
         assert_eq!((planes.planes.len(), planes.curved_facets), (1, 600));
     }

@@ -29,7 +29,8 @@ pub(crate) fn add_panel(scene: &mut Scene, corner: DVec3, u: DVec3, v: DVec3, bs
 }
 
 fn run(scene: &Scene, image_depth: Option<u32>) -> Estimates {
-    let settings = Settings { image_depth, replicates: 2, max_samples: Some(4), ..Settings::default() };
+    let settings =
+        Settings { image_depth, replicates: 2, max_samples: Some(4), ..Settings::default() };
     simulate(scene, &settings, &mut ())
 }
 

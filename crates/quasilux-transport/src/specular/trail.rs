@@ -1,0 +1,44 @@
+//! How a photon came: whether a path that gathers finds its light by itself, sees it in an image, or
+//! neither.
+
+use crate::bsdf::Bsdf;
+use crate::spectrum::Spectrum;
+use crate::specular::SpecularImages;
+
+/// The way of a photon since its light, as those who gather see it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Trail {
+    /// By mirrors that show this image of its point-like light; at first the light itself.
+    Shown(u32),
+    /// From a light that nothing runs into, by specular surfaces alone, and in no image: paths cannot
+    /// find it. At first the light itself.
+    Hidden,
+    /// Any other: paths find it where it was scattered last, or run into its light.
+    Found,
+}
+
+impl Trail {
+    /// The trail after one more surface: `bsdf` on `facet`, met at this cosine; `mirrored` where the photon
+    /// stays on its side.
+    pub(crate) fn after<S: Spectrum>(
+        self,
+        images: &SpecularImages,
+        bsdf: &Bsdf<S>,
+        facet: u32,
+        mirrored: bool,
+    ) -> Self {
+        if self == Self::Found || !bsdf.is_specular() {
+            return Self::Found;
+        }
+        match self {
+            Self::Shown(image) if bsdf.image_reflectance(1.0).is_some() => {
+                if mirrored {
+                    images.shown_by(image, facet).map_or(Self::Hidden, Self::Shown)
+                } else {
+                    self
+                }
+            }
+            _ => Self::Hidden,
+        }
+    }
+}
