@@ -286,9 +286,9 @@ fn exact<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) 
         };
         let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
         let mut shadows = Shadows::default();
-        let receive = |who: u32, lx: S| exact[who as usize].direct_lx += lx.luminance();
+        let receive = |who: u32, lx: S, _| exact[who as usize].direct_lx += lx.luminance();
         stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, receive);
-        let receive = |who: u32, lx: S| exact[who as usize].mirrored_lx += lx.luminance();
+        let receive = |who: u32, lx: S, _| exact[who as usize].mirrored_lx += lx.luminance();
         stage.images.all(stage, &askers, &mut shadows, receive);
         shadows.rays
     };

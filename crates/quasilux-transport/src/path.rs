@@ -153,8 +153,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
             pointlikes: S::black(),
             found: Gathered::default(),
         };
-        if let Seeks::Illuminance { n, .. } = seeks {
+        if let Seeks::Illuminance { n, tests_pointlikes } = seeks {
             let vertex = Vertex::sensor(from, n);
+            if tests_pointlikes {
+                path.ask_images(stage, &vertex, 0, work);
+            }
             path.ask_emitters(stage, &vertex, work);
             path.ask_area_luminaires(stage, &vertex, work);
         }
@@ -166,19 +169,18 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.from.shot(self.direction)
     }
 
-    /// Light that the path asked for has arrived where it asked.
-    pub(crate) fn receive(&mut self, light: S) {
-        self.arrived += light;
+    /// Light that the path asked for has arrived where it asked, over this many mirrors.
+    pub(crate) fn receive(&mut self, light: S, mirrors: u32) {
+        if mirrors == 0 {
+            self.arrived += light;
+        } else {
+            self.found.indirect += light;
+        }
     }
 
     /// Light of a point-like light has arrived at its start.
     pub(crate) fn receive_at_start(&mut self, light: S) {
         self.pointlikes += light;
-    }
-
-    /// Light of an image of a point-like light has arrived at its start.
-    pub(crate) fn receive_image_at_start(&mut self, light: S) {
-        self.found.indirect += light;
     }
 
     /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere; whether
@@ -294,12 +296,23 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let vertex = Vertex::surface(&stage.world, at, self.direction, self.beta);
         self.ask_area_luminaires(stage, &vertex, work);
         self.ask_pointlikes(stage, &vertex, work);
+        self.ask_images(stage, &vertex, bounces, work);
+        self.ask_emitters(stage, &vertex, work);
+    }
+
+    /// Asks for the light of point-like lights in mirrors, after this many bounces.
+    fn ask_images(
+        &mut self,
+        stage: &Stage<'_, S>,
+        vertex: &Vertex<'_, S>,
+        bounces: u32,
+        work: &mut PathWork<S>,
+    ) {
         if !stage.images.is_empty() {
             let u = self.cursor.next_1d();
             let PathWork { shadows, images, .. } = work;
-            stage.images.ask_some(stage, (self.number, &vertex), bounces, u, (images, shadows));
+            stage.images.ask_some(stage, (self.number, vertex), bounces, u, (images, shadows));
         }
-        self.ask_emitters(stage, &vertex, work);
     }
 
     /// Asks for the light of one point on the area lights.

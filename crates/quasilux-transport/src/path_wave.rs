@@ -79,11 +79,9 @@ impl<S: Spectrum> PathWave<S> {
 
     /// Gives the starts that want it the direct light of the point-like lights.
     fn test_pointlikes(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |who: u32, light: S| paths[who as usize].receive_at_start(light);
+        let receive = |who: u32, light: S, _| paths[who as usize].receive_at_start(light);
         let Stage { world, lights, .. } = stage;
         lights.pointlikes.all(world, &self.askers, &mut self.work.shadows, receive);
-        let receive = |who: u32, light: S| paths[who as usize].receive_image_at_start(light);
-        stage.images.all(stage, &self.askers, &mut self.work.shadows, receive);
     }
 
     /// Takes all paths that are on their way to their next vertex.
@@ -102,7 +100,7 @@ impl<S: Spectrum> PathWave<S> {
 
     /// Gives the paths the light that they asked for.
     fn answer(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |who: u32, light: S| paths[who as usize].receive(light);
+        let receive = |who: u32, light: S, mirrors| paths[who as usize].receive(light, mirrors);
         self.work.shadows.answer(&stage.world, receive);
     }
 }

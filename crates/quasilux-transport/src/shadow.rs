@@ -43,6 +43,8 @@ struct Question<S> {
     light: S,
     /// How many of the rays, in their order, look along the way.
     sights: u32,
+    /// How many mirrors the way leads over.
+    mirrors: u32,
 }
 
 impl<S: Spectrum> Offer<S> {
@@ -76,26 +78,33 @@ impl<S: Spectrum> Shadows<S> {
     pub(crate) fn ask(&mut self, who: u32, vertex: &Vertex<'_, S>, offer: &Offer<S>) {
         let from = vertex.vantage(offer.direction);
         self.sights.push(from.sight(offer.direction, offer.distance_m, offer.facet));
-        self.questions.push(Question { who, light: offer.light, sights: 1 });
+        self.questions.push(Question { who, light: offer.light, sights: 1, mirrors: 0 });
     }
 
     /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as they
-    /// follow a way over mirrors.
-    pub(crate) fn ask_way(&mut self, who: u32, light: S, look: impl FnOnce(&mut Vec<Shot>)) {
+    /// follow a way over this many mirrors.
+    pub(crate) fn ask_way(
+        &mut self,
+        who: u32,
+        light: S,
+        mirrors: u32,
+        look: impl FnOnce(&mut Vec<Shot>),
+    ) {
         let before = self.sights.len();
         look(&mut self.sights);
         let sights = (self.sights.len() - before) as u32;
-        self.questions.push(Question { who, light, sights });
+        self.questions.push(Question { who, light, sights, mirrors });
     }
 
-    /// Tells `receive` who gets how much light, in the order asked, and closes all questions.
-    pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S)) {
+    /// Tells `receive` who gets how much light after how many mirrors, in the order asked, and closes
+    /// all questions.
+    pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
         world.are_visible(&self.sights, &mut self.visible);
         let mut visible = self.visible.iter();
         for question in &self.questions {
             let hidden = visible.by_ref().take(question.sights as usize).filter(|v| !**v).count();
             if hidden == 0 {
-                receive(question.who, question.light);
+                receive(question.who, question.light, question.mirrors);
             }
         }
         self.rays += self.sights.len() as u64;

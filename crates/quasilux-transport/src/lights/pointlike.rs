@@ -50,7 +50,7 @@ impl<'a> PointLikes<'a> {
         world: &World<S>,
         askers: &[Asker<'_, S>],
         shadows: &mut Shadows<S>,
-        mut receive: impl FnMut(u32, S),
+        mut receive: impl FnMut(u32, S, u32),
     ) {
         for light in &self.0 {
             for Asker { who, vertex } in askers {

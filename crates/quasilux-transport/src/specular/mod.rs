@@ -121,13 +121,13 @@ impl SpecularImages {
         self.images.nodes.len() == self.images.lights
     }
 
-    /// What all of them give to the starts of paths, every one tested: tells `receive` who gets how much.
+    /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.
     pub(crate) fn all<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
         askers: &[Asker<'_, S>],
         shadows: &mut Shadows<S>,
-        receive: impl FnMut(u32, S),
+        receive: impl FnMut(u32, S, u32),
     ) {
         if self.is_empty() {
             return;
@@ -227,7 +227,7 @@ impl SpecularImages {
         let image = &self.images.nodes[offer.image as usize];
         let from = vertex.vantage(image.position - vertex.position());
         let light_m = self.images.nodes[image.light as usize].position;
-        shadows.ask_way(who, offer.light, |sights| {
+        shadows.ask_way(who, offer.light, image.depth, |sights| {
             links.sights(&stage.world, &offer.way, from, light_m, sights);
         });
     }
