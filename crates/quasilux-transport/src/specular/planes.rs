@@ -56,7 +56,7 @@ impl MirrorPlanes {
         for (facet, own) in (0..).zip(&world.facets) {
             let Some(reflectance) = world.bsdf_of(own).image_reflectance(1.0) else { continue };
             let area_m2 = own.area_m2();
-            if reflectance.max_channel() == 0.0 || !(area_m2 > 0.0) {
+            if reflectance.max_channel() == 0.0 || area_m2 == 0.0 {
                 continue;
             }
             facets += 1;
