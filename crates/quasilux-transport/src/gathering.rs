@@ -53,7 +53,7 @@ pub(crate) struct Gathering<'a, S> {
 #[derive(Clone, Copy, Default)]
 struct Exact {
     direct_lx: f64,
-    /// By mirrors alone.
+    /// By mirrors and panes alone.
     mirrored_lx: f64,
 }
 
@@ -286,7 +286,11 @@ fn exact<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) 
         };
         let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
         let mut shadows = Shadows::default();
-        let receive = |who: u32, lx: S, _| exact[who as usize].direct_lx += lx.luminance();
+        shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
+        let receive = |who: u32, lx: S, panes: u32| {
+            let Exact { direct_lx, mirrored_lx } = &mut exact[who as usize];
+            *if panes == 0 { direct_lx } else { mirrored_lx } += lx.luminance();
+        };
         stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, receive);
         let receive = |who: u32, lx: S, _| exact[who as usize].mirrored_lx += lx.luminance();
         stage.images.all(stage, &askers, &mut shadows, receive);

@@ -21,6 +21,7 @@ mod lights;
 mod map;
 pub mod observer;
 mod order;
+mod panes;
 mod path;
 mod path_end;
 mod path_wave;

@@ -155,6 +155,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         };
         if let Seeks::Illuminance { n, tests_pointlikes } = seeks {
             let vertex = Vertex::sensor(from, n);
+            work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
             if tests_pointlikes {
                 path.ask_images(stage, &vertex, 0, work);
             }
@@ -169,18 +170,22 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.from.shot(self.direction)
     }
 
-    /// Light that the path asked for has arrived where it asked, over this many mirrors.
-    pub(crate) fn receive(&mut self, light: S, mirrors: u32) {
-        if mirrors == 0 {
+    /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
+    pub(crate) fn receive(&mut self, light: S, bounces: u32) {
+        if bounces == 0 {
             self.arrived += light;
         } else {
             self.found.indirect += light;
         }
     }
 
-    /// Light of a point-like light has arrived at its start.
-    pub(crate) fn receive_at_start(&mut self, light: S) {
-        self.pointlikes += light;
+    /// Light of a point-like light has arrived at its start, through this many panes.
+    pub(crate) fn receive_at_start(&mut self, light: S, panes: u32) {
+        if panes == 0 {
+            self.pointlikes += light;
+        } else {
+            self.found.indirect += light;
+        }
     }
 
     /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere; whether
@@ -294,6 +299,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) {
         let vertex = Vertex::surface(&stage.world, at, self.direction, self.beta);
+        work.shadows.most_bounces = stage.max_bounces.map_or(u32::MAX, |most| most - bounces);
         self.ask_area_luminaires(stage, &vertex, work);
         self.ask_pointlikes(stage, &vertex, work);
         self.ask_images(stage, &vertex, bounces, work);

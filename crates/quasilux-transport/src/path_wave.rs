@@ -79,8 +79,10 @@ impl<S: Spectrum> PathWave<S> {
 
     /// Gives the starts that want it the direct light of the point-like lights.
     fn test_pointlikes(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |who: u32, light: S, _| paths[who as usize].receive_at_start(light);
+        let receive =
+            |who: u32, light: S, panes| paths[who as usize].receive_at_start(light, panes);
         let Stage { world, lights, .. } = stage;
+        self.work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
         lights.pointlikes.all(world, &self.askers, &mut self.work.shadows, receive);
     }
 

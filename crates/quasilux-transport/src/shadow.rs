@@ -3,6 +3,7 @@
 //! Whoever may get light from a place says so with an [`Offer`] and goes on with what does not depend on
 //! it. The rays toward all these places are traced at once, in the order they were asked for.
 
+use crate::panes::{Passage, look_through};
 use crate::spectrum::Spectrum;
 use crate::vertex::Vertex;
 use crate::world::World;
@@ -35,6 +36,9 @@ pub(crate) struct Shadows<S> {
     sights: Vec<Shot>,
     questions: Vec<Question<S>>,
     visible: Vec<bool>,
+    passages: Vec<Option<Passage<S>>>,
+    /// So many mirrors and panes may be in the way of what is asked for next.
+    pub(crate) most_bounces: u32,
 }
 
 /// Light that somebody gets if nothing stands in the way.
@@ -45,6 +49,8 @@ struct Question<S> {
     sights: u32,
     /// How many mirrors the way leads over.
     mirrors: u32,
+    /// So many panes may stand in it, all together.
+    most_panes: u32,
 }
 
 impl<S: Spectrum> Offer<S> {
@@ -69,7 +75,14 @@ impl<S: Spectrum> Offer<S> {
 
 impl<S> Default for Shadows<S> {
     fn default() -> Self {
-        Self { rays: 0, sights: Vec::new(), questions: Vec::new(), visible: Vec::new() }
+        Self {
+            rays: 0,
+            sights: Vec::new(),
+            questions: Vec::new(),
+            visible: Vec::new(),
+            passages: Vec::new(),
+            most_bounces: u32::MAX,
+        }
     }
 }
 
@@ -78,7 +91,10 @@ impl<S: Spectrum> Shadows<S> {
     pub(crate) fn ask(&mut self, who: u32, vertex: &Vertex<'_, S>, offer: &Offer<S>) {
         let from = vertex.vantage(offer.direction);
         self.sights.push(from.sight(offer.direction, offer.distance_m, offer.facet));
-        self.questions.push(Question { who, light: offer.light, sights: 1, mirrors: 0 });
+        // Paths run into facets that emit, behind panes too: only light of other places is let through.
+        let most_panes = if offer.facet == Shot::NONE { self.most_bounces } else { 0 };
+        let question = Question { who, light: offer.light, sights: 1, mirrors: 0, most_panes };
+        self.questions.push(question);
     }
 
     /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as they
@@ -93,21 +109,37 @@ impl<S: Spectrum> Shadows<S> {
         let before = self.sights.len();
         look(&mut self.sights);
         let sights = (self.sights.len() - before) as u32;
-        self.questions.push(Question { who, light, sights, mirrors });
+        let most_panes = self.most_bounces.saturating_sub(mirrors);
+        self.questions.push(Question { who, light, sights, mirrors, most_panes });
     }
 
-    /// Tells `receive` who gets how much light after how many mirrors, in the order asked, and closes
-    /// all questions.
+    /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
+    /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
-        world.are_visible(&self.sights, &mut self.visible);
-        let mut visible = self.visible.iter();
-        for question in &self.questions {
-            let hidden = visible.by_ref().take(question.sights as usize).filter(|v| !**v).count();
-            if hidden == 0 {
-                receive(question.who, question.light, question.mirrors);
+        self.rays += self.sights.len() as u64;
+        if world.has_panes() {
+            look_through(world, &self.sights, &mut self.passages);
+            let mut passages = self.passages.iter();
+            for question in &self.questions {
+                let open = Some(Passage { transmitted: question.light, panes: 0 });
+                let own = passages.by_ref().take(question.sights as usize);
+                let passage = own.fold(open, |way, next| way.zip(*next).map(|(a, b)| a.and(b)));
+                if let Some(Passage { transmitted, panes }) = passage
+                    && panes <= question.most_panes
+                {
+                    receive(question.who, transmitted, question.mirrors + panes);
+                }
+            }
+        } else {
+            world.are_visible(&self.sights, &mut self.visible);
+            let mut visible = self.visible.iter();
+            for question in &self.questions {
+                let own = visible.by_ref().take(question.sights as usize);
+                if own.filter(|visible| !**visible).count() == 0 {
+                    receive(question.who, question.light, question.mirrors);
+                }
             }
         }
-        self.rays += self.sights.len() as u64;
         self.sights.clear();
         self.questions.clear();
     }

@@ -54,6 +54,13 @@ pub(crate) struct Vantage {
     facet: u32,
 }
 
+/// A ray that went through a pane.
+pub(crate) struct BeyondPane<S> {
+    /// The share of light that the pane lets through.
+    pub(crate) transmitted: S,
+    pub(crate) shot: Shot,
+}
+
 /// The scene as rays see it.
 pub(crate) struct World<S> {
     pub(crate) facets: Vec<Facet>,
@@ -61,6 +68,7 @@ pub(crate) struct World<S> {
     bvh: TriangleBvh,
     /// The emitting facets again, where some lie flush in another surface: they come first there.
     flush_emitters: Option<FlushEmitters>,
+    has_panes: bool,
     bounds: Option<[DVec3; 2]>,
     /// The largest extent in m.
     size_m: f64,
@@ -103,12 +111,15 @@ impl<S: Spectrum> World<S> {
             bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
             bvh,
             flush_emitters: None,
+            has_panes: false,
             bounds,
             size_m,
             offset_m: (OFFSET * size_m).max(least_m),
             hair_m: (HAIR * size_m).max(4.0 * least_m),
         };
         world.flush_emitters = FlushEmitters::of(&world);
+        let is_pane = |facet: &Facet| world.bsdf_of(facet).straight_transmittance(1.0).is_some();
+        world.has_panes = world.facets.iter().any(is_pane);
         world
     }
 
@@ -190,6 +201,29 @@ impl<S: Spectrum> World<S> {
         visible.resize(sights.len(), false);
         self.bvh.are_occluded(sights, visible);
         visible.iter_mut().for_each(|visible| *visible = !*visible);
+    }
+
+    /// The first facets that many rays meet, in their order.
+    pub(crate) fn closest_hits(&self, shots: &[Shot], hits: &mut Vec<Option<Hit>>) {
+        hits.clear();
+        hits.resize(shots.len(), None);
+        self.bvh.closest_hits(shots, hits);
+    }
+
+    /// Where a ray goes on behind the pane that it meets; `None` where it meets something else.
+    pub(crate) fn beyond_pane(&self, shot: &Shot, hit: &Hit) -> Option<BeyondPane<S>> {
+        let Shot { ray, excluded } = shot;
+        let facet = &self.facets[hit.triangle as usize];
+        let cos = facet.front_normal.dot(ray.direction);
+        let transmitted = self.bsdf_of(facet).straight_transmittance(cos.abs())?;
+        let origin = ray.at(hit.distance) + facet.front_normal * (self.offset_m * cos.signum());
+        let ray = Ray::new(origin, ray.direction).up_to(ray.t_max - hit.distance);
+        Some(BeyondPane { transmitted, shot: Shot { ray, excluded: [hit.triangle, excluded[1]] } })
+    }
+
+    /// Whether there are panes.
+    pub(crate) fn has_panes(&self) -> bool {
+        self.has_panes
     }
 
     /// The hit, or the flush emitter that comes first there.

@@ -114,10 +114,19 @@ impl<S: Spectrum> Bsdf<S> {
 
     /// What it mirrors of light that comes at this cosine, where all of the rest is absorbed or goes straight
     /// on, so that images can be followed; `None` for other surfaces.
-    pub(crate) fn image_reflectance(&self, _cos: f64) -> Option<S> {
+    pub(crate) fn image_reflectance(&self, cos: f64) -> Option<S> {
         match self {
-            Self::Diffuse(_) => None,
             Self::Mirror(mirror) => Some(mirror.reflectance),
+            Self::Pane(pane) => Some(pane.pane_reflectance(cos)),
+            _ => None,
+        }
+    }
+
+    /// What goes straight through at this cosine; `None` where nothing does.
+    pub(crate) fn straight_transmittance(&self, cos: f64) -> Option<S> {
+        match self {
+            Self::Pane(pane) => Some(pane.pane_transmittance(cos)),
+            _ => None,
         }
     }
 

@@ -109,7 +109,10 @@ impl<'a> Lights<'a> {
             let place = luminaire.shape.sample_silhouette(towards, cursor.next_2d());
             let direction = luminaire.world_from_luminaire * towards;
             let from = world.vantage_of_light(place_m(luminaire, &place), direction);
-            return Some(Emitted { emission: Emission { from, direction }, trail: Trail::Hidden });
+            return Some(Emitted {
+                emission: Emission { from, direction },
+                trail: Trail::Straight,
+            });
         }
         let place = self.emitters.as_ref()?.place(world, u);
         let n = world.facets[place.facet as usize].front_normal;

@@ -10,16 +10,18 @@ use crate::specular::SpecularImages;
 pub(crate) enum Trail {
     /// By mirrors that show this image of its point-like light; at first the light itself.
     Shown(u32),
+    /// From a luminous shape, straight or through panes: paths see it.
+    Straight,
     /// From a light that nothing runs into, by specular surfaces alone, and in no image: paths cannot
-    /// find it. At first the light itself.
+    /// find it.
     Hidden,
     /// Any other: paths find it where it was scattered last, or run into its light.
     Found,
 }
 
 impl Trail {
-    /// The trail after one more surface: `bsdf` on `facet`, met at this cosine; `mirrored` where the photon
-    /// stays on its side.
+    /// The trail after one more surface: `bsdf` on `facet`; `mirrored` where the photon stays on its
+    /// side.
     pub(crate) fn after<S: Spectrum>(
         self,
         images: &SpecularImages,
@@ -31,12 +33,9 @@ impl Trail {
             return Self::Found;
         }
         match self {
-            Self::Shown(image) if bsdf.image_reflectance(1.0).is_some() => {
-                if mirrored {
-                    images.shown_by(image, facet).map_or(Self::Hidden, Self::Shown)
-                } else {
-                    self
-                }
+            _ if !mirrored && bsdf.straight_transmittance(1.0).is_some() => self,
+            Self::Shown(image) if mirrored => {
+                images.shown_by(image, facet).map_or(Self::Hidden, Self::Shown)
             }
             _ => Self::Hidden,
         }

@@ -157,7 +157,7 @@ fn mirrors_colour_what_they_show() {
     let colour = [0.9, 0.5, 0.2];
     let coloured = Bsdf::Mirror(Mirror { reflectance: Rgb(colour) });
     let mut scene = empty();
-    add_panel(&mut scene, at(-9., -9., 0.), DVec3::X * 18., DVec3::Y * 18., coloured);
+    add_panel(&mut scene, at(-9., -9., 0.), DVec3::X * 18., DVec3::Y * 18., coloured.clone());
     add_panel(&mut scene, at(-9., -9., 0.), DVec3::X * 18., DVec3::Z * 18., coloured);
     // Mirrors at z = 0 and y = -9.
     let light = at(0.3, -8.0, 1.5);
@@ -210,4 +210,46 @@ fn luminaires_are_mirrored_not_turned() {
     });
     scene.lights.push(Light::Luminaire(luminaire.clone()));
     assert_lx(&scene, &expected_lx);
+}
+
+/// A clear pane passes `T = (1 - r) / (1 + r)` of each polarisation and mirrors the rest, r by Fresnel; two
+/// of them and a light on their far side give the straight light through both.
+#[test]
+fn panes_let_light_through_in_one_line() {
+    let eta = 1.5;
+    let r = |cos: f64| {
+        let cos_t = (1.0 - (1.0 - cos * cos) / (eta * eta)).sqrt();
+        let across = (cos - eta * cos_t) / (cos + eta * cos_t);
+        let within = (eta * cos - cos_t) / (eta * cos + cos_t);
+        [across * across, within * within]
+    };
+    let transmittance = |cos: f64| r(cos).map(|r| 0.5 * (1.0 - r) / (1.0 + r)).iter().sum::<f64>();
+    let reflectance = |cos: f64| 1.0 - transmittance(cos);
+    let pane = || Bsdf::Pane(quasilux_scene::bsdf::Pane::Clear { eta });
+    let mut scene = empty();
+    add_panel(&mut scene, at(-9., -9., 1.), DVec3::X * 18., DVec3::Y * 18., pane());
+    let (light, place) = (at(0.7, -0.4, 2.0), at(-0.3, 0.2, 0.0));
+    scene.lights.push(point_light(light, 1000.0));
+    scene.sensors.push(points("p", &[(place, DVec3::Z), (at(-0.3, 0.2, 1.5), DVec3::NEG_Z)]));
+    let cos = (light - place).normalize().z;
+    let through_lx = transmittance(cos) * from_point_lx(1000.0, light, place, DVec3::Z);
+    let image = at(0.7, -0.4, 0.0);
+    let above = at(-0.3, 0.2, 1.5);
+    let mirrored_lx = reflectance((above - image).normalize().z)
+        * from_point_lx(1000.0, image, above, DVec3::NEG_Z);
+    assert_lx(&scene, &[through_lx, mirrored_lx]);
+
+    // A second pane across the way: through both, and what goes to and fro between them by images.
+    add_panel(&mut scene, at(-9., -9., 0.5), DVec3::X * 18., DVec3::Y * 18., pane());
+    let expected_lx: f64 = (0..4)
+        .map(|bounces: u32| {
+            let image = light + DVec3::Z * f64::from(bounces);
+            let cos = (image - place).normalize().z;
+            let product = libm::pow(reflectance(cos), f64::from(2 * bounces));
+            let passed = transmittance(cos) * transmittance(cos);
+            passed * product * from_point_lx(1000.0, image, place, DVec3::Z)
+        })
+        .sum();
+    let value = run(&scene, None).point_intervals(0)[0].value;
+    assert!((value / expected_lx - 1.0).abs() < 2e-4, "{value}, expected {expected_lx}");
 }

@@ -94,7 +94,7 @@ fn coloured_mirrors_and_a_screen() {
     let mut scene = lit_room(0.4);
     let coloured = Bsdf::Mirror(Mirror { reflectance: Rgb([0.6, 0.3, 0.1]) });
     for first in [4, 6, 8] {
-        make_wall(&mut scene, first, coloured);
+        make_wall(&mut scene, first, coloured.clone());
     }
     let red = Bsdf::Diffuse(Diffuse { reflectance: Rgb([0.7, 0.2, 0.2]) });
     add_panel(&mut scene, DVec3::new(2.0, 0.5, 0.0), DVec3::Y * 1.5, DVec3::Z * 1.5, red);
@@ -138,4 +138,15 @@ fn a_curved_mirror_focuses() {
         add_panel(&mut scene, at(i), at(i + 1) - at(i), DVec3::Z * 0.9, mirror(0.95));
     }
     assert_agree(&scene, &GATHERING, true, &[Some(1), None]);
+}
+
+/// A pane across the room, with a lamp on either side of it, and a mirror wall: light goes straight
+/// through, by the pane, and over both.
+#[test]
+fn a_pane_and_a_mirror_wall() {
+    let mut scene = lit_room(0.5);
+    make_wall(&mut scene, 6, mirror(0.9));
+    let pane = Bsdf::Pane(quasilux_scene::bsdf::Pane::Clear { eta: 1.5 });
+    add_panel(&mut scene, DVec3::new(2.0, 0.0, 0.0), DVec3::Y * 3.0, DVec3::Z * 2.5, pane);
+    assert_agree(&scene, &GATHERING[..2], false, &[Some(0), Some(1), Some(2), None]);
 }
