@@ -231,6 +231,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
         let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
+            hidden: None,
             from: self.stage.world.vantage_of_sensor(self.view.position, direction),
             seeks: Seeks::Luminance { direction },
             rest: &Rest::Path,
