@@ -10,6 +10,7 @@
 //! distributions before them are the same.
 
 use crate::choice::{BoolChoice, Choice, choose_bool, choose_weights};
+use crate::hash::mix;
 use crate::{Discrete, PointSet};
 
 /// Past all dimensions: nothing was made ahead.
@@ -37,6 +38,8 @@ pub struct SampleCursor<'a> {
     /// Coordinates made ahead, and the dimension of the first.
     ahead: [f64; 2],
     ahead_from: u64,
+    /// The key of the splits that led here; 0 before the first.
+    branch: u64,
 }
 
 /// What choices left of a coordinate.
@@ -65,7 +68,40 @@ impl<'a> SampleCursor<'a> {
             open: None,
             ahead: [0.0; 2],
             ahead_from: NONE_AHEAD,
+            branch: 0,
         }
+    }
+
+    /// The cursor of child `child` of a sample that is split here, counted from 1; child 0 goes on
+    /// with this cursor itself.
+    ///
+    /// It starts at the first coordinate of a randomisation of its own, which is a function of the
+    /// way to it: the dimensions at which its ancestors were split, and which children they were. So
+    /// all children of one way, over all indices, have coordinates of one randomised sequence, and no
+    /// two ways share any.
+    ///
+    /// ```
+    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+    /// let mut parent = SampleCursor::new(&points, 7);
+    /// let mut children = [parent.child(1), parent.child(2)];
+    /// assert_ne!(children[0].next_1d(), children[1].next_1d());
+    /// assert_eq!(parent.next_1d(), points.coordinate(7, 0));
+    /// ```
+    #[must_use]
+    pub const fn child(&self, child: u32) -> Self {
+        let place = (self.dimension as u64) << 32 | child as u64;
+        // A key of 0 is the points' own.
+        let branch = mix(self.branch ^ mix(place)) | 1;
+        Self { branch, ..Self::new(self.points, self.index) }
+    }
+
+    /// Whether it is a split sample's child, or comes from one: its coordinates are not those of its
+    /// point set.
+    #[inline]
+    #[must_use]
+    pub const fn is_branch(&self) -> bool {
+        self.branch != 0
     }
 
     /// The number of the point.
@@ -76,7 +112,8 @@ impl<'a> SampleCursor<'a> {
     }
 
     /// Takes coordinates `dimension` and `dimension` + 1 of its point, made together with those of
-    /// other points by [`PointSet::fill_at`]: it will not make them again.
+    /// other points by [`PointSet::fill_at`]: it will not make them again. A
+    /// [branch](Self::is_branch) has others, and leaves these.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
@@ -87,7 +124,9 @@ impl<'a> SampleCursor<'a> {
     /// ```
     #[inline]
     pub fn supply(&mut self, dimension: u32, coordinates: [f64; 2]) {
-        (self.ahead_from, self.ahead) = (u64::from(dimension), coordinates);
+        if self.branch == 0 {
+            (self.ahead_from, self.ahead) = (u64::from(dimension), coordinates);
+        }
     }
 
     /// The next coordinate.
@@ -96,7 +135,8 @@ impl<'a> SampleCursor<'a> {
         let coordinate = match u64::from(self.dimension).wrapping_sub(self.ahead_from) {
             0 => self.ahead[0],
             1 => self.ahead[1],
-            _ => self.points.coordinate(self.index, self.dimension),
+            _ if self.branch == 0 => self.points.coordinate(self.index, self.dimension),
+            _ => self.points.branch(self.branch).coordinate(self.index, self.dimension),
         };
         self.dimension = self.dimension.saturating_add(1);
         self.used = self.used.saturating_add(1);

@@ -1,6 +1,6 @@
 //! One randomised sequence.
 
-use crate::hash::{dimension_key, mix};
+use crate::hash::{GOLDEN, dimension_key, mix};
 use crate::randomization::{
     OwenKey, nested_radical_inverse, rotate_unit, rotate_word, shift, shifted_radical_inverse,
     shuffle_index,
@@ -64,6 +64,21 @@ impl PointSet {
     #[must_use]
     pub const fn randomization(&self) -> Randomization {
         self.randomization
+    }
+
+    /// The same sequence, randomised independently: what a child of a split sample takes its
+    /// coordinates from. `branch` is the key of the way that leads to it.
+    ///
+    /// Where the sequence itself is not randomised the branch is, by Owen's scrambling: there is no
+    /// other copy of an unrandomised sequence.
+    #[inline]
+    #[must_use]
+    pub const fn branch(&self, branch: u64) -> Self {
+        let randomization = match self.randomization {
+            Randomization::None => Randomization::Owen,
+            chosen => chosen,
+        };
+        Self { randomization, key: mix(mix(self.key ^ GOLDEN) ^ mix(branch)), ..*self }
     }
 
     /// A coordinate in [0, 1) of 53 bits (Halton under shift or scrambling: of 51 or more); both
