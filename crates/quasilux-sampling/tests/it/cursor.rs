@@ -141,3 +141,38 @@ fn histograms_of_parts_merge_to_that_of_the_whole() {
     assert_eq!(whole.mean(), 6043.0 / 7.0);
     assert_eq!(DimensionHistogram::new().mean(), 0.0);
 }
+
+/// The children that one way leads to are points of one net; another way's are others.
+#[test]
+fn children_of_one_way_are_as_even_as_their_sequence() {
+    let points = sobol(Randomization::Owen, 1);
+    let child = |index: u64, dimension: u32, number: u32| {
+        let mut parent = SampleCursor::new(&points, index);
+        parent.skip_to(dimension);
+        parent.child(number)
+    };
+    let ways = [(3, 1), (3, 2), (4, 1)];
+    let firsts = ways.map(|(dimension, number)| {
+        let coordinate = |index| child(index, dimension, number).next_1d();
+        (0..256).map(coordinate).collect::<Vec<f64>>()
+    });
+    for coordinates in &firsts {
+        let mut bins: Vec<u32> = coordinates.iter().map(|u| (u * 256.0) as u32).collect();
+        bins.sort_unstable();
+        assert!(bins.into_iter().eq(0..256));
+    }
+    assert!(firsts[0] != firsts[1] && firsts[0] != firsts[2] && firsts[1] != firsts[2]);
+    let mut grandchild = child(9, 3, 1).child(1);
+    assert!(grandchild.is_branch() && grandchild.next_1d() != child(9, 3, 1).next_1d());
+}
+
+#[test]
+fn children_are_randomised_where_their_sequence_is_not() {
+    let points = sobol(Randomization::None, 1);
+    let [mut one, mut two] = [1, 2].map(|number| SampleCursor::new(&points, 5).child(number));
+    let plain = points.coordinate(5, 0);
+    let (a, b) = (one.next_1d(), two.next_1d());
+    assert!(a != plain && b != plain && a != b);
+    one.supply(1, [0.5; 2]);
+    assert_ne!(one.next_1d(), 0.5, "coordinates of the points are not those of a branch");
+}
