@@ -12,7 +12,8 @@ use crate::settings::Settings;
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
-use crate::targets::by_sensor;
+use crate::steering::{self, Plan, Windows};
+use crate::targets::{by_sensor, targets};
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::{Interaction, World};
@@ -31,6 +32,8 @@ pub(crate) struct Counting<'a, S> {
     stage: &'a Stage<'a, S>,
     scene: &'a Scene,
     receivers: Receivers,
+    /// What steers the photons.
+    plan: Plan,
     /// One row of counters a replicate.
     counters: Vec<Counters>,
     samples: u64,
@@ -61,6 +64,7 @@ struct GridReceiver {
 struct Counters {
     all: Vec<AtomicU64>,
     direct: Vec<AtomicU64>,
+    quanta_per_photon: f64,
 }
 
 struct SensorReceiver<'a> {
@@ -72,8 +76,12 @@ impl<'a, S: Spectrum> Counting<'a, S> {
     pub(crate) fn new(stage: &'a Stage<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
         let receivers = Receivers::new(&stage.world, scene, settings);
         let replicates = settings.effective_replicates();
-        let counters = (0..replicates).map(|_| Counters::new(receivers.counters)).collect();
-        Self { stage, scene, receivers, counters, samples: 0, photons: PhotonCounts::default() }
+        let plan = steering::plan(stage, &targets(scene), settings.steering);
+        let lightest = plan.windows.as_ref().map_or(1.0, Windows::lightest);
+        let quanta = QUANTA_PER_PHOTON / lightest;
+        let counters = (0..replicates).map(|_| Counters::new(receivers.counters, quanta)).collect();
+        let photons = PhotonCounts { rays: plan.rays, ..PhotonCounts::default() };
+        Self { stage, scene, receivers, plan, counters, samples: 0, photons }
     }
 
     /// Traces and counts the photons `indices` of all replicates.
@@ -85,8 +93,8 @@ impl<'a, S: Spectrum> Counting<'a, S> {
     ) -> Option<PhotonCounts> {
         let (receivers, counters) = (&self.receivers, &self.counters);
         let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
-        let replicates = 0..counters.len() as u32;
-        let batch = PhotonBatch { stream: Stream::Photons, replicates, indices, way };
+        let (replicates, windows) = (0..counters.len() as u32, self.plan.windows.as_ref());
+        let batch = PhotonBatch { stream: Stream::Photons, replicates, indices, way, windows };
         trace_photons(self.stage, &batch, receiver, watch)
     }
 
@@ -111,19 +119,19 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
 
     fn estimates(&self) -> Estimates {
         let photon_lm = self.stage.lights.flux_lm / self.samples as f64;
-        let read = |counts: &[AtomicU64]| -> Vec<f64> {
+        let read = |own: &Counters, counts: &[AtomicU64]| -> Vec<f64> {
             let targets = self.receivers.targets.iter();
             targets
                 .map(|&(counter, area_m2)| {
                     let quanta = counts[counter as usize].load(Ordering::Relaxed);
-                    quanta as f64 / QUANTA_PER_PHOTON * photon_lm / area_m2
+                    quanta as f64 / own.quanta_per_photon * photon_lm / area_m2
                 })
                 .collect()
         };
-        let rows: Vec<Vec<f64>> = self.counters.iter().map(|own| read(&own.all)).collect();
+        let rows: Vec<Vec<f64>> = self.counters.iter().map(|own| read(own, &own.all)).collect();
         let mut direct_lx = vec![0.0; self.receivers.targets.len()];
         for own in &self.counters {
-            for (sum, value) in direct_lx.iter_mut().zip(read(&own.direct)) {
+            for (sum, value) in direct_lx.iter_mut().zip(read(own, &own.direct)) {
                 *sum += value / self.counters.len() as f64;
             }
         }
@@ -203,13 +211,13 @@ impl Receivers {
 }
 
 impl Counters {
-    fn new(counters: usize) -> Self {
+    fn new(counters: usize, quanta_per_photon: f64) -> Self {
         let zeros = || (0..counters).map(|_| AtomicU64::new(0)).collect();
-        Self { all: zeros(), direct: zeros() }
+        Self { all: zeros(), direct: zeros(), quanta_per_photon }
     }
 
     fn count(&self, counter: usize, photons: f64, bounces: u32) {
-        let quanta = (photons * QUANTA_PER_PHOTON).round_ties_even() as u64;
+        let quanta = (photons * self.quanta_per_photon).round_ties_even() as u64;
         self.all[counter].fetch_add(quanta, Ordering::Relaxed);
         if bounces == 0 {
             self.direct[counter].fetch_add(quanta, Ordering::Relaxed);

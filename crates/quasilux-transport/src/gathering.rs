@@ -76,7 +76,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         }
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
         let hidden = HiddenLight::new(stage, settings, &targets);
-        let (end, photons) = PathEnd::prepare(stage, settings, replicates, watch);
+        let (end, photons) = PathEnd::prepare(stage, settings, &targets, watch);
         Self {
             stage,
             scene,

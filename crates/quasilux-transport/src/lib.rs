@@ -6,7 +6,7 @@
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
-//! `path_wave` and `shadow` for how paths do, at `map` for where the two ways meet, at `pixels` for
+//! `steering` for how they are split on their way, at `path_wave` and `shadow` for how paths do, at `map` for where the two ways meet, at `pixels` for
 //! pictures.
 
 mod bsdf;
@@ -38,6 +38,7 @@ mod simulate;
 mod spectrum;
 mod specular;
 mod stage;
+mod steering;
 mod tally;
 mod targets;
 pub mod trial;
@@ -51,5 +52,5 @@ pub use interval::Interval;
 pub use observer::{Control, Observer, Progress};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
-pub use settings::{Estimator, Reconstruction, Settings};
+pub use settings::{Estimator, Reconstruction, Settings, Steering};
 pub use simulate::simulate;

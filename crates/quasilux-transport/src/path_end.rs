@@ -7,6 +7,8 @@ use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::steering::{self, Plan, Windows};
+use crate::targets::Target;
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::Interaction;
@@ -36,6 +38,8 @@ pub(crate) enum PathEnd<S> {
         tallies: Vec<MapTally<S>>,
         /// Flux of a photon.
         flux_lm: f64,
+        /// What steers their photons.
+        windows: Option<Windows>,
     },
 }
 
@@ -67,7 +71,7 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn prepare(
         stage: &Stage<'_, S>,
         settings: &Settings,
-        replicates: u32,
+        targets: &[Target],
         watch: &mut Watch<'_>,
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
@@ -77,6 +81,7 @@ impl<S: Spectrum> PathEnd<S> {
                 replicates: 0..1,
                 indices: 0..photons,
                 way: Way::CoherentWaves,
+                windows: None,
             };
             trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
         };
@@ -85,11 +90,15 @@ impl<S: Spectrum> PathEnd<S> {
         }
         let (layout, mut counts) = refined(stage, settings, watch);
         if settings.estimator == Estimator::BidirectionalMap {
-            let tallies = (0..replicates).map(|_| MapTally::new(&layout)).collect();
-            return (Self::Own { layout, tallies, flux_lm: 0.0 }, counts);
+            let Plan { windows, rays } = steering::plan(stage, targets, settings.steering);
+            counts.rays += rays;
+            let lightest = windows.as_ref().map_or(1.0, Windows::lightest);
+            let replicates = 0..settings.effective_replicates();
+            let tallies = replicates.map(|_| MapTally::new(&layout, lightest)).collect();
+            return (Self::Own { layout, tallies, flux_lm: 0.0, windows }, counts);
         }
         let photons = (2 * layout.len() as u64).next_power_of_two().clamp(1 << 14, 1 << 19);
-        let tally = MapTally::new(&layout);
+        let tally = MapTally::new(&layout, 1.0);
         counts += plan(photons, Some(MapReceiver::new(stage, &layout, &tally)), watch);
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
@@ -101,7 +110,7 @@ impl<S: Spectrum> PathEnd<S> {
         indices: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> Growth {
-        let Self::Own { layout, tallies, flux_lm } = self else { return Growth::None };
+        let Self::Own { layout, tallies, flux_lm, windows } = self else { return Growth::None };
         let samples = indices.end;
         let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
         let batch = PhotonBatch {
@@ -109,6 +118,7 @@ impl<S: Spectrum> PathEnd<S> {
             replicates: 0..tallies.len() as u32,
             indices,
             way: Way::CoherentWaves,
+            windows: windows.as_ref(),
         };
         let traced = trace_photons(stage, &batch, receiver, watch);
         let Some(counts) = traced else { return Growth::Stopped };
@@ -124,7 +134,7 @@ impl<S: Spectrum> PathEnd<S> {
                 let map = tally.read(*flux_lm);
                 Rest::Map(MapEnd { layout, map, corrected_share: Some(CORRECTED_SHARE) })
             }
-            Self::Own { layout, tallies, flux_lm } => {
+            Self::Own { layout, tallies, flux_lm, .. } => {
                 let map = tallies[replicate as usize].read(*flux_lm);
                 Rest::Map(MapEnd { layout, map, corrected_share: None })
             }

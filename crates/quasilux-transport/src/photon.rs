@@ -1,15 +1,18 @@
 //! One photon, from its light to its end: what happens to it at each step.
 //!
 //! Photons start with equal flux. At each surface they survive with the probability that keeps their
-//! luminance: what is absorbed is absorbed whole, so counting photons balances the flux exactly,
-//! and on grey surfaces the weight never changes (Voloboy, Dmitriev and Kopylov 2003). Only rough
-//! surfaces, whose directions cannot be drawn in exact proportion, leave it slightly changed.
+//! luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never changes
+//! (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be drawn in exact
+//! proportion, leave it slightly changed. Photons that are steered ([`crate::steering`]) leave each
+//! place with the weight that belongs to it instead, by one or more of them or none. What goes on no
+//! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::Mode;
 use crate::lights::Emission;
 use crate::spectrum::Spectrum;
 use crate::specular::Trail;
 use crate::stage::Stage;
+use crate::steering::{Guide, Split, Windows};
 use crate::world::Interaction;
 use glam::DVec3;
 use quasilux_sampling::{DimensionHistogram, SampleCursor};
@@ -18,18 +21,23 @@ use std::ops::AddAssign;
 /// After this many events a photon or path is cut: only halls of perfect mirrors get there.
 pub(crate) const MOST_EVENTS: u32 = 4096;
 
-/// How photons ended, and what they cost.
+/// Flux is counted in this many steps a photon: 2^39 photons fit.
+const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
+
+/// How photons ended, and what they cost. Flux is in quanta.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PhotonCounts {
+    /// Photons.
     pub(crate) emitted: u64,
-    pub(crate) absorbed: u64,
-    pub(crate) lost: u64,
+    /// Absorbed, less what splitting added.
+    pub(crate) absorbed: i64,
+    pub(crate) lost: i64,
     /// Cut after the wanted number of bounces.
-    pub(crate) cut: u64,
-    /// Cut after [`MOST_EVENTS`].
+    pub(crate) cut: i64,
+    /// Photons cut after [`MOST_EVENTS`].
     pub(crate) endless: u64,
     pub(crate) rays: u64,
-    /// Coordinates that each of them used.
+    /// Coordinates that each of them used, children of splits by themselves.
     pub(crate) dimensions: DimensionHistogram,
 }
 
@@ -77,41 +85,58 @@ pub(crate) struct Photon<'p, S> {
     specular_only: bool,
 }
 
-/// What becomes of a photon at a surface.
-pub(crate) enum Fate {
-    GoesOn(Emission),
-    Ends(End),
+/// A photon that is about to fly.
+pub(crate) struct Departure<'p, S> {
+    pub(crate) photon: Photon<'p, S>,
+    pub(crate) start: Emission,
 }
 
-/// How a photon ended.
-pub(crate) enum End {
-    Absorbed,
-    Lost,
-    Cut,
-    Endless,
-}
-
-/// Traces the photon of one index by itself: the slow twin of [`crate::photon_wave::PhotonWave`].
-pub(crate) fn trace_photon<S: Spectrum>(
+/// Traces the photon of one index by itself, with all that it is split into: the slow twin of
+/// [`crate::photon_wave::PhotonWave`].
+pub(crate) fn trace_photon<'p, S: Spectrum>(
     stage: &Stage<'_, S>,
-    cursor: SampleCursor<'_>,
+    windows: Option<&Windows>,
+    cursor: SampleCursor<'p>,
     receiver: &mut impl PhotonReceiver<S>,
     counts: &mut PhotonCounts,
 ) {
     let mut photon = Photon::new(cursor).for_receiver(receiver);
-    let Some(mut start) = photon.emit(stage) else { return };
+    let Some(start) = photon.emit(stage) else { return };
     counts.emitted += 1;
+    let mut generation: Vec<Departure<'p, S>> = vec![Departure { photon, start }];
     for bounces in 0..MOST_EVENTS {
-        counts.rays += 1;
-        let Emission { from, direction } = start;
-        let found = stage.world.trace(from, direction);
-        photon.show(stage, from.position(), direction, found.as_ref(), bounces, receiver);
-        match photon.scatter(stage, direction, found.as_ref(), bounces) {
-            Fate::GoesOn(next) => start = next,
-            Fate::Ends(end) => return counts.end(&photon, &end),
+        let mut next = Vec::new();
+        for Departure { photon, start: Emission { from, direction } } in generation {
+            counts.rays += 1;
+            let found = stage.world.trace(from, direction);
+            photon.show(stage, from.position(), direction, found.as_ref(), bounces, receiver);
+            let arrival = Arrival { direction, found: found.as_ref(), bounces };
+            photon.scatter(stage, windows, &arrival, counts, |departure| next.push(departure));
         }
+        if next.is_empty() {
+            return;
+        }
+        generation = next;
     }
-    counts.end(&photon, &End::Endless);
+    generation.iter().for_each(|departure| counts.give_up(&departure.photon));
+}
+
+/// A place that photons leave from again.
+#[derive(Clone, Copy)]
+struct Door<'a> {
+    at: &'a Interaction,
+    /// Where the light came from.
+    wo: DVec3,
+    guide: Option<&'a Guide>,
+}
+
+/// The end of a flight.
+pub(crate) struct Arrival<'a> {
+    /// Along which the photon flew.
+    pub(crate) direction: DVec3,
+    pub(crate) found: Option<&'a Interaction>,
+    /// Before this one.
+    pub(crate) bounces: u32,
 }
 
 impl<'p, S: Spectrum> Photon<'p, S> {
@@ -158,49 +183,105 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         }
     }
 
-    /// Survives a flight along `direction` or not, and goes on.
+    /// Goes on after a flight, alone or with children, or does not; `depart` gets all that go on.
     pub(crate) fn scatter(
-        &mut self,
+        mut self,
         stage: &Stage<'_, S>,
-        direction: DVec3,
-        found: Option<&Interaction>,
-        bounces: u32,
-    ) -> Fate {
-        let Some(at) = found else { return Fate::Ends(End::Lost) };
-        let (bsdf, frame) = (stage.world.bsdf(at), at.frame());
-        let wo = frame.to_local(-direction);
-        let survival =
-            (self.weight * bsdf.albedo(wo, at.front)).luminance() / self.weight.luminance();
-        if !self.cursor.choose_bool(survival) {
-            return Fate::Ends(End::Absorbed);
-        }
-        if stage.max_bounces.is_some_and(|most| bounces >= most) {
-            return Fate::Ends(End::Cut);
-        }
-        let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, &mut self.cursor) else {
-            return Fate::Ends(End::Absorbed);
+        windows: Option<&Windows>,
+        arrival: &Arrival<'_>,
+        counts: &mut PhotonCounts,
+        mut depart: impl FnMut(Departure<'p, S>),
+    ) {
+        let Some(at) = arrival.found else {
+            counts.lost += self.quanta();
+            return counts.end(&self);
         };
-        self.weight = self.weight * next.weight * (1.0 / survival);
-        self.trail = self.trail.after(&stage.images, bsdf, at.facet, next.wi.z > 0.0);
-        if self.specular_only && self.trail == Trail::Found {
-            return Fate::Ends(End::Cut);
+        let (bsdf, frame) = (stage.world.bsdf(at), at.frame());
+        let wo = frame.to_local(-arrival.direction);
+        let luminance = self.weight.luminance();
+        let left = (self.weight * bsdf.albedo(wo, at.front)).luminance();
+        let window = windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
+        let split = Split::new(left, window.map_or(luminance, |window| window.weight));
+        let whole = split.expected.floor();
+        let count = whole as u32 + u32::from(self.cursor.choose_bool(split.expected - whole));
+        let arrived = self.quanta();
+        counts.absorbed += arrived;
+        if count == 0 {
+            return counts.end(&self);
         }
-        let from =
-            if next.wi.z > 0.0 { stage.world.vantage(at) } else { stage.world.vantage_behind(at) };
-        Fate::GoesOn(Emission { from, direction: frame.to_world(next.wi) })
+        if stage.max_bounces.is_some_and(|most| arrival.bounces >= most) {
+            let goes_on = i64::from(count) * quanta(split.weight);
+            counts.absorbed -= goes_on;
+            counts.cut += goes_on;
+            return counts.end(&self);
+        }
+        let children: Vec<SampleCursor<'p>> =
+            (1..count).map(|child| self.cursor.child(child)).collect();
+        let Self { weight, trail, specular_only, .. } = self;
+        let child = |cursor| Self { cursor, weight, trail, specular_only };
+        for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
+            let guide = window.map(|window| &window.guide);
+            match photon.leave(stage, &Door { at, wo, guide }, 1.0 / split.expected) {
+                Some(_) if photon.specular_only && photon.trail == Trail::Found => {
+                    counts.absorbed -= photon.quanta();
+                    counts.cut += photon.quanta();
+                    counts.end(&photon);
+                }
+                Some(start) => {
+                    counts.absorbed -= photon.quanta();
+                    depart(Departure { photon, start });
+                }
+                None => counts.end(&photon),
+            }
+        }
+    }
+
+    /// Takes a direction away from a surface, and its share of what leaves there.
+    fn leave(&mut self, stage: &Stage<'_, S>, door: &Door<'_>, share: f64) -> Option<Emission> {
+        let Door { at, wo, guide } = *door;
+        let (world, bsdf, cursor) = (&stage.world, stage.world.bsdf(at), &mut self.cursor);
+        let (next, share) = match guide {
+            Some(guide) if bsdf.is_lambertian() => {
+                let guided = guide.sample([cursor.rest_1d(), cursor.next_1d()]);
+                (bsdf.sample_lambertian(guided.u)?, share / guided.density)
+            }
+            _ => (bsdf.sample(wo, at.front, Mode::Flux, cursor)?, share),
+        };
+        self.weight = self.weight * next.weight * share;
+        if self.weight.luminance() <= 0.0 {
+            return None;
+        }
+        self.trail = self.trail.after(&stage.images, bsdf, at.facet, next.wi.z > 0.0);
+        let from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+        Some(Emission { from, direction: at.frame().to_world(next.wi) })
+    }
+
+    /// Its flux.
+    fn quanta(&self) -> i64 {
+        quanta(self.weight.luminance())
     }
 }
 
+fn quanta(weight: f64) -> i64 {
+    (weight * QUANTA_PER_PHOTON).round_ties_even() as i64
+}
+
 impl PhotonCounts {
-    /// Counts a photon that ended.
-    pub(crate) fn end<S>(&mut self, photon: &Photon<'_, S>, end: &End) {
-        match end {
-            End::Absorbed => self.absorbed += 1,
-            End::Lost => self.lost += 1,
-            End::Cut => self.cut += 1,
-            End::Endless => self.endless += 1,
-        }
+    /// Records a photon that ended.
+    fn end<S>(&mut self, photon: &Photon<'_, S>) {
         self.dimensions.record(photon.cursor.used());
+    }
+
+    /// Cuts a photon that would fly on for ever.
+    pub(crate) fn give_up<S: Spectrum>(&mut self, photon: &Photon<'_, S>) {
+        self.endless += 1;
+        self.cut += photon.quanta();
+        self.end(photon);
+    }
+
+    /// Flux of some quanta, as a share of all that was emitted.
+    pub(crate) fn share(&self, quanta: i64) -> f64 {
+        quanta as f64 / (self.emitted.max(1) as f64 * QUANTA_PER_PHOTON)
     }
 }
 

@@ -2,22 +2,39 @@
 //!
 //! All photons of a wave leave their lights, then fly together, then land, then scatter, and those
 //! that go on close ranks. So each step is a short loop over neighbours in memory, and the ray kernel
-//! sees many rays together. What becomes of a photon depends on its index alone, never on its
-//! company: a wave gives what [`crate::photon::trace_photon`] gives.
+//! sees many rays together. Photons that are split bring their children in; what makes a wave too long
+//! waits until the rest has ended, so that memory is bounded. What becomes of a photon depends on its
+//! index and its ancestors alone, never on its company: a wave gives what
+//! [`crate::photon::trace_photon`] gives.
 
-use crate::photon::{End, Fate, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
+use crate::photon::{Arrival, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::steering::Windows;
 use crate::trial::Step;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, Shot};
 use quasilux_sampling::{PointSet, SampleCursor};
+
+/// Photons that fly together are cut in two when there are more.
+const LONGEST: usize = 1 << 14;
+
+/// Photons that leave their lights together.
+pub(crate) struct Wave<'p, 'w, I> {
+    pub(crate) points: &'p PointSet,
+    pub(crate) indices: I,
+    /// What steers them.
+    pub(crate) windows: Option<&'w Windows>,
+}
 
 /// Working space for one wave after the other.
 pub(crate) struct PhotonWave<'p, S> {
     photons: Vec<Photon<'p, S>>,
     /// The ray of each photon.
     shots: Vec<Shot>,
+    /// Those that have scattered.
+    departed: (Vec<Photon<'p, S>>, Vec<Shot>),
+    waiting: Vec<Waiting<'p, S>>,
     hits: Vec<Option<Hit>>,
     /// Where it meets a surface.
     found: Vec<Option<Interaction>>,
@@ -26,11 +43,20 @@ pub(crate) struct PhotonWave<'p, S> {
     ahead: [Vec<f64>; 2],
 }
 
+/// Photons that wait for their flight after `bounces` reflections.
+struct Waiting<'p, S> {
+    bounces: u32,
+    photons: Vec<Photon<'p, S>>,
+    shots: Vec<Shot>,
+}
+
 impl<'p, S: Spectrum> PhotonWave<'p, S> {
     pub(crate) fn new() -> Self {
         Self {
             photons: Vec::new(),
             shots: Vec::new(),
+            departed: (Vec::new(), Vec::new()),
+            waiting: Vec::new(),
             hits: Vec::new(),
             found: Vec::new(),
             indices: Vec::new(),
@@ -38,16 +64,16 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         }
     }
 
-    /// Traces the photons of these indices to their ends.
+    /// Traces photons, and what they are split into, to their ends.
     pub(crate) fn trace(
         &mut self,
         stage: &Stage<'_, S>,
-        points: &'p PointSet,
-        indices: impl Iterator<Item = u64>,
+        wave: Wave<'p, '_, impl Iterator<Item = u64>>,
         receiver: &mut impl PhotonReceiver<S>,
         counts: &mut PhotonCounts,
     ) {
         let lap = |step| stage.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
+        let Wave { points, indices, windows } = wave;
         self.photons.clear();
         self.photons.extend(
             indices
@@ -58,9 +84,12 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         self.emit(stage);
         lap(Step::Emission);
         counts.emitted += self.photons.len() as u64;
-        for bounces in 0..MOST_EVENTS {
-            if self.photons.is_empty() {
-                return;
+        let mut bounces = 0;
+        while let Some(reached) = self.muster(bounces) {
+            bounces = reached;
+            if bounces == MOST_EVENTS {
+                self.photons.drain(..).for_each(|photon| counts.give_up(&photon));
+                continue;
             }
             counts.rays += self.shots.len() as u64;
             stage.world.trace_all(&self.shots, &mut self.hits, &mut self.found);
@@ -69,12 +98,27 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
             lap(Step::Tally);
             self.supply(points);
             lap(Step::Sampling);
-            self.scatter(stage, bounces, counts);
+            self.scatter(stage, windows, bounces, counts);
+            bounces += 1;
             lap(Step::Scattering);
         }
-        for photon in &self.photons {
-            counts.end(photon, &End::Endless);
+    }
+
+    /// Makes sure that there are photons to fly, not too many; after how many bounces. `None` where none
+    /// are left.
+    fn muster(&mut self, bounces: u32) -> Option<u32> {
+        while self.photons.len() > LONGEST {
+            let rest = self.photons.len() - LONGEST;
+            let photons = self.photons.split_off(rest);
+            let shots = self.shots.split_off(rest);
+            self.waiting.push(Waiting { bounces, photons, shots });
         }
+        if !self.photons.is_empty() {
+            return Some(bounces);
+        }
+        let Waiting { bounces, photons, shots } = self.waiting.pop()?;
+        (self.photons, self.shots) = (photons, shots);
+        Some(bounces)
     }
 
     fn emit(&mut self, stage: &Stage<'_, S>) {
@@ -114,22 +158,25 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         }
     }
 
-    /// Scatters all photons; those that go on keep their order.
-    fn scatter(&mut self, stage: &Stage<'_, S>, bounces: u32, counts: &mut PhotonCounts) {
-        let mut left = 0;
-        for number in 0..self.photons.len() {
-            let photon = &mut self.photons[number];
-            let direction = self.shots[number].ray.direction;
-            match photon.scatter(stage, direction, self.found[number].as_ref(), bounces) {
-                Fate::Ends(end) => counts.end(photon, &end),
-                Fate::GoesOn(next) => {
-                    self.shots[left] = next.from.shot(next.direction);
-                    self.photons.swap(left, number);
-                    left += 1;
-                }
-            }
+    /// Scatters all photons; those that go on keep their order, children come after their elders.
+    fn scatter(
+        &mut self,
+        stage: &Stage<'_, S>,
+        windows: Option<&Windows>,
+        bounces: u32,
+        counts: &mut PhotonCounts,
+    ) {
+        let (photons, shots) = &mut self.departed;
+        let arrivals = self.shots.iter().zip(&self.found);
+        for (photon, (shot, found)) in self.photons.drain(..).zip(arrivals) {
+            let arrival = Arrival { direction: shot.ray.direction, found: found.as_ref(), bounces };
+            photon.scatter(stage, windows, &arrival, counts, |departure| {
+                shots.push(departure.start.from.shot(departure.start.direction));
+                photons.push(departure.photon);
+            });
         }
-        self.photons.truncate(left);
-        self.shots.truncate(left);
+        self.shots.clear();
+        std::mem::swap(&mut self.photons, photons);
+        std::mem::swap(&mut self.shots, shots);
     }
 }

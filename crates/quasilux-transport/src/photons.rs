@@ -3,9 +3,10 @@
 use crate::estimates::FluxBalance;
 use crate::order::Waves;
 use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver, trace_photon};
-use crate::photon_wave::PhotonWave;
+use crate::photon_wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::steering::Windows;
 use crate::trial::Way;
 use crate::watch::Watch;
 use quasilux_sampling::{PointSet, SampleCursor};
@@ -17,22 +18,24 @@ use std::sync::{Mutex, PoisonError};
 const WAVES_PER_ROUND: u64 = 64;
 
 /// Which photons are traced: the same indices of each replicate.
-pub(crate) struct PhotonBatch {
+pub(crate) struct PhotonBatch<'w> {
     pub(crate) stream: Stream,
     pub(crate) replicates: Range<u32>,
     pub(crate) indices: Range<u64>,
     pub(crate) way: Way,
+    /// What steers them; `None` leaves them alone.
+    pub(crate) windows: Option<&'w Windows>,
 }
 
 /// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer
 /// stopped it.
 pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     stage: &Stage<'_, S>,
-    batch: &PhotonBatch,
+    batch: &PhotonBatch<'_>,
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let PhotonBatch { stream, replicates, indices, way } = batch;
+    let PhotonBatch { stream, replicates, indices, way, windows } = batch;
     let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
     let close_in = match way {
@@ -53,12 +56,13 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
         if *way == Way::OneByOne {
             for index in indices {
                 let cursor = SampleCursor::new(points, index);
-                trace_photon(stage, cursor, &mut receiver, &mut counts);
+                trace_photon(stage, *windows, cursor, &mut receiver, &mut counts);
             }
         } else {
             let thread = rayon::current_thread_index().unwrap_or(0);
             let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
-            space.trace(stage, points, indices, &mut receiver, &mut counts);
+            let wave = Wave { points, indices, windows: *windows };
+            space.trace(stage, wave, &mut receiver, &mut counts);
         }
         counts
     };
@@ -84,12 +88,12 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
 impl PhotonCounts {
     /// Where the flux of the lights went, by the shares of the photons.
     pub(crate) fn balance(&self, emitted_lm: f64) -> FluxBalance {
-        let of = |photons: u64| emitted_lm * (photons as f64 / self.emitted.max(1) as f64);
+        let of = |quanta: i64| emitted_lm * self.share(quanta);
         FluxBalance {
             emitted_lm,
             absorbed_lm: of(self.absorbed),
             lost_lm: of(self.lost),
-            cut_lm: of(self.cut + self.endless),
+            cut_lm: of(self.cut),
         }
     }
 

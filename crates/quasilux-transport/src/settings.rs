@@ -39,6 +39,35 @@ impl Estimator {
     }
 }
 
+/// Whether photons are split and ended where that helps the sensors: a closed set. It changes the
+/// error, never the mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Steering {
+    /// Where a survey of the scene says that it pays.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never: photons keep equal flux.
+    Off,
+}
+
+impl Steering {
+    /// All of them with their names in project files.
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("auto", Self::Auto), ("on", Self::On), ("off", Self::Off)];
+
+    /// The name in project files and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::On => "on",
+            Self::Off => "off",
+        }
+    }
+}
+
 /// What a simulation is asked to do. No field refers to threads or time: the result is a function
 /// of the scene and this.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +106,8 @@ pub struct Settings {
     /// How many plane mirrors, one after the other, images of point-like lights are followed through;
     /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
+    /// Whether photons that sensors count, and those of maps that grow, are steered.
+    pub steering: Steering,
 }
 
 impl Settings {
@@ -107,6 +138,7 @@ impl Default for Settings {
             map_adaptive: true,
             map_reconstruction: Reconstruction::Linear,
             image_depth: None,
+            steering: Steering::Auto,
         }
     }
 }

@@ -34,6 +34,8 @@ pub(crate) enum Stream {
     PlanPhotons,
     /// Photons that look for what paths cannot find.
     HiddenPhotons,
+    /// Pilot rays that plan where photons are split, numbered by what they start from.
+    Survey(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
     /// Paths through one pixel of one camera.
@@ -77,12 +79,15 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             Stream::Photons => 0,
             Stream::PlanPhotons => 1,
             Stream::HiddenPhotons => u64::MAX,
+            Stream::Survey(kind) => u64::MAX - 1 - kind,
             Stream::Paths(point) => 2 + point,
             Stream::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         };
         let Settings { mut sequence, randomization, seed, .. } = *self.settings;
-        if let (Sequence::Hammersley { .. }, Stream::PlanPhotons | Stream::HiddenPhotons) =
-            (sequence, stream)
+        if let (
+            Sequence::Hammersley { .. },
+            Stream::PlanPhotons | Stream::HiddenPhotons | Stream::Survey(_),
+        ) = (sequence, stream)
         {
             // A plan has its own number of photons.
             sequence = Sequence::Halton;

@@ -5,7 +5,7 @@ use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
-use quasilux_transport::{Estimator, Reconstruction, Settings};
+use quasilux_transport::{Estimator, Reconstruction, Settings, Steering};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -75,6 +75,9 @@ pub(crate) fn settings(
     if let Some(name) = &section.randomization {
         let known = &Randomization::NAMES;
         settings.randomization = names::in_project(section, "randomization", name, known)?;
+    }
+    if let Some(name) = &section.steering {
+        settings.steering = names::in_project(section, "steering", name, &Steering::NAMES)?;
     }
     if let Some(name) = &arguments.estimator {
         settings.estimator = names::on_command_line("--estimator", name, &Estimator::NAMES)?;

@@ -6,8 +6,8 @@
 //! sensor its `counts` along u and v; in `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`), `flux_cut_lm`, the flux that
-//! `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list
+//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`), `flux_cut_lm`, the flux
+//! that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list
 //! each, all of more than 1023 together at its end.
 
 mod camera;
@@ -108,6 +108,7 @@ struct RunEntry<'a> {
     map_adaptive: bool,
     map_reconstruction: &'static str,
     image_depth: Option<u32>,
+    steering: &'a str,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
     #[serde(serialize_with = "finite_or_null")]
@@ -211,6 +212,7 @@ impl<'a> RunEntry<'a> {
             map_adaptive: run.settings.map_adaptive,
             map_reconstruction: run.settings.map_reconstruction.name(),
             image_depth: run.settings.image_depth,
+            steering: run.settings.steering.name(),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

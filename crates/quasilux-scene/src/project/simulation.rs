@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "estimator",
     "sequence",
     "randomization",
@@ -20,6 +20,7 @@ const KEYS: [&str; 13] = [
     "map_adaptive",
     "map_reconstruction",
     "image_depth",
+    "steering",
 ];
 
 /// Most replicates that a project file may ask for.
@@ -61,6 +62,8 @@ pub struct SimulationSection {
     pub map_reconstruction: Option<Placed<String>>,
     /// Mirrors, one after the other, that images of point-like lights are followed through.
     pub image_depth: Option<Placed<u32>>,
+    /// Whether photons are steered, by name.
+    pub steering: Option<Placed<String>>,
 }
 
 impl SimulationSection {
@@ -120,6 +123,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
             let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");
             value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)
         })?,
+        steering: name("steering")?,
     })
 }
 

@@ -107,6 +107,11 @@ impl<S: Spectrum> Bsdf<S> {
         matches!(self, Self::Diffuse(_))
     }
 
+    /// Whether [`Self::sample_lambertian`] draws its directions.
+    pub(crate) fn is_lambertian(&self) -> bool {
+        matches!(self, Self::Diffuse(_))
+    }
+
     /// Whether light passes through to the other side by more than finitely many directions.
     pub(crate) fn transmits(&self) -> bool {
         matches!(self, Self::Translucent(_))
@@ -140,6 +145,15 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Pane(pane) => pane.albedo(wo),
             Self::Conductor(conductor) => conductor.albedo(wo),
             Self::Plastic(plastic) => plastic.albedo(wo),
+        }
+    }
+
+    /// [`Self::sample`] with a point of the unit square, where that is all it takes: on Lambertian
+    /// surfaces.
+    pub(crate) fn sample_lambertian(&self, u: [f64; 2]) -> Option<BsdfSample<S>> {
+        match self {
+            Self::Diffuse(diffuse) => Some(diffuse.sample(u)),
+            _ => None,
         }
     }
 

@@ -78,7 +78,13 @@ impl Pilot<'_> {
         watch: &mut Watch<'_>,
     ) -> PhotonCounts {
         let way = Way::CoherentWaves;
-        let batch = PhotonBatch { stream: Stream::PlanPhotons, replicates: 0..1, indices, way };
+        let batch = PhotonBatch {
+            stream: Stream::PlanPhotons,
+            replicates: 0..1,
+            indices,
+            way,
+            windows: None,
+        };
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         trace_photons(stage, &batch, |_| self, watch).unwrap_or_default()
     }

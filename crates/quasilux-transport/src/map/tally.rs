@@ -18,6 +18,7 @@ pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
 pub(crate) struct MapTally<S> {
     sums: Blocks,
     reconstruction: Reconstruction,
+    quanta_per_photon: f64,
     channels: PhantomData<S>,
 }
 
@@ -37,10 +38,13 @@ pub(crate) struct MapReceiver<'a, S> {
 }
 
 impl<S: Spectrum> MapTally<S> {
-    pub(crate) fn new(layout: &MapLayout) -> Self {
+    /// For photons that weigh `lightest` or more, a power of two.
+    pub(crate) fn new(layout: &MapLayout, lightest: f64) -> Self {
         let reconstruction = layout.reconstruction();
         let moments = reconstruction.moments() * S::CHANNELS;
-        Self { sums: Blocks::new(layout.len() * moments), reconstruction, channels: PhantomData }
+        let quanta_per_photon = QUANTA_PER_PHOTON / lightest;
+        let sums = Blocks::new(layout.len() * moments);
+        Self { sums, reconstruction, quanta_per_photon, channels: PhantomData }
     }
 
     /// Counts a photon with this colour.
@@ -49,13 +53,13 @@ impl<S: Spectrum> MapTally<S> {
         match self.reconstruction {
             Reconstruction::Constant => {
                 for channel in 0..S::CHANNELS {
-                    self.sums.add(first + channel, quanta(weight.channel(channel)));
+                    self.sums.add(first + channel, self.quanta(weight.channel(channel)));
                 }
             }
             Reconstruction::Linear => {
                 for channel in 0..S::CHANNELS {
                     for (corner, share) in place.barycentric.into_iter().enumerate() {
-                        let moment = quanta(weight.channel(channel) * share);
+                        let moment = self.quanta(weight.channel(channel) * share);
                         self.sums.add(first + 3 * channel + corner, moment);
                     }
                 }
@@ -65,13 +69,17 @@ impl<S: Spectrum> MapTally<S> {
 
     /// The map at this moment, while no photons fly; one photon carries `flux_lm`.
     pub(crate) fn read(&self, flux_lm: f64) -> IlluminationMap<'_, S> {
-        IlluminationMap { tally: self, lm_per_quantum: flux_lm / QUANTA_PER_PHOTON }
+        IlluminationMap { tally: self, lm_per_quantum: flux_lm / self.quanta_per_photon }
     }
 
     /// Forgets all photons.
     #[cfg_attr(not(test), expect(dead_code, reason = "for the estimator that joins photons"))]
     pub(crate) fn clear(&mut self) {
         self.sums.clear();
+    }
+
+    fn quanta(&self, photons: f64) -> u64 {
+        (photons * self.quanta_per_photon).round_ties_even() as u64
     }
 
     fn first(&self, place: &Place) -> usize {
@@ -99,10 +107,6 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
             quanta * lx_per_quantum
         })
     }
-}
-
-fn quanta(photons: f64) -> u64 {
-    (photons * QUANTA_PER_PHOTON).round_ties_even() as u64
 }
 
 impl<'a, S: Spectrum> MapReceiver<'a, S> {
@@ -145,7 +149,7 @@ mod tests {
         for map_reconstruction in [Reconstruction::Constant, Reconstruction::Linear] {
             let settings = Settings { map_reconstruction, ..Settings::default() };
             let layout = MapLayout::new(&world, &settings);
-            let mut tally = MapTally::<f64>::new(&layout);
+            let mut tally = MapTally::<f64>::new(&layout, 1.0);
             for _ in 0..100 {
                 let place = layout.locate(&at(&world, numbers));
                 let gauss = |corner| {

@@ -1,0 +1,137 @@
+//! Coarse places: boxes of space, and in each the way that a surface faces.
+//!
+//! Bounded whatever the mesh, and the two sides of a wall are apart in it. A box holds what faces one
+//! of six ways together: coarse, which costs effort and never bias.
+
+use crate::spectrum::Spectrum;
+use crate::world::{Interaction, World};
+use glam::DVec3;
+
+/// The edge of the boxes makes about this many cells of the scene's surfaces, one side each.
+const CELLS: f64 = 2048.0;
+/// No more boxes than this, so that tables over all cells stay small.
+const MOST_BOXES: f64 = (1 << 16) as f64;
+/// Cells are seen as small from this many of their edges.
+const FAR_EDGES: f64 = 6.0;
+/// Ways to face: along or against each axis.
+const SIDES: usize = 6;
+/// Parts along an edge of a facet by which its area is told to cells, at most.
+const MOST_PARTS: f64 = 256.0;
+
+/// A grid of boxes over the scene.
+pub(crate) struct Cells {
+    low: DVec3,
+    edge_m: f64,
+    counts: [usize; 3],
+}
+
+impl Cells {
+    /// `None` where nothing has an area.
+    pub(crate) fn new<S: Spectrum>(world: &World<S>) -> Option<Self> {
+        let [low, high] = world.bounds()?;
+        let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+        let mut edge_m = (area_m2 / CELLS).sqrt();
+        if !(edge_m > 0.0 && edge_m.is_finite()) {
+            return None;
+        }
+        let counts = |edge_m: f64| ((high - low) / edge_m).to_array().map(|n| n.floor() + 1.0);
+        while counts(edge_m).iter().product::<f64>() > MOST_BOXES {
+            edge_m *= 1.25;
+        }
+        Some(Self { low, edge_m, counts: counts(edge_m).map(|n| n as usize) })
+    }
+
+    /// Number of cells, most of them empty.
+    pub(crate) fn len(&self) -> usize {
+        self.counts.iter().product::<usize>() * SIDES
+    }
+
+    /// Two places this far apart, in m, see cells as small.
+    pub(crate) fn far_m(&self) -> f64 {
+        FAR_EDGES * self.edge_m
+    }
+
+    /// The cell of a place, on the side that was hit.
+    pub(crate) fn cell(&self, at: &Interaction) -> usize {
+        self.cell_of(at.position, at.n)
+    }
+
+    fn cell_of(&self, position: DVec3, n: DVec3) -> usize {
+        let place = ((position - self.low) / self.edge_m).to_array();
+        let [x, y, z] =
+            std::array::from_fn(|axis| (place[axis].max(0.0) as usize).min(self.counts[axis] - 1));
+        let size = n.abs();
+        let axis = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        let side = 2 * axis + usize::from(n[axis] > 0.0);
+        ((z * self.counts[1] + y) * self.counts[0] + x) * SIDES + side
+    }
+
+    /// The cell and those of the boxes around it, as far as they face the same way.
+    pub(crate) fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let [nx, ny, nz] = self.counts;
+        let (side, place) = (cell % SIDES, cell / SIDES);
+        let [x, y, z] = [place % nx, place / nx % ny, place / (nx * ny)];
+        let near = |place: usize, count: usize| place.saturating_sub(1)..(place + 2).min(count);
+        near(z, nz).flat_map(move |z| {
+            near(y, ny)
+                .flat_map(move |y| near(x, nx).map(move |x| ((z * ny + y) * nx + x) * SIDES + side))
+        })
+    }
+
+    /// The area in m^2 in each cell of what keeps illuminance, to the parts that facets are cut into.
+    pub(crate) fn areas_m2<S: Spectrum>(&self, world: &World<S>) -> Vec<f64> {
+        let mut areas_m2 = vec![0.0; self.len()];
+        for facet in &world.facets {
+            if !world.bsdf_of(facet).keeps_illuminance() {
+                continue;
+            }
+            let parts = (2.0 * facet.longest_edge_m() / self.edge_m).ceil().clamp(1.0, MOST_PARTS);
+            let part_m2 = facet.area_m2() / (parts * parts);
+            for weights in centroids(parts as u32) {
+                let position = facet.point(weights);
+                for n in [facet.front_normal, -facet.front_normal] {
+                    areas_m2[self.cell_of(position, n)] += part_m2;
+                }
+            }
+        }
+        areas_m2
+    }
+}
+
+/// Barycentric weights of the centroids of the equal triangles that a triangle is cut into.
+fn centroids(parts: u32) -> impl Iterator<Item = [f64; 3]> {
+    let n = f64::from(parts);
+    let columns = move |row: u32| (0..parts - row).map(move |column| (row, column));
+    (0..parts).flat_map(columns).flat_map(move |(row, column)| {
+        let hangs = row + column + 1 < parts;
+        let thirds = [Some(1.0 / 3.0), hangs.then_some(2.0 / 3.0)];
+        thirds.into_iter().flatten().map(move |d| {
+            let (b, c) = ((f64::from(row) + d) / n, (f64::from(column) + d) / n);
+            [1.0 - b - c, b, c]
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn centroids_are_those_of_equal_parts() {
+        for parts in [1, 2, 5, 16] {
+            let all: Vec<[f64; 3]> = centroids(parts).collect();
+            assert_eq!(all.len(), (parts * parts) as usize);
+            for corner in 0..3 {
+                let mean =
+                    all.iter().map(|weights| weights[corner]).sum::<f64>() / all.len() as f64;
+                assert!((mean - 1.0 / 3.0).abs() < 1e-12, "{parts}: {mean}");
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Steering photons to where sensors need them.
+//!
+//! In a long corridor lit from one end photons die out, and the far end is found by hardly any. A coarse
+//! [`survey`] of the scene says, by linear algebra ([`balance`]), how much light there is and what it
+//! is worth to the sensors; [`windows`] then say how many photons should follow each that lands, and
+//! [`guide`] in which directions. The survey has pilot rays of its own, their number is fixed and their
+//! coordinates serve nothing else: whatever it says, the estimate has the same mean. It also foretells
+//! what steering saves; where that is little, as in a plain room, photons are left alone.
+
+mod balance;
+mod cells;
+mod guide;
+mod survey;
+mod windows;
+
+pub(crate) use guide::Guide;
+pub(crate) use windows::{Split, Windows};
+
+use crate::settings::Steering;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::targets::Target;
+use balance::Balance;
+use survey::Survey;
+use windows::Performance;
+
+/// Photons are steered by themselves where the same error then costs this many times fewer rays. A small
+/// gain would not repay the closer look that steering takes.
+const WORTHWHILE: f64 = 8.0;
+
+/// Times that far cells are connected on a closer look, each time chosen by what was learnt before.
+const LOOKS: u32 = 2;
+
+/// What comes of the survey.
+#[derive(Default)]
+pub(crate) struct Plan {
+    /// `None` where photons are left alone.
+    pub(crate) windows: Option<Windows>,
+    /// Rays of the survey.
+    pub(crate) rays: u64,
+}
+
+/// Surveys the scene, if `steering` asks for it, and decides.
+pub(crate) fn plan<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    steering: Steering,
+) -> Plan {
+    if steering == Steering::Off {
+        return Plan::default();
+    }
+    let Some(mut survey) = Survey::new(stage, targets) else { return Plan::default() };
+    let Some((balance, _)) = look_far(stage, &mut survey, 1) else {
+        return Plan { windows: None, rays: survey.rays };
+    };
+    let plain = Performance::plain(&survey, &balance).cost_of_error();
+    let steered = Performance::steered(&survey, &balance).cost_of_error();
+    if steering == Steering::Auto && plain < WORTHWHILE * steered {
+        return Plan { windows: None, rays: survey.rays };
+    }
+    survey.refine(stage);
+    let refined = look_far(stage, &mut survey, LOOKS);
+    let rays = survey.rays;
+    let windows = refined.map(|(balance, areas_m2)| Windows::new(survey, &balance, &areas_m2));
+    Plan { windows, rays }
+}
+
+/// Connects cells over distances, to where light is worth most by what is known so far; what follows
+/// from all of it, and the cells' areas in m^2.
+fn look_far<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    survey: &mut Survey,
+    looks: u32,
+) -> Option<(Balance, Vec<f64>)> {
+    let flux_lm = stage.lights.flux_lm;
+    let areas_m2 = areas_m2(stage, survey);
+    for _ in 0..looks {
+        let balance = Balance::new(survey, &areas_m2, flux_lm)?;
+        survey.connect(stage, &areas_m2, &balance.landed_worth);
+    }
+    Some((Balance::new(survey, &areas_m2, flux_lm)?, areas_m2))
+}
+
+/// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets the
+/// least that another has.
+fn areas_m2<S: Spectrum>(stage: &Stage<'_, S>, survey: &Survey) -> Vec<f64> {
+    let of_cell = survey.cells.areas_m2(&stage.world);
+    let least = of_cell.iter().copied().filter(|area| *area > 0.0).fold(f64::INFINITY, f64::min);
+    let mut areas_m2 = vec![least; survey.known.len()];
+    for (number, area_m2) in survey.number_of_cell.iter().zip(of_cell) {
+        if let (Some(area), true) = (areas_m2.get_mut(*number as usize), area_m2 > 0.0) {
+            *area = area_m2;
+        }
+    }
+    areas_m2
+}
