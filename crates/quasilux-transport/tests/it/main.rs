@@ -4,6 +4,7 @@ mod agreement;
 mod area_luminaires;
 mod balance;
 mod cameras;
+mod corridor;
 mod coverage;
 mod cube;
 mod element_size;
