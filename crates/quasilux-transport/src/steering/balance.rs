@@ -15,9 +15,9 @@
 use crate::steering::survey::{Landing, Survey};
 
 /// Sweeps after which a solution is taken as it is: it only steers.
-const MOST_SWEEPS: usize = 256;
+const MOST_SWEEPS: usize = 64;
 /// Largest relative change of an entry in the last sweep.
-const SETTLED: f64 = 0.01;
+const SETTLED: f64 = 0.05;
 
 /// Light and worth by surveyed cell.
 pub(crate) struct Balance {

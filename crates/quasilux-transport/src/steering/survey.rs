@@ -31,9 +31,9 @@ const LEAST_SENSOR_RAYS: u64 = 16;
 /// Rays from each cell for a first look, and for a closer one; and how many of them before new cells
 /// are looked at.
 const CELL_RAYS: u32 = 16;
-const MORE_CELL_RAYS: u32 = 256;
+const MORE_CELL_RAYS: u32 = 128;
 const RAYS_A_ROUND: u32 = 8;
-/// No more cells than this are surveyed: 2^17 rays at first, 2^21 in all, and
+/// No more cells than this are surveyed: 2^17 rays at first, 2^20 in all, and
 /// as many connections.
 const MOST_KNOWN: usize = 1 << 13;
 /// Places remembered of each cell, from which its rays leave.
