@@ -6,8 +6,8 @@
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
-//! `steering` for how they are split on their way, at `path_wave` and `shadow` for how paths do, at `map` for where the two ways meet, at `pixels` for
-//! pictures.
+//! `steering` for how they are split on their way, at `path_wave` and `shadow` for how paths do, at
+//! `map` for where the two ways meet, at `pixels` for pictures.
 
 mod bsdf;
 mod check;

@@ -21,6 +21,7 @@ pub(super) fn square() -> World<f64> {
         lights: Vec::new(),
         cameras: Vec::new(),
         sensors: Vec::new(),
+        cameras: Vec::new(),
     })
 }
 
