@@ -141,6 +141,7 @@ impl<S: Spectrum> HiddenLight<S> {
             replicates: 0..tallies.len() as u32,
             indices: self.photons..end,
             way: Way::CoherentWaves,
+            windows: None,
         };
         let counts = trace_photons(stage, &batch, receiver, watch)?;
         self.photons = end;

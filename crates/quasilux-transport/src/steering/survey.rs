@@ -206,7 +206,7 @@ impl Survey {
         let points = stage.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut cursor = SampleCursor::new(&points, index);
-            let start = stage.lights.emit(&stage.world, &mut cursor)?;
+            let start = stage.lights.emit(&stage.world, &mut cursor)?.emission;
             Some(fly(stage, start, f64::INFINITY, &mut cursor))
         };
         let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();
@@ -326,7 +326,7 @@ fn direct_lx<S: Spectrum>(stage: &Stage<'_, S>, asked: &[(DVec3, DVec3)]) -> Vec
         Asker { who, vertex: Vertex::sensor(from, n) }
     });
     let askers: Vec<Asker<'_, S>> = askers.collect();
-    let receive = |who: u32, lx: S| direct_lx[who as usize] += lx.luminance();
+    let receive = |who: u32, lx: S, _| direct_lx[who as usize] += lx.luminance();
     stage.lights.pointlikes.all(&stage.world, &askers, &mut Shadows::default(), receive);
     direct_lx
 }
