@@ -21,7 +21,6 @@ pub(super) fn square() -> World<f64> {
         lights: Vec::new(),
         cameras: Vec::new(),
         sensors: Vec::new(),
-        cameras: Vec::new(),
     })
 }
 
