@@ -4,13 +4,13 @@
 //! density cos / pi, so the light that arrives along it counts pi-fold. At each diffuse surface the
 //! light that comes there straight from the lights is estimated on the spot (next-event
 //! estimation), and the path goes on for the rest. A path may end on an illumination map instead:
-//! the map's value stands for the rest. In a few paths, chosen by chance, the rest is also
-//! estimated by going on, and the difference to the map, weighted by how few they are, takes the
-//! map's error out again: the map is a control variate, and its elements cause no bias.
+//! the map's value stands for the rest. Where the map is to be corrected, those that survive Russian
+//! roulette go on and take the difference to the map with them, weighted by how few they are: the map
+//! is a control variate, its elements cause no bias, and no light is lost with those that end.
 
 use crate::bsdf::Mode;
 use crate::frame::Frame;
-use crate::path_end::Rest;
+use crate::path_end::{MapEnd, Rest};
 use crate::shadow::{Offer, Shadows};
 use crate::spectrum::Spectrum;
 use crate::specular::{HiddenEnd, ImageOffers};
@@ -103,11 +103,11 @@ pub(crate) struct PathWork<S> {
 }
 
 /// How a path goes on from a surface: factors on what the next surface sends.
-pub(crate) struct Onward {
+struct Onward {
     /// On the light that the next surface emits itself.
-    pub(crate) emitted: f64,
+    emitted: f64,
     /// On everything else; 0 ends the path there.
-    pub(crate) everything: f64,
+    everything: f64,
 }
 
 impl<S: Spectrum> Start<'_, S> {
@@ -134,9 +134,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
             Seeks::Illuminance { n, .. } => {
                 let first = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
                 let direction = Frame::around(n).to_world(first);
-                (direction, Some(first.z * FRAC_1_PI), S::white() * PI, 0)
+                (direction, Some(first.z * FRAC_1_PI), S::white() * PI, rest.passes())
             }
-            Seeks::Luminance { direction } => (direction, None, S::white(), 1),
+            Seeks::Luminance { direction } => {
+                (direction, None, S::white(), rest.passes().saturating_add(1))
+            }
         };
         let mut path = Self {
             number,
@@ -216,9 +218,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if bsdf.keeps_illuminance() {
             self.add_hidden(stage, bounces, at);
         }
-        let onward =
-            if bsdf.keeps_illuminance() { self.end_on_map(stage, bounces, at) } else { None };
-        let onward = onward.unwrap_or_else(|| self.survive(bounces, goes_on));
+        let albedo = goes_on.max_channel() / self.beta.max_channel();
+        let from_map = match self.rest {
+            Rest::Map(end) if bsdf.keeps_illuminance() => {
+                self.end_on(end, stage, bounces, at, albedo)
+            }
+            _ => None,
+        };
+        let onward = from_map.unwrap_or_else(|| self.survive(bounces, albedo));
         let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
         if onward.everything == 0.0 && !seeks_emitters {
             return false;
@@ -248,26 +255,32 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.found.endless = true;
     }
 
-    /// Takes the light that the map keeps here, where the path may end on one: how it goes on then.
-    fn end_on_map(
+    /// Takes the light that a map keeps here, where the path may end on it: how it goes on then.
+    fn end_on(
         &mut self,
+        end: &MapEnd<'_, S>,
         stage: &Stage<'_, S>,
         bounces: u32,
         at: &Interaction,
+        albedo: f64,
     ) -> Option<Onward> {
-        let Rest::Map(end) = self.rest else { return None };
-        let passed = self.passes == 0;
-        self.passes = self.passes.saturating_sub(1);
-        // The light on the map has any number of bounces behind it, or one less than is wanted.
-        if !(passed && (bounces == 0 || stage.max_bounces.is_none())) {
+        if self.passes > 0 {
+            self.passes -= 1;
             return None;
         }
+        if stage.max_bounces.is_some() {
+            // The light on the map has as many bounces as are left after so many.
+            self.passes = u32::MAX;
+            if bounces != end.passes {
+                return None;
+            }
+        }
         let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
-        let onward = end.correct(&mut self.cursor);
-        *self.found.after(bounces + 1) +=
-            to_start * end.illuminance_lx(at) * (1.0 - onward.everything);
-        self.passes = u32::MAX;
-        Some(onward)
+        let everything = end.goes_on(albedo, &mut self.cursor);
+        *self.found.after(bounces + 1) += to_start * end.illuminance_lx(at) * (1.0 - everything);
+        // The direction to a light that the next surface emits is part of the direct light here, so
+        // it counts in every path.
+        Some(Onward { emitted: 1.0, everything })
     }
 
     /// Adds the light at a surface that no path finds.
@@ -280,13 +293,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
-    fn survive(&mut self, bounces: u32, goes_on: S) -> Onward {
+    fn survive(&mut self, bounces: u32, albedo: f64) -> Onward {
         if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
-        let albedo = goes_on.max_channel() / self.beta.max_channel();
-        let survives = self.cursor.choose_bool(albedo);
-        let factor = if survives { 1.0 / albedo.min(1.0) } else { 0.0 };
+        let factor = survival_factor(albedo, &mut self.cursor);
         Onward { emitted: factor, everything: factor }
     }
 
@@ -382,6 +393,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
             *self.found.after(bounces) += self.beta_emitted * (emitted_cd_m2 * weight);
         }
     }
+}
+
+/// What goes on counts so many times: 0, or more than once for those that do not.
+pub(crate) fn survival_factor(survival: f64, cursor: &mut SampleCursor<'_>) -> f64 {
+    if cursor.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
 }
 
 impl<S> Gathered<S> {

@@ -1,7 +1,7 @@
 //! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
 
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
-use crate::path::Onward;
+use crate::path::survival_factor;
 use crate::photon::PhotonCounts;
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::{Estimator, Settings};
@@ -15,10 +15,14 @@ use crate::world::Interaction;
 use quasilux_sampling::SampleCursor;
 use std::ops::Range;
 
-/// Share of the paths that correct the map. With few the error of the correction prevails (on the
-/// diffuse cube a share of 0.1 takes 18 times as long to the same error as plain paths, 0.6 three
-/// times); with all of them these are plain paths.
-const CORRECTED_SHARE: f64 = 0.6;
+/// Surfaces that paths pass before they end on a map that is corrected: the light that comes from the
+/// first two is most of the light, and maps are too coarse for it.
+const PASSES: u32 = 2;
+/// Photons for each element side of such a map. It has few elements, which many photons make smooth: the
+/// correction takes out their bias, and would have to take out their noise.
+const PHOTONS_PER_ELEMENT: u64 = 64;
+/// Bounds on the photons of such a map.
+const PLAN_PHOTONS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 19;
 /// Photons that only balance the flux, where the estimator needs none.
 const BALANCE_PHOTONS: u64 = 1 << 12;
 
@@ -55,8 +59,10 @@ pub(crate) enum Rest<'m, S> {
 pub(crate) struct MapEnd<'m, S> {
     pub(crate) layout: &'m MapLayout,
     pub(crate) map: IlluminationMap<'m, S>,
-    /// Share of the paths that go on to correct the map; `None` leaves its bias.
-    pub(crate) corrected_share: Option<f64>,
+    /// Surfaces that keep illuminance to pass before.
+    pub(crate) passes: u32,
+    /// Whether survivors go on to correct the map.
+    corrected: bool,
 }
 
 /// What happened to the maps before more paths are traced.
@@ -88,8 +94,8 @@ impl<S: Spectrum> PathEnd<S> {
         if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
             return (Self::Nothing, plan(BALANCE_PHOTONS, None, watch));
         }
-        let (layout, mut counts) = refined(stage, settings, watch);
         if settings.estimator == Estimator::BidirectionalMap {
+            let (layout, mut counts) = refined(stage, settings, watch);
             let Plan { windows, rays } = steering::plan(stage, targets, settings.steering);
             counts.rays += rays;
             let lightest = windows.as_ref().map_or(1.0, Windows::lightest);
@@ -97,9 +103,18 @@ impl<S: Spectrum> PathEnd<S> {
             let tallies = replicates.map(|_| MapTally::new(&layout, lightest)).collect();
             return (Self::Own { layout, tallies, flux_lm: 0.0, windows }, counts);
         }
-        let photons = (2 * layout.len() as u64).next_power_of_two().clamp(1 << 14, 1 << 19);
+        // Of wanted bounces, the first are found by the paths.
+        let most_bounces = match stage.max_bounces {
+            None => u32::MAX,
+            Some(most) if most > PASSES + 1 => most - 1 - PASSES,
+            Some(_) => return (Self::Nothing, plan(BALANCE_PHOTONS, None, watch)),
+        };
+        let layout = MapLayout::coarsest(&stage.world, settings);
+        let wanted = (PHOTONS_PER_ELEMENT * layout.len() as u64).next_power_of_two();
+        let photons = wanted.clamp(*PLAN_PHOTONS.start(), *PLAN_PHOTONS.end());
         let tally = MapTally::new(&layout, 1.0);
-        counts += plan(photons, Some(MapReceiver::new(stage, &layout, &tally)), watch);
+        let receiver = MapReceiver::up_to(most_bounces, &layout, &tally);
+        let counts = plan(photons, Some(receiver), watch);
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
 
@@ -132,11 +147,11 @@ impl<S: Spectrum> PathEnd<S> {
             Self::Nothing => Rest::Path,
             Self::Plan { layout, tally, flux_lm } => {
                 let map = tally.read(*flux_lm);
-                Rest::Map(MapEnd { layout, map, corrected_share: Some(CORRECTED_SHARE) })
+                Rest::Map(MapEnd { layout, map, passes: PASSES, corrected: true })
             }
             Self::Own { layout, tallies, flux_lm, .. } => {
                 let map = tallies[replicate as usize].read(*flux_lm);
-                Rest::Map(MapEnd { layout, map, corrected_share: None })
+                Rest::Map(MapEnd { layout, map, passes: 0, corrected: false })
             }
         }
     }
@@ -148,13 +163,18 @@ impl<S: Spectrum> MapEnd<'_, S> {
         self.map.illuminance_lx(&self.layout.locate(at))
     }
 
-    /// Whether this path corrects the map. The direction to a light that the next surface emits is
-    /// part of the direct light here, so it counts in every path.
-    pub(crate) fn correct(&self, cursor: &mut SampleCursor<'_>) -> Onward {
-        let Some(share) = self.corrected_share else {
-            return Onward { emitted: 1.0, everything: 0.0 };
-        };
-        let corrects = cursor.choose_bool(share);
-        Onward { emitted: 1.0, everything: if corrects { 1.0 / share } else { 0.0 } }
+    /// How many times what lies beyond a surface of this albedo counts, 0 for paths that end here.
+    pub(crate) fn goes_on(&self, albedo: f64, cursor: &mut SampleCursor<'_>) -> f64 {
+        if self.corrected { survival_factor(albedo, cursor) } else { 0.0 }
+    }
+}
+
+impl<S> Rest<'_, S> {
+    /// Surfaces that keep illuminance to pass before the first that a path may end on.
+    pub(crate) fn passes(&self) -> u32 {
+        match self {
+            Self::Path => u32::MAX,
+            Self::Map(end) => end.passes,
+        }
     }
 }

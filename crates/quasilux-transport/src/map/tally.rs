@@ -111,7 +111,12 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
 
 impl<'a, S: Spectrum> MapReceiver<'a, S> {
     pub(crate) fn new(stage: &Stage<'_, S>, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
-        Self { layout, tally, most_bounces: most_bounces(stage) }
+        Self::up_to(most_bounces(stage), layout, tally)
+    }
+
+    /// Leaves out photons with more bounces than these.
+    pub(crate) fn up_to(most_bounces: u32, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
+        Self { layout, tally, most_bounces }
     }
 }
 
