@@ -42,7 +42,7 @@ impl PointSet {
                 #[inline(always)]
                 move |index| unit_from_word(random_digits(key, index, dimension)),
             ),
-            Generator::Binary(_) | Generator::Radical { .. } => {
+            Generator::Binary(_) | Generator::Radical { .. } | Generator::Varied(_) => {
                 for (offset, coordinate) in (0..).zip(coordinates) {
                     *coordinate = self.coordinate(first_index.wrapping_add(offset), dimension);
                 }
@@ -73,7 +73,10 @@ impl PointSet {
                     self.randomize_block(level, &digits[..indices.len()], 0, dimension, block);
                 }
             }
-            Generator::Binary(_) | Generator::Radical { .. } | Generator::Random => {
+            Generator::Binary(_)
+            | Generator::Radical { .. }
+            | Generator::Random
+            | Generator::Varied(_) => {
                 for (coordinate, index) in coordinates.iter_mut().zip(indices) {
                     *coordinate = self.coordinate(*index, dimension);
                 }

@@ -69,7 +69,7 @@ impl CoherentGroups {
         let partition = match points.generator {
             Generator::Binary(matrices) => cosets(matrices, count, shared),
             Generator::Radical { .. } => residues(shared, &bases)?,
-            Generator::Random => return None,
+            Generator::Random | Generator::Varied(_) => return None,
         };
         Some(Self { count, shared: shared.to_vec(), bases, partition })
     }

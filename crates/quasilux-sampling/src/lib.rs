@@ -98,6 +98,7 @@ pub mod quality;
 mod randomization;
 mod sequence;
 mod unit;
+mod variation;
 pub mod warp;
 
 pub use choice::{BoolChoice, Choice, choose_bool, choose_weights};

@@ -9,6 +9,7 @@ use crate::sequence::{
     BinaryMatrices, faure4, halton, hammersley, radical_inverse, random_digits, sobol,
 };
 use crate::unit::{unit_from_digits, unit_from_word};
+use crate::variation::Variation;
 use crate::{Randomization, Sequence};
 
 /// One randomised sequence: a pure function (index, dimension) -> [0, 1).
@@ -31,6 +32,8 @@ pub(crate) enum Generator {
     Radical { bases: &'static [u32], steps: Option<u64> },
     /// A hash.
     Random,
+    /// Other coordinates in some dimensions.
+    Varied(Variation),
 }
 
 /// Stands in for the key where an unrandomised sequence is padded.
@@ -108,6 +111,7 @@ impl PointSet {
                 self.radical_coordinate(bases, steps, index, dimension)
             }
             Generator::Random => unit_from_word(random_digits(self.key, index, dimension)),
+            Generator::Varied(variation) => self.varied_coordinate(variation, index, dimension),
         }
     }
 
@@ -119,7 +123,7 @@ impl PointSet {
             Generator::Radical { bases, .. } => {
                 bases.get(dimension.checked_sub(1)? as usize).copied()
             }
-            Generator::Random => None,
+            Generator::Random | Generator::Varied(_) => None,
         }
     }
 

@@ -19,4 +19,5 @@ mod random;
 mod randomised_points;
 mod sobol;
 mod support;
+mod variation;
 mod warp;
