@@ -149,6 +149,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         replicate_lx: rows.clone(),
         direct_lx: rows[0].iter().map(|lx| 0.8 * lx).collect(),
         resolved: vec![true; rows[0].len()],
+        terms: Vec::new(),
     });
     let estimates = Estimates {
         sensors: figures.collect(),

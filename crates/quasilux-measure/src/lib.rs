@@ -25,5 +25,5 @@ pub mod ticks;
 pub use camera::{CameraFiles, CameraReport};
 pub use open_exr::exr;
 pub use picture::{camera_false_colour_png, false_colour_png, tone_mapped_png};
-pub use report::{Figure, PointReport, Report, Run, RunFacts, SensorReport, Summary};
+pub use report::{Figure, PointReport, Report, Run, RunFacts, SensorReport, Summary, TermReport};
 pub use table::Style;

@@ -7,7 +7,7 @@
 use crate::CameraReport;
 use glam::DVec3;
 use quasilux_scene::{Grid, Scene, SensorShape};
-use quasilux_transport::{Dimensions, Estimates, FluxBalance, Interval, Settings};
+use quasilux_transport::{Dimensions, Estimates, Explanation, FluxBalance, Interval, Settings};
 
 /// What the program that ran the simulation knows and the simulation does not.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,6 +31,8 @@ pub struct Report {
     pub cameras: Vec<CameraReport>,
     /// How the results were made.
     pub run: Run,
+    /// Where the variance comes from, if that was asked for; [`Self::new`] leaves it to its caller.
+    pub explanation: Option<Explanation>,
     /// Whether values may be biased beyond what their intervals say; a warning says why.
     pub biased: bool,
     /// What a reader of the results must know: from loading, from the simulation, from reporting.
@@ -48,6 +50,19 @@ pub struct SensorReport {
     pub points: Vec<PointReport>,
     /// Figures of all points together.
     pub summary: Summary,
+    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
+    pub terms: Vec<TermReport>,
+}
+
+/// What light of one number of bounces gives to a sensor, or of more than all listed ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TermReport {
+    /// The number of bounces; `None` for the rest.
+    pub bounces: Option<u32>,
+    /// Mean of the points in lx.
+    pub average_lx: Figure,
+    /// At each point, in lx.
+    pub points_lx: Vec<Figure>,
 }
 
 /// The results at one point.
@@ -153,6 +168,7 @@ impl Report {
                 flux: estimates.flux,
                 invalid_contributions: estimates.invalid_contributions,
             },
+            explanation: None,
             biased: estimates.biased,
             warnings,
         }
@@ -189,6 +205,7 @@ impl SensorReport {
                 maximum_lx: figure(maximum),
                 uniformity: figure(|values| minimum(values) / average(values)),
             },
+            terms: TermReport::all(estimates, index),
         }
     }
 
@@ -217,6 +234,22 @@ impl SensorReport {
             return None;
         }
         Some(format!("sensor \"{}\": no finite value for {}", self.name, missing.join(", ")))
+    }
+}
+
+impl TermReport {
+    fn all(estimates: &Estimates, sensor: usize) -> Vec<Self> {
+        let terms = estimates.sensors[sensor].terms.len();
+        let term = |term: usize| Self {
+            bounces: (term + 1 < terms).then_some(term as u32),
+            average_lx: estimates.term_average(sensor, term).into(),
+            points_lx: estimates
+                .term_intervals(sensor, term)
+                .into_iter()
+                .map(Figure::from)
+                .collect(),
+        };
+        (0..terms).map(term).collect()
     }
 }
 

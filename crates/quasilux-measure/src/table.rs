@@ -1,5 +1,10 @@
 //! The table on the terminal: one line a sensor or camera, each figure with its interval.
 
+mod explanation;
+mod terms;
+
+pub use explanation::explanation;
+
 use crate::number::{FigureText, brief, count, figure_text};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
 use std::fmt::Write;
@@ -30,6 +35,7 @@ const GAP: &str = "   ";
 #[must_use]
 pub fn table(report: &Report, style: Style) -> String {
     let mut text = sensors(report, style);
+    text += &terms::terms(report, style);
     if !report.cameras.is_empty() {
         let gap = if text.is_empty() { "" } else { "\n" };
         text = format!("{text}{gap}{}", cameras(report, style));
@@ -51,7 +57,7 @@ fn sensors(report: &Report, style: Style) -> String {
         report.sensors.iter().map(move |sensor| figure(&sensor.summary))
     };
     lines(
-        [
+        vec![
             Column::left("sensor", cells(|s| printable(&s.name))),
             Column::left("points", cells(points)),
             Column::figures("average", " lx", figures(|s| s.average_lx)),
@@ -72,7 +78,7 @@ fn cameras(report: &Report, style: Style) -> String {
     let maxima = report.cameras.iter().map(|c| cd_m2(c.maximum_cd_m2, "", 4));
     let half_widths = report.cameras.iter().map(|c| cd_m2(c.mean_half_width_cd_m2, "± ", 2));
     lines(
-        [
+        vec![
             Column::left("camera", cells(|c| printable(&c.name))),
             Column::left("pixels", cells(|c| format!("{} x {}", c.resolution[0], c.resolution[1]))),
             Column::left("samples", cells(|c| count(c.samples))),
@@ -85,7 +91,7 @@ fn cameras(report: &Report, style: Style) -> String {
 }
 
 /// Columns as lines of text, the first one emphasised; nothing where there is only that one.
-fn lines<const N: usize>(mut columns: [Column; N], style: Style) -> String {
+fn lines(mut columns: Vec<Column>, style: Style) -> String {
     columns.iter_mut().for_each(Column::align);
     let rows = columns[0].cells.len();
     let mut text = String::new();

@@ -76,12 +76,16 @@ impl PointSet {
     /// other copy of an unrandomised sequence.
     #[inline]
     #[must_use]
-    pub const fn branch(&self, branch: u64) -> Self {
+    pub fn branch(&self, branch: u64) -> Self {
         let randomization = match self.randomization {
             Randomization::None => Randomization::Owen,
             chosen => chosen,
         };
-        Self { randomization, key: mix(mix(self.key ^ GOLDEN) ^ mix(branch)), ..*self }
+        let key = mix(mix(self.key ^ GOLDEN) ^ mix(branch));
+        match self.generator {
+            Generator::Varied(_) => Self::new(self.sequence, randomization, key),
+            _ => Self { randomization, key, ..*self },
+        }
     }
 
     /// A coordinate in [0, 1) of 53 bits (Halton under shift or scrambling: of 51 or more); both

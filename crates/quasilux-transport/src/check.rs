@@ -34,6 +34,15 @@ pub enum CheckError {
         /// Name of the camera.
         camera: String,
     },
+    /// A map keeps light of all bounces together.
+    #[error(
+        "list_terms: the map of the estimator \"{estimator}\" keeps light of all bounces in one; the \
+         estimators \"path\" and \"photon\" can tell terms apart"
+    )]
+    TermsOfMap {
+        /// Name of the estimator.
+        estimator: &'static str,
+    },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -47,6 +56,11 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     let flux_lm = scene.flux_lm();
     if !(flux_lm > 0.0 && flux_lm.is_finite()) {
         return Err(CheckError::Dark);
+    }
+    let ends_on_map =
+        matches!(settings.estimator, Estimator::Bidirectional | Estimator::BidirectionalMap);
+    if settings.list_terms > 0 && ends_on_map {
+        return Err(CheckError::TermsOfMap { estimator: settings.estimator.name() });
     }
     if settings.estimator != Estimator::Photon {
         return Ok(());

@@ -3,7 +3,7 @@
 //! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
 
-use crate::estimates::{Dimensions, Estimates};
+use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::grid_plane::GridPlane;
 use crate::map::{MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
@@ -41,7 +41,7 @@ pub(crate) struct Counting<'a, S> {
 }
 
 /// What counts photons, the same for all replicates.
-struct Receivers {
+pub(crate) struct Receivers {
     grids: Vec<GridReceiver>,
     layout: MapLayout,
     /// Whether a sensor reads an element of the facet: most facets have none, and the table of
@@ -50,8 +50,8 @@ struct Receivers {
     /// The counter that an element feeds, or [`UNREAD`].
     counter_of_element: Vec<u32>,
     /// For each target, in order: the counter it reads and the area behind it in m^2.
-    targets: Vec<(u32, f64)>,
-    counters: usize,
+    pub(crate) targets: Vec<(u32, f64)>,
+    pub(crate) counters: usize,
 }
 
 /// A grid as photons see it.
@@ -60,10 +60,11 @@ struct GridReceiver {
     first_counter: usize,
 }
 
-/// Photons counted in one replicate, in quanta: all, and those straight from a light.
+/// Photons counted in one replicate, in quanta: all, and those of 0, 1, .. bounces as far as terms are
+/// listed; those straight from a light always are.
 struct Counters {
     all: Vec<AtomicU64>,
-    direct: Vec<AtomicU64>,
+    by_bounces: Vec<Vec<AtomicU64>>,
     quanta_per_photon: f64,
 }
 
@@ -78,8 +79,9 @@ impl<'a, S: Spectrum> Counting<'a, S> {
         let replicates = settings.effective_replicates();
         let plan = steering::plan(stage, &targets(scene), settings.steering);
         let lightest = plan.windows.as_ref().map_or(1.0, Windows::lightest);
-        let quanta = QUANTA_PER_PHOTON / lightest;
-        let counters = (0..replicates).map(|_| Counters::new(receivers.counters, quanta)).collect();
+        let (quanta, terms) = (QUANTA_PER_PHOTON / lightest, settings.list_terms.max(1));
+        let counters = || Counters::new(receivers.counters, terms, quanta);
+        let counters = (0..replicates).map(|_| counters()).collect();
         let photons = PhotonCounts { rays: plan.rays, ..PhotonCounts::default() };
         Self { stage, scene, receivers, plan, counters, samples: 0, photons }
     }
@@ -100,7 +102,10 @@ impl<'a, S: Spectrum> Counting<'a, S> {
 
     /// All counters of all replicates.
     pub(crate) fn counters(&self) -> impl Iterator<Item = u64> {
-        let all = self.counters.iter().flat_map(|own| own.all.iter().chain(&own.direct));
+        let all = self
+            .counters
+            .iter()
+            .flat_map(|own| own.all.iter().chain(own.by_bounces.iter().flatten()));
         all.map(|counter| counter.load(Ordering::Relaxed))
     }
 }
@@ -119,26 +124,38 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
 
     fn estimates(&self) -> Estimates {
         let photon_lm = self.stage.lights.flux_lm / self.samples as f64;
-        let read = |own: &Counters, counts: &[AtomicU64]| -> Vec<f64> {
-            let targets = self.receivers.targets.iter();
-            targets
-                .map(|&(counter, area_m2)| {
-                    let quanta = counts[counter as usize].load(Ordering::Relaxed);
-                    quanta as f64 / own.quanta_per_photon * photon_lm / area_m2
-                })
-                .collect()
+        // One row a replicate, from the quanta of each counter.
+        let read = |quanta: &dyn Fn(&Counters, usize) -> u64| -> Vec<Vec<f64>> {
+            let value_lx = |own: &Counters, counter: u32, area_m2: f64| {
+                let photons = quanta(own, counter as usize) as f64 / own.quanta_per_photon;
+                photons * photon_lm / area_m2
+            };
+            let targets = || self.receivers.targets.iter();
+            let row = |own| targets().map(|&(at, area_m2)| value_lx(own, at, area_m2)).collect();
+            self.counters.iter().map(row).collect()
         };
-        let rows: Vec<Vec<f64>> = self.counters.iter().map(|own| read(own, &own.all)).collect();
+        let replicate_lx = read(&|own, counter| own.all(counter));
         let mut direct_lx = vec![0.0; self.receivers.targets.len()];
-        for own in &self.counters {
-            for (sum, value) in direct_lx.iter_mut().zip(read(own, &own.direct)) {
+        for row in read(&|own, counter| own.term(0, counter)) {
+            for (sum, value) in direct_lx.iter_mut().zip(row) {
                 *sum += value / self.counters.len() as f64;
             }
         }
-        let resolved: Vec<bool> =
-            (0..direct_lx.len()).map(|target| rows.iter().any(|row| row[target] != 0.0)).collect();
+        let found = |rows: &[Vec<f64>]| -> Vec<bool> {
+            (0..direct_lx.len()).map(|target| rows.iter().any(|row| row[target] != 0.0)).collect()
+        };
+        let listed = self.stage.listed_terms as usize;
+        let terms = (0..=listed).take_while(|_| listed > 0).map(|term| {
+            let replicate_lx = read(&|own, counter| own.term(term, counter));
+            let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
+            let resolved = found(&replicate_lx).into_iter().map(|found| found || cut).collect();
+            TermEstimates { replicate_lx, resolved }
+        });
+        let terms = terms.collect();
+        let resolved = found(&replicate_lx);
+        let all = SensorEstimates { replicate_lx, direct_lx, resolved, terms };
         Estimates {
-            sensors: by_sensor(self.scene, &rows, &direct_lx, &resolved),
+            sensors: by_sensor(self.scene, &all),
             samples: self.samples,
             rays: self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
@@ -158,7 +175,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
 }
 
 impl Receivers {
-    fn new<S: Spectrum>(world: &World<S>, scene: &Scene, settings: &Settings) -> Self {
+    pub(crate) fn new<S: Spectrum>(world: &World<S>, scene: &Scene, settings: &Settings) -> Self {
         let layout = MapLayout::new(world, settings);
         let mut receivers = Self {
             grids: Vec::new(),
@@ -208,40 +225,62 @@ impl Receivers {
         self.targets.push((counter, area_m2));
         self.counters = self.counters.max(counter as usize + 1);
     }
+
+    /// The counters of the grids that a flight passes through.
+    pub(crate) fn passed<'s>(&'s self, flight: &'s Flight) -> impl Iterator<Item = usize> + 's {
+        let cell = |grid: &'s GridReceiver| Some(grid.first_counter + grid.plane.cell(flight)?);
+        self.grids.iter().filter_map(cell)
+    }
+
+    /// The counter of the map element that a photon lands on, if a sensor reads it.
+    pub(crate) fn landed_on(&self, at: &Interaction) -> Option<usize> {
+        if !self.reads_facet[at.facet as usize] {
+            return None;
+        }
+        let counter = self.counter_of_element[self.layout.locate(at).element];
+        (counter != UNREAD).then_some(counter as usize)
+    }
 }
 
 impl Counters {
-    fn new(counters: usize, quanta_per_photon: f64) -> Self {
+    fn new(counters: usize, terms: u32, quanta_per_photon: f64) -> Self {
         let zeros = || (0..counters).map(|_| AtomicU64::new(0)).collect();
-        Self { all: zeros(), direct: zeros(), quanta_per_photon }
+        let by_bounces = (0..terms).map(|_| zeros()).collect();
+        Self { all: zeros(), by_bounces, quanta_per_photon }
+    }
+
+    fn all(&self, counter: usize) -> u64 {
+        self.all[counter].load(Ordering::Relaxed)
+    }
+
+    /// Those of one number of bounces; past the last that is counted, the rest.
+    fn term(&self, bounces: usize, counter: usize) -> u64 {
+        let counted = |counts: &Vec<AtomicU64>| counts[counter].load(Ordering::Relaxed);
+        match self.by_bounces.get(bounces) {
+            Some(counts) => counted(counts),
+            None => self.all(counter) - self.by_bounces.iter().map(counted).sum::<u64>(),
+        }
     }
 
     fn count(&self, counter: usize, photons: f64, bounces: u32) {
         let quanta = (photons * self.quanta_per_photon).round_ties_even() as u64;
         self.all[counter].fetch_add(quanta, Ordering::Relaxed);
-        if bounces == 0 {
-            self.direct[counter].fetch_add(quanta, Ordering::Relaxed);
+        if let Some(counts) = self.by_bounces.get(bounces as usize) {
+            counts[counter].fetch_add(quanta, Ordering::Relaxed);
         }
     }
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
     fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
-        for grid in &self.receivers.grids {
-            if let Some(cell) = grid.plane.cell(flight) {
-                self.counters.count(grid.first_counter + cell, weight.luminance(), bounces);
-            }
+        for counter in self.receivers.passed(flight) {
+            self.counters.count(counter, weight.luminance(), bounces);
         }
     }
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        if !self.receivers.reads_facet[at.facet as usize] {
-            return;
-        }
-        let place = self.receivers.layout.locate(at);
-        let counter = self.receivers.counter_of_element[place.element];
-        if counter != UNREAD {
-            self.counters.count(counter as usize, weight.luminance(), bounces);
+        if let Some(counter) = self.receivers.landed_on(at) {
+            self.counters.count(counter, weight.luminance(), bounces);
         }
     }
 }

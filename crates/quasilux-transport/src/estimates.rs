@@ -1,9 +1,10 @@
 //! What a simulation knows at a checkpoint: figures of each replicate, nothing summarised yet.
 
 use crate::Interval;
-use crate::interval::jackknife;
+use crate::interval::{jackknife, t_quantile_for};
 use crate::picture::CameraEstimates;
 use quasilux_sampling::DimensionHistogram;
+use std::ops::Range;
 
 /// The state of a simulation at a checkpoint that all replicates have completed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,6 +49,17 @@ pub struct SensorEstimates {
     pub direct_lx: Vec<f64>,
     /// Whether light was found wherever it was looked for; points without have no interval.
     pub resolved: Vec<bool>,
+    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
+    pub terms: Vec<TermEstimates>,
+}
+
+/// What light of one number of bounces, or of that many and more, gives to one sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TermEstimates {
+    /// Illuminance in lx: one row a replicate, one column a sensor point.
+    pub replicate_lx: Vec<Vec<f64>>,
+    /// Whether such light was found, or there can be none; points without have no interval.
+    pub resolved: Vec<bool>,
 }
 
 /// Where the flux of the photons went, all in lm. Emitted is the sum of the other three.
@@ -86,9 +98,50 @@ impl Estimates {
     #[must_use]
     pub fn point_intervals(&self, sensor: usize) -> Vec<Interval> {
         let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
-        let t = crate::interval::t_quantile_for(replicate_lx.len(), self.miss_probability);
+        self.intervals(replicate_lx, resolved)
+    }
+
+    /// The intervals of one term of the Neumann series at all points of one sensor, in lx; no
+    /// half-width where nothing was found that might be.
+    #[must_use]
+    pub fn term_intervals(&self, sensor: usize, term: usize) -> Vec<Interval> {
+        let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
+        self.intervals(replicate_lx, resolved)
+    }
+
+    /// The interval of the mean of one term over the points of one sensor, in lx.
+    #[must_use]
+    pub fn term_average(&self, sensor: usize, term: usize) -> Interval {
+        let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
+        let means = replicate_lx.iter().map(|row| row.iter().sum::<f64>() / row.len() as f64);
+        let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
+        let is_resolved = resolved.iter().any(|resolved| *resolved);
+        Interval::of_mean(means, t.filter(|_| is_resolved))
+    }
+
+    fn intervals(&self, replicate_lx: &[Vec<f64>], resolved: &[bool]) -> Vec<Interval> {
+        let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
         let values = |point: usize| replicate_lx.iter().map(move |row| row[point]);
         let t_at = |point: usize| t.filter(|_| resolved[point]);
         (0..resolved.len()).map(|p| Interval::of_mean(values(p), t_at(p))).collect()
+    }
+}
+
+impl SensorEstimates {
+    /// The figures of some of its points.
+    pub(crate) fn part(&self, points: Range<usize>) -> Self {
+        let columns = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            rows.iter().map(|row| row[points.clone()].to_vec()).collect()
+        };
+        let term = |term: &TermEstimates| TermEstimates {
+            replicate_lx: columns(&term.replicate_lx),
+            resolved: term.resolved[points.clone()].to_vec(),
+        };
+        Self {
+            replicate_lx: columns(&self.replicate_lx),
+            direct_lx: self.direct_lx[points.clone()].to_vec(),
+            resolved: self.resolved[points.clone()].to_vec(),
+            terms: self.terms.iter().map(term).collect(),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
-use crate::estimates::{Dimensions, Estimates};
+use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::path_end::{Growth, PathEnd};
 use crate::path_wave::{PathWave, WAVE};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
@@ -50,11 +50,13 @@ pub(crate) struct Gathering<'a, S> {
 }
 
 /// What a sensor point gets of point-like lights, without sampling, in lx.
-#[derive(Clone, Copy, Default)]
-struct Exact {
+#[derive(Clone, Default)]
+pub(crate) struct Exact {
     direct_lx: f64,
     /// By mirrors and panes alone.
     mirrored_lx: f64,
+    /// Both by the number of bounces, the last all from there on; empty where terms are not listed.
+    terms_lx: Vec<f64>,
 }
 
 impl<'a, S: Spectrum> Gathering<'a, S> {
@@ -130,7 +132,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
     }
 }
 
-impl<S> Gathering<'_, S> {
+impl<S: Spectrum> Gathering<'_, S> {
     /// Whether the paths of each target found light where they came to surfaces that reflect.
     fn resolved(&self) -> Vec<bool> {
         self.sums
@@ -142,6 +144,47 @@ impl<S> Gathering<'_, S> {
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
                 (found_indirect || !reflected)
                     && (found_direct || found_indirect || !samples_direct)
+            })
+            .collect()
+    }
+
+    /// The terms of the Neumann series that are listed, and the rest.
+    fn terms(&self, mean: impl Fn(Sum) -> f64) -> Vec<TermEstimates> {
+        let (listed, replicates) = (self.stage.listed_terms as usize, self.replicates as usize);
+        if listed == 0 {
+            return Vec::new();
+        }
+        let sum = |sums: &PathSums, term: usize| sums.terms.get(term).copied().unwrap_or_default();
+        let hidden_lx = |r: usize, target: usize, term: usize| {
+            self.hidden.as_ref().map_or(0.0, |hidden| hidden.term_lx(r, target, term))
+        };
+        let row = |term: usize, r: usize| -> Vec<f64> {
+            let own = self.sums.iter().skip(r).step_by(replicates).zip(&self.exact).enumerate();
+            own.map(|(target, (sums, exact))| {
+                let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
+                exact_lx.unwrap_or(0.0) + mean(sum(sums, term)) + hidden_lx(r, target, term)
+            })
+            .collect()
+        };
+        let resolved = |term: usize| -> Vec<bool> {
+            let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
+            let targets = self.sums.chunks_exact(replicates).zip(&self.samples_direct);
+            targets
+                .map(|(own, samples_direct)| {
+                    let found = own.iter().any(|sums| !sum(sums, term).is_zero());
+                    let may_be = if term == 0 {
+                        *samples_direct
+                    } else {
+                        own.iter().any(|sums| sums.reflected > 0)
+                    };
+                    found || cut || !may_be
+                })
+                .collect()
+        };
+        (0..=listed)
+            .map(|term| TermEstimates {
+                replicate_lx: (0..replicates).map(|r| row(term, r)).collect(),
+                resolved: resolved(term),
             })
             .collect()
     }
@@ -215,8 +258,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             })
             .collect()
         };
-        let rows: Vec<Vec<f64>> = (0..replicates).map(row).collect();
-        let direct_lx: Vec<f64> = self
+        let direct_lx = self
             .sums
             .chunks_exact(replicates)
             .zip(&self.exact)
@@ -225,8 +267,14 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                     + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
             })
             .collect();
+        let all = SensorEstimates {
+            replicate_lx: (0..replicates).map(row).collect(),
+            direct_lx,
+            resolved: self.resolved(),
+            terms: self.terms(mean),
+        };
         Estimates {
-            sensors: by_sensor(self.scene, &rows, &direct_lx, &self.resolved()),
+            sensors: by_sensor(self.scene, &all),
             samples: self.samples,
             rays: self.work.rays + self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
@@ -261,21 +309,38 @@ fn samples_direct<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> bool {
 }
 
 impl Exact {
-    fn sum_lx(&self) -> f64 {
+    fn new(listed_terms: u32) -> Self {
+        let terms = if listed_terms > 0 { listed_terms as usize + 1 } else { 0 };
+        Self { terms_lx: vec![0.0; terms], ..Self::default() }
+    }
+
+    pub(crate) fn sum_lx(&self) -> f64 {
         self.direct_lx + self.mirrored_lx
+    }
+
+    /// Adds light that comes by this many mirrors and panes.
+    fn add(&mut self, bounces: u32, lx: f64) {
+        *if bounces == 0 { &mut self.direct_lx } else { &mut self.mirrored_lx } += lx;
+        if let Some(rest) = self.terms_lx.len().checked_sub(1) {
+            self.terms_lx[rest.min(bounces as usize)] += lx;
+        }
     }
 
     /// What the results cannot hold.
     fn invalid(&mut self) -> impl Iterator<Item = &mut f64> {
-        let Self { direct_lx, mirrored_lx } = self;
+        let Self { direct_lx, mirrored_lx, .. } = self;
         [direct_lx, mirrored_lx].into_iter().filter(|value_lx| !value_lx.is_finite())
     }
 }
 
 /// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of them
 /// tested.
-fn exact<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) -> Vec<Exact> {
-    let mut exact = vec![Exact::default(); targets.len()];
+pub(crate) fn exact<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    rays: &mut u64,
+) -> Vec<Exact> {
+    let mut exact = vec![Exact::new(stage.listed_terms); targets.len()];
     let light = |(targets, exact): (&[Target], &mut [Exact])| {
         let asker = |(who, target): (u32, &Target)| match *target {
             Target::Point { position, normal: n } => {
@@ -287,13 +352,10 @@ fn exact<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], rays: &mut u64) 
         let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
         let mut shadows = Shadows::default();
         shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
-        let receive = |who: u32, lx: S, panes: u32| {
-            let Exact { direct_lx, mirrored_lx } = &mut exact[who as usize];
-            *if panes == 0 { direct_lx } else { mirrored_lx } += lx.luminance();
-        };
-        stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, receive);
-        let receive = |who: u32, lx: S, _| exact[who as usize].mirrored_lx += lx.luminance();
-        stage.images.all(stage, &askers, &mut shadows, receive);
+        let mut receive =
+            |who: u32, lx: S, bounces: u32| exact[who as usize].add(bounces, lx.luminance());
+        stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, &mut receive);
+        stage.images.all(stage, &askers, &mut shadows, &mut receive);
         shadows.rays
     };
     let chunks = targets.par_chunks(TARGETS).zip(exact.par_chunks_mut(TARGETS));

@@ -11,6 +11,7 @@
 use crate::bsdf::Mode;
 use crate::frame::Frame;
 use crate::path_end::{MapEnd, Rest};
+use crate::purpose::Purpose;
 use crate::shadow::{Offer, Shadows};
 use crate::spectrum::Spectrum;
 use crate::specular::{HiddenEnd, ImageOffers};
@@ -27,12 +28,14 @@ use std::f64::consts::{FRAC_1_PI, PI};
 const CERTAIN_BOUNCES: u32 = 2;
 
 /// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered<S> {
     /// Straight from the lights; of the point-like ones only where the start asks for it.
     pub(crate) direct: S,
     /// After at least one bounce; may be negative where a map is corrected.
     pub(crate) indirect: S,
+    /// Both by the number of bounces, the last all from there on; empty where terms are not listed.
+    pub(crate) terms: Vec<S>,
     /// Whether the path came to a surface where there may be indirect light that it can find.
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
@@ -87,6 +90,8 @@ pub(crate) struct Path<'p, S> {
     beta_emitted: S,
     /// Surfaces that keep illuminance to pass before it may end on a map.
     passes: u32,
+    /// Bounces behind the light that its last vertex asks for.
+    bounces_asked: u32,
     /// From lights that its last vertex turned out to see.
     arrived: S,
     /// From the point-like lights at its start.
@@ -132,7 +137,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let Start { from, seeks, rest, hidden, mut cursor } = start;
         let (direction, pdf_sr, beta, passes) = match seeks {
             Seeks::Illuminance { n, .. } => {
-                let first = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
+                let u = stage.draw(&mut cursor, Purpose::FirstDirection, SampleCursor::next_2d);
+                let first = DVec3::from_array(sample_cosine_hemisphere(u));
                 let direction = Frame::around(n).to_world(first);
                 (direction, Some(first.z * FRAC_1_PI), S::white() * PI, rest.passes())
             }
@@ -151,11 +157,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             beta,
             beta_emitted: beta,
             passes,
+            bounces_asked: 0,
             arrived: S::black(),
             pointlikes: S::black(),
             found: Gathered::default(),
         };
         if let Seeks::Illuminance { n, tests_pointlikes } = seeks {
+            path.found.list_terms(stage.listed_terms);
             let vertex = Vertex::sensor(from, n);
             work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
             if tests_pointlikes {
@@ -177,7 +185,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if bounces == 0 {
             self.arrived += light;
         } else {
-            self.found.indirect += light;
+            self.found.add(self.bounces_asked + bounces, light);
         }
     }
 
@@ -186,7 +194,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if panes == 0 {
             self.pointlikes += light;
         } else {
-            self.found.indirect += light;
+            self.found.add(panes, light);
         }
     }
 
@@ -199,7 +207,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         at: Option<&Interaction>,
         work: &mut PathWork<S>,
     ) -> bool {
-        self.add_arrived(bounces);
+        self.add_arrived();
         let Some(at) = at else { return false };
         self.add_emitted(stage, bounces, at);
         let bsdf = stage.world.bsdf(at);
@@ -212,6 +220,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
         // Past mirrors alone, paths find nothing but facets that emit.
         self.found.reflected |= !bsdf.is_specular() || stage.lights.emitters.is_some();
+        self.bounces_asked = bounces + 1;
         if !bsdf.is_specular() {
             self.ask_all(stage, bounces + 1, at, work);
         }
@@ -225,14 +234,16 @@ impl<'p, S: Spectrum> Path<'p, S> {
             }
             _ => None,
         };
-        let onward = from_map.unwrap_or_else(|| self.survive(bounces, albedo));
+        let onward = from_map.unwrap_or_else(|| self.survive(stage, bounces, albedo));
         let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
         if onward.everything == 0.0 && !seeks_emitters {
             return false;
         }
-        let Some(next) = bsdf.sample(wo, at.front, Mode::Radiance, &mut self.cursor) else {
-            return false;
-        };
+        let bounce = Purpose::Bounce { surface: bounces + 1 };
+        let next = stage.draw(&mut self.cursor, bounce, |cursor| {
+            bsdf.sample(wo, at.front, Mode::Radiance, cursor)
+        });
+        let Some(next) = next else { return false };
         let world = &stage.world;
         self.from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
         self.direction = frame.to_world(next.wi);
@@ -245,8 +256,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// What it found. All that it asked for must have arrived.
     pub(crate) fn end(mut self) -> Ended<S> {
-        self.add_arrived(1);
-        self.found.direct += self.pointlikes;
+        self.add_arrived();
+        self.found.add(0, self.pointlikes);
         Ended { found: self.found, dimensions: self.cursor.used() }
     }
 
@@ -276,8 +287,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
             }
         }
         let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
-        let everything = end.goes_on(albedo, &mut self.cursor);
-        *self.found.after(bounces + 1) += to_start * end.illuminance_lx(at) * (1.0 - everything);
+        let correction = Purpose::Correction { surface: bounces + 1 };
+        let everything =
+            stage.draw(&mut self.cursor, correction, |cursor| end.goes_on(albedo, cursor));
+        self.found.add(bounces + 1, to_start * end.illuminance_lx(at) * (1.0 - everything));
         // The direction to a light that the next surface emits is part of the direct light here, so
         // it counts in every path.
         Some(Onward { emitted: 1.0, everything })
@@ -288,16 +301,19 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let Some(hidden) = self.hidden else { return };
         let most = stage.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
         let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
-        *self.found.after(bounces + 1) += to_start * hidden.illuminance_lx(&stage.world, at, most);
+        for (hidden_bounces, lx) in hidden.illuminances_lx(&stage.world, at, most) {
+            self.found.add(bounces + 1 + hidden_bounces, to_start * lx);
+        }
     }
 
     /// Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
-    fn survive(&mut self, bounces: u32, albedo: f64) -> Onward {
+    fn survive(&mut self, stage: &Stage<'_, S>, bounces: u32, albedo: f64) -> Onward {
         if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
-        let factor = survival_factor(albedo, &mut self.cursor);
+        let bounce = Purpose::Bounce { surface: bounces + 1 };
+        let factor = stage.draw(&mut self.cursor, bounce, |cursor| survival_factor(albedo, cursor));
         Onward { emitted: factor, everything: factor }
     }
 
@@ -326,7 +342,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) {
         if !stage.images.is_empty() {
-            let u = self.cursor.next_1d();
+            let choice = Purpose::Image { surface: self.bounces_asked };
+            let u = stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
             let PathWork { shadows, images, .. } = work;
             stage.images.ask_some(stage, (self.number, vertex), bounces, u, (images, shadows));
         }
@@ -340,7 +357,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) {
         if let Some(emitters) = &stage.lights.emitters {
-            let u = self.cursor.next_2d();
+            let place = Purpose::AreaLight { surface: self.bounces_asked };
+            let u = stage.draw(&mut self.cursor, place, SampleCursor::next_2d);
             self.ask(emitters.offer(&stage.world, vertex, u), vertex, work);
         }
     }
@@ -354,7 +372,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) {
         let lights = &stage.lights.area_luminaires;
         if !lights.is_empty() {
-            let u = self.cursor.next_2d();
+            let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
+            let u = stage.draw(&mut self.cursor, place, SampleCursor::next_2d);
             self.ask(lights.offer(vertex, u, &mut work.weights), vertex, work);
         }
     }
@@ -368,7 +387,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) {
         let lights = &stage.lights.pointlikes;
         if !lights.is_empty() {
-            let u = self.cursor.next_1d();
+            let choice = Purpose::PointLike { surface: self.bounces_asked };
+            let u = stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
             self.ask(lights.offer(vertex, u, &mut work.offers), vertex, work);
         }
     }
@@ -379,9 +399,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
     }
 
-    /// Adds what the vertex after `bounces` reflections was waiting for.
-    fn add_arrived(&mut self, bounces: u32) {
-        *self.found.after(bounces) += std::mem::take(&mut self.arrived);
+    /// Adds what the last vertex was waiting for.
+    fn add_arrived(&mut self) {
+        self.found.add(self.bounces_asked, std::mem::take(&mut self.arrived));
     }
 
     /// Adds the light that the place where the ray ends emits itself.
@@ -390,7 +410,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &stage.lights.emitters) {
             let shared = |pdf| emitters.weight_of_direction(&stage.world, at, self.direction, pdf);
             let weight = self.pdf_sr.map_or(1.0, shared);
-            *self.found.after(bounces) += self.beta_emitted * (emitted_cd_m2 * weight);
+            self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
         }
     }
 }
@@ -400,11 +420,21 @@ pub(crate) fn survival_factor(survival: f64, cursor: &mut SampleCursor<'_>) -> f
     if cursor.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
 }
 
-impl<S> Gathered<S> {
-    /// Where light belongs that arrives at the vertex after `bounces` reflections, or that the ray
-    /// from there runs into.
-    fn after(&mut self, bounces: u32) -> &mut S {
-        if bounces == 0 { &mut self.direct } else { &mut self.indirect }
+impl<S: Spectrum> Gathered<S> {
+    /// Adds light that arrives at the vertex after `bounces` reflections, or that the ray from there
+    /// runs into.
+    fn add(&mut self, bounces: u32, light: S) {
+        *if bounces == 0 { &mut self.direct } else { &mut self.indirect } += light;
+        if let Some(rest) = self.terms.len().checked_sub(1) {
+            self.terms[rest.min(bounces as usize)] += light;
+        }
+    }
+
+    /// Keeps the first terms apart, and the rest.
+    fn list_terms(&mut self, listed: u32) {
+        if listed > 0 {
+            self.terms = vec![S::black(); listed as usize + 1];
+        }
     }
 }
 

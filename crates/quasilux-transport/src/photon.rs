@@ -9,6 +9,7 @@
 
 use crate::bsdf::Mode;
 use crate::lights::Emission;
+use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::specular::Trail;
 use crate::stage::Stage;
@@ -152,7 +153,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
 
     /// Leaves its light; `None` where nothing emits.
     pub(crate) fn emit(&mut self, stage: &Stage<'_, S>) -> Option<Emission> {
-        let emitted = stage.lights.emit(&stage.world, &mut self.cursor)?;
+        let emitted = stage.lights.emit(stage, &mut self.cursor)?;
         self.trail = emitted.trail;
         Some(emitted.emission)
     }
@@ -203,7 +204,10 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let window = windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
         let split = Split::new(left, window.map_or(luminance, |window| window.weight));
         let whole = split.expected.floor();
-        let count = whole as u32 + u32::from(self.cursor.choose_bool(split.expected - whole));
+        let bounce = Purpose::Bounce { surface: arrival.bounces + 1 };
+        let one_more = stage
+            .draw(&mut self.cursor, bounce, |cursor| cursor.choose_bool(split.expected - whole));
+        let count = whole as u32 + u32::from(one_more);
         let arrived = self.quanta();
         counts.absorbed += arrived;
         if count == 0 {
@@ -221,7 +225,8 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let child = |cursor| Self { cursor, weight, trail, specular_only };
         for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
             let guide = window.map(|window| &window.guide);
-            match photon.leave(stage, &Door { at, wo, guide }, 1.0 / split.expected) {
+            let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);
+            match photon.leave(stage, bounce, &door, share) {
                 Some(_) if photon.specular_only && photon.trail == Trail::Found => {
                     counts.absorbed -= photon.quanta();
                     counts.cut += photon.quanta();
@@ -237,16 +242,22 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     }
 
     /// Takes a direction away from a surface, and its share of what leaves there.
-    fn leave(&mut self, stage: &Stage<'_, S>, door: &Door<'_>, share: f64) -> Option<Emission> {
+    fn leave(
+        &mut self,
+        stage: &Stage<'_, S>,
+        bounce: Purpose,
+        door: &Door<'_>,
+        share: f64,
+    ) -> Option<Emission> {
         let Door { at, wo, guide } = *door;
-        let (world, bsdf, cursor) = (&stage.world, stage.world.bsdf(at), &mut self.cursor);
-        let (next, share) = match guide {
+        let (world, bsdf) = (&stage.world, stage.world.bsdf(at));
+        let (next, share) = stage.draw(&mut self.cursor, bounce, |cursor| match guide {
             Some(guide) if bsdf.is_lambertian() => {
                 let guided = guide.sample([cursor.rest_1d(), cursor.next_1d()]);
-                (bsdf.sample_lambertian(guided.u)?, share / guided.density)
+                Some((bsdf.sample_lambertian(guided.u)?, share / guided.density))
             }
-            _ => (bsdf.sample(wo, at.front, Mode::Flux, cursor)?, share),
-        };
+            _ => Some((bsdf.sample(wo, at.front, Mode::Flux, cursor)?, share)),
+        })?;
         self.weight = self.weight * next.weight * share;
         if self.weight.luminance() <= 0.0 {
             return None;

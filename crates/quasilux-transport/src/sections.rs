@@ -1,8 +1,9 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
-use crate::path::{Ended, Seeks, Start};
+use crate::path::{Ended, Gathered, Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
+use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::specular::HiddenEnd;
 use crate::stage::Stage;
@@ -12,10 +13,12 @@ use quasilux_sampling::{DimensionHistogram, PointSet, SampleCursor};
 use std::ops::{AddAssign, Range};
 
 /// What the paths of one target in one replicate found, in all.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PathSums {
     pub(crate) direct: Sum,
     pub(crate) indirect: Sum,
+    /// Both by the number of bounces, as [`Gathered::terms`].
+    pub(crate) terms: Vec<Sum>,
     /// Paths that came to a surface that reflects.
     pub(crate) reflected: u64,
 }
@@ -77,13 +80,15 @@ impl<S: Spectrum> Section<'_, S> {
         (self.indices.end - self.indices.start) as usize
     }
 
-    fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
+    /// Where its paths start.
+    pub(crate) fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
         self.indices.clone().map(|index| {
             let mut cursor = SampleCursor::new(&self.points, index);
             let (position, n, tests_pointlikes) = match self.target {
                 Target::Point { position, normal } => (position, normal, false),
                 Target::Cell { grid, cell } => {
-                    (grid.point_in_cell(cell, cursor.next_2d()), grid.normal, true)
+                    let u = stage.draw(&mut cursor, Purpose::Cell, SampleCursor::next_2d);
+                    (grid.point_in_cell(cell, u), grid.normal, true)
                 }
             };
             let from = stage.world.vantage_of_sensor(position, n);
@@ -98,6 +103,14 @@ impl PathSums {
         self.direct.add(found.direct.luminance(), quantum);
         self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
+        self.add_terms(found, quantum);
+    }
+
+    fn add_terms<S: Spectrum>(&mut self, found: &Gathered<S>, quantum: Quantum) {
+        self.terms.resize(found.terms.len(), Sum::default());
+        for (sum, light) in self.terms.iter_mut().zip(&found.terms) {
+            sum.add_signed(light.luminance(), quantum);
+        }
     }
 
     /// Contributions that are not in the sums.
@@ -111,6 +124,10 @@ impl AddAssign for PathSums {
         self.direct += other.direct;
         self.indirect += other.indirect;
         self.reflected += other.reflected;
+        self.terms.resize(self.terms.len().max(other.terms.len()), Sum::default());
+        for (sum, found) in self.terms.iter_mut().zip(other.terms) {
+            *sum += found;
+        }
     }
 }
 

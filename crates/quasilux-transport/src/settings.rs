@@ -89,6 +89,9 @@ pub struct Settings {
     pub seed: u64,
     /// Bounces after which light is cut: `Some(0)` leaves the direct light, `None` cuts nothing.
     pub max_bounces: Option<u32>,
+    /// How many terms of the Neumann series are listed, light of 0, 1, .. bounces, beside the rest;
+    /// 0 lists none. Not for the estimators that end on a map.
+    pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
     pub max_samples: Option<u64>,
@@ -132,6 +135,7 @@ impl Default for Settings {
             replicates: 16,
             seed: 1,
             max_bounces: None,
+            list_terms: 0,
             max_samples: None,
             map_element_m: None,
             map_elements: 1 << 22,

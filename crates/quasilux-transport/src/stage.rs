@@ -1,12 +1,13 @@
 //! Everything that stays the same while light moves.
 
 use crate::lights::Lights;
+use crate::purpose::{Ledger, Purpose};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::specular::SpecularImages;
 use crate::trial::Stopwatch;
 use crate::world::World;
-use quasilux_sampling::{PointSet, Sequence, stream_key};
+use quasilux_sampling::{PointSet, SampleCursor, Sequence, stream_key};
 use quasilux_scene::Scene;
 
 /// A scene made ready for one simulation.
@@ -18,10 +19,14 @@ pub(crate) struct Stage<'a, S> {
     /// What light of points and luminaires only photons find, in words.
     pub(crate) hides: Option<String>,
     pub(crate) max_bounces: Option<u32>,
+    /// Terms of the Neumann series to keep apart; 0 for none.
+    pub(crate) listed_terms: u32,
     /// What a reader of the results must know of the lights' places.
     pub(crate) warning: Option<String>,
     /// Told of the steps of waves, in benchmarks.
     pub(crate) stopwatch: Option<&'a dyn Stopwatch>,
+    /// Told what coordinates are drawn for, where that is to be explained.
+    pub(crate) ledger: Option<&'a Ledger>,
     settings: &'a Settings,
 }
 
@@ -47,6 +52,20 @@ pub(crate) enum Stream {
     },
 }
 
+impl Stream {
+    /// The stream's number in keys.
+    pub(crate) fn id(self) -> u64 {
+        match self {
+            Self::Photons => 0,
+            Self::PlanPhotons => 1,
+            Self::HiddenPhotons => u64::MAX,
+            Self::Survey(kind) => u64::MAX - 1 - kind,
+            Self::Paths(point) => 2 + point,
+            Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
+        }
+    }
+}
+
 impl<'a, S: Spectrum> Stage<'a, S> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
         let world = World::new(scene);
@@ -67,22 +86,16 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             images,
             hides,
             max_bounces: settings.max_bounces,
+            listed_terms: settings.list_terms,
             warning,
             stopwatch: None,
+            ledger: None,
             settings,
         }
     }
 
     /// The randomised point set of one stream in one replicate.
     pub(crate) fn points(&self, replicate: u32, stream: Stream) -> PointSet {
-        let id = match stream {
-            Stream::Photons => 0,
-            Stream::PlanPhotons => 1,
-            Stream::HiddenPhotons => u64::MAX,
-            Stream::Survey(kind) => u64::MAX - 1 - kind,
-            Stream::Paths(point) => 2 + point,
-            Stream::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
-        };
         let Settings { mut sequence, randomization, seed, .. } = *self.settings;
         if let (
             Sequence::Hammersley { .. },
@@ -92,6 +105,22 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             // A plan has its own number of photons.
             sequence = Sequence::Halton;
         }
-        PointSet::new(sequence, randomization, stream_key(seed, replicate, id))
+        PointSet::new(sequence, randomization, stream_key(seed, replicate, stream.id()))
+    }
+
+    /// Draws coordinates for a purpose.
+    #[inline]
+    pub(crate) fn draw<'p, T>(
+        &self,
+        cursor: &mut SampleCursor<'p>,
+        purpose: Purpose,
+        draw: impl FnOnce(&mut SampleCursor<'p>) -> T,
+    ) -> T {
+        let first = cursor.dimension();
+        let drawn = draw(cursor);
+        if let Some(ledger) = self.ledger {
+            ledger.note(first, cursor, purpose);
+        }
+        drawn
     }
 }

@@ -33,14 +33,8 @@ pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
     targets
 }
 
-/// The figures of each sensor, from lists over all targets: illuminance in lx of each replicate,
-/// the direct part, and whether light was found.
-pub(crate) fn by_sensor(
-    scene: &Scene,
-    replicate_lx: &[Vec<f64>],
-    direct_lx: &[f64],
-    resolved: &[bool],
-) -> Vec<SensorEstimates> {
+/// The figures of each sensor, from those of all targets as if of one sensor.
+pub(crate) fn by_sensor(scene: &Scene, all: &SensorEstimates) -> Vec<SensorEstimates> {
     let mut first = 0;
     scene
         .sensors
@@ -48,11 +42,7 @@ pub(crate) fn by_sensor(
         .map(|sensor| {
             let own = first..first + sensor.len();
             first = own.end;
-            SensorEstimates {
-                replicate_lx: replicate_lx.iter().map(|row| row[own.clone()].to_vec()).collect(),
-                direct_lx: direct_lx[own.clone()].to_vec(),
-                resolved: resolved[own].to_vec(),
-            }
+            all.part(own)
         })
         .collect()
 }

@@ -51,6 +51,10 @@ pub(crate) struct RunArguments {
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) simulation: SimulationArguments,
+    /// Also say which coordinates carry the variance, and what the sequence is worth here; takes some
+    /// seconds more
+    #[arg(long)]
+    pub(crate) explain: bool,
     /// Print the result document on stdout and nothing else
     #[arg(long)]
     pub(crate) json: bool,

@@ -110,6 +110,7 @@ pub(crate) fn settings(
     settings.seed =
         arguments.seed.or(section.seed.as_ref().map(|at| at.value)).unwrap_or(defaults.seed);
     settings.max_bounces = section.max_bounces.as_ref().and_then(|at| at.value);
+    settings.list_terms = section.list_terms.as_ref().map_or(0, |at| at.value);
     settings.max_samples = arguments.samples;
     if settings.effective_replicates() < 2
         && arguments.samples.is_none()

@@ -3,21 +3,28 @@
 //! The order of keys is fixed and numbers are the shortest that read back exactly, so two runs of
 //! one project write the same bytes but for `seconds` and `threads`. Unknown figures are `null`.
 //! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
-//! sensor its `counts` along u and v; in `cameras` the files of each camera, the paths of each pixel
+//! sensor its `counts` along u and v; where terms of the Neumann series are listed, `terms_lx` in
+//! each point and `average_terms_lx` in each summary, the last of them with `"bounces": "rest"`; in
+//! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`), `flux_cut_lm`, the flux
-//! that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list
-//! each, all of more than 1023 together at its end.
+//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`), `flux_cut_lm`, the
+//! flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
+//! coordinates, in one list each, all of more than 1023 together at its end. Where it was asked for,
+//! `explain` says which coordinates carry the variance.
 
 mod camera;
+mod explanation;
 mod layout;
+mod terms;
 
-use crate::{Figure, PointReport, Report, Run, SensorReport, Summary};
+use crate::{Figure, Report, Run, SensorReport};
 use camera::CameraEntry;
+use explanation::ExplanationEntry;
 use layout::Layout;
 use quasilux_transport::DimensionHistogram;
 use serde::{Serialize, Serializer};
+use terms::TermEntry;
 
 /// Name and version of the document's format.
 pub const FORMAT: &str = "quasilux-result/1";
@@ -49,6 +56,8 @@ struct Document<'a> {
     sensors: Vec<SensorEntry<'a>>,
     cameras: Vec<CameraEntry<'a>>,
     run: RunEntry<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explain: Option<ExplanationEntry<'a>>,
     warnings: &'a [String],
 }
 
@@ -69,6 +78,8 @@ struct PointEntry {
     illuminance_lx: Option<f64>,
     half_width_lx: Option<f64>,
     direct_lx: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    terms_lx: Vec<TermEntry>,
 }
 
 #[derive(Serialize)]
@@ -77,6 +88,8 @@ struct SummaryEntry {
     minimum_lx: FigureEntry,
     maximum_lx: FigureEntry,
     uniformity: FigureEntry,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    average_terms_lx: Vec<TermEntry>,
 }
 
 #[derive(Serialize)]
@@ -103,6 +116,8 @@ struct RunEntry<'a> {
     rel_tol: f64,
     tolerance_reached: bool,
     max_bounces: Option<u32>,
+    #[serde(skip_serializing_if = "is_zero")]
+    list_terms: u32,
     map_element_m: Option<f64>,
     map_elements: u64,
     map_adaptive: bool,
@@ -143,6 +158,7 @@ impl<'a> Document<'a> {
             sensors: report.sensors.iter().map(SensorEntry::of).collect(),
             cameras: report.cameras.iter().map(CameraEntry::of).collect(),
             run: RunEntry::of(&report.run),
+            explain: report.explanation.as_ref().map(ExplanationEntry::of),
             warnings: &report.warnings,
         }
     }
@@ -154,20 +170,22 @@ impl<'a> SensorEntry<'a> {
             name: &sensor.name,
             kind: if sensor.grid.is_some() { "grid" } else { "points" },
             counts: sensor.grid.map(|grid| grid.counts),
-            points: sensor.points.iter().map(PointEntry::of).collect(),
-            summary: SummaryEntry::of(&sensor.summary),
+            points: (0..sensor.points.len()).map(|point| PointEntry::of(sensor, point)).collect(),
+            summary: SummaryEntry::of(sensor),
         }
     }
 }
 
 impl PointEntry {
-    fn of(point: &PointReport) -> Self {
+    fn of(sensor: &SensorReport, number: usize) -> Self {
+        let point = &sensor.points[number];
         Self {
             position: point.position_m.to_array(),
             normal: point.normal.to_array(),
             illuminance_lx: point.illuminance_lx.value,
             half_width_lx: point.illuminance_lx.half_width,
             direct_lx: point.direct_lx,
+            terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),
         }
     }
 }
@@ -179,13 +197,15 @@ impl FigureEntry {
 }
 
 impl SummaryEntry {
-    fn of(summary: &Summary) -> Self {
+    fn of(sensor: &SensorReport) -> Self {
+        let summary = &sensor.summary;
         let entry = FigureEntry::of;
         Self {
             average_lx: entry(summary.average_lx),
             minimum_lx: entry(summary.minimum_lx),
             maximum_lx: entry(summary.maximum_lx),
             uniformity: entry(summary.uniformity),
+            average_terms_lx: TermEntry::all(&sensor.terms, |term| term.average_lx),
         }
     }
 }
@@ -207,6 +227,7 @@ impl<'a> RunEntry<'a> {
             rel_tol: run.settings.rel_tol,
             tolerance_reached: run.tolerance_reached,
             max_bounces: run.settings.max_bounces,
+            list_terms: run.settings.list_terms,
             map_element_m: run.settings.map_element_m,
             map_elements: run.settings.map_elements,
             map_adaptive: run.settings.map_adaptive,
@@ -233,6 +254,11 @@ impl<'a> RunEntry<'a> {
 /// The mean number of coordinates; `None` where nothing was traced.
 fn mean(dimensions: &DimensionHistogram) -> Option<f64> {
     (dimensions.samples() > 0).then(|| dimensions.mean())
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_zero(number: &u32) -> bool {
+    *number == 0
 }
 
 fn finite_or_null<S: Serializer>(x: &f64, serializer: S) -> Result<S::Ok, S::Error> {

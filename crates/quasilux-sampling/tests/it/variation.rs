@@ -76,3 +76,16 @@ fn lists_and_cursors_give_the_same_bits() {
         }
     }
 }
+
+/// What a split sample's children draw is their own: no dimension of theirs is varied.
+#[test]
+fn children_are_those_of_the_original() {
+    for [points, _] in sets() {
+        let varied = points.exchanged(0..3, 4);
+        let [child, original] =
+            [&varied, &points].map(|points| SampleCursor::new(points, 5).child(1));
+        let [drawn, wanted] =
+            [child, original].map(|mut cursor| [(); 4].map(|()| cursor.next_1d()));
+        assert_eq!(drawn, wanted, "{points:?}");
+    }
+}

@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "estimator",
     "sequence",
     "randomization",
@@ -15,6 +15,7 @@ const KEYS: [&str; 14] = [
     "replicates",
     "seed",
     "max_bounces",
+    "list_terms",
     "map_element_m",
     "map_elements",
     "map_adaptive",
@@ -25,6 +26,8 @@ const KEYS: [&str; 14] = [
 
 /// Most replicates that a project file may ask for.
 const MAX_REPLICATES: u64 = 65_536;
+/// Most terms that can be listed.
+const MAX_TERMS: u64 = 16;
 /// Most elements that an illumination map can have.
 const MAX_MAP_ELEMENTS: u64 = (1 << 31) - 1;
 
@@ -52,6 +55,8 @@ pub struct SimulationSection {
     pub seed: Option<Placed<u64>>,
     /// Bounces after which light is cut; the inner `None` is `"unlimited"`.
     pub max_bounces: Option<Placed<Option<u32>>>,
+    /// Terms of the Neumann series to list beside the rest, 1 to 16.
+    pub list_terms: Option<Placed<u32>>,
     /// Longest edge of an illumination map element in m, above 0.
     pub map_element_m: Option<Placed<f64>>,
     /// Most elements of the illumination map, at least 1.
@@ -112,6 +117,10 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
             value.integer("an integer from 0 to 18446744073709551615", 0..=u64::MAX)
         })?,
         max_bounces: placed(&section, "max_bounces", |value| bounces(&value))?,
+        list_terms: placed(&section, "list_terms", |value| {
+            let expected = format!("an integer from 1 to {MAX_TERMS}");
+            value.integer(&expected, 1..=MAX_TERMS).map(|n| n as u32)
+        })?,
         map_element_m: number("map_element_m", "a length in m above 0", |x| x > 0.0)?,
         map_elements: placed(&section, "map_elements", |value| {
             let expected = format!("an integer from 1 to {MAX_MAP_ELEMENTS}");

@@ -109,7 +109,7 @@ fn tm33_is_known_by_its_extension_in_any_case() {
 fn simulation_values_keep_their_places() {
     let project = PROJECT.to_owned()
         + "[simulation]\nestimator = \"pat\"\nrel_tol = 0.02\nconfidence = 0.9\nreplicates = 8\n\
-           seed = 0xff\nmax_bounces = \"unlimited\"\nmap_element_m = 1\n\
+           seed = 0xff\nmax_bounces = \"unlimited\"\nlist_terms = 4\nmap_element_m = 1\n\
            map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\nimage_depth = 3\n\
            steering = \"on\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
@@ -118,6 +118,7 @@ fn simulation_values_keep_their_places() {
     assert_eq!(simulation.replicates.as_ref().map(|v| v.value), Some(8));
     assert_eq!(simulation.seed.as_ref().map(|v| v.value), Some(255));
     assert_eq!(simulation.max_bounces.as_ref().map(|v| v.value), Some(None));
+    assert_eq!(simulation.list_terms.as_ref().map(|v| v.value), Some(4));
     assert_eq!(simulation.map_element_m.as_ref().map(|v| v.value), Some(1.0));
     assert_eq!(simulation.map_elements.as_ref().map(|v| v.value), Some(5));
     assert_eq!(simulation.map_adaptive.as_ref().map(|v| v.value), Some(false));

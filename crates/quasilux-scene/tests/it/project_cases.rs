@@ -211,6 +211,12 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         17,
         "\"unlimited\" or a number",
     ),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\n[simulation]\nlist_terms = 17",
+        17,
+        "an integer from 1 to 16",
+    ),
     case("spacing = 0.25", "spacing = 0.25\n[simulation]\nestimator = 3", 17, "expected a name"),
     case(
         "spacing = 0.25",

@@ -9,8 +9,10 @@ pub(crate) use emitters::Emitters;
 pub(crate) use pointlike::PointLikes;
 
 use crate::frame::Frame;
+use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::specular::Trail;
+use crate::stage::Stage;
 use crate::world::{Vantage, World};
 use area_luminaires::place_m;
 use glam::DVec3;
@@ -84,11 +86,14 @@ impl<'a> Lights<'a> {
     /// lights there are; a photon of an area light or luminaire takes two more.
     pub(crate) fn emit<S: Spectrum>(
         &self,
-        world: &World<S>,
+        stage: &Stage<'_, S>,
         cursor: &mut SampleCursor<'_>,
     ) -> Option<Emitted> {
-        let choice = cursor.choose_leading(self.by_flux.as_ref()?);
-        let u = [cursor.rest_1d(), cursor.next_1d()];
+        let (world, by_flux) = (&stage.world, self.by_flux.as_ref()?);
+        let (choice, u) = stage.draw(cursor, Purpose::Emission, |cursor| {
+            (cursor.choose_leading(by_flux), [cursor.rest_1d(), cursor.next_1d()])
+        });
+        let mut more = || stage.draw(cursor, Purpose::EmissionOfArea, SampleCursor::next_2d);
         if let Some(light) = self.pointlikes.get(choice.index) {
             let (position, direction) = match light {
                 Light::Point(light) => {
@@ -106,7 +111,7 @@ impl<'a> Lights<'a> {
         }
         if let Some(luminaire) = self.area_luminaires.get(choice.index - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
-            let place = luminaire.shape.sample_silhouette(towards, cursor.next_2d());
+            let place = luminaire.shape.sample_silhouette(towards, more());
             let direction = luminaire.world_from_luminaire * towards;
             let from = world.vantage_of_light(place_m(luminaire, &place), direction);
             return Some(Emitted {
@@ -116,7 +121,7 @@ impl<'a> Lights<'a> {
         }
         let place = self.emitters.as_ref()?.place(world, u);
         let n = world.facets[place.facet as usize].front_normal;
-        let local = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
+        let local = DVec3::from_array(sample_cosine_hemisphere(more()));
         let direction = Frame::around(n).to_world(local);
         let from = world.vantage_on_front(place.facet, place.position);
         Some(Emitted { emission: Emission { from, direction }, trail: Trail::Found })

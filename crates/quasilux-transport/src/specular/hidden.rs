@@ -86,7 +86,8 @@ struct Disc {
 /// Photons counted in one replicate, in quanta.
 struct Tally {
     landings: Mutex<BTreeMap<Key, [i64; 3]>>,
-    targets: Vec<AtomicI64>,
+    /// By number of bounces, where terms are listed, and by target.
+    targets: Vec<Vec<AtomicI64>>,
 }
 
 struct HiddenReceiver<'a, S> {
@@ -112,7 +113,9 @@ impl<S: Spectrum> HiddenLight<S> {
         Some(Self {
             element_m,
             receivers,
-            tallies: (0..replicates).map(|_| Tally::new(targets.len())).collect(),
+            tallies: (0..replicates)
+                .map(|_| Tally::new(targets.len(), stage.listed_terms))
+                .collect(),
             maps: Vec::new(),
             photons_per_path: (targets.len() as u64 / TARGETS_PER_PHOTON).clamp(least, most),
             photons: 0,
@@ -129,7 +132,7 @@ impl<S: Spectrum> HiddenLight<S> {
         watch: &mut Watch<'_>,
     ) -> Option<u64> {
         let Self { element_m, receivers, tallies, .. } = &*self;
-        let tells_bounces = stage.max_bounces.is_some();
+        let tells_bounces = stage.max_bounces.is_some() || stage.listed_terms > 0;
         let receiver = |r: u32| {
             let tally = &tallies[r as usize];
             let (world, element_m) = (&stage.world, *element_m);
@@ -176,7 +179,14 @@ impl<S: Spectrum> HiddenLight<S> {
 
     /// What a target gets in one replicate, in lx.
     pub(crate) fn target_lx(&self, replicate: usize, target: usize) -> f64 {
-        let quanta = self.tallies[replicate].targets[target].load(Ordering::Relaxed);
+        let terms = self.tallies[replicate].targets.iter();
+        let quanta: i64 = terms.map(|counts| counts[target].load(Ordering::Relaxed)).sum();
+        quanta as f64 * (self.lm_per_quantum() / self.receivers.areas_m2[target])
+    }
+
+    /// The part of it of one number of bounces, where terms are listed; the last is the rest.
+    pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
+        let quanta = self.tallies[replicate].targets[term][target].load(Ordering::Relaxed);
         quanta as f64 * (self.lm_per_quantum() / self.receivers.areas_m2[target])
     }
 }
@@ -189,19 +199,20 @@ pub(crate) struct HiddenEnd<'a, S> {
 }
 
 impl<S: Spectrum> HiddenEnd<'_, S> {
-    /// Illuminance in lx at a place, of light that took at most `most_bounces`.
-    pub(crate) fn illuminance_lx(
+    /// Illuminances in lx at a place, of light that took at most `most_bounces`, by their number; all in
+    /// one where it does not matter.
+    pub(crate) fn illuminances_lx(
         &self,
         world: &World<S>,
         at: &Interaction,
         most_bounces: u32,
-    ) -> S {
+    ) -> impl Iterator<Item = (u32, S)> {
         let first = Key::new(world, at, self.element_m, 0);
         let last = Key { bounces: most_bounces, ..first };
         let entries = &self.map.illuminance_lx;
         let start = entries.partition_point(|(key, _)| *key < first);
-        let own = entries[start..].iter().take_while(|(key, _)| *key <= last);
-        own.fold(S::black(), |sum, (_, illuminance_lx)| sum + *illuminance_lx)
+        let own = entries[start..].iter().take_while(move |(key, _)| *key <= last);
+        own.map(|(key, illuminance_lx)| (key.bounces, *illuminance_lx))
     }
 }
 
@@ -279,13 +290,15 @@ impl Disc {
 }
 
 impl Tally {
-    fn new(targets: usize) -> Self {
-        let targets = (0..targets).map(|_| AtomicI64::new(0)).collect();
+    fn new(targets: usize, listed_terms: u32) -> Self {
+        let zeros = || (0..targets).map(|_| AtomicI64::new(0)).collect();
+        let targets = (0..=listed_terms).map(|_| zeros()).collect();
         Self { landings: Mutex::new(BTreeMap::new()), targets }
     }
 
-    fn count(&self, target: usize, photons: f64) {
-        self.targets[target].fetch_add(quanta(photons), Ordering::Relaxed);
+    fn count(&self, target: usize, photons: f64, bounces: u32) {
+        let term = (self.targets.len() - 1).min(bounces as usize);
+        self.targets[term][target].fetch_add(quanta(photons), Ordering::Relaxed);
     }
 }
 
@@ -300,18 +313,18 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
 
     fn landing(&mut self, _: &Interaction, _: S, _: u32) {}
 
-    fn specular_flight(&mut self, flight: &Flight, weight: S, _: u32, trail: Trail) {
+    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
         if trail != Trail::Hidden {
             return;
         }
         for CellReceiver { plane, first_target, cells } in &self.receivers.planes {
             if let Some(cell) = plane.cell(flight).filter(|cell| cells.contains(cell)) {
                 let photons = weight.luminance() * plane.tilt_factor(flight.direction);
-                self.tally.count(first_target + cell - cells.start, photons);
+                self.tally.count(first_target + cell - cells.start, photons, bounces);
             }
         }
         for disc in self.receivers.discs.iter().filter(|disc| disc.is_met(flight)) {
-            self.tally.count(disc.target, weight.luminance());
+            self.tally.count(disc.target, weight.luminance(), bounces);
         }
     }
 

@@ -206,7 +206,7 @@ impl Survey {
         let points = stage.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut cursor = SampleCursor::new(&points, index);
-            let start = stage.lights.emit(&stage.world, &mut cursor)?.emission;
+            let start = stage.lights.emit(stage, &mut cursor)?.emission;
             Some(fly(stage, start, f64::INFINITY, &mut cursor))
         };
         let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();

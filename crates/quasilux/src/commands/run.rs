@@ -27,13 +27,31 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
             eprintln!("warning: {warning}");
         }
     }
+    if arguments.explain && project.loaded.scene.sensors.is_empty() {
+        return Err(Refusal::new(format!(
+            "{}: --explain looks at sensors, and the project has none",
+            project.name
+        )));
+    }
     results::prepare(&folder)?;
-    let finished = simulate(&project, &arguments.simulation, arguments.quiet)?;
+    let mut finished = simulate(&project, &arguments.simulation, arguments.quiet)?;
+    if arguments.explain && finished.exit != Exit::Interrupted {
+        let (scene, settings) = (&project.loaded.scene, &finished.report.run.settings);
+        let pool = pool(&arguments.simulation)?;
+        finished.report.explanation =
+            Some(pool.install(|| quasilux_transport::explain(scene, settings)));
+    }
     results::write(&folder, &finished.report)?;
     if arguments.json {
         print(&json::json(&finished.report))?;
+        if let (Some(explanation), false) = (&finished.report.explanation, arguments.quiet) {
+            eprint!("{}", table::explanation(explanation, Style::Plain));
+        }
     } else if !arguments.quiet {
         print(&table::table(&finished.report, style()))?;
+        if let Some(explanation) = &finished.report.explanation {
+            print(&format!("\n{}\n", table::explanation(explanation, style())))?;
+        }
         print(&format!("results in {}\n", folder.display()))?;
     }
     Ok(finished.exit)
@@ -47,20 +65,13 @@ pub(crate) fn simulate(
 ) -> Result<Finished, Refusal> {
     let settings = project::settings(project, arguments)?;
     let scene = &project.loaded.scene;
-    let threads = match arguments.threads {
-        Some(threads) => usize::from(threads),
-        None => std::thread::available_parallelism().map_or(1, usize::from),
-    };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Refusal::new(format!("cannot start {threads} threads: {error}")))?;
+    let pool = pool(arguments)?;
     let mut watcher = Watcher::new(arguments.time, quiet);
     let estimates = pool.install(|| quasilux_transport::simulate(scene, &settings, &mut watcher));
     let facts = RunFacts {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         seconds: watcher.finish().as_secs_f64(),
-        threads,
+        threads: pool.current_num_threads(),
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
     };
     let exit = match watcher.stopped {
@@ -70,6 +81,18 @@ pub(crate) fn simulate(
     };
     let report = Report::new(scene, &settings, &estimates, facts);
     Ok(Finished { report, exit })
+}
+
+/// The wanted number of threads.
+fn pool(arguments: &SimulationArguments) -> Result<rayon::ThreadPool, Refusal> {
+    let threads = match arguments.threads {
+        Some(threads) => usize::from(threads),
+        None => std::thread::available_parallelism().map_or(1, usize::from),
+    };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| Refusal::new(format!("cannot start {threads} threads: {error}")))
 }
 
 fn default_folder(project: &Path) -> PathBuf {

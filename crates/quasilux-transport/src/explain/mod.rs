@@ -1,0 +1,236 @@
+//! Which coordinates carry the variance: why quasi-random points help in a scene, or do not.
+//!
+//! A pilot traces pseudo-random paths or photons whose coordinates no estimate uses, and finds out
+//! which coordinates feed which decision, as the code that draws them says ([`crate::purpose`]).
+//! Neighbouring coordinates that feed the same decision make a block. The pilot is then repeated with
+//! one block exchanged at a time, which gives the block's share of the variance ([`shares`]), and with
+//! one block moved a little, which tells jumps from slopes. Shares are of the variance of one path or
+//! photon: what is even in few coordinates, and smooth, quasi-random points integrate fast (Caflisch,
+//! Morokoff and Owen 1997). What they are worth here is measured, too: independent replicates of the
+//! sequence of the run against the variance of the pilot.
+//!
+//! Values are kept by index and summed in their order, so that threads change no bit.
+
+mod blocks;
+mod gain;
+mod paths;
+mod photons;
+mod shares;
+
+use crate::purpose::{Ledger, Purpose};
+use crate::settings::{Estimator, Settings};
+use crate::simulate::is_grey;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use gain::gain;
+use paths::PathWalk;
+use photons::PhotonWalk;
+use quasilux_sampling::{DimensionHistogram, PointSet, Randomization, Sequence, stream_key};
+use quasilux_scene::{Rgb, Scene};
+use shares::Spread;
+use std::ops::Range;
+
+/// Numbers of the replicates that only a pilot uses; estimates count from 0 and never get there.
+const PILOT: u32 = u32::MAX;
+const EXCHANGE: u32 = u32::MAX - 1;
+const FIRST_OF_GAIN: u32 = u32::MAX - 1000;
+
+/// Steps by which blocks are moved, to see how fast the difference falls.
+const STEPS: [f64; 2] = [1.0 / 16.0, 1.0 / 64.0];
+/// Shares of less are not looked at for jumps.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Where the variance of an estimate comes from, by coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// What was traced.
+    pub walk: WalkKind,
+    /// Sensor points whose paths were looked at, or sensors whose average photons were.
+    pub targets: usize,
+    /// Pilot samples, of each target where they are paths.
+    pub samples: u64,
+    /// Rays that all of this took; those of the estimate are not in it.
+    pub rays: u64,
+    /// How many coordinates the samples used.
+    pub dimensions: DimensionHistogram,
+    /// Standard deviation of what one sample finds over its mean, root mean square over the targets;
+    /// 0 where nothing varies.
+    pub relative_deviation: f64,
+    /// Coordinates by what they feed, in their order.
+    pub blocks: Vec<Block>,
+    /// Sum of all total shares: how many blocks act together on average, 1 where effects just add (the
+    /// mean dimension of Liu and Owen 2006, by blocks). `None` where nothing varies.
+    pub interacting_blocks: Option<f64>,
+    /// So many first coordinates carry 99 % of the variance, to whole blocks (the effective dimension
+    /// in the truncation sense); `None` where it takes those past the last block.
+    pub truncation_dimension: Option<u32>,
+    /// What the sequence of the run is worth; `None` where nothing is randomised or nothing varies.
+    pub gain: Option<Gain>,
+}
+
+/// What a pilot traces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WalkKind {
+    /// Photons from the lights.
+    Photons,
+    /// Paths from the sensors.
+    Paths,
+    /// Paths from the sensors that end on an illumination map, given the map.
+    PathsOnMap,
+}
+
+/// Neighbouring coordinates that mostly feed the same decision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Its coordinates, counted from 0; the last block has all that follow.
+    pub dimensions: Range<u32>,
+    /// What they feed, by falling share.
+    pub uses: Vec<Use>,
+    /// Share of the samples that get to its first coordinate.
+    pub reached: f64,
+    /// Share of the variance that it carries alone; `None` where nothing varies.
+    pub alone: Option<Share>,
+    /// Share of the variance that hangs on it, alone or with others.
+    pub total: Option<Share>,
+    /// The power of a small step with which the squared difference falls: 2 where values are smooth in
+    /// the block, 1 where they jump. `None` where it carries too little to tell.
+    pub smoothness: Option<f64>,
+}
+
+/// A decision that a block feeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Use {
+    /// What for.
+    pub purpose: Purpose,
+    /// Share of the block's coordinates that were drawn for it.
+    pub share: f64,
+}
+
+/// A share of the variance, estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Share {
+    /// The estimate.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+}
+
+/// Error under the sequence of the run beside that of pseudo-random points, both of means over the same
+/// number of samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gain {
+    /// Samples in a mean.
+    pub samples: u64,
+    /// Independent randomisations.
+    pub replicates: u32,
+    /// Pseudo-random error over that of the sequence.
+    pub factor: f64,
+    /// Standard error of the factor, about.
+    pub standard_error: f64,
+    /// The error falls like the samples to the power of minus this, from a sixteenth of them on; 0.5
+    /// for pseudo-random points.
+    pub exponent: f64,
+}
+
+/// Looks into the variance of one sample, without the run.
+///
+/// Deterministic for any number of threads. It costs a few hundred thousand samples.
+#[must_use]
+pub fn explain(scene: &Scene, settings: &Settings) -> Explanation {
+    if is_grey(scene) { on_stage::<f64>(scene, settings) } else { on_stage::<Rgb>(scene, settings) }
+}
+
+fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
+    let ledger = Ledger::default();
+    let mut stage = Stage::<S>::new(scene, settings);
+    stage.ledger = Some(&ledger);
+    match settings.estimator {
+        Estimator::Photon => {
+            look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings)
+        }
+        Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
+            look_into(&PathWalk::new(&stage, scene, settings), &ledger, settings)
+        }
+    }
+}
+
+/// What samples found.
+struct Pilot {
+    /// Of each target, by index.
+    values: Vec<Vec<f64>>,
+    rays: u64,
+    dimensions: DimensionHistogram,
+}
+
+/// Points by the number of a stream.
+type Points<'p> = dyn Fn(u64) -> PointSet + Sync + 'p;
+
+/// Samples whose values can be had with any coordinates.
+trait Walk: Sync {
+    fn kind(&self) -> WalkKind;
+    /// How many samples make a pilot.
+    fn samples(&self) -> u64;
+    /// Traces the first samples.
+    fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot;
+}
+
+fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Explanation {
+    let samples = walk.samples();
+    let key = |replicate: u32, stream: u64| stream_key(settings.seed, replicate, stream);
+    let random = |key| PointSet::new(Sequence::Random, Randomization::None, key);
+    ledger.set_open(true);
+    let pilot = walk.trace(samples, &|stream| random(key(PILOT, stream)));
+    ledger.set_open(false);
+    let other = walk.trace(samples, &|stream| random(key(EXCHANGE, stream)));
+    let mut rays = pilot.rays + other.rays;
+    let mut vary = |points: &Points<'_>| {
+        let varied = walk.trace(samples, points);
+        rays += varied.rays;
+        varied.values
+    };
+
+    let spread = Spread::new(&pilot.values, &other.values);
+    let mut blocks = blocks::of(&ledger.uses(), samples * pilot.values.len() as u64);
+    let mut truncation_dimension = None;
+    for (number, block) in blocks.iter_mut().enumerate().filter(|_| spread.varies()) {
+        let Range { start: first, end } = block.dimensions;
+        let mut exchange = |dimensions: Range<u32>| {
+            vary(&|stream| {
+                random(key(PILOT, stream)).exchanged(dimensions.clone(), key(EXCHANGE, stream))
+            })
+        };
+        let exchanged = exchange(first..end);
+        block.alone = spread.alone(&exchanged);
+        block.total = spread.total(&exchanged);
+        let carries = |share: Option<Share>, least| share.is_some_and(|share| share.value > least);
+        if truncation_dimension.is_none() && number > 0 {
+            let tail = spread.total(&exchange(first..u32::MAX));
+            truncation_dimension = (!carries(tail, 0.01)).then_some(first);
+        }
+        if carries(block.total, LEAST_SHARE) {
+            let squares = STEPS.map(|by| {
+                let moved = vary(&|stream| random(key(PILOT, stream)).moved(first..end, by));
+                spread.total(&moved).map_or(0.0, |share| share.value)
+            });
+            block.smoothness = shares::power(squares, STEPS);
+        }
+    }
+    let totals: Option<Vec<f64>> =
+        blocks.iter().map(|block| block.total.map(|share| share.value)).collect();
+    let gain = gain(walk, settings, &spread, &mut rays);
+    Explanation {
+        walk: walk.kind(),
+        targets: pilot.values.len(),
+        samples,
+        rays,
+        dimensions: pilot.dimensions,
+        relative_deviation: spread.relative_deviation(),
+        interacting_blocks: totals.filter(|_| spread.varies()).map(|totals| totals.iter().sum()),
+        truncation_dimension,
+        blocks,
+        gain,
+    }
+}
+
+#[cfg(test)]
+mod tests;

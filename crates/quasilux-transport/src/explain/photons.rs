@@ -1,0 +1,121 @@
+//! Photons as a pilot sees them: what each gives to the average of every sensor.
+//!
+//! Steered photons split; what they split off draws coordinates that belong to no block.
+
+use super::{Pilot, Points, Walk, WalkKind};
+use crate::counting::Receivers;
+use crate::photon::{Flight, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::stage::{Stage, Stream};
+use crate::steering::{self, Windows};
+use crate::targets::targets;
+use crate::world::Interaction;
+use quasilux_sampling::SampleCursor;
+use quasilux_scene::Scene;
+use rayon::prelude::*;
+
+/// Photons.
+const SAMPLES: u64 = 1 << 14;
+/// Photons that one thread traces before it takes others.
+const PIECE: u64 = 1 << 10;
+
+pub(super) struct PhotonWalk<'s, S> {
+    stage: &'s Stage<'s, S>,
+    receivers: Receivers,
+    windows: Option<Windows>,
+    /// What a photon at each counter is worth.
+    readings: Vec<Vec<Reading>>,
+    sensors: usize,
+}
+
+/// What a photon adds to the average of a sensor that reads its counter.
+struct Reading {
+    sensor: usize,
+    lx: f64,
+}
+
+/// What one photon adds to the average of each sensor, in lx.
+struct Found<'w> {
+    receivers: &'w Receivers,
+    readings: &'w [Vec<Reading>],
+    lx: Vec<f64>,
+}
+
+impl<'s, S: Spectrum> PhotonWalk<'s, S> {
+    pub(super) fn new(stage: &'s Stage<'s, S>, scene: &Scene, settings: &Settings) -> Self {
+        let receivers = Receivers::new(&stage.world, scene, settings);
+        let mut readings: Vec<Vec<Reading>> = Vec::new();
+        readings.resize_with(receivers.counters, Vec::new);
+        let sensors = scene.sensors.iter().enumerate();
+        let sensors =
+            sensors.flat_map(|(number, s)| std::iter::repeat_n((number, s.len()), s.len()));
+        for ((sensor, points), &(counter, area_m2)) in sensors.zip(&receivers.targets) {
+            let lx = stage.lights.flux_lm / (area_m2 * points as f64);
+            readings[counter as usize].push(Reading { sensor, lx });
+        }
+        let windows = steering::plan(stage, &targets(scene), settings.steering).windows;
+        Self { stage, receivers, windows, readings, sensors: scene.sensors.len() }
+    }
+}
+
+impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
+    fn kind(&self) -> WalkKind {
+        WalkKind::Photons
+    }
+
+    fn samples(&self) -> u64 {
+        SAMPLES
+    }
+
+    fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot {
+        let points = points(Stream::Photons.id());
+        let piece = |number: u64| {
+            let mut counts = PhotonCounts::default();
+            let photon = |index| {
+                let Self { receivers, readings, .. } = self;
+                let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
+                let cursor = SampleCursor::new(&points, index);
+                let windows = self.windows.as_ref();
+                trace_photon(self.stage, windows, cursor, &mut found, &mut counts);
+                found.lx
+            };
+            let first = number * PIECE;
+            let values: Vec<Vec<f64>> = (first..(first + PIECE).min(samples)).map(photon).collect();
+            (values, counts)
+        };
+        let pieces: Vec<(Vec<Vec<f64>>, PhotonCounts)> =
+            (0..samples.div_ceil(PIECE)).into_par_iter().map(piece).collect();
+        let mut all = PhotonCounts::default();
+        let mut values = vec![Vec::with_capacity(samples as usize); self.sensors];
+        for (photons, counts) in pieces {
+            all += counts;
+            for lx in photons {
+                values.iter_mut().zip(lx).for_each(|(of_sensor, lx)| of_sensor.push(lx));
+            }
+        }
+        Pilot { values, rays: all.rays, dimensions: all.dimensions }
+    }
+}
+
+impl Found<'_> {
+    fn count(&mut self, counter: usize, photons: f64) {
+        for reading in &self.readings[counter] {
+            self.lx[reading.sensor] += photons * reading.lx;
+        }
+    }
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for Found<'_> {
+    fn flight(&mut self, flight: &Flight, weight: S, _bounces: u32) {
+        for counter in self.receivers.passed(flight) {
+            self.count(counter, weight.luminance());
+        }
+    }
+
+    fn landing(&mut self, at: &Interaction, weight: S, _bounces: u32) {
+        if let Some(counter) = self.receivers.landed_on(at) {
+            self.count(counter, weight.luminance());
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What coordinates are for, as the code that draws them says it.
+
+use quasilux_sampling::SampleCursor;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// A decision that coordinates feed. Surfaces count from 1 along the way of a photon or path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Purpose {
+    /// Light of a photon, and its direction; its place where the light is an area.
+    Emission,
+    /// What the emission from an area needs beside that: the direction, or the place.
+    EmissionOfArea,
+    /// Where a path starts in its cell.
+    Cell,
+    /// The direction in which a path leaves its sensor.
+    FirstDirection,
+    /// The place on an area light that is asked for light, from a surface or the sensor (0).
+    AreaLight {
+        /// The surface.
+        surface: u32,
+    },
+    /// The luminaire with an area that is asked, and the place on it, from a surface or the sensor (0).
+    AreaLuminaire {
+        /// The surface.
+        surface: u32,
+    },
+    /// The light without an area that is asked.
+    PointLike {
+        /// The surface.
+        surface: u32,
+    },
+    /// The images in mirrors that are asked, from a surface or the sensor (0).
+    Image {
+        /// The surface.
+        surface: u32,
+    },
+    /// Whether a path corrects the map that it ends on.
+    Correction {
+        /// The surface.
+        surface: u32,
+    },
+    /// Whether light goes on from a surface, how and in which direction.
+    Bounce {
+        /// The surface.
+        surface: u32,
+    },
+}
+
+/// Which dimensions were drawn for what, how often.
+#[derive(Debug, Default)]
+pub(crate) struct Ledger {
+    open: AtomicBool,
+    uses: Mutex<BTreeMap<(u32, Purpose), u64>>,
+}
+
+impl Ledger {
+    /// Whether what follows is noted; nothing is at first.
+    pub(crate) fn set_open(&self, open: bool) {
+        self.open.store(open, Ordering::Relaxed);
+    }
+
+    /// Notes that dimensions from `first` on, up to where the cursor is now, were drawn. Those of a split
+    /// sample's children are their own, and are left out.
+    pub(crate) fn note(&self, first: u32, cursor: &SampleCursor<'_>, purpose: Purpose) {
+        let drew = first != cursor.dimension() && !cursor.is_branch();
+        if !drew || !self.open.load(Ordering::Relaxed) {
+            return;
+        }
+        let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
+        for dimension in first..cursor.dimension() {
+            *uses.entry((dimension, purpose)).or_default() += 1;
+        }
+    }
+
+    /// All that was noted, by dimension.
+    pub(crate) fn uses(&self) -> BTreeMap<(u32, Purpose), u64> {
+        self.uses.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+impl fmt::Display for Purpose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (what, surface) = match *self {
+            Self::Emission => return f.write_str("light, and direction or place on it"),
+            Self::EmissionOfArea => return f.write_str("direction from, or place on, an area"),
+            Self::Cell => return f.write_str("place in the cell"),
+            Self::FirstDirection => return f.write_str("direction from the sensor"),
+            Self::AreaLight { surface } => ("place on an area light", surface),
+            Self::AreaLuminaire { surface } => ("luminaire and place on it", surface),
+            Self::PointLike { surface } => ("choice of a light", surface),
+            Self::Image { surface } => ("choice of images in mirrors", surface),
+            Self::Correction { surface } => ("correction of the map", surface),
+            Self::Bounce { surface } => ("survival and direction", surface),
+        };
+        match surface {
+            0 => write!(f, "{what}, for the sensor"),
+            surface => write!(f, "{what}, at surface {surface}"),
+        }
+    }
+}

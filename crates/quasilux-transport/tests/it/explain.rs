@@ -1,0 +1,108 @@
+//! The dimension report on scenes whose variance is known to sit in known coordinates.
+
+use crate::agreement::coloured_room_with_mirror;
+use crate::scenes::{diffuse, point_light, points, room};
+use glam::DVec3;
+use quasilux_scene::light::AreaLight;
+use quasilux_scene::{Light, Material, Scene};
+use quasilux_transport::explain::{Block, Share, WalkKind};
+use quasilux_transport::purpose::Purpose;
+use quasilux_transport::{Estimator, Explanation, Settings, explain};
+
+/// A black room with a bright ceiling, and a point below it.
+fn black_room_under_a_ceiling() -> Scene {
+    let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.0));
+    scene.materials.push(Material { name: "ceiling".to_owned(), bsdf: diffuse(0.0) });
+    let ceiling: Vec<u32> = (0..12).filter(|&t| scene.mesh.front_normal(t).z < -0.5).collect();
+    for &triangle in &ceiling {
+        scene.mesh.material_of[triangle as usize] = 1;
+    }
+    scene.lights.push(Light::Area(AreaLight {
+        material: 1,
+        triangles: ceiling,
+        area_m2: 12.0,
+        luminance_cd_m2: 1000.0,
+    }));
+    scene.sensors = vec![points("desk", &[(DVec3::new(1.0, 1.2, 0.8), DVec3::Z)])];
+    scene
+}
+
+fn uses(explanation: &Explanation) -> Vec<Purpose> {
+    explanation.blocks.iter().map(|block| block.uses[0].purpose).collect()
+}
+
+fn shares(block: &Block) -> [Share; 2] {
+    [block.alone.expect("it varies"), block.total.expect("it varies")]
+}
+
+/// Direct light of an area light is the sum of two estimates, one by a place on the light and one by the
+/// direction, each with its own coordinates: their effects add, so both shares of each block are the
+/// same, and add up to one. Four standard errors: right programs fail once in 10^4 seeds.
+#[test]
+fn direct_light_is_a_sum_of_two_blocks() {
+    let explanation = explain(&black_room_under_a_ceiling(), &Settings::default());
+    assert_eq!(explanation.walk, WalkKind::Paths);
+    assert_eq!(uses(&explanation), [Purpose::FirstDirection, Purpose::AreaLight { surface: 0 }]);
+    assert_eq!(explanation.dimensions.counts(), [0, 0, 0, 0, explanation.samples]);
+    let mut sum = 0.0;
+    for block in &explanation.blocks {
+        let [alone, total] = shares(block);
+        let error = libm::hypot(alone.standard_error, total.standard_error);
+        assert!((alone.value - total.value).abs() < 4.0 * error, "{block:?}");
+        assert!(total.standard_error < 0.06 && total.value > 0.1, "{block:?}");
+        sum += total.value;
+    }
+    assert!((sum - 1.0).abs() < 0.1, "{explanation:?}");
+    // The direction runs past the light's edge, the place does not.
+    let smoothness = [0, 1].map(|block| explanation.blocks[block].smoothness.expect("it varies"));
+    assert!(smoothness[0] < 1.5 && smoothness[1] > 1.7, "{explanation:?}");
+}
+
+/// Direct light of point lights is computed, and one of them alone needs no choice.
+#[test]
+fn what_is_computed_has_no_variance() {
+    let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.7));
+    scene.lights.push(point_light(DVec3::new(2.0, 1.5, 2.0), 100.0));
+    scene.sensors = vec![points("desk", &[(DVec3::new(1.0, 1.2, 0.8), DVec3::Z)])];
+    let settings = Settings { max_bounces: Some(0), ..Settings::default() };
+    let explanation = explain(&scene, &settings);
+    assert!(explanation.relative_deviation < 1e-10, "{explanation:?}");
+    assert_eq!(explanation.interacting_blocks, None);
+    assert!(explanation.blocks.iter().all(|block| block.total.is_none()));
+    assert_eq!(explanation.gain, None);
+}
+
+/// Decisions come in the order in which the walk meets them, each with the coordinates that it draws.
+#[test]
+fn coordinates_are_named_in_their_order() {
+    let scene = coloured_room_with_mirror();
+    let first = |estimator, count| {
+        let explanation = explain(&scene, &Settings { estimator, ..Settings::default() });
+        uses(&explanation)[..count].to_vec()
+    };
+    let at = |surface| [Purpose::AreaLight { surface }, Purpose::Bounce { surface }];
+    let [[seen1, on1], [seen2, on2]] = [1, 2].map(at);
+    let [place, lit0] = [Purpose::Cell, Purpose::AreaLight { surface: 0 }];
+    assert_eq!(
+        first(Estimator::Path, 7),
+        [place, Purpose::FirstDirection, lit0, seen1, on1, seen2, on2]
+    );
+    let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
+    assert_eq!(first(Estimator::Photon, 4), [leaves, across, on1, on2]);
+    let on_map = first(Estimator::Bidirectional, 5);
+    assert_eq!(on_map[4], Purpose::Correction { surface: 1 }, "{on_map:?}");
+}
+
+#[test]
+fn threads_change_nothing() {
+    let scene = coloured_room_with_mirror();
+    for estimator in [Estimator::Path, Estimator::Photon] {
+        let settings = Settings { estimator, ..Settings::default() };
+        let [one, three] = [1, 3].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("threads start").install(|| explain(&scene, &settings))
+        });
+        assert_eq!(one, three);
+        assert!(one.gain.is_some_and(|gain| gain.factor > 1.0), "{:?}", one.gain);
+    }
+}
