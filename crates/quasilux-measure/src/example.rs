@@ -1,6 +1,6 @@
 //! Small made-up results that the tests of this crate share.
 
-use crate::{Report, RunFacts};
+use crate::{Figure, Report, RunFacts, TermReport};
 use glam::DVec3;
 use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
@@ -79,6 +79,19 @@ pub(crate) fn noiseless(values: &[f64]) -> Report {
         &Settings::default(),
     );
     report.warnings.retain(|w| w != WARNING);
+    report
+}
+
+/// Two points with direct light and the rest apart, known to 0.5 lx.
+pub(crate) fn with_terms() -> Report {
+    let mut report = noiseless(&[100.0, 300.0]);
+    let known = |lx: f64| Figure { value: Some(lx), half_width: Some(0.5) };
+    let term = |(bounces, lx): (Option<u32>, [f64; 2])| TermReport {
+        bounces,
+        average_lx: known(0.5 * (lx[0] + lx[1])),
+        points_lx: lx.map(known).to_vec(),
+    };
+    report.sensors[0].terms = [(Some(0), [80.0, 200.0]), (None, [20.0, 100.0])].map(term).to_vec();
     report
 }
 

@@ -30,3 +30,26 @@ fn bounces_or_rest<S: Serializer>(bounces: &Option<u32>, serializer: S) -> Resul
         None => "rest".serialize(serializer),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::example;
+    use crate::json::json;
+    use serde_json::{Value, json as value};
+
+    #[test]
+    fn terms_are_listed_by_bounces_where_there_are_any() {
+        let document: Value =
+            serde_json::from_str(&json(&example::with_terms())).expect("valid JSON");
+        let sensor = &document["sensors"][0];
+        let wanted = value!([
+            {"bounces": 0, "value": 200.0, "half_width": 0.5},
+            {"bounces": "rest", "value": 100.0, "half_width": 0.5},
+        ]);
+        assert_eq!(sensor["points"][1]["terms_lx"], wanted);
+        assert_eq!(sensor["summary"]["average_terms_lx"][1]["value"], 60.0);
+        let document: Value = serde_json::from_str(&json(&example::office())).expect("valid JSON");
+        assert!(document["sensors"][0]["points"][0].get("terms_lx").is_none());
+        assert!(document.get("explain").is_none());
+    }
+}

@@ -29,3 +29,18 @@ pub(super) fn terms(report: &Report, style: Style) -> String {
     let columns = std::iter::once(Column::left("averages", names)).chain(columns).collect();
     format!("\n{}", lines(columns, style))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn averages_stand_by_bounces() {
+        let text = terms(&example::with_terms(), Style::Plain);
+        let lines: Vec<&str> = text.trim().lines().collect();
+        assert_eq!(lines[0], "averages   direct           rest", "{text}");
+        assert_eq!(lines[1], "desk       140.0 ± 0.5 lx   60.0 ± 0.5 lx", "{text}");
+        assert_eq!(terms(&example::office(), Style::Plain), "");
+    }
+}

@@ -1,7 +1,7 @@
 //! What the sequence of a run is worth: errors of independent replicates.
 
 use super::shares::{Spread, power};
-use super::{FIRST_OF_GAIN, Gain, Walk};
+use super::{FIRST_OF_GAIN, Gain, Walk, WalkKind};
 use crate::settings::Settings;
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 
@@ -39,8 +39,10 @@ pub(super) fn gain(
     let [few, all] = [samples / RATIO, samples].map(&mut variance);
     let exponent = power([all, few], [RATIO as f64, 1.0]).map(|power| -0.5 * power)?;
     let factor = (spread.variance() / samples as f64 / all).sqrt();
-    // A standard deviation from n values has the relative standard error 1 / sqrt(2 (n - 1)). The
-    // targets of photons are not independent, so they count as one.
-    let standard_error = factor / (2.0 * f64::from(REPLICATES - 1)).sqrt();
+    // A standard deviation from n values has the relative standard error 1 / sqrt(2 (n - 1)). Photons
+    // serve all targets, paths one each.
+    let independent = if walk.kind() == WalkKind::Photons { 1 } else { spread.targets() };
+    let degrees = independent as f64 * f64::from(REPLICATES - 1);
+    let standard_error = factor / (2.0 * degrees).sqrt();
     Some(Gain { samples, replicates: REPLICATES, factor, standard_error, exponent })
 }

@@ -3,7 +3,7 @@
 //! A pilot traces pseudo-random paths or photons whose coordinates no estimate uses, and finds out
 //! which coordinates feed which decision, as the code that draws them says ([`crate::purpose`]).
 //! Neighbouring coordinates that feed the same decision make a block. The pilot is then repeated with
-//! one block exchanged at a time, which gives the block's share of the variance ([`shares`]), and with
+//! one block exchanged at a time, which gives the block's share of the variance (`shares`), and with
 //! one block moved a little, which tells jumps from slopes. Shares are of the variance of one path or
 //! photon: what is even in few coordinates, and smooth, quasi-random points integrate fast (Caflisch,
 //! Morokoff and Owen 1997). What they are worth here is measured, too: independent replicates of the

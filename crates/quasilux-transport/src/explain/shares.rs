@@ -38,6 +38,11 @@ impl<'v> Spread<'v> {
         spread
     }
 
+    /// How many targets there are.
+    pub(super) fn targets(&self) -> usize {
+        self.means.len()
+    }
+
     /// Whether there is any variance.
     pub(super) fn varies(&self) -> bool {
         let deviation = self.relative_deviation();

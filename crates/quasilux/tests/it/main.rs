@@ -5,6 +5,7 @@ mod bad_input;
 mod cameras;
 mod direct;
 mod experiment;
+mod explain;
 mod limits;
 mod photometry;
 mod points;

@@ -1,0 +1,82 @@
+//! What `--explain` and `list_terms` add to a run.
+
+use crate::scenes::{Look, write_room};
+use crate::support::{Folder, number, parsed, without_seconds_and_threads};
+use serde_json::Value;
+
+fn write_room_with_terms(folder: &Folder) {
+    write_room(folder, "room", &Look::GREY);
+    let text = folder.read("room.toml");
+    folder.write("room.toml", text.replace("rel_tol = 0.1", "rel_tol = 0.1\nlist_terms = 2"));
+}
+
+fn sum(terms: &Value) -> f64 {
+    let terms = terms.as_array().expect("terms");
+    assert_eq!(
+        terms.iter().map(|term| &term["bounces"]).collect::<Vec<_>>(),
+        [&Value::from(0), &Value::from(1), &Value::from("rest"),]
+    );
+    terms.iter().map(|term| number(term, "/value")).sum()
+}
+
+#[test]
+fn terms_add_up_in_the_document() {
+    let folder = Folder::new("explain_terms");
+    write_room_with_terms(&folder);
+    let document = parsed(&folder.document("room.toml", "out", &[], 0));
+    for sensor in document["sensors"].as_array().expect("sensors") {
+        let average = number(sensor, "/summary/average_lx/value");
+        let share = sum(&sensor["summary"]["average_terms_lx"]) / average;
+        assert!((share - 1.0).abs() < 1e-9, "{share}");
+        for point in sensor["points"].as_array().expect("points") {
+            let share = sum(&point["terms_lx"]) / number(point, "/illuminance_lx");
+            assert!((share - 1.0).abs() < 1e-9, "{share}");
+            let direct = number(&point["terms_lx"], "/0/value") / number(point, "/direct_lx");
+            assert!((direct - 1.0).abs() < 1e-9, "{direct}");
+        }
+    }
+    let run = folder.quasilux(&["run", "room.toml", "--estimator", "bidirectional"]);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr.contains("list_terms") && run.stderr.contains("\"photon\""),
+        "{}",
+        run.stderr
+    );
+}
+
+/// The explanation is the same on any number of threads, adds to the document, and changes nothing else.
+#[test]
+fn the_explanation_stands_beside_the_results() {
+    let folder = Folder::new("explain_run");
+    write_room(&folder, "room", &Look::GREY);
+    let [plain, one, two] =
+        [&[][..], &["--explain", "--threads", "1"], &["--explain", "--threads", "2"]]
+            .map(|more| without_seconds_and_threads(&folder.document("room.toml", "out", more, 0)));
+    assert_eq!(one, two);
+    let mut document = parsed(&one);
+    let explanation = document.as_object_mut().expect("an object").remove("explain");
+    assert_eq!(document, parsed(&plain));
+    let explanation = explanation.expect("an explanation");
+    assert_eq!(explanation["samples_are"], "paths");
+    let blocks = explanation["blocks"].as_array().expect("blocks");
+    assert_eq!(blocks[0]["feeds"][0]["what"], "direction from the sensor");
+    assert_eq!(blocks.last().map(|block| &block["last"]), Some(&Value::Null));
+    assert!(number(&explanation, "/gain/factor") > 1.0);
+    for block in blocks {
+        assert!(number(block, "/total/value") < 1.2, "{block}");
+    }
+}
+
+#[test]
+fn the_explanation_is_printed() {
+    let folder = Folder::new("explain_print");
+    write_room(&folder, "room", &Look::GREY);
+    let run = folder.quasilux(&["run", "room.toml", "--explain"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    for words in ["coordinates", "direction from the sensor", "The sequence helps", "average"] {
+        assert!(run.stdout.contains(words), "no {words} in {}", run.stdout);
+    }
+    let run = folder.quasilux(&["run", "room.toml", "--explain", "--json"]);
+    assert!(parsed(&run.stdout)["explain"].is_object());
+    assert!(run.stderr.contains("direction from the sensor"), "{}", run.stderr);
+}
