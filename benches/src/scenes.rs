@@ -40,6 +40,59 @@ pub fn example(name: &'static str) -> Named {
     Named { name, scene: loaded.scene }
 }
 
+/// Files in memory.
+struct Texts([(&'static str, &'static str); 2]);
+
+impl Files for Texts {
+    fn read(&self, path: &str) -> io::Result<Vec<u8>> {
+        let found = self.0.iter().find(|(name, _)| *name == path);
+        found.map(|(_, text)| text.as_bytes().to_vec()).ok_or(io::ErrorKind::NotFound.into())
+    }
+}
+
+const ROOM: &str = "
+    v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 0 0 2.5\nv 4 0 2.5\nv 4 3 2.5\nv 0 3 2.5
+    v 1 1 0.7\nv 2 1 0.7\nv 2 2 0.7\nv 1 2 0.7
+    usemtl floor\nf 1 2 3 4\nusemtl ceiling\nf 5 8 7 6
+    usemtl wall\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1
+    usemtl table\nf 9 10 11 12
+";
+/// A beam of 10 degrees straight down, and a faint glow from there to the horizon.
+const SPOT: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 6 1 1 2 0 0 0\n1 1 1\n0 4 6 30 90 180\n0\n\
+                    9000 8000 300 40 0 0\n";
+
+/// A room of 4 m x 3 m x 2.5 m with a table and the lights of this part of a project.
+fn small_room(name: &'static str, lights: &str) -> Named {
+    let project = format!(
+        "[scene]\ngeometry = [\"room.obj\"]\n[materials]\n{}\n{lights}\n{}",
+        "floor = { reflectance = 0.2 }\nwall = { reflectance = 0.5 }\n\
+         ceiling = { reflectance = 0.7 }\ntable = { reflectance = 0.4 }",
+        "[[sensors]]\nname = \"plane\"\nkind = \"grid\"\norigin = [0.3, 0.3, 0.8]\n\
+         u = [3.4, 0, 0]\nv = [0, 2.4, 0]\ncounts = [6, 4]\nnormal = [0, 0, 1]"
+    );
+    let files = Texts([("room.obj", ROOM), ("spot.ies", SPOT)]);
+    Named { name, scene: load(name, project.as_bytes(), &files).expect("it loads").scene }
+}
+
+/// A small room with two narrow beams onto its dark floor and its table.
+#[must_use]
+pub fn spotlights() -> Named {
+    small_room(
+        "spotlights",
+        "[[luminaires]]\nphotometry = \"spot.ies\"\nposition = [1.4, 1.4, 2.4]\n\
+         [[luminaires]]\nphotometry = \"spot.ies\"\nposition = [3.0, 2.0, 2.4]",
+    )
+}
+
+/// The same room with a bare lamp 2 cm from a wall.
+#[must_use]
+pub fn lamp_near_a_wall() -> Named {
+    small_room(
+        "wall",
+        "[[lights]]\nkind = \"point\"\nposition = [0.02, 1.1, 1.3]\nintensity_cd = 100",
+    )
+}
+
 /// A furnished kitchen of 57 000 triangles, a lamp and a level grid in its middle; `None` where the
 /// file or `zstd` is missing.
 #[must_use]

@@ -1,5 +1,5 @@
-//! cargo run --release -p quasilux-benches --bin convergence [cube|office] [ESTIMATOR...] [2^N] [random] [bounces=N]
-//! [element=METRES]
+//! cargo run --release -p quasilux-benches --bin convergence [cube|office|spotlights|wall] [ESTIMATOR...] [2^N]
+//! [random] [bounces=N] [element=METRES] [first_shot=auto|on|off]
 //!
 //! How the error falls, and at what price. At each checkpoint: indices per replicate, rays, processor
 //! seconds so far, the relative error of one replicate (from the spread of 16, root mean square over all
@@ -7,13 +7,14 @@
 //! efficiency 1 / (squared error of the mean x processor seconds).
 //!
 //! `cube` is the diffuse cube of Voloboy, Dmitriev and Kopylov (2003) with nine points on each face,
-//! `office` the example with 68 points.
+//! `office` the example with 68 points, `spotlights` and `wall` a small room with two narrow beams, or with a
+//! bare lamp 2 cm from a wall.
 
 use quasilux_benches::scenes;
 use quasilux_foreign::all_processors_seconds;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
-use quasilux_transport::{Control, Estimates, Estimator, Observer, Settings, simulate};
+use quasilux_transport::{Control, Estimates, Estimator, FirstShot, Observer, Settings, simulate};
 
 /// Checkpoints that a slope spans.
 const SPAN: usize = 4;
@@ -30,18 +31,26 @@ fn main() {
     let limit = words.iter().find_map(|word| word.strip_prefix("2^")?.parse().ok()).unwrap_or(12);
     let max_bounces = words.iter().find_map(|word| word.strip_prefix("bounces=")?.parse().ok());
     let map_element_m = words.iter().find_map(|word| word.strip_prefix("element=")?.parse().ok());
+    let first_shot = FirstShot::NAMES
+        .iter()
+        .find(|(name, _)| given(&format!("first_shot={name}")))
+        .map_or(FirstShot::Auto, |named| named.1);
     let sequence = if given("random") { Sequence::Random } else { Sequence::Sobol };
     let chosen: Vec<Estimator> =
         Estimator::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
     let estimators =
         if chosen.is_empty() { vec![Estimator::Path, Estimator::Bidirectional] } else { chosen };
-    for name in ["cube", "office"]
-        .into_iter()
-        .filter(|name| given(name) || !(given("cube") || given("office")))
-    {
+    let names = ["cube", "office", "spotlights", "wall"];
+    let all = !names.iter().any(|name| given(name));
+    for name in names.into_iter().filter(|name| all || given(name)) {
         let scene = scene(name);
         for &estimator in &estimators {
-            println!("{name}, {}, {}", estimator.name(), sequence.name());
+            println!(
+                "{name}, {}, {}, first shot {}",
+                estimator.name(),
+                sequence.name(),
+                first_shot.name()
+            );
             println!(
                 "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
                 "indices", "rays", "seconds", "one, %", "mean, %", "slope", "efficiency"
@@ -51,6 +60,7 @@ fn main() {
                 sequence,
                 max_bounces,
                 map_element_m,
+                first_shot,
                 rel_tol: 0.0,
                 max_samples: Some(1 << limit),
                 ..Settings::default()
@@ -62,6 +72,11 @@ fn main() {
 }
 
 fn scene(name: &'static str) -> Scene {
+    match name {
+        "spotlights" => return scenes::spotlights().scene,
+        "wall" => return scenes::lamp_near_a_wall().scene,
+        _ => {}
+    }
     let mut scene = scenes::example(name).scene;
     scene.sensors = match name {
         "cube" => scenes::cube_sensors(),

@@ -1,6 +1,6 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
-use crate::settings::{Estimator, Settings};
+use crate::settings::{Estimator, FirstShot, Settings};
 use crate::world::World;
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
@@ -43,6 +43,14 @@ pub enum CheckError {
         /// Name of the estimator.
         estimator: &'static str,
     },
+    /// These photons are counted from their first flight on, or there are none.
+    #[error(
+        "first_shot = \"on\" is for the photons of illumination maps: the estimator \"{estimator}\" has none"
+    )]
+    FirstShotWithoutMap {
+        /// Name of the estimator.
+        estimator: &'static str,
+    },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -61,6 +69,9 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
         matches!(settings.estimator, Estimator::Bidirectional | Estimator::BidirectionalMap);
     if settings.list_terms > 0 && ends_on_map {
         return Err(CheckError::TermsOfMap { estimator: settings.estimator.name() });
+    }
+    if settings.first_shot == FirstShot::On && !ends_on_map {
+        return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }
     if settings.estimator != Estimator::Photon {
         return Ok(());

@@ -6,7 +6,7 @@
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::grid_plane::GridPlane;
 use crate::map::{MapLayout, QUANTA_PER_PHOTON};
-use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
+use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::simulate::Estimation;
@@ -96,7 +96,14 @@ impl<'a, S: Spectrum> Counting<'a, S> {
         let (receivers, counters) = (&self.receivers, &self.counters);
         let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
         let (replicates, windows) = (0..counters.len() as u32, self.plan.windows.as_ref());
-        let batch = PhotonBatch { stream: Stream::Photons, replicates, indices, way, windows };
+        let batch = PhotonBatch {
+            stream: Stream::Photons,
+            replicates,
+            indices,
+            way,
+            source: Source::Lights,
+            windows,
+        };
         trace_photons(self.stage, &batch, receiver, watch)
     }
 

@@ -6,14 +6,16 @@
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
-//! `steering` for how they are split on their way, at `path_wave` and `shadow` for how paths do, at
-//! `map` for where the two ways meet, at `pixels` for pictures.
+//! `steering` for how they are split on their way, at `first_shot` for when
+//! they need not leave a light, at `path_wave` and `shadow` for how paths do, at `map` for where the two
+//! ways meet, at `pixels` for pictures.
 
 mod bsdf;
 mod check;
 mod counting;
 pub mod estimates;
 pub mod explain;
+mod first_shot;
 mod frame;
 mod gathering;
 mod grid_plane;
@@ -55,5 +57,5 @@ pub use interval::Interval;
 pub use observer::{Control, Observer, Progress};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
-pub use settings::{Estimator, Reconstruction, Settings, Steering};
+pub use settings::{Estimator, FirstShot, Reconstruction, Settings, Steering};
 pub use simulate::simulate;

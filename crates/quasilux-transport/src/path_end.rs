@@ -1,8 +1,9 @@
 //! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
 
+use crate::first_shot::{LitCells, decide};
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
 use crate::path::survival_factor;
-use crate::photon::PhotonCounts;
+use crate::photon::{PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
@@ -42,6 +43,8 @@ pub(crate) enum PathEnd<S> {
         tallies: Vec<MapTally<S>>,
         /// Flux of a photon.
         flux_lm: f64,
+        /// Where photons leave from instead of the point-like lights.
+        lit_cells: Option<LitCells>,
         /// What steers their photons.
         windows: Option<Windows>,
     },
@@ -81,40 +84,52 @@ impl<S: Spectrum> PathEnd<S> {
         watch: &mut Watch<'_>,
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
-        let plan = |photons: u64, receiver: Option<MapReceiver<'_, S>>, watch: &mut Watch<'_>| {
+        let plan = |photons: u64,
+                    source: Source<'_>,
+                    receiver: Option<MapReceiver<'_, S>>,
+                    watch: &mut Watch<'_>| {
             let batch = PhotonBatch {
                 stream: Stream::PlanPhotons,
                 replicates: 0..1,
                 indices: 0..photons,
                 way: Way::CoherentWaves,
+                source,
                 windows: None,
             };
             trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
         };
         if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
-            return (Self::Nothing, plan(BALANCE_PHOTONS, None, watch));
+            return (Self::Nothing, plan(BALANCE_PHOTONS, Source::Lights, None, watch));
         }
+        let mut counts = PhotonCounts::default();
+        let lit_cells = decide(stage, settings, &mut counts);
+        if lit_cells.is_some() {
+            // Those of the lit cells do not say where the flux of the lights goes.
+            counts += plan(BALANCE_PHOTONS, Source::Lights, None, watch);
+        }
+        let source = Source::of(lit_cells.as_ref());
         if settings.estimator == Estimator::BidirectionalMap {
-            let (layout, mut counts) = refined(stage, settings, watch);
+            let (layout, pilots) = refined(stage, settings, watch);
+            counts += pilots;
             let Plan { windows, rays } = steering::plan(stage, targets, settings.steering);
             counts.rays += rays;
-            let lightest = windows.as_ref().map_or(1.0, Windows::lightest);
+            let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
             let replicates = 0..settings.effective_replicates();
             let tallies = replicates.map(|_| MapTally::new(&layout, lightest)).collect();
-            return (Self::Own { layout, tallies, flux_lm: 0.0, windows }, counts);
+            return (Self::Own { layout, tallies, flux_lm: 0.0, lit_cells, windows }, counts);
         }
         // Of wanted bounces, the first are found by the paths.
         let most_bounces = match stage.max_bounces {
             None => u32::MAX,
             Some(most) if most > PASSES + 1 => most - 1 - PASSES,
-            Some(_) => return (Self::Nothing, plan(BALANCE_PHOTONS, None, watch)),
+            Some(_) => return (Self::Nothing, plan(BALANCE_PHOTONS, Source::Lights, None, watch)),
         };
         let layout = MapLayout::coarsest(&stage.world, settings);
         let wanted = (PHOTONS_PER_ELEMENT * layout.len() as u64).next_power_of_two();
         let photons = wanted.clamp(*PLAN_PHOTONS.start(), *PLAN_PHOTONS.end());
-        let tally = MapTally::new(&layout, 1.0);
+        let tally = MapTally::new(&layout, source.usual_weight());
         let receiver = MapReceiver::up_to(most_bounces, &layout, &tally);
-        let counts = plan(photons, Some(receiver), watch);
+        counts += source.counted(plan(photons, source, Some(receiver), watch));
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
 
@@ -125,20 +140,24 @@ impl<S: Spectrum> PathEnd<S> {
         indices: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> Growth {
-        let Self::Own { layout, tallies, flux_lm, windows } = self else { return Growth::None };
+        let Self::Own { layout, tallies, flux_lm, lit_cells, windows } = self else {
+            return Growth::None;
+        };
         let samples = indices.end;
         let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
+        let source = Source::of(lit_cells.as_ref());
         let batch = PhotonBatch {
             stream: Stream::Photons,
             replicates: 0..tallies.len() as u32,
             indices,
             way: Way::CoherentWaves,
+            source,
             windows: windows.as_ref(),
         };
         let traced = trace_photons(stage, &batch, receiver, watch);
         let Some(counts) = traced else { return Growth::Stopped };
         *flux_lm = stage.lights.flux_lm / samples as f64;
-        Growth::NewMaps(counts)
+        Growth::NewMaps(source.counted(counts))
     }
 
     /// Where the paths of one replicate end.

@@ -8,7 +8,8 @@
 //! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::Mode;
-use crate::lights::Emission;
+use crate::first_shot::{Drawn, LitCells, LitPlace};
+use crate::lights::{Emission, Emitted};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::specular::Trail;
@@ -37,6 +38,8 @@ pub(crate) struct PhotonCounts {
     pub(crate) cut: i64,
     /// Photons cut after [`MOST_EVENTS`].
     pub(crate) endless: u64,
+    /// The same of photons that are not in the balance of the flux.
+    pub(crate) trapped: u64,
     pub(crate) rays: u64,
     /// Coordinates that each of them used, children of splits by themselves.
     pub(crate) dimensions: DimensionHistogram,
@@ -79,11 +82,60 @@ pub(crate) struct Flight {
 /// A photon on its way, but for where it flies.
 pub(crate) struct Photon<'p, S> {
     pub(crate) cursor: SampleCursor<'p>,
-    /// Its colour: the flux that it carries, as a share of that of one photon at its start.
+    /// Its colour: the flux that it carries, as a share of that of one photon of all lights.
     pub(crate) weight: S,
     pub(crate) trail: Trail,
     /// Whether it ends where paths find it.
     specular_only: bool,
+    /// Bounces behind it before its first flight.
+    bounces: u32,
+}
+
+/// Where photons begin.
+#[derive(Clone, Copy)]
+pub(crate) enum Source<'s> {
+    /// At the lights.
+    Lights,
+    /// Where light of the point-like lights lands, and at the lights with an area.
+    LitCells(&'s LitCells),
+}
+
+/// Where photons begin, and what steers them.
+#[derive(Clone, Copy)]
+pub(crate) struct Lead<'s> {
+    pub(crate) source: Source<'s>,
+    pub(crate) windows: Option<&'s Windows>,
+}
+
+impl<'s> Source<'s> {
+    /// The lights, or lit cells where there are any.
+    pub(crate) fn of(lit_cells: Option<&'s LitCells>) -> Self {
+        lit_cells.map_or(Source::Lights, Source::LitCells)
+    }
+
+    /// What most photons from here weigh, rounded down to a power of two.
+    pub(crate) fn usual_weight(self) -> f64 {
+        match self {
+            Self::Lights => 1.0,
+            Self::LitCells(cells) => libm::ldexp(1.0, libm::ilogb(cells.flux_share())),
+        }
+    }
+
+    /// What photons from here count: their flux only where it is all that the lights emit.
+    pub(crate) fn counted(self, counts: PhotonCounts) -> PhotonCounts {
+        match self {
+            Self::Lights => counts,
+            Self::LitCells(_) => counts.apart_from_flux(),
+        }
+    }
+}
+
+/// How a photon begins.
+pub(crate) enum Beginning {
+    /// With its flight from a light.
+    Flies(Emission),
+    /// At a place, if light comes there.
+    IfLit(LitPlace),
 }
 
 /// A photon that is about to fly.
@@ -96,23 +148,34 @@ pub(crate) struct Departure<'p, S> {
 /// [`crate::photon_wave::PhotonWave`].
 pub(crate) fn trace_photon<'p, S: Spectrum>(
     stage: &Stage<'_, S>,
-    windows: Option<&Windows>,
+    lead: Lead<'_>,
     cursor: SampleCursor<'p>,
     receiver: &mut impl PhotonReceiver<S>,
     counts: &mut PhotonCounts,
 ) {
     let mut photon = Photon::new(cursor).for_receiver(receiver);
-    let Some(start) = photon.emit(stage) else { return };
     counts.emitted += 1;
-    let mut generation: Vec<Departure<'p, S>> = vec![Departure { photon, start }];
+    let mut generation: Vec<Departure<'p, S>> = Vec::new();
+    match photon.begin(stage, lead.source) {
+        Some(Beginning::Flies(start)) => generation.push(Departure { photon, start }),
+        Some(Beginning::IfLit(place)) => {
+            counts.rays += 1;
+            if !place.is_lit(stage) {
+                return counts.end(&photon);
+            }
+            photon.receive(&place);
+            photon.scatter(stage, lead, &place.arrival(), counts, |next| generation.push(next));
+        }
+        None => return counts.end(&photon),
+    }
     for bounces in 0..MOST_EVENTS {
         let mut next = Vec::new();
         for Departure { photon, start: Emission { from, direction } } in generation {
             counts.rays += 1;
             let found = stage.world.trace(from, direction);
             photon.show(stage, from.position(), direction, found.as_ref(), bounces, receiver);
-            let arrival = Arrival { direction, found: found.as_ref(), bounces };
-            photon.scatter(stage, windows, &arrival, counts, |departure| next.push(departure));
+            let arrival = Arrival { direction, found: found.as_ref(), bounces, is_drawn: false };
+            photon.scatter(stage, lead, &arrival, counts, |departure| next.push(departure));
         }
         if next.is_empty() {
             return;
@@ -136,14 +199,16 @@ pub(crate) struct Arrival<'a> {
     /// Along which the photon flew.
     pub(crate) direction: DVec3,
     pub(crate) found: Option<&'a Interaction>,
-    /// Before this one.
+    /// Before this one, since it began.
     pub(crate) bounces: u32,
+    /// Whether no flight led here: the place was drawn, from those whose light goes on.
+    pub(crate) is_drawn: bool,
 }
 
 impl<'p, S: Spectrum> Photon<'p, S> {
     /// The photon that takes its coordinates from `cursor`.
     pub(crate) fn new(cursor: SampleCursor<'p>) -> Self {
-        Self { cursor, weight: S::white(), trail: Trail::Found, specular_only: false }
+        Self { cursor, weight: S::white(), trail: Trail::Found, specular_only: false, bounces: 0 }
     }
 
     /// The photon as a receiver wants it.
@@ -151,11 +216,27 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         Self { specular_only: R::SPECULAR_ONLY, ..self }
     }
 
-    /// Leaves its light; `None` where nothing emits.
-    pub(crate) fn emit(&mut self, stage: &Stage<'_, S>) -> Option<Emission> {
-        let emitted = stage.lights.emit(stage, &mut self.cursor)?;
-        self.trail = emitted.trail;
-        Some(emitted.emission)
+    /// Draws its beginning; `None` where nothing emits, or where no light can land.
+    pub(crate) fn begin(&mut self, stage: &Stage<'_, S>, source: Source<'_>) -> Option<Beginning> {
+        let lights = &stage.lights;
+        let Emitted { emission, trail } = match source {
+            Source::Lights => lights.emit(stage, &mut self.cursor)?,
+            Source::LitCells(cells) => match cells.draw(stage, &mut self.cursor)? {
+                Drawn::Place(place) => return Some(Beginning::IfLit(place)),
+                Drawn::Light { number, u, flux_share } => {
+                    self.weight = S::white() * flux_share;
+                    lights.emit_from(number, u, stage, &mut self.cursor)?
+                }
+            },
+        };
+        self.trail = trail;
+        Some(Beginning::Flies(emission))
+    }
+
+    /// Takes the light that comes to a place.
+    pub(crate) fn receive(&mut self, place: &LitPlace) {
+        self.trail = Trail::Shown(place.light);
+        self.weight = S::white() * place.flux_share;
     }
 
     /// Shows a flight to the receiver, and where it landed.
@@ -168,6 +249,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         bounces: u32,
         receiver: &mut impl PhotonReceiver<S>,
     ) {
+        let bounces = bounces + self.bounces;
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from, direction, length_m };
         let landing = found.filter(|at| stage.world.bsdf(at).keeps_illuminance());
@@ -188,7 +270,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     pub(crate) fn scatter(
         mut self,
         stage: &Stage<'_, S>,
-        windows: Option<&Windows>,
+        lead: Lead<'_>,
         arrival: &Arrival<'_>,
         counts: &mut PhotonCounts,
         mut depart: impl FnMut(Departure<'p, S>),
@@ -201,10 +283,12 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
         let left = (self.weight * bsdf.albedo(wo, at.front)).luminance();
-        let window = windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
-        let split = Split::new(left, window.map_or(luminance, |window| window.weight));
+        let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
+        // Of drawn places those are rare that absorb much, so all photons go on from there.
+        let survivor = if arrival.is_drawn { left } else { luminance };
+        let split = Split::new(left, window.map_or(survivor, |window| window.weight));
         let whole = split.expected.floor();
-        let bounce = Purpose::Bounce { surface: arrival.bounces + 1 };
+        let bounce = Purpose::Bounce { surface: arrival.bounces + self.bounces + 1 };
         let one_more = stage
             .draw(&mut self.cursor, bounce, |cursor| cursor.choose_bool(split.expected - whole));
         let count = whole as u32 + u32::from(one_more);
@@ -213,7 +297,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         if count == 0 {
             return counts.end(&self);
         }
-        if stage.max_bounces.is_some_and(|most| arrival.bounces >= most) {
+        if stage.max_bounces.is_some_and(|most| arrival.bounces + self.bounces >= most) {
             let goes_on = i64::from(count) * quanta(split.weight);
             counts.absorbed -= goes_on;
             counts.cut += goes_on;
@@ -221,8 +305,9 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         }
         let children: Vec<SampleCursor<'p>> =
             (1..count).map(|child| self.cursor.child(child)).collect();
-        let Self { weight, trail, specular_only, .. } = self;
-        let child = |cursor| Self { cursor, weight, trail, specular_only };
+        self.bounces += u32::from(arrival.is_drawn);
+        let Self { weight, trail, specular_only, bounces, .. } = self;
+        let child = |cursor| Self { cursor, weight, trail, specular_only, bounces };
         for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
             let guide = window.map(|window| &window.guide);
             let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);
@@ -278,8 +363,15 @@ fn quanta(weight: f64) -> i64 {
 }
 
 impl PhotonCounts {
+    /// What they cost, without where their flux went: those from lit cells do not carry all of it.
+    fn apart_from_flux(self) -> Self {
+        let trapped = self.trapped + self.endless;
+        let Self { rays, dimensions, .. } = self;
+        Self { trapped, rays, dimensions, ..Self::default() }
+    }
+
     /// Records a photon that ended.
-    fn end<S>(&mut self, photon: &Photon<'_, S>) {
+    pub(crate) fn end<S>(&mut self, photon: &Photon<'_, S>) {
         self.dimensions.record(photon.cursor.used());
     }
 
@@ -303,6 +395,7 @@ impl AddAssign for PhotonCounts {
         self.lost += other.lost;
         self.cut += other.cut;
         self.endless += other.endless;
+        self.trapped += other.trapped;
         self.rays += other.rays;
         self.dimensions.merge(&other.dimensions);
     }

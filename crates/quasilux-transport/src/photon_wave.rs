@@ -7,10 +7,9 @@
 //! index and its ancestors alone, never on its company: a wave gives what
 //! [`crate::photon::trace_photon`] gives.
 
-use crate::photon::{Arrival, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
+use crate::photon::{Arrival, Beginning, Lead, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
-use crate::steering::Windows;
 use crate::trial::Step;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, Shot};
@@ -23,8 +22,8 @@ const LONGEST: usize = 1 << 14;
 pub(crate) struct Wave<'p, 'w, I> {
     pub(crate) points: &'p PointSet,
     pub(crate) indices: I,
-    /// What steers them.
-    pub(crate) windows: Option<&'w Windows>,
+    /// Where from, and what steers them.
+    pub(crate) lead: Lead<'w>,
 }
 
 /// Working space for one wave after the other.
@@ -38,6 +37,9 @@ pub(crate) struct PhotonWave<'p, S> {
     hits: Vec<Option<Hit>>,
     /// Where it meets a surface.
     found: Vec<Option<Interaction>>,
+    /// How each photon begins, and which of the places that some leave from light comes to.
+    beginnings: Vec<Beginning>,
+    is_lit: Vec<bool>,
     indices: Vec<u64>,
     /// The next two coordinates of each photon.
     ahead: [Vec<f64>; 2],
@@ -59,6 +61,8 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
             waiting: Vec::new(),
             hits: Vec::new(),
             found: Vec::new(),
+            beginnings: Vec::new(),
+            is_lit: Vec::new(),
             indices: Vec::new(),
             ahead: [Vec::new(), Vec::new()],
         }
@@ -73,7 +77,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         counts: &mut PhotonCounts,
     ) {
         let lap = |step| stage.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
-        let Wave { points, indices, windows } = wave;
+        let Wave { points, indices, lead } = wave;
         self.photons.clear();
         self.photons.extend(
             indices
@@ -81,9 +85,11 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         );
         self.supply(points);
         lap(Step::Sampling);
-        self.emit(stage);
-        lap(Step::Emission);
         counts.emitted += self.photons.len() as u64;
+        self.begin(stage, lead, counts);
+        self.look_for_light(stage, points, counts);
+        self.depart(stage, lead, counts);
+        lap(Step::Emission);
         let mut bounces = 0;
         while let Some(reached) = self.muster(bounces) {
             bounces = reached;
@@ -98,7 +104,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
             lap(Step::Tally);
             self.supply(points);
             lap(Step::Sampling);
-            self.scatter(stage, windows, bounces, counts);
+            self.scatter(stage, lead, bounces, counts);
             bounces += 1;
             lap(Step::Scattering);
         }
@@ -121,13 +127,62 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         Some(bounces)
     }
 
-    fn emit(&mut self, stage: &Stage<'_, S>) {
-        self.shots.clear();
+    /// Draws all beginnings.
+    fn begin(&mut self, stage: &Stage<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+        self.beginnings.clear();
         self.photons.retain_mut(|photon| {
-            let emission = photon.emit(stage);
-            self.shots.extend(emission.iter().map(|start| start.from.shot(start.direction)));
-            emission.is_some()
+            let beginning = photon.begin(stage, lead.source);
+            if beginning.is_none() {
+                counts.end(photon);
+            }
+            let begins = beginning.is_some();
+            self.beginnings.extend(beginning);
+            begins
         });
+    }
+
+    /// Finds out to which of the places that photons begin at light comes.
+    fn look_for_light(
+        &mut self,
+        stage: &Stage<'_, S>,
+        points: &PointSet,
+        counts: &mut PhotonCounts,
+    ) {
+        self.shots.clear();
+        self.shots.extend(self.beginnings.iter().filter_map(|beginning| match beginning {
+            Beginning::Flies(_) => None,
+            Beginning::IfLit(place) => Some(place.sight(stage)),
+        }));
+        counts.rays += self.shots.len() as u64;
+        stage.world.are_visible(&self.shots, &mut self.is_lit);
+        if !self.shots.is_empty() {
+            self.supply(points);
+        }
+        self.shots.clear();
+    }
+
+    /// Lets all photons fly that leave a light, or a place that light comes to.
+    fn depart(&mut self, stage: &Stage<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+        let (photons, shots) = &mut self.departed;
+        let mut is_lit = self.is_lit.iter();
+        for (mut photon, beginning) in self.photons.drain(..).zip(&self.beginnings) {
+            match beginning {
+                Beginning::Flies(start) => {
+                    shots.push(start.from.shot(start.direction));
+                    photons.push(photon);
+                }
+                Beginning::IfLit(place) if is_lit.next() == Some(&true) => {
+                    photon.receive(place);
+                    photon.scatter(stage, lead, &place.arrival(), counts, |departure| {
+                        shots.push(departure.start.from.shot(departure.start.direction));
+                        photons.push(departure.photon);
+                    });
+                }
+                Beginning::IfLit(_) => counts.end(&photon),
+            }
+        }
+        std::mem::swap(&mut self.photons, photons);
+        std::mem::swap(&mut self.shots, shots);
     }
 
     /// Makes the next two coordinates of all photons at once. Those that are elsewhere in their
@@ -162,15 +217,20 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     fn scatter(
         &mut self,
         stage: &Stage<'_, S>,
-        windows: Option<&Windows>,
+        lead: Lead<'_>,
         bounces: u32,
         counts: &mut PhotonCounts,
     ) {
         let (photons, shots) = &mut self.departed;
         let arrivals = self.shots.iter().zip(&self.found);
         for (photon, (shot, found)) in self.photons.drain(..).zip(arrivals) {
-            let arrival = Arrival { direction: shot.ray.direction, found: found.as_ref(), bounces };
-            photon.scatter(stage, windows, &arrival, counts, |departure| {
+            let arrival = Arrival {
+                direction: shot.ray.direction,
+                found: found.as_ref(),
+                bounces,
+                is_drawn: false,
+            };
+            photon.scatter(stage, lead, &arrival, counts, |departure| {
                 shots.push(departure.start.from.shot(departure.start.direction));
                 photons.push(departure.photon);
             });

@@ -2,7 +2,7 @@
 
 use crate::estimates::FluxBalance;
 use crate::order::Waves;
-use crate::photon::{MOST_EVENTS, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::photon::{Lead, MOST_EVENTS, PhotonCounts, PhotonReceiver, Source, trace_photon};
 use crate::photon_wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -23,6 +23,7 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) replicates: Range<u32>,
     pub(crate) indices: Range<u64>,
     pub(crate) way: Way,
+    pub(crate) source: Source<'w>,
     /// What steers them; `None` leaves them alone.
     pub(crate) windows: Option<&'w Windows>,
 }
@@ -35,7 +36,8 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let PhotonBatch { stream, replicates, indices, way, windows } = batch;
+    let PhotonBatch { stream, replicates, indices, way, source, windows } = batch;
+    let lead = Lead { source: *source, windows: *windows };
     let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
     let close_in = match way {
@@ -56,12 +58,12 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
         if *way == Way::OneByOne {
             for index in indices {
                 let cursor = SampleCursor::new(points, index);
-                trace_photon(stage, *windows, cursor, &mut receiver, &mut counts);
+                trace_photon(stage, lead, cursor, &mut receiver, &mut counts);
             }
         } else {
             let thread = rayon::current_thread_index().unwrap_or(0);
             let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
-            let wave = Wave { points, indices, windows: *windows };
+            let wave = Wave { points, indices, lead };
             space.trace(stage, wave, &mut receiver, &mut counts);
         }
         counts
@@ -99,7 +101,7 @@ impl PhotonCounts {
 
     /// What a reader of the results must know of them.
     pub(crate) fn warnings(&self) -> Vec<String> {
-        let photons = self.endless;
+        let photons = self.endless + self.trapped;
         if photons == 0 {
             return Vec::new();
         }

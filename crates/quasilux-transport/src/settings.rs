@@ -1,5 +1,6 @@
 //! What a simulation is asked to do.
 
+pub use crate::first_shot::FirstShot;
 pub use crate::map::Reconstruction;
 use quasilux_sampling::{Randomization, Sequence};
 
@@ -95,6 +96,8 @@ pub struct Settings {
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
     pub max_samples: Option<u64>,
+    /// Whether photons for the illumination map leave lit places instead of point-like lights.
+    pub first_shot: FirstShot,
     /// Longest edge of an illumination map element in m before any is split; `None` derives it from
     /// the scene's size.
     pub map_element_m: Option<f64>,
@@ -137,6 +140,7 @@ impl Default for Settings {
             max_bounces: None,
             list_terms: 0,
             max_samples: None,
+            first_shot: FirstShot::Auto,
             map_element_m: None,
             map_elements: 1 << 22,
             map_adaptive: true,

@@ -233,16 +233,27 @@ impl<S: Spectrum> World<S> {
     }
 
     fn interaction(&self, hit: &Hit, direction: DVec3) -> Interaction {
-        let facet = &self.facets[hit.triangle as usize];
-        let front = facet.front_normal.dot(direction) < 0.0;
-        let barycentric = hit.barycentric.map(|b| b + (1.0 / 3.0 - b) * INWARD);
+        let front = self.facets[hit.triangle as usize].front_normal.dot(direction) < 0.0;
+        let at = self.interaction_on(hit.triangle, front, hit.barycentric);
+        Interaction { distance_m: hit.distance, ..at }
+    }
+
+    /// The place with these weights on one side of a facet, as if a ray of no length had met it.
+    pub(crate) fn interaction_on(
+        &self,
+        number: u32,
+        front: bool,
+        weights: [f64; 3],
+    ) -> Interaction {
+        let facet = &self.facets[number as usize];
+        let barycentric = weights.map(|b| b + (1.0 / 3.0 - b) * INWARD);
         Interaction {
-            facet: hit.triangle,
+            facet: number,
             barycentric,
             position: facet.point(barycentric),
             n: if front { facet.front_normal } else { -facet.front_normal },
             front,
-            distance_m: hit.distance,
+            distance_m: 0.0,
         }
     }
 

@@ -5,7 +5,7 @@ use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
-use quasilux_transport::{Estimator, Reconstruction, Settings, Steering};
+use quasilux_transport::{Estimator, FirstShot, Reconstruction, Settings, Steering};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -96,6 +96,10 @@ pub(crate) fn settings(
     let defaults = Settings::default();
     settings.rel_tol = arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
     settings.confidence = placed(&section.confidence).unwrap_or(defaults.confidence);
+    if let Some(name) = &section.first_shot {
+        let known = &FirstShot::NAMES;
+        settings.first_shot = names::in_project(section, "first shot", name, known)?;
+    }
     settings.map_element_m = placed(&section.map_element_m);
     settings.map_elements =
         section.map_elements.as_ref().map_or(defaults.map_elements, |at| at.value);

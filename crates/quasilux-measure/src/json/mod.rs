@@ -8,8 +8,8 @@
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`), `flux_cut_lm`, the
-//! flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
+//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`, `first_shot`),
+//! `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end. Where it was asked for,
 //! `explain` says which coordinates carry the variance.
 
@@ -118,6 +118,7 @@ struct RunEntry<'a> {
     max_bounces: Option<u32>,
     #[serde(skip_serializing_if = "is_zero")]
     list_terms: u32,
+    first_shot: &'static str,
     map_element_m: Option<f64>,
     map_elements: u64,
     map_adaptive: bool,
@@ -228,6 +229,7 @@ impl<'a> RunEntry<'a> {
             tolerance_reached: run.tolerance_reached,
             max_bounces: run.settings.max_bounces,
             list_terms: run.settings.list_terms,
+            first_shot: run.settings.first_shot.name(),
             map_element_m: run.settings.map_element_m,
             map_elements: run.settings.map_elements,
             map_adaptive: run.settings.map_adaptive,

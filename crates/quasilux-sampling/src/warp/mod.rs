@@ -18,9 +18,7 @@ pub use hemisphere::{
     invert_cosine_hemisphere, invert_uniform_hemisphere, pdf_cosine_hemisphere,
     pdf_uniform_hemisphere, sample_cosine_hemisphere, sample_uniform_hemisphere,
 };
-pub use linear_triangle::{
-    invert_linear_triangle, pdf_linear_triangle, sample_linear_triangle,
-};
+pub use linear_triangle::{invert_linear_triangle, pdf_linear_triangle, sample_linear_triangle};
 pub use sphere::{invert_uniform_sphere, pdf_uniform_sphere, sample_uniform_sphere};
 pub use triangle::{invert_triangle, pdf_triangle, sample_triangle};
 

@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 16] = [
     "estimator",
     "sequence",
     "randomization",
@@ -16,6 +16,7 @@ const KEYS: [&str; 15] = [
     "seed",
     "max_bounces",
     "list_terms",
+    "first_shot",
     "map_element_m",
     "map_elements",
     "map_adaptive",
@@ -57,6 +58,8 @@ pub struct SimulationSection {
     pub max_bounces: Option<Placed<Option<u32>>>,
     /// Terms of the Neumann series to list beside the rest, 1 to 16.
     pub list_terms: Option<Placed<u32>>,
+    /// Name of when the direct light of photons is computed.
+    pub first_shot: Option<Placed<String>>,
     /// Longest edge of an illumination map element in m, above 0.
     pub map_element_m: Option<Placed<f64>>,
     /// Most elements of the illumination map, at least 1.
@@ -121,6 +124,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
             let expected = format!("an integer from 1 to {MAX_TERMS}");
             value.integer(&expected, 1..=MAX_TERMS).map(|n| n as u32)
         })?,
+        first_shot: name("first_shot")?,
         map_element_m: number("map_element_m", "a length in m above 0", |x| x > 0.0)?,
         map_elements: placed(&section, "map_elements", |value| {
             let expected = format!("an integer from 1 to {MAX_MAP_ELEMENTS}");

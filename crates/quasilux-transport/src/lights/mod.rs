@@ -6,7 +6,7 @@ mod pointlike;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
-pub(crate) use pointlike::PointLikes;
+pub(crate) use pointlike::{Incidence, PointLikes};
 
 use crate::frame::Frame;
 use crate::purpose::Purpose;
@@ -29,6 +29,7 @@ pub(crate) struct Lights<'a> {
     /// Over the point-like lights, the luminaires with an area, and past them all emitting facets
     /// together.
     by_flux: Option<Discrete>,
+    fluxes_lm: Vec<f64>,
     /// Sum of their fluxes in lm.
     pub(crate) flux_lm: f64,
 }
@@ -40,6 +41,7 @@ pub(crate) struct Emitted {
 }
 
 /// A photon at the moment it leaves its light, or a surface.
+#[derive(Clone, Copy)]
 pub(crate) struct Emission {
     pub(crate) from: Vantage,
     /// Unit direction.
@@ -55,7 +57,7 @@ impl<'a> Lights<'a> {
         let centred = pointlikes.iter().chain(area_luminaires.iter());
         let fluxes: Vec<f64> = centred.map(|(_, flux_lm)| flux_lm).chain([emitters_lm]).collect();
         let (by_flux, flux_lm) = (Discrete::new(&fluxes), fluxes.iter().sum());
-        Self { pointlikes, area_luminaires, emitters, by_flux, flux_lm }
+        Self { pointlikes, area_luminaires, emitters, by_flux, fluxes_lm: fluxes, flux_lm }
     }
 
     /// An illuminance in lx that is large for this scene: what each light gives, on average over
@@ -71,6 +73,16 @@ impl<'a> Lights<'a> {
             flux_lm / (4.0 * PI * distance_m * distance_m)
         });
         centred.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
+    }
+
+    /// Number of lights, all emitting facets counted as one.
+    pub(crate) fn len(&self) -> usize {
+        self.fluxes_lm.len()
+    }
+
+    /// The flux of one of them in lm.
+    pub(crate) fn flux_of_lm(&self, number: usize) -> f64 {
+        self.fluxes_lm[number]
     }
 
     /// How many coordinates lead a photon out: its light and direction, and its place where facets
@@ -89,12 +101,25 @@ impl<'a> Lights<'a> {
         stage: &Stage<'_, S>,
         cursor: &mut SampleCursor<'_>,
     ) -> Option<Emitted> {
-        let (world, by_flux) = (&stage.world, self.by_flux.as_ref()?);
+        let by_flux = self.by_flux.as_ref()?;
         let (choice, u) = stage.draw(cursor, Purpose::Emission, |cursor| {
             (cursor.choose_leading(by_flux), [cursor.rest_1d(), cursor.next_1d()])
         });
+        self.emit_from(choice.index, u, stage, cursor)
+    }
+
+    /// One photon of a certain light: place and direction from its own distribution. The two coordinates
+    /// come before those of the cursor.
+    pub(crate) fn emit_from<S: Spectrum>(
+        &self,
+        number: usize,
+        u: [f64; 2],
+        stage: &Stage<'_, S>,
+        cursor: &mut SampleCursor<'_>,
+    ) -> Option<Emitted> {
+        let world = &stage.world;
         let mut more = || stage.draw(cursor, Purpose::EmissionOfArea, SampleCursor::next_2d);
-        if let Some(light) = self.pointlikes.get(choice.index) {
+        if let Some(light) = self.pointlikes.get(number) {
             let (position, direction) = match light {
                 Light::Point(light) => {
                     (light.position, DVec3::from_array(sample_uniform_sphere(u)))
@@ -106,10 +131,10 @@ impl<'a> Lights<'a> {
                 Light::Area(_) => return None,
             };
             let from = world.vantage_of_light(position, direction);
-            let trail = Trail::Shown(choice.index as u32);
+            let trail = Trail::Shown(number as u32);
             return Some(Emitted { emission: Emission { from, direction }, trail });
         }
-        if let Some(luminaire) = self.area_luminaires.get(choice.index - self.pointlikes.len()) {
+        if let Some(luminaire) = self.area_luminaires.get(number - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
             let place = luminaire.shape.sample_silhouette(towards, more());
             let direction = luminaire.world_from_luminaire * towards;

@@ -81,6 +81,33 @@ impl<'a> PointLikes<'a> {
     }
 }
 
+/// Light of a point-like light at a place, unless something stands in the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Incidence {
+    /// Unit direction to the light.
+    pub(crate) direction: DVec3,
+    pub(crate) distance_m: f64,
+    pub(crate) illuminance_lx: f64,
+    /// What a candela would give.
+    pub(crate) lx_per_cd: f64,
+}
+
+impl Incidence {
+    /// E = I cos / d^2 on the side `n`; `None` from behind.
+    pub(crate) fn new(light: &Light, place: DVec3, n: DVec3) -> Option<Self> {
+        let toward = self::position(light) - place;
+        let distance_m = toward.length();
+        let direction = toward / distance_m;
+        let lx_per_cd = n.dot(direction) / (distance_m * distance_m);
+        (lx_per_cd > 0.0).then(|| Self {
+            direction,
+            distance_m,
+            illuminance_lx: intensity_cd(light, -direction) * lx_per_cd,
+            lx_per_cd,
+        })
+    }
+}
+
 /// E = I cos / d^2; `None` from behind.
 fn offer<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Offer<S>> {
     let toward = self::position(light) - vertex.position();
@@ -94,6 +121,7 @@ fn offer<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Offer<S>>
     Offer::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
 }
 
+/// Luminous intensity in cd along a unit direction.
 fn intensity_cd(light: &Light, direction: DVec3) -> f64 {
     match light {
         Light::Point(point) => point.intensity_cd,

@@ -12,7 +12,7 @@ use super::layout::{MapLayout, Place};
 use super::reconstruction::Reconstruction;
 use super::subdivision::split;
 use super::tally::most_bounces;
-use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
+use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -83,6 +83,7 @@ impl Pilot<'_> {
             replicates: 0..1,
             indices,
             way,
+            source: Source::Lights,
             windows: None,
         };
         // Before the first checkpoint the observer stops nothing, so there are always counts.

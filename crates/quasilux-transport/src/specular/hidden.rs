@@ -10,7 +10,7 @@
 use super::Trail;
 use crate::grid_plane::GridPlane;
 use crate::map::QUANTA_PER_PHOTON;
-use crate::photon::{Flight, PhotonReceiver};
+use crate::photon::{Flight, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -140,6 +140,7 @@ impl<S: Spectrum> HiddenLight<S> {
         };
         let end = indices.end.saturating_mul(self.photons_per_path);
         let batch = PhotonBatch {
+            source: Source::Lights,
             stream: Stream::HiddenPhotons,
             replicates: 0..tallies.len() as u32,
             indices: self.photons..end,
