@@ -9,6 +9,7 @@ mod coverage;
 mod cube;
 mod element_size;
 mod explain;
+mod first_shot;
 mod furnace;
 mod hall;
 mod images;
