@@ -4,7 +4,7 @@
 
 use super::{Pilot, Points, Walk, WalkKind};
 use crate::counting::Receivers;
-use crate::photon::{Flight, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -76,8 +76,8 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
                 let Self { receivers, readings, .. } = self;
                 let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
                 let cursor = SampleCursor::new(&points, index);
-                let windows = self.windows.as_ref();
-                trace_photon(self.stage, windows, cursor, &mut found, &mut counts);
+                let lead = Lead { source: Source::Lights, windows: self.windows.as_ref() };
+                trace_photon(self.stage, lead, cursor, &mut found, &mut counts);
                 found.lx
             };
             let first = number * PIECE;

@@ -2,7 +2,7 @@
 //!
 //! The direct light of lights without extent needs no sampling: it can be computed anywhere. So the
 //! first flight of their photons is left out, and lit surfaces take the place of the lights,
-//! `L* = Le - Lep + I Lep` (Kopylov 2002; Voloboy, Dmitriev and Kopylov 2003). A secondary photon chooses
+//! `L* = Le - Lep + I Lep` (Voloboy, Dmitriev and Kopylov 2003, after Kopylov 2002). A secondary photon chooses
 //! a pair of cell and light with the flux that goes on there, absorption folded in, by one table; its place
 //! in the cell follows the linear density of [`warp::sample_linear_triangle`](sample_linear_triangle).
 //! No photon is spent on being absorbed where it first lands.
@@ -179,7 +179,7 @@ impl LitCells {
             .map(|(lit, drawn)| integral_lm(lit.area_m2, drawn.density))
             .chain((first_area_light..lights.len()).map(|number| lights.flux_of_lm(number)))
             .collect();
-        if !(seen_lm + open_lm > 0.0) {
+        if seen_lm + open_lm <= 0.0 {
             return None;
         }
         let by_flux = Discrete::new(&fluxes)?;
