@@ -113,7 +113,7 @@ fn lights_and_materials() {
                 .replace("reflectance = 0.3", "reflectance = [0.3, 0.3, 2]")
                 .says(&["project.toml:5:", "0 to 1"]),
             Case::new("a kind of material to come")
-                .replace("reflectance = 0.3", "reflectance = 0.3\nkind = \"glass\"")
+                .replace("reflectance = 0.3", "reflectance = 0.3\nkind = \"glossy\"")
                 .says(&["project.toml:6:8:", "not built yet"]),
         ],
     );
