@@ -87,8 +87,12 @@ fn coordinates_are_named_in_their_order() {
     );
     let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
     assert_eq!(first(Estimator::Photon, 4), [leaves, across, on1, on2]);
-    let on_map = first(Estimator::Bidirectional, 5);
-    assert_eq!(on_map[4], Purpose::Correction { surface: 1 }, "{on_map:?}");
+    let estimator = Estimator::Bidirectional;
+    let on_map = explain(&scene, &Settings { estimator, ..Settings::default() });
+    assert_eq!(on_map.walk, WalkKind::PathsOnMap);
+    let mut named = on_map.blocks.iter().flat_map(|block| &block.uses);
+    let is_correction = |purpose| matches!(purpose, Purpose::Correction { .. });
+    assert!(named.any(|used| is_correction(used.purpose)), "{:?}", uses(&on_map));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The terms of the Neumann series one by one: their sum, their closed form, and who agrees.
 
 use crate::agreement::coloured_room_with_mirror;
-use crate::scenes::{all_walls_emit, diffuse, points, room};
+use crate::scenes::{all_walls_emit, diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::{Grid, Quantity, Scene, Sensor, SensorShape};
 use quasilux_transport::{CheckError, Estimates, Estimator, Settings, check, simulate};
@@ -65,26 +65,38 @@ fn terms_of_a_furnace_are_powers() {
 
 /// Means over the four cells of the floor: each pair of intervals of each term must overlap when both
 /// are half as wide again, as in [`crate::agreement`]. Each term differs from the next by a fifth at
-/// least, and is known to a twelfth.
+/// least, and is known to a twelfth. A point light adds what paths get of its image in the mirror, or,
+/// where images are not followed, of photons.
 #[test]
 fn photons_and_paths_agree_term_by_term() {
-    let scene = coloured_room_with_mirror();
-    let estimates = [Estimator::Photon, Estimator::Path].map(|estimator| {
-        let settings = Settings { estimator, list_terms: 3, rel_tol: 0.01, ..Settings::default() };
-        run(&scene, &settings)
-    });
-    let [photons, paths] = &estimates;
-    for term in 0..=3 {
-        let pairs = photons.term_intervals(0, term).into_iter().zip(paths.term_intervals(0, term));
-        for (x, y) in pairs {
-            let [a, b] = [x, y].map(|interval| interval.half_width.expect("light was found"));
-            let found = format!("term {term}: {x:?} against {y:?}");
-            assert!(a.max(b) < 0.08 * y.value, "{found}");
-            assert!((x.value - y.value).abs() <= 1.5 * (a + b), "{found}");
+    let panel = coloured_room_with_mirror();
+    let mut point = panel.clone();
+    point.lights.push(point_light(DVec3::new(2.5, 1.2, 1.5), 400.0));
+    for (scene, image_depth) in [(&panel, 2), (&point, 8), (&point, 0)] {
+        let estimates = [Estimator::Photon, Estimator::Path].map(|estimator| {
+            let rel_tol = 0.01;
+            let settings = Settings {
+                estimator,
+                list_terms: 3,
+                rel_tol,
+                image_depth: Some(image_depth),
+                ..Settings::default()
+            };
+            run(scene, &settings)
+        });
+        let [photons, paths] = &estimates;
+        for term in 0..=3 {
+            let [x, y] = [photons, paths].map(|estimates| estimates.term_intervals(0, term));
+            for (x, y) in x.into_iter().zip(y) {
+                let [a, b] = [x, y].map(|interval| interval.half_width.expect("light was found"));
+                let found = format!("depth {image_depth}, term {term}: {x:?} against {y:?}");
+                assert!(a.max(b) < 0.08 * y.value, "{found}");
+                assert!((x.value - y.value).abs() <= 1.5 * (a + b), "{found}");
+            }
         }
+        let averages = [0, 1, 2].map(|term| paths.term_average(0, term).value);
+        assert!(averages.windows(2).all(|pair| pair[1] < 0.8 * pair[0]), "{averages:?}");
     }
-    let averages = [0, 1, 2].map(|term| paths.term_average(0, term).value);
-    assert!(averages.windows(2).all(|pair| pair[1] < 0.8 * pair[0]), "{averages:?}");
 }
 
 /// Terms add up to the whole in each replicate but for rounding, and listing them changes no bit of it.
