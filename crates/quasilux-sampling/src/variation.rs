@@ -51,8 +51,8 @@ impl PointSet {
     /// use quasilux_sampling::{PointSet, Randomization, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::None, 0);
     /// let moved = points.moved(1..2, 0.25);
-    /// assert_eq!([1, 3].map(|index| points.coordinate(index, 1)), [0.5, 0.75]);
-    /// assert_eq!([1, 3].map(|index| moved.coordinate(index, 1)), [0.75, 0.5]);
+    /// assert_eq!([1, 2].map(|index| points.coordinate(index, 1)), [0.5, 0.75]);
+    /// assert_eq!([1, 2].map(|index| moved.coordinate(index, 1)), [0.75, 0.5]);
     /// assert_eq!(moved.coordinate(1, 0), points.coordinate(1, 0));
     /// ```
     #[must_use]
