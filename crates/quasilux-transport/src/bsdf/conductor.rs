@@ -4,7 +4,9 @@
 //! Light that a second facet catches is lost to single reflection: with facets that reflect all,
 //! `1 - E(cos)`. It comes out diffuse and reciprocal (Kulla and Conty 2017):
 //!
-//!     f_more = R (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
+//! ```text
+//! f_more = R (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
+//! ```
 //!
 //! Caught light was reflected once and is reflected again; then the share `E` (the mean) leaves and the
 //! rest is caught again. Each time the mean Fresnel factor `F` is kept, so that of the caught light

@@ -4,7 +4,9 @@
 //! once. What enters is scattered by the base and leaves through the same coat, in the reciprocal
 //! form of Kelemen and Szirmay-Kalos (2001):
 //!
-//!     f_base = reflectance (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
+//! ```text
+//! f_base = reflectance (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
+//! ```
 //!
 //! A base that reflects all gives all light back: `E + (1 - E)`. Light that the coat's facets would
 //! reflect several times counts as entering. `reflectance` is thus the share of the light that
