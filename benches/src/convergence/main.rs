@@ -1,7 +1,7 @@
-//! ```text
-//! cargo run --release -p quasilux-benches --bin convergence [cube|office|spotlights|wall] [ESTIMATOR...] [2^N]
-//! [random] [bounces=N] [element=METRES] [first_shot=auto|on|off]
-//! ```
+//! cargo run --release -p quasilux-benches --bin convergence [WORD...]
+//!
+//! Words: `cube`, `office`, `spotlights`, `wall`; names of estimators; `2^N` indices; `random`;
+//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`.
 //!
 //! How the error falls, and at what price. At each checkpoint: indices per replicate, rays, processor
 //! seconds so far, the relative error of one replicate (from the spread of 16, root mean square over all
