@@ -37,7 +37,7 @@ pub enum CheckError {
     /// A map keeps light of all bounces together.
     #[error(
         "list_terms: the map of the estimator \"{estimator}\" keeps light of all bounces in one; the \
-         estimators \"path\" and \"photon\" can tell terms apart"
+         other estimators can tell terms apart"
     )]
     TermsOfMap {
         /// Name of the estimator.
@@ -67,7 +67,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     let ends_on_map =
         matches!(settings.estimator, Estimator::Bidirectional | Estimator::BidirectionalMap);
-    if settings.list_terms > 0 && ends_on_map {
+    if settings.list_terms > 0 && settings.estimator == Estimator::BidirectionalMap {
         return Err(CheckError::TermsOfMap { estimator: settings.estimator.name() });
     }
     if settings.first_shot == FirstShot::On && !ends_on_map {

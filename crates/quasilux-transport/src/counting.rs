@@ -103,6 +103,7 @@ impl<'a, S: Spectrum> Counting<'a, S> {
             way,
             source: Source::Lights,
             windows,
+            certain_bounces: 0,
         };
         trace_photons(self.stage, &batch, receiver, watch)
     }

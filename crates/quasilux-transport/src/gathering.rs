@@ -1,11 +1,12 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
+use crate::join::{self, Joined};
 use crate::path_end::{Growth, PathEnd};
 use crate::path_wave::{PathWave, WAVE};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
-use crate::settings::Settings;
+use crate::settings::{Estimator, Settings};
 use crate::shadow::{Asker, Shadows};
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
@@ -36,6 +37,8 @@ pub(crate) struct Gathering<'a, S> {
     exact: Vec<Exact>,
     end: PathEnd<S>,
     hidden: Option<HiddenLight<S>>,
+    /// Photons that find a part of the light.
+    joined: Option<Joined>,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -78,15 +81,24 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         }
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
         let hidden = HiddenLight::new(stage, settings, &targets);
-        let (end, photons) = PathEnd::prepare(stage, settings, &targets, watch);
+        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
+        let joins = settings.estimator == Estimator::Bidirectional
+            && settings.max_bounces != Some(0)
+            && !targets.is_empty();
+        let decision =
+            joins.then(|| join::decide(stage, settings, &targets, &exact, quantum, watch));
+        work.rays += decision.as_ref().map_or(0, |decision| decision.rays);
+        let joined = decision.and_then(|decision| decision.joined);
+        let (end, photons) = PathEnd::prepare(stage, settings, &targets, joined.is_some(), watch);
         Self {
             stage,
             scene,
             exact,
             end,
             hidden,
+            joined,
             replicates,
-            quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
+            quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             targets,
             samples: 0,
@@ -127,6 +139,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             points: self.stage.points(replicate, Stream::Paths(target)),
             rest: self.end.rest(replicate),
             hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
+            joining: self.joined.as_ref().map(|joined| &joined.joining),
             indices,
         }
     }
@@ -138,9 +151,11 @@ impl<S: Spectrum> Gathering<'_, S> {
         self.sums
             .chunks_exact(self.replicates as usize)
             .zip(&self.samples_direct)
-            .map(|(own, samples_direct)| {
+            .enumerate()
+            .map(|(target, (own, samples_direct))| {
                 let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
-                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
+                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero())
+                    || self.joined.as_ref().is_some_and(|joined| joined.found(target));
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
                 (found_indirect || !reflected)
                     && (found_direct || found_indirect || !samples_direct)
@@ -158,20 +173,29 @@ impl<S: Spectrum> Gathering<'_, S> {
         let hidden_lx = |r: usize, target: usize, term: usize| {
             self.hidden.as_ref().map_or(0.0, |hidden| hidden.term_lx(r, target, term))
         };
+        let joined_lx = |r: usize, target: usize, term: usize| {
+            self.joined.as_ref().map_or(0.0, |joined| joined.term_lx(r, target, term))
+        };
         let row = |term: usize, r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates).zip(&self.exact).enumerate();
             own.map(|(target, (sums, exact))| {
                 let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
-                exact_lx.unwrap_or(0.0) + mean(sum(sums, term)) + hidden_lx(r, target, term)
+                exact_lx.unwrap_or(0.0)
+                    + mean(sum(sums, term))
+                    + hidden_lx(r, target, term)
+                    + joined_lx(r, target, term)
             })
             .collect()
         };
         let resolved = |term: usize| -> Vec<bool> {
             let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
             let targets = self.sums.chunks_exact(replicates).zip(&self.samples_direct);
+            let targets = targets.enumerate();
             targets
-                .map(|(own, samples_direct)| {
-                    let found = own.iter().any(|sums| !sum(sums, term).is_zero());
+                .map(|(target, (own, samples_direct))| {
+                    let joined = self.joined.as_ref();
+                    let found = own.iter().any(|sums| !sum(sums, term).is_zero())
+                        || joined.is_some_and(|joined| joined.found_term(target, term));
                     let may_be = if term == 0 {
                         *samples_direct
                     } else {
@@ -214,6 +238,10 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             let Some(rays) = hidden.grow(self.stage, &(0..samples), watch) else { return false };
             self.work.rays += rays;
         }
+        if let Some(joined) = &mut self.joined {
+            let Some(photons) = joined.grow(self.stage, samples, watch) else { return false };
+            self.photons += photons.apart_from_flux();
+        }
         let paths = (indices.end - indices.start) * self.sums.len() as u64;
         let mut done = 0;
         while done < paths {
@@ -249,12 +277,15 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let hidden_lx = |r: usize, target: usize| {
             self.hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(r, target))
         };
+        let joined_lx = |r: usize, target: usize| {
+            self.joined.as_ref().map_or(0.0, |joined| joined.lx(r, target))
+        };
         let row = |r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates);
             let own = own.zip(&self.exact).enumerate();
             own.map(|(target, (sums, exact))| {
                 let sampled_lx = mean(sums.direct) + mean(sums.indirect);
-                exact.sum_lx() + sampled_lx + hidden_lx(r, target)
+                exact.sum_lx() + sampled_lx + hidden_lx(r, target) + joined_lx(r, target)
             })
             .collect()
         };
@@ -283,6 +314,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 path: self.work.dimensions.clone(),
             },
             invalid_contributions: self.invalid_points
+                + self.joined.as_ref().map_or(0, Joined::invalid)
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
             biased: self.work.endless > 0,
             warnings: self.photons.warnings().into_iter().chain(self.warning()).collect(),

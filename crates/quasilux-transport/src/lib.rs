@@ -7,8 +7,8 @@
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
 //! `steering` for how they are split on their way, at `first_shot` for when
-//! they need not leave a light, at `path_wave` and `shadow` for how paths do, at `map` for where the two
-//! ways meet, at `pixels` for pictures.
+//! they need not leave a light, at `path_wave` and `shadow` for how paths do, at `map` and `join` for where
+//! the two ways meet, at `pixels` for pictures.
 
 mod bsdf;
 mod check;
@@ -20,6 +20,7 @@ mod frame;
 mod gathering;
 mod grid_plane;
 pub mod interval;
+mod join;
 mod lights;
 mod map;
 pub mod observer;

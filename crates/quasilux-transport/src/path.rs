@@ -10,6 +10,7 @@
 
 use crate::bsdf::Mode;
 use crate::frame::Frame;
+use crate::join::{Joining, Shares};
 use crate::path_end::{MapEnd, Rest};
 use crate::purpose::Purpose;
 use crate::shadow::{Offer, Shadows};
@@ -56,6 +57,8 @@ pub(crate) struct Start<'p, S> {
     pub(crate) rest: &'p Rest<'p, S>,
     /// Light that it cannot find by itself.
     pub(crate) hidden: Option<HiddenEnd<'p, S>>,
+    /// What photons leave to it.
+    pub(crate) joining: Option<&'p Joining>,
     pub(crate) cursor: SampleCursor<'p>,
 }
 
@@ -78,6 +81,9 @@ pub(crate) struct Path<'p, S> {
     number: u32,
     rest: &'p Rest<'p, S>,
     hidden: Option<HiddenEnd<'p, S>>,
+    joining: Option<&'p Joining>,
+    /// The parts that it is to find of the light at its first surface.
+    shares: Shares,
     cursor: SampleCursor<'p>,
     from: Vantage,
     /// Unit direction in which it goes on.
@@ -134,7 +140,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, seeks, rest, hidden, mut cursor } = start;
+        let Start { from, seeks, rest, hidden, joining, mut cursor } = start;
         let (direction, pdf_sr, beta, passes) = match seeks {
             Seeks::Illuminance { n, .. } => {
                 let u = stage.draw(&mut cursor, Purpose::FirstDirection, SampleCursor::next_2d);
@@ -150,6 +156,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
             number,
             rest,
             hidden,
+            joining,
+            shares: Shares::ALL,
             cursor,
             from,
             direction,
@@ -183,9 +191,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
     pub(crate) fn receive(&mut self, light: S, bounces: u32) {
         if bounces == 0 {
-            self.arrived += light;
+            self.arrived += light * if self.bounces_asked == 1 { self.shares.first } else { 1.0 };
         } else {
-            self.found.add(self.bounces_asked + bounces, light);
+            let share = if self.bounces_asked == 1 { self.shares.rest } else { 1.0 };
+            self.found.add(self.bounces_asked + bounces, light * share);
         }
     }
 
@@ -221,6 +230,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
         // Past mirrors alone, paths find nothing but facets that emit.
         self.found.reflected |= !bsdf.is_specular() || stage.lights.emitters.is_some();
         self.bounces_asked = bounces + 1;
+        if let (0, Some(joining)) = (bounces, self.joining)
+            && bsdf.keeps_illuminance()
+        {
+            self.shares = self.shares_at(joining, at);
+        }
         if !bsdf.is_specular() {
             self.ask_all(stage, bounces + 1, at, work);
         }
@@ -296,19 +310,36 @@ impl<'p, S: Spectrum> Path<'p, S> {
         Some(Onward { emitted: 1.0, everything })
     }
 
+    /// The parts of the light at its first surface that it is to find beside photons.
+    fn shares_at(&self, joining: &Joining, at: &Interaction) -> Shares {
+        let cos_there = -at.n.dot(self.direction);
+        let pdf_m2 = |pdf_sr| pdf_sr * cos_there / (at.distance_m * at.distance_m);
+        let share = |pdf_sr| joining.path_shares(pdf_m2(pdf_sr), at.position, at.n);
+        self.pdf_sr.map_or(Shares::ALL, share)
+    }
+
     /// Adds the light at a surface that no path finds.
     fn add_hidden(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
         let Some(hidden) = self.hidden else { return };
         let most = stage.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
         let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
+        let share = if bounces == 0 { self.shares.rest } else { 1.0 };
         for (hidden_bounces, lx) in hidden.illuminances_lx(&stage.world, at, most) {
+            let lx = lx * share;
             self.found.add(bounces + 1 + hidden_bounces, to_start * lx);
         }
     }
 
-    /// Russian roulette after the first bounces, by the albedo of the channel that is left
+    /// Where photons are joined to the sensor, chance decides at its first surface by what they leave to it.
+    /// Else Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
     fn survive(&mut self, stage: &Stage<'_, S>, bounces: u32, albedo: f64) -> Onward {
+        if bounces == 0 && self.shares != Shares::ALL {
+            let Shares { first, rest } = self.shares;
+            let bounce = Purpose::Bounce { surface: 1 };
+            let goes_on = stage.draw(&mut self.cursor, bounce, |cursor| cursor.choose_bool(rest));
+            return Onward { emitted: first, everything: f64::from(u8::from(goes_on)) };
+        }
         if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };
         }

@@ -76,11 +76,13 @@ pub(crate) enum Growth {
 }
 
 impl<S: Spectrum> PathEnd<S> {
-    /// Traces the photons that come before all paths.
+    /// Traces the photons that come before all paths. Where others are joined to the sensors, hardly a path
+    /// goes far enough for a map, and so there is none.
     pub(crate) fn prepare(
         stage: &Stage<'_, S>,
         settings: &Settings,
         targets: &[Target],
+        is_joined: bool,
         watch: &mut Watch<'_>,
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
@@ -95,10 +97,17 @@ impl<S: Spectrum> PathEnd<S> {
                 way: Way::CoherentWaves,
                 source,
                 windows: None,
+                certain_bounces: 0,
             };
             trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
         };
-        if settings.estimator == Estimator::Path || settings.max_bounces == Some(0) {
+        let is_path = match settings.estimator {
+            Estimator::Path => true,
+            // A frozen map holds light of all bounces in one.
+            Estimator::Bidirectional => is_joined || stage.listed_terms > 0,
+            Estimator::Photon | Estimator::BidirectionalMap => false,
+        };
+        if is_path || settings.max_bounces == Some(0) {
             return (Self::Nothing, plan(BALANCE_PHOTONS, Source::Lights, None, watch));
         }
         let mut counts = PhotonCounts::default();
@@ -111,7 +120,7 @@ impl<S: Spectrum> PathEnd<S> {
         if settings.estimator == Estimator::BidirectionalMap {
             let (layout, pilots) = refined(stage, settings, watch);
             counts += pilots;
-            let Plan { windows, rays } = steering::plan(stage, targets, settings.steering);
+            let Plan { windows, rays, .. } = steering::plan(stage, targets, settings.steering);
             counts.rays += rays;
             let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
             let replicates = 0..settings.effective_replicates();
@@ -153,6 +162,7 @@ impl<S: Spectrum> PathEnd<S> {
             way: Way::CoherentWaves,
             source,
             windows: windows.as_ref(),
+            certain_bounces: 0,
         };
         let traced = trace_photons(stage, &batch, receiver, watch);
         let Some(counts) = traced else { return Growth::Stopped };

@@ -41,6 +41,8 @@ pub(crate) struct PhotonCounts {
     /// The same of photons that are not in the balance of the flux.
     pub(crate) trapped: u64,
     pub(crate) rays: u64,
+    /// Rays among them that join photons to sensors.
+    pub(crate) joins: u64,
     /// Coordinates that each of them used, children of splits by themselves.
     pub(crate) dimensions: DimensionHistogram,
 }
@@ -49,6 +51,11 @@ pub(crate) struct PhotonCounts {
 pub(crate) trait PhotonReceiver<S> {
     /// Whether photons end where [`Trail::Found`] begins: nobody looks at them further.
     const SPECULAR_ONLY: bool = false;
+
+    /// All that it sees from here on is of the photon with this index.
+    fn follow(&mut self, index: u64) {
+        let _ = index;
+    }
 
     /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
     /// `bounces` reflections; `weight` is its colour, of luminance one or near it.
@@ -68,6 +75,14 @@ pub(crate) trait PhotonReceiver<S> {
     fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
         let _ = trail;
         self.landing(at, weight, bounces);
+    }
+
+    /// Nothing more is to come; how many rays it traced itself.
+    fn finish(self) -> u64
+    where
+        Self: Sized,
+    {
+        0
     }
 }
 
@@ -105,6 +120,8 @@ pub(crate) enum Source<'s> {
 pub(crate) struct Lead<'s> {
     pub(crate) source: Source<'s>,
     pub(crate) windows: Option<&'s Windows>,
+    /// Surfaces that photons leave for certain where nothing steers them, with what absorption leaves.
+    pub(crate) certain_bounces: u32,
 }
 
 impl<'s> Source<'s> {
@@ -250,6 +267,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         receiver: &mut impl PhotonReceiver<S>,
     ) {
         let bounces = bounces + self.bounces;
+        receiver.follow(self.cursor.index());
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from, direction, length_m };
         let landing = found.filter(|at| stage.world.bsdf(at).keeps_illuminance());
@@ -285,7 +303,8 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let left = (self.weight * bsdf.albedo(wo, at.front)).luminance();
         let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
         // Of drawn places those are rare that absorb much, so all photons go on from there.
-        let survivor = if arrival.is_drawn { left } else { luminance };
+        let is_certain = arrival.is_drawn || arrival.bounces + self.bounces < lead.certain_bounces;
+        let survivor = if is_certain { left } else { luminance };
         let split = Split::new(left, window.map_or(survivor, |window| window.weight));
         let whole = split.expected.floor();
         let bounce = Purpose::Bounce { surface: arrival.bounces + self.bounces + 1 };
@@ -364,10 +383,10 @@ fn quanta(weight: f64) -> i64 {
 
 impl PhotonCounts {
     /// What they cost, without where their flux went: those from lit cells do not carry all of it.
-    fn apart_from_flux(self) -> Self {
+    pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
-        let Self { rays, dimensions, .. } = self;
-        Self { trapped, rays, dimensions, ..Self::default() }
+        let Self { rays, joins, dimensions, .. } = self;
+        Self { trapped, rays, joins, dimensions, ..Self::default() }
     }
 
     /// Records a photon that ended.
@@ -397,6 +416,7 @@ impl AddAssign for PhotonCounts {
         self.endless += other.endless;
         self.trapped += other.trapped;
         self.rays += other.rays;
+        self.joins += other.joins;
         self.dimensions.merge(&other.dimensions);
     }
 }
@@ -404,6 +424,12 @@ impl AddAssign for PhotonCounts {
 /// Receives nothing, or what the inner one receives.
 impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
     const SPECULAR_ONLY: bool = R::SPECULAR_ONLY;
+
+    fn follow(&mut self, index: u64) {
+        if let Some(receiver) = self {
+            receiver.follow(index);
+        }
+    }
 
     fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
         if let Some(receiver) = self {
@@ -427,5 +453,9 @@ impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
         if let Some(receiver) = self {
             receiver.specular_landing(at, weight, bounces, trail);
         }
+    }
+
+    fn finish(self) -> u64 {
+        self.map_or(0, R::finish)
     }
 }

@@ -26,6 +26,8 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) source: Source<'w>,
     /// What steers them; `None` leaves them alone.
     pub(crate) windows: Option<&'w Windows>,
+    /// Surfaces that they leave for certain where nothing steers them.
+    pub(crate) certain_bounces: u32,
 }
 
 /// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer
@@ -36,8 +38,8 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let PhotonBatch { stream, replicates, indices, way, source, windows } = batch;
-    let lead = Lead { source: *source, windows: *windows };
+    let PhotonBatch { stream, replicates, indices, way, source, windows, certain_bounces } = batch;
+    let lead = Lead { source: *source, windows: *windows, certain_bounces: *certain_bounces };
     let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
     let close_in = match way {
@@ -66,6 +68,8 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
             let wave = Wave { points, indices, lead };
             space.trace(stage, wave, &mut receiver, &mut counts);
         }
+        counts.joins = receiver.finish();
+        counts.rays += counts.joins;
         counts
     };
     let mut counts = PhotonCounts::default();

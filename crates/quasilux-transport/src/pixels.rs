@@ -232,6 +232,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
         let direction = self.view.direction([x + u, y + v]);
         Start {
             hidden: None,
+            joining: None,
             from: self.stage.world.vantage_of_sensor(self.view.position, direction),
             seeks: Seeks::Luminance { direction },
             rest: &Rest::Path,

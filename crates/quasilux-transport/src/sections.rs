@@ -1,5 +1,6 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
+use crate::join::Joining;
 use crate::path::{Ended, Gathered, Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
@@ -40,6 +41,8 @@ pub(crate) struct Section<'g, S> {
     pub(crate) points: PointSet,
     pub(crate) rest: Rest<'g, S>,
     pub(crate) hidden: Option<HiddenEnd<'g, S>>,
+    /// What photons that are joined to the target leave to the paths.
+    pub(crate) joining: Option<&'g Joining>,
     pub(crate) indices: Range<u64>,
 }
 
@@ -93,7 +96,14 @@ impl<S: Spectrum> Section<'_, S> {
             };
             let from = stage.world.vantage_of_sensor(position, n);
             let seeks = Seeks::Illuminance { n, tests_pointlikes };
-            Start { from, seeks, rest: &self.rest, hidden: self.hidden, cursor }
+            Start {
+                from,
+                seeks,
+                rest: &self.rest,
+                hidden: self.hidden,
+                joining: self.joining,
+                cursor,
+            }
         })
     }
 }

@@ -41,6 +41,10 @@ pub(crate) enum Stream {
     HiddenPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
     Survey(u64),
+    /// Photons that are joined to a group of sensor points.
+    JoinedPhotons(u64),
+    /// Places in the cells of a group that photons are joined to.
+    JoinedPlaces(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
     /// Paths through one pixel of one camera.
@@ -60,6 +64,8 @@ impl Stream {
             Self::PlanPhotons => 1,
             Self::HiddenPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
+            Self::JoinedPhotons(group) => (1 << 62) + 2 * group,
+            Self::JoinedPlaces(group) => (1 << 62) + 2 * group + 1,
             Self::Paths(point) => 2 + point,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }

@@ -59,7 +59,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
-        let (mut end, _) = PathEnd::prepare(stage, &one, &all, &mut watch);
+        let (mut end, _) = PathEnd::prepare(stage, &one, &all, false, &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(stage, 0..photons, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);
@@ -113,6 +113,7 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
                 target: target.target,
                 points: points(Stream::Paths(target.number).id()),
                 rest: self.end.rest(0),
+                joining: None,
                 hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),
                 indices: first..(first + WAVE).min(samples),
             };

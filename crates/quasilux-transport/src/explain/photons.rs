@@ -76,7 +76,8 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
                 let Self { receivers, readings, .. } = self;
                 let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
                 let cursor = SampleCursor::new(&points, index);
-                let lead = Lead { source: Source::Lights, windows: self.windows.as_ref() };
+                let windows = self.windows.as_ref();
+                let lead = Lead { source: Source::Lights, windows, certain_bounces: 0 };
                 trace_photon(self.stage, lead, cursor, &mut found, &mut counts);
                 found.lx
             };

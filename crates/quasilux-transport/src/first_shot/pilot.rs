@@ -52,7 +52,13 @@ fn work<S: Spectrum>(stage: &Stage<'_, S>, source: Source<'_>, counts: &mut Phot
     let (mut weights, mut of_pilots) = (Weights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
         let cursor = SampleCursor::new(&points, index);
-        trace_photon(stage, Lead { source, windows: None }, cursor, &mut weights, &mut of_pilots);
+        trace_photon(
+            stage,
+            Lead { source, windows: None, certain_bounces: 0 },
+            cursor,
+            &mut weights,
+            &mut of_pilots,
+        );
     }
     counts.rays += of_pilots.rays;
     let Weights { sum, squares } = weights;

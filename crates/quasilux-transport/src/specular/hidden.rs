@@ -146,6 +146,7 @@ impl<S: Spectrum> HiddenLight<S> {
             indices: self.photons..end,
             way: Way::CoherentWaves,
             windows: None,
+            certain_bounces: 0,
         };
         let counts = trace_photons(stage, &batch, receiver, watch)?;
         self.photons = end;

@@ -12,7 +12,7 @@
 //! and Engineering 137(1), 2001).
 //! Deviation: both systems are solved on one sampled matrix instead of by a deterministic code.
 
-use crate::steering::survey::{Landing, Survey};
+use crate::steering::survey::{Landing, Survey, Surveyed};
 
 /// Sweeps after which a solution is taken as it is: it only steers.
 const MOST_SWEEPS: usize = 64;
@@ -27,18 +27,21 @@ pub(crate) struct Balance {
     pub(crate) landed_worth: Vec<f64>,
     /// What a photon of weight one is worth that leaves.
     pub(crate) leaving_worth: Vec<f64>,
+    /// Illuminance at each surveyed sensor, in lx.
+    pub(crate) sensors_lx: Vec<f64>,
 }
 
 impl Balance {
     /// Both systems solved; `None` where no sensor gets light that way.
     pub(crate) fn new(survey: &Survey, areas_m2: &[f64], flux_lm: f64) -> Option<Self> {
         let landing = landing(survey);
-        let read = read_worth(survey, areas_m2, &landing, flux_lm)?;
+        let sensors_lx = sensors_lx(survey, areas_m2, &landing, flux_lm);
+        let read = read_worth(survey, areas_m2, &sensors_lx, flux_lm)?;
         let leaving_worth = leaving_worth(survey, &read);
         let landed_worth = (0..read.len())
             .map(|cell| read[cell] + survey.known[cell].albedo * leaving_worth[cell])
             .collect();
-        Some(Self { landing, landed_worth, leaving_worth })
+        Some(Self { landing, landed_worth, leaving_worth, sensors_lx })
     }
 }
 
@@ -73,26 +76,40 @@ fn landing(survey: &Survey) -> Vec<f64> {
     landing
 }
 
-/// What a landing is worth by being read, summed over the sensors.
+/// The share of a sensor's view that each of its rays found, in m^-2, absorption folded in: what a lumen
+/// that lands in the cell is read as, in lx.
+fn views<'s>(
+    survey: &'s Survey,
+    areas_m2: &'s [f64],
+    sensor: &'s Surveyed,
+) -> impl Iterator<Item = (usize, f64)> + 's {
+    sensor.landings.iter().map(|ray| {
+        let cell = ray.cell as usize;
+        let albedo = survey.known[cell].albedo;
+        (cell, ray.weight * albedo / (sensor.rays as f64 * areas_m2[cell]))
+    })
+}
+
+fn sensors_lx(survey: &Survey, areas_m2: &[f64], landing: &[f64], flux_lm: f64) -> Vec<f64> {
+    let sensor_lx = |sensor: &Surveyed| {
+        let views = views(survey, areas_m2, sensor);
+        sensor.direct_lx + flux_lm * views.map(|(cell, view)| view * landing[cell]).sum::<f64>()
+    };
+    survey.sensors.iter().map(sensor_lx).collect()
+}
+
+/// What a landing is worth by being read, summed over the sensors that get any light so.
 fn read_worth(
     survey: &Survey,
     areas_m2: &[f64],
-    landing: &[f64],
+    sensors_lx: &[f64],
     flux_lm: f64,
 ) -> Option<Vec<f64>> {
-    let known = &survey.known;
-    let mut worth = vec![0.0; known.len()];
-    for sensor in &survey.sensors {
-        let views = || {
-            sensor.landings.iter().map(|ray| {
-                let cell = ray.cell as usize;
-                (cell, ray.weight * known[cell].albedo / (sensor.rays as f64 * areas_m2[cell]))
-            })
-        };
-        let indirect: f64 = views().map(|(cell, view)| view * landing[cell]).sum();
-        if indirect > 0.0 {
-            let illuminance = indirect + sensor.direct_lx / flux_lm;
-            views().for_each(|(cell, view)| worth[cell] += view / illuminance);
+    let mut worth = vec![0.0; survey.known.len()];
+    for (sensor, &lx) in survey.sensors.iter().zip(sensors_lx) {
+        if lx > sensor.direct_lx {
+            views(survey, areas_m2, sensor)
+                .for_each(|(cell, view)| worth[cell] += view * flux_lm / lx);
         }
     }
     worth.iter().any(|worth| *worth > 0.0).then_some(worth)

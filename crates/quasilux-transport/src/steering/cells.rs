@@ -18,11 +18,34 @@ const SIDES: usize = 6;
 /// Parts along an edge of a facet by which its area is told to cells, at most.
 const MOST_PARTS: f64 = 256.0;
 
+/// Cells that are known by a number, told for any place.
+pub(crate) struct Regions {
+    cells: Cells,
+    number_of_cell: Vec<u32>,
+}
+
 /// A grid of boxes over the scene.
+#[derive(Clone)]
 pub(crate) struct Cells {
     low: DVec3,
     edge_m: f64,
     counts: [usize; 3],
+}
+
+impl Regions {
+    /// Marks cells without a number.
+    pub(crate) const UNKNOWN: u32 = u32::MAX;
+
+    /// By the number of each cell, [`Self::UNKNOWN`] for none.
+    pub(crate) fn new(cells: Cells, number_of_cell: Vec<u32>) -> Self {
+        Self { cells, number_of_cell }
+    }
+
+    /// The number of the region that a place on the side `n` of a surface lies in.
+    pub(crate) fn number(&self, position: DVec3, n: DVec3) -> Option<usize> {
+        let number = self.number_of_cell[self.cells.cell_of(position, n)];
+        (number != Self::UNKNOWN).then_some(number as usize)
+    }
 }
 
 impl Cells {

@@ -9,10 +9,12 @@
 
 mod balance;
 mod cells;
+mod forecast;
 mod guide;
 mod survey;
 mod windows;
 
+pub(crate) use forecast::{Forecast, Landings};
 pub(crate) use guide::Guide;
 pub(crate) use windows::{Split, Windows};
 
@@ -21,6 +23,7 @@ use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::targets::Target;
 use balance::Balance;
+use std::sync::Arc;
 use survey::Survey;
 use windows::Performance;
 
@@ -36,6 +39,8 @@ const LOOKS: u32 = 2;
 pub(crate) struct Plan {
     /// `None` where photons are left alone.
     pub(crate) windows: Option<Windows>,
+    /// What to expect then; `None` where the survey found no light on its way to sensors.
+    pub(crate) forecast: Option<Forecast>,
     /// Rays of the survey.
     pub(crate) rays: u64,
 }
@@ -46,23 +51,41 @@ pub(crate) fn plan<S: Spectrum>(
     targets: &[Target],
     steering: Steering,
 ) -> Plan {
-    if steering == Steering::Off {
-        return Plan::default();
+    match steering {
+        Steering::Off => Plan::default(),
+        Steering::Auto | Steering::On => foresee(stage, targets, steering),
     }
+}
+
+/// Surveys the scene, whether photons are to be steered or not, and decides.
+pub(crate) fn foresee<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    steering: Steering,
+) -> Plan {
     let Some(mut survey) = Survey::new(stage, targets) else { return Plan::default() };
-    let Some((balance, _)) = look_far(stage, &mut survey, 1) else {
-        return Plan { windows: None, rays: survey.rays };
+    let Some((mut balance, mut areas_m2)) = look_far(stage, &mut survey, 1) else {
+        return Plan { rays: survey.rays, ..Plan::default() };
     };
     let plain = Performance::plain(&survey, &balance).cost_of_error();
     let steered = Performance::steered(&survey, &balance).cost_of_error();
-    if steering == Steering::Auto && plain < WORTHWHILE * steered {
-        return Plan { windows: None, rays: survey.rays };
+    let is_steered = match steering {
+        Steering::Auto => plain >= WORTHWHILE * steered,
+        Steering::On => true,
+        Steering::Off => false,
+    };
+    if is_steered {
+        survey.refine(stage);
+        let Some(refined) = look_far(stage, &mut survey, LOOKS) else {
+            return Plan { rays: survey.rays, ..Plan::default() };
+        };
+        (balance, areas_m2) = refined;
     }
-    survey.refine(stage);
-    let refined = look_far(stage, &mut survey, LOOKS);
-    let rays = survey.rays;
-    let windows = refined.map(|(balance, areas_m2)| Windows::new(survey, &balance, &areas_m2));
-    Plan { windows, rays }
+    let regions = Arc::new(survey.regions());
+    let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
+    let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
+    let forecast = Forecast::new(&survey, regions, balance, &areas_m2, &weights);
+    Plan { windows, forecast: Some(forecast), rays: survey.rays }
 }
 
 /// Connects cells over distances, to where light is worth most by what is known so far; what follows

@@ -11,7 +11,7 @@ use crate::lights::Emission;
 use crate::shadow::{Asker, Shadows};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
-use crate::steering::cells::Cells;
+use crate::steering::cells::{Cells, Regions};
 use crate::targets::Target;
 use crate::vertex::Vertex;
 use crate::world::Interaction;
@@ -44,10 +44,12 @@ const MOST_PASSED: u32 = 16;
 /// What is known of cells that light or sensors reach, numbered in the order of their discovery.
 pub(crate) struct Survey {
     pub(crate) cells: Cells,
-    /// Number of each cell, [`Survey::UNKNOWN`] for none.
+    /// Number of each cell, [`Regions::UNKNOWN`] for none.
     pub(crate) number_of_cell: Vec<u32>,
     pub(crate) known: Vec<Known>,
     pub(crate) sensors: Vec<Surveyed>,
+    /// Every so many targets one was surveyed.
+    pub(crate) sensor_step: usize,
     /// Share of the photons that land first in each known cell.
     pub(crate) first_landings: Vec<f64>,
     pub(crate) rays: u64,
@@ -117,17 +119,15 @@ struct Flown {
 }
 
 impl Survey {
-    /// Marks cells without a number.
-    pub(crate) const UNKNOWN: u32 = u32::MAX;
-
     /// Looks around from all lights and from some of the targets; `None` where there is nothing.
     pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target]) -> Option<Self> {
         let cells = Cells::new(&stage.world)?;
         let mut survey = Self {
-            number_of_cell: vec![Self::UNKNOWN; cells.len()],
+            number_of_cell: vec![Regions::UNKNOWN; cells.len()],
             cells,
             known: Vec::new(),
             sensors: Vec::new(),
+            sensor_step: targets.len().div_ceil(MOST_SENSORS).max(1),
             first_landings: Vec::new(),
             rays: 0,
             sent: 0,
@@ -136,6 +136,11 @@ impl Survey {
         survey.look_from_sensors(stage, targets);
         survey.explore(stage, CELL_RAYS);
         Some(survey)
+    }
+
+    /// The known cells, for any place.
+    pub(crate) fn regions(&self) -> Regions {
+        Regions::new(self.cells.clone(), self.number_of_cell.clone())
     }
 
     /// Looks closer.
@@ -219,8 +224,8 @@ impl Survey {
     }
 
     fn look_from_sensors<S: Spectrum>(&mut self, stage: &Stage<'_, S>, targets: &[Target]) {
-        let step = targets.len().div_ceil(MOST_SENSORS).max(1);
-        let asked: Vec<(DVec3, DVec3)> = targets.iter().step_by(step).map(centre).collect();
+        let asked = targets.iter().step_by(self.sensor_step).map(centre);
+        let asked: Vec<(DVec3, DVec3)> = asked.collect();
         let rays = (SENSOR_RAYS / asked.len().max(1) as u64).max(LEAST_SENSOR_RAYS);
         let points = stage.points(0, Stream::Survey(1));
         let direct_lx = direct_lx(stage, &asked);
@@ -274,7 +279,7 @@ impl Survey {
     /// Numbers of a known cell and of those around it.
     pub(crate) fn numbers_around(&self, known: &Known) -> impl Iterator<Item = usize> {
         let numbers = self.cells.around(known.cell).map(|cell| self.number_of_cell[cell]);
-        numbers.filter(|number| *number != Self::UNKNOWN).map(|number| number as usize)
+        numbers.filter(|number| *number != Regions::UNKNOWN).map(|number| number as usize)
     }
 
     /// Counts a flight's rays and takes its end to its cell, which may be new; `None` where it ended
@@ -284,7 +289,7 @@ impl Survey {
         let Found { at, weight, is_far } = flown.found?;
         let place = self.cells.cell(&at);
         let number = &mut self.number_of_cell[place];
-        if *number == Self::UNKNOWN {
+        if *number == Regions::UNKNOWN {
             if self.known.len() == MOST_KNOWN {
                 return None;
             }

@@ -8,10 +8,11 @@
 //! least; a photon at its light is worth as much as the mean of those that leave where it lands.
 
 use crate::steering::balance::Balance;
-use crate::steering::cells::Cells;
+use crate::steering::cells::Regions;
 use crate::steering::guide::{Guide, Worths};
 use crate::steering::survey::{Known, Survey};
 use crate::world::Interaction;
+use std::sync::Arc;
 
 /// No photon is split into more at one landing.
 pub(crate) const MOST_CHILDREN: f64 = 16.0;
@@ -22,8 +23,7 @@ const HEAVIEST: f64 = 8.0;
 
 /// What the survey says of the place that a photon has landed on.
 pub(crate) struct Windows {
-    cells: Cells,
-    number_of_cell: Vec<u32>,
+    regions: Arc<Regions>,
     /// By number of the cell.
     windows: Vec<Window>,
 }
@@ -35,9 +35,6 @@ pub(crate) struct Window {
     pub(crate) weight: f64,
     /// In which directions.
     pub(crate) guide: Guide,
-    /// Photons that land on a square metre, for each that is emitted: what a map holds here.
-    #[expect(dead_code, reason = "for paths that go on where the map holds too few photons")]
-    pub(crate) landings_m2: f64,
 }
 
 /// What a plan of weights costs and gives, both for each emitted photon.
@@ -50,22 +47,17 @@ pub(crate) struct Performance {
 
 impl Windows {
     /// By worth.
-    pub(crate) fn new(survey: Survey, balance: &Balance, areas_m2: &[f64]) -> Self {
-        let guides = guides(&survey, balance);
-        let weights = steered_weights(&survey, balance, &guides);
-        let arriving = arriving_photons(&survey, balance, &weights);
-        let windows = weights
-            .iter()
-            .zip(arriving.iter().zip(areas_m2))
-            .zip(guides)
-            .map(|((&weight, (photons, area_m2)), guide)| Window {
-                weight,
-                landings_m2: photons / area_m2,
-                guide,
-            })
-            .collect();
-        let Survey { cells, number_of_cell, .. } = survey;
-        Self { cells, number_of_cell, windows }
+    pub(crate) fn new(survey: &Survey, regions: Arc<Regions>, balance: &Balance) -> Self {
+        let guides = guides(survey, balance);
+        let weights = steered_weights(survey, balance, &guides);
+        let windows = weights.into_iter().zip(guides);
+        let windows = windows.map(|(weight, guide)| Window { weight, guide }).collect();
+        Self { regions, windows }
+    }
+
+    /// The weight with which photons leave each known cell.
+    pub(crate) fn weights(&self) -> Vec<f64> {
+        self.windows.iter().map(|window| window.weight).collect()
     }
 
     /// A power of two that no photon leaves below, but for what guiding and rough surfaces take from it.
@@ -76,8 +68,7 @@ impl Windows {
 
     /// What is known of a place; `None` where the survey found nothing.
     pub(crate) fn at(&self, at: &Interaction) -> Option<&Window> {
-        let number = self.number_of_cell[self.cells.cell(at)];
-        self.windows.get(number as usize)
+        self.windows.get(self.regions.number(at.position, at.n)?)
     }
 }
 
@@ -207,18 +198,6 @@ fn steered_weights(survey: &Survey, balance: &Balance, guides: &[Guide]) -> Vec<
     let mean_worth = total / leaving.sum::<f64>();
     let weight = |worth: &f64| (mean_worth / worth).clamp(LIGHTEST, HEAVIEST);
     if mean_worth > 0.0 { worths.iter().map(weight).collect() } else { vec![1.0; worths.len()] }
-}
-
-/// Photons that land in each known cell, for each that is emitted.
-fn arriving_photons(survey: &Survey, balance: &Balance, weights: &[f64]) -> Vec<f64> {
-    let mut photons = survey.first_landings.clone();
-    for (cell, from) in survey.known.iter().enumerate() {
-        let leaving = balance.landing[cell] * from.albedo / weights[cell];
-        for step in from.steps() {
-            photons[step.cell as usize] += leaving * step.share;
-        }
-    }
-    photons
 }
 
 #[cfg(test)]

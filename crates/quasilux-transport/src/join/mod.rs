@@ -1,0 +1,76 @@
+//! Photons joined to sensors, beside paths: each finds what the other seldom does.
+//!
+//! A photon of flux P that lands at y on a diffuse surface of reflectance a gives
+//! `P a / pi * cos cos' / d^2` to a sensor at distance d that sees y. So a photon tells every sensor
+//! something: light that paths never find, behind corners, comes to all of them. Near corners `1 / d^2`
+//! has no bound, and there paths are good. The light that comes to a sensor by a first surface at y is
+//! therefore shared: the part w of it is left to the paths, and 1 - w to the photons, where w depends on
+//! nothing but the densities at y, in m^-2, of the paths' first hits, `p = cos cos' / (pi d^2)`, and of
+//! the photons' landings, n q (n photons for each path, q as foreseen by a survey). Any such shares have
+//! the right mean.
+//!
+//! ```text
+//! light that comes straight from lights to y:  w = p / (p + n q)         (balance heuristic)
+//! all other light:                             w = max(0, 1 - k n q / p) (clamped photons)
+//! ```
+//!
+//! The first is Veach and Guibas's balance heuristic (SIGGRAPH 1995) with marginal densities: both
+//! estimates are good. For the second a path must go on, at a price, with light that it knows badly; it
+//! goes on with probability w, which is 0 wherever a photon's contribution is bounded well enough. This is
+//! the compensation of clamped photons by A. Kollig and T. Keller, "Illumination in the presence of weak
+//! singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Contributions that are small
+//! beside what the sensor gets are left to chance, and what survives counts more, so that rays are not
+//! spent on them.
+//!
+//! How many photons come on a path, and whether any, is found out by a [`pilot`].
+
+mod joined;
+mod pilot;
+mod receiver;
+
+pub(crate) use joined::Joined;
+pub(crate) use pilot::decide;
+
+use crate::steering::{Landings, Windows};
+use glam::DVec3;
+
+/// k: paths take over where a photon would count this many times what it does on average.
+const CLAMP: f64 = 10.0;
+/// The same where photons need steering: paths hardly ever find the light there.
+const CLAMP_OF_STEERED: f64 = 300.0;
+
+/// How photons are joined to sensors.
+pub(crate) struct Joining {
+    /// Where to expect them.
+    landings: Landings,
+    /// What steers them.
+    windows: Option<Windows>,
+    /// For each path of a sensor.
+    photons: u64,
+}
+
+/// Parts of the light that comes to a sensor by one place which paths find.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shares {
+    /// Of what comes there straight from the lights.
+    pub(crate) first: f64,
+    /// Of all other light.
+    pub(crate) rest: f64,
+}
+
+impl Shares {
+    /// Paths find everything.
+    pub(crate) const ALL: Self = Self { first: 1.0, rest: 1.0 };
+}
+
+impl Joining {
+    /// The parts that paths find by a place on the side `n` of a surface, where their first hits have the
+    /// density `pdf_m2`, in m^-2.
+    pub(crate) fn path_shares(&self, pdf_m2: f64, position: DVec3, n: DVec3) -> Shares {
+        let density = self.landings.at(position, n);
+        let [first, rest] =
+            [density.first, density.rest].map(|per_m2| per_m2 * self.photons as f64);
+        let clamp = if self.windows.is_some() { CLAMP_OF_STEERED } else { CLAMP };
+        Shares { first: pdf_m2 / (pdf_m2 + first), rest: (1.0 - clamp * rest / pdf_m2).max(0.0) }
+    }
+}
