@@ -10,7 +10,7 @@
 
 use quasilux_scene::{Files, Scene, load};
 use quasilux_transport::{
-    Control, Estimates, Estimator, Observer, Progress, Settings, Steering, simulate,
+    Control, Estimates, Estimator, Observer, Progress, Settings, Switch, simulate,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -24,20 +24,20 @@ const LONGEST_SECONDS: f64 = 10.0;
 struct Contestant {
     name: &'static str,
     estimator: Estimator,
-    steering: Steering,
+    steering: Switch,
 }
 
 const CONTESTANTS: [Contestant; 7] = [
-    contestant("path", Estimator::Path, Steering::Off),
-    contestant("photon", Estimator::Photon, Steering::Off),
-    contestant("photon-steered", Estimator::Photon, Steering::Auto),
-    contestant("map-plain", Estimator::BidirectionalMap, Steering::Off),
-    contestant("map-steered", Estimator::BidirectionalMap, Steering::Auto),
-    contestant("plain", Estimator::Bidirectional, Steering::Off),
-    contestant("steered", Estimator::Bidirectional, Steering::Auto),
+    contestant("path", Estimator::Path, Switch::Off),
+    contestant("photon", Estimator::Photon, Switch::Off),
+    contestant("photon-steered", Estimator::Photon, Switch::Auto),
+    contestant("map-plain", Estimator::BidirectionalMap, Switch::Off),
+    contestant("map-steered", Estimator::BidirectionalMap, Switch::Auto),
+    contestant("plain", Estimator::Bidirectional, Switch::Off),
+    contestant("steered", Estimator::Bidirectional, Switch::Auto),
 ];
 
-const fn contestant(name: &'static str, estimator: Estimator, steering: Steering) -> Contestant {
+const fn contestant(name: &'static str, estimator: Estimator, steering: Switch) -> Contestant {
     Contestant { name, estimator, steering }
 }
 

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 use quasilux_benches::meshes::Numbers;
+use quasilux_benches::scenes::lamp_and_probe;
 use quasilux_scene::{Files, Scene, load};
 use quasilux_transport::{Estimator, Reconstruction, Settings, simulate};
 use std::fmt::Write;
@@ -93,22 +94,9 @@ impl Files for Ground {
 }
 
 fn relief() -> Scene {
-    let project = br#"
-        [scene]
-        geometry = ["ground.obj"]
-        [materials.ground]
-        reflectance = 0.6
-        [[lights]]
-        kind = "point"
-        position = [52, 47, 15]
-        intensity_cd = 10000
-        [[sensors]]
-        name = "middle"
-        kind = "points"
-        points = [[50, 50, 10]]
-        normals = [[0, 0, 1]]
-    "#;
-    load("relief", project, &Ground).expect("the project is well-formed").scene
+    let ground = "geometry = [\"ground.obj\"]\n[materials.ground]\nreflectance = 0.6";
+    let project = lamp_and_probe(ground, [52.0, 47.0, 15.0], [50.0, 50.0, 10.0]);
+    load("relief", project.as_bytes(), &Ground).expect("the project is well-formed").scene
 }
 
 /// The room and its ground as a Wavefront file.

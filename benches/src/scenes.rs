@@ -93,27 +93,26 @@ pub fn lamp_near_a_wall() -> Named {
     )
 }
 
+/// A project with this section `[scene]` and what follows it, a light of 10 kcd, and a point that looks up.
+#[must_use]
+pub fn lamp_and_probe(scene: &str, lamp: [f64; 3], probe: [f64; 3]) -> String {
+    format!(
+        "[scene]\n{scene}\n\
+         [[lights]]\nkind = \"point\"\nposition = {lamp:?}\nintensity_cd = 10000\n\
+         [[sensors]]\nname = \"middle\"\nkind = \"points\"\n\
+         points = [{probe:?}]\nnormals = [[0, 0, 1]]\n"
+    )
+}
+
 /// A furnished kitchen of 57 000 triangles, a lamp and a level grid in its middle; `None` where the
 /// file or `zstd` is missing.
 #[must_use]
 pub fn kitchen() -> Option<Named> {
     let folder =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/scenes/obvhs-kitchen");
-    let project = br#"
-        [scene]
-        geometry = ["kitchen.obj"]
-        up = "y"
-        [[lights]]
-        kind = "point"
-        position = [0, 0, 0]
-        intensity_cd = 100
-        [[sensors]]
-        name = "placeholder"
-        kind = "points"
-        points = [[0, 0, 0]]
-        normals = [[0, 0, 1]]
-    "#;
-    let mut scene = load("kitchen", project, &Folder(folder)).ok()?.scene;
+    // Light and sensor are replaced when the size of the kitchen is known.
+    let project = lamp_and_probe("geometry = [\"kitchen.obj\"]\nup = \"y\"", [0.0; 3], [0.0; 3]);
+    let mut scene = load("kitchen", project.as_bytes(), &Folder(folder)).ok()?.scene;
     let [low, high] = scene.mesh.bounds()?;
     let (middle, edges) = (0.5 * (low + high), 0.5 * (high - low));
     scene.lights = vec![Light::Point(PointLight { position: middle, intensity_cd: 100.0 })];

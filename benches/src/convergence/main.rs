@@ -16,7 +16,7 @@ use quasilux_benches::scenes;
 use quasilux_foreign::all_processors_seconds;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
-use quasilux_transport::{Control, Estimates, Estimator, FirstShot, Observer, Settings, simulate};
+use quasilux_transport::{Control, Estimates, Estimator, Observer, Settings, Switch, simulate};
 
 /// Checkpoints that a slope spans.
 const SPAN: usize = 4;
@@ -33,10 +33,10 @@ fn main() {
     let limit = words.iter().find_map(|word| word.strip_prefix("2^")?.parse().ok()).unwrap_or(12);
     let max_bounces = words.iter().find_map(|word| word.strip_prefix("bounces=")?.parse().ok());
     let map_element_m = words.iter().find_map(|word| word.strip_prefix("element=")?.parse().ok());
-    let first_shot = FirstShot::NAMES
+    let first_shot = Switch::NAMES
         .iter()
         .find(|(name, _)| given(&format!("first_shot={name}")))
-        .map_or(FirstShot::Auto, |named| named.1);
+        .map_or(Switch::Auto, |named| named.1);
     let sequence = if given("random") { Sequence::Random } else { Sequence::Sobol };
     let chosen: Vec<Estimator> =
         Estimator::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();

@@ -1,6 +1,6 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
-use crate::settings::{Estimator, FirstShot, Settings};
+use crate::settings::{Estimator, Settings, Switch};
 use crate::world::World;
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
@@ -70,7 +70,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     if settings.list_terms > 0 && settings.estimator == Estimator::BidirectionalMap {
         return Err(CheckError::TermsOfMap { estimator: settings.estimator.name() });
     }
-    if settings.first_shot == FirstShot::On && !ends_on_map {
+    if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }
     if settings.estimator != Estimator::Photon {

@@ -58,5 +58,5 @@ pub use interval::Interval;
 pub use observer::{Control, Observer, Progress};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
-pub use settings::{Estimator, FirstShot, Reconstruction, Settings, Steering};
+pub use settings::{Estimator, Reconstruction, Settings, Switch};
 pub use simulate::simulate;

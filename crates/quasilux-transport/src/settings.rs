@@ -1,6 +1,5 @@
 //! What a simulation is asked to do.
 
-pub use crate::first_shot::FirstShot;
 pub use crate::map::Reconstruction;
 use quasilux_sampling::{Randomization, Sequence};
 
@@ -40,20 +39,19 @@ impl Estimator {
     }
 }
 
-/// Whether photons are split and ended where that helps the sensors: a closed set. It changes the
-/// error, never the mean.
+/// Whether a measure is taken that may lower the error and never changes the mean: a closed set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Steering {
-    /// Where a survey of the scene says that it pays.
+pub enum Switch {
+    /// Where pilot photons or a survey of the scene say that it pays.
     #[default]
     Auto,
-    /// Always.
+    /// Wherever it can be.
     On,
-    /// Never: photons keep equal flux.
+    /// Never.
     Off,
 }
 
-impl Steering {
+impl Switch {
     /// All of them with their names in project files.
     pub const NAMES: [(&'static str, Self); 3] =
         [("auto", Self::Auto), ("on", Self::On), ("off", Self::Off)];
@@ -96,8 +94,9 @@ pub struct Settings {
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
     pub max_samples: Option<u64>,
-    /// Whether photons for the illumination map leave lit places instead of point-like lights.
-    pub first_shot: FirstShot,
+    /// Whether photons for the illumination map leave lit places instead of point-like lights, where
+    /// there are any and not too many facets times lights.
+    pub first_shot: Switch,
     /// Longest edge of an illumination map element in m before any is split; `None` derives it from
     /// the scene's size.
     pub map_element_m: Option<f64>,
@@ -112,8 +111,9 @@ pub struct Settings {
     /// How many plane mirrors, one after the other, images of point-like lights are followed through;
     /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
-    /// Whether photons that sensors count, and those of maps that grow, are steered.
-    pub steering: Steering,
+    /// Whether photons that sensors count, and those of maps that grow, are split and ended where that
+    /// helps the sensors; else they keep equal flux.
+    pub steering: Switch,
 }
 
 impl Settings {
@@ -140,13 +140,13 @@ impl Default for Settings {
             max_bounces: None,
             list_terms: 0,
             max_samples: None,
-            first_shot: FirstShot::Auto,
+            first_shot: Switch::Auto,
             map_element_m: None,
             map_elements: 1 << 22,
             map_adaptive: true,
             map_reconstruction: Reconstruction::Linear,
             image_depth: None,
-            steering: Steering::Auto,
+            steering: Switch::Auto,
         }
     }
 }

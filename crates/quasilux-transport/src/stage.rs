@@ -37,6 +37,10 @@ pub(crate) enum Stream {
     Photons,
     /// Photons of a plan, left out of the estimate.
     PlanPhotons,
+    /// Photons that show where the elements of a map are to be split.
+    MapPilots,
+    /// Photons that show whether to begin where light lands.
+    FirstShotPilots,
     /// Photons that look for what paths cannot find.
     HiddenPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
@@ -62,6 +66,8 @@ impl Stream {
         match self {
             Self::Photons => 0,
             Self::PlanPhotons => 1,
+            Self::MapPilots => 1 << 62,
+            Self::FirstShotPilots => 1 << 62 | 1,
             Self::HiddenPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
             Self::JoinedPhotons(group) => (1 << 62) + 2 * group,
@@ -105,7 +111,11 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         let Settings { mut sequence, randomization, seed, .. } = *self.settings;
         if let (
             Sequence::Hammersley { .. },
-            Stream::PlanPhotons | Stream::HiddenPhotons | Stream::Survey(_),
+            Stream::PlanPhotons
+            | Stream::MapPilots
+            | Stream::FirstShotPilots
+            | Stream::HiddenPhotons
+            | Stream::Survey(_),
         ) = (sequence, stream)
         {
             // A plan has its own number of photons.

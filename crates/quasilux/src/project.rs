@@ -5,7 +5,7 @@ use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
-use quasilux_transport::{Estimator, FirstShot, Reconstruction, Settings, Steering};
+use quasilux_transport::{Estimator, Reconstruction, Settings, Switch};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -77,7 +77,7 @@ pub(crate) fn settings(
         settings.randomization = names::in_project(section, "randomization", name, known)?;
     }
     if let Some(name) = &section.steering {
-        settings.steering = names::in_project(section, "steering", name, &Steering::NAMES)?;
+        settings.steering = names::in_project(section, "steering", name, &Switch::NAMES)?;
     }
     if let Some(name) = &arguments.estimator {
         settings.estimator = names::on_command_line("--estimator", name, &Estimator::NAMES)?;
@@ -97,7 +97,7 @@ pub(crate) fn settings(
     settings.rel_tol = arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
     settings.confidence = placed(&section.confidence).unwrap_or(defaults.confidence);
     if let Some(name) = &section.first_shot {
-        let known = &FirstShot::NAMES;
+        let known = &Switch::NAMES;
         settings.first_shot = names::in_project(section, "first shot", name, known)?;
     }
     settings.map_element_m = placed(&section.map_element_m);

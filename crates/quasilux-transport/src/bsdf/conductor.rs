@@ -64,12 +64,7 @@ impl<S: Spectrum> Conductor<S> {
         let lobes = self.lobes(wo);
         let once = |u| sample_reflection(self.ggx, wo, u);
         let wi = lobes.sample(cursor, once, |u| sample_caught(&self.caught, &self.full, u))?;
-        let pdf_sr = self.pdf_of(lobes, wo, wi);
-        Some(BsdfSample {
-            wi,
-            weight: self.evaluate(wo, wi) * (wi.z / pdf_sr),
-            pdf_sr: Some(pdf_sr),
-        })
+        Some(BsdfSample::reflected(wi, self.evaluate(wo, wi), self.pdf_of(lobes, wo, wi)))
     }
 
     pub(super) fn evaluate(&self, wo: DVec3, wi: DVec3) -> S {

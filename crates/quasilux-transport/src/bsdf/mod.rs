@@ -65,6 +65,13 @@ pub(crate) struct BsdfSample<S> {
     pub(crate) pdf_sr: Option<f64>,
 }
 
+impl<S: Spectrum> BsdfSample<S> {
+    /// A direction above the surface with the function's value there (sr^-1), drawn with this density.
+    fn reflected(wi: DVec3, value: S, pdf_sr: f64) -> Self {
+        Self { wi, weight: value * (wi.z / pdf_sr), pdf_sr: Some(pdf_sr) }
+    }
+}
+
 impl<S: Spectrum> Bsdf<S> {
     /// What a scene says of a surface, in the channels of this simulation.
     pub(crate) fn new(bsdf: &quasilux_scene::Bsdf) -> Self {

@@ -45,33 +45,6 @@ const MOST_PAIRS: usize = 1 << 21;
 /// Share of the photons that go where light would land if nothing stood in the way.
 const UNSEEN: f64 = 0.1;
 
-/// When the direct light of point-like lights is computed for photons, rather than sampled by them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FirstShot {
-    /// Where pilot photons show that it takes less work.
-    Auto,
-    /// Wherever there are point-like lights, and not too many facets times lights.
-    On,
-    /// Never.
-    Off,
-}
-
-impl FirstShot {
-    /// All of them, with their names in project files.
-    pub const NAMES: [(&'static str, Self); 3] =
-        [("auto", Self::Auto), ("on", Self::On), ("off", Self::Off)];
-
-    /// The name in project files and in results.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::On => "on",
-            Self::Off => "off",
-        }
-    }
-}
-
 /// Where secondary photons come from.
 pub(crate) struct LitCells {
     cells: Vec<DrawnCell>,

@@ -7,9 +7,9 @@
 //! Those from lit places lie more evenly, and few of their weights are far from the others, next to the
 //! lights where it matters to few: see [`EVENNESS`].
 
-use super::{FirstShot, LitCells};
+use super::LitCells;
 use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
-use crate::settings::Settings;
+use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::world::Interaction;
@@ -35,12 +35,12 @@ pub(crate) fn decide<S: Spectrum>(
     settings: &Settings,
     counts: &mut PhotonCounts,
 ) -> Option<LitCells> {
-    if settings.first_shot == FirstShot::Off {
+    if settings.first_shot == Switch::Off {
         return None;
     }
     let cells = LitCells::new(stage)?;
     counts.rays += cells.rays;
-    let pays = settings.first_shot == FirstShot::On
+    let pays = settings.first_shot == Switch::On
         || work(stage, Source::LitCells(&cells), counts)
             < EVENNESS * work(stage, Source::Lights, counts);
     pays.then_some(cells)
@@ -48,7 +48,7 @@ pub(crate) fn decide<S: Spectrum>(
 
 /// Rays for one good photon; infinite where none leaves a surface.
 fn work<S: Spectrum>(stage: &Stage<'_, S>, source: Source<'_>, counts: &mut PhotonCounts) -> f64 {
-    let points = stage.points(0, Stream::PlanPhotons);
+    let points = stage.points(0, Stream::FirstShotPilots);
     let (mut weights, mut of_pilots) = (Weights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
         let cursor = SampleCursor::new(&points, index);

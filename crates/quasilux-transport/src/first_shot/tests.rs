@@ -12,13 +12,16 @@ use crate::settings::Settings;
 use crate::stage::Stream;
 use crate::trial::Way;
 use crate::watch::Watch;
-use glam::{DMat3, DVec3};
-use quasilux_photometry::{LuminousShape, read_ies};
+use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
-use quasilux_scene::light::{AreaLight, Luminaire, PointLight};
+use quasilux_scene::light::{AreaLight, PointLight};
 use quasilux_scene::{Bsdf, Light, Material, Mesh, Rgb, Scene};
 use quasilux_stats::{sidak, student_t_cdf};
-use std::sync::{Arc, Mutex};
+use spotlight::spotlight;
+use std::sync::Mutex;
+
+#[path = "../../tests/it/spotlight.rs"]
+mod spotlight;
 
 const REPLICATES: u32 = 16;
 const PHOTONS: u64 = 1 << 12;
@@ -61,19 +64,6 @@ fn room(size: DVec3, materials: [Bsdf; 7], lights: Vec<Light>) -> Scene {
         sensors: Vec::new(),
         cameras: Vec::new(),
     }
-}
-
-/// A narrow beam, straight down: 10 degrees across, and a faint glow from there to the horizon.
-fn spotlight(position: DVec3) -> Light {
-    let text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 6 1 1 2 0 0 0\n1 1 1\n0 4 6 30 90 180\n0\n\
-                9000 8000 300 40 0 0\n";
-    Light::Luminaire(Luminaire {
-        photometry: Arc::new(read_ies(text.as_bytes()).unwrap().photometry),
-        position,
-        world_from_luminaire: DMat3::IDENTITY,
-        dimming: 1.0,
-        shape: LuminousShape::POINT,
-    })
 }
 
 fn greys(reflectances: [f64; 7]) -> [Bsdf; 7] {

@@ -79,7 +79,7 @@ impl Pilot<'_> {
     ) -> PhotonCounts {
         let way = Way::CoherentWaves;
         let batch = PhotonBatch {
-            stream: Stream::PlanPhotons,
+            stream: Stream::MapPilots,
             replicates: 0..1,
             indices,
             way,

@@ -18,7 +18,7 @@ pub(crate) use forecast::{Forecast, Landings};
 pub(crate) use guide::Guide;
 pub(crate) use windows::{Split, Windows};
 
-use crate::settings::Steering;
+use crate::settings::Switch;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::targets::Target;
@@ -49,11 +49,11 @@ pub(crate) struct Plan {
 pub(crate) fn plan<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],
-    steering: Steering,
+    steering: Switch,
 ) -> Plan {
     match steering {
-        Steering::Off => Plan::default(),
-        Steering::Auto | Steering::On => foresee(stage, targets, steering),
+        Switch::Off => Plan::default(),
+        Switch::Auto | Switch::On => foresee(stage, targets, steering),
     }
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn plan<S: Spectrum>(
 pub(crate) fn foresee<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],
-    steering: Steering,
+    steering: Switch,
 ) -> Plan {
     let Some(mut survey) = Survey::new(stage, targets) else { return Plan::default() };
     let Some((mut balance, mut areas_m2)) = look_far(stage, &mut survey, 1) else {
@@ -70,9 +70,9 @@ pub(crate) fn foresee<S: Spectrum>(
     let plain = Performance::plain(&survey, &balance).cost_of_error();
     let steered = Performance::steered(&survey, &balance).cost_of_error();
     let is_steered = match steering {
-        Steering::Auto => plain >= WORTHWHILE * steered,
-        Steering::On => true,
-        Steering::Off => false,
+        Switch::Auto => plain >= WORTHWHILE * steered,
+        Switch::On => true,
+        Switch::Off => false,
     };
     if is_steered {
         survey.refine(stage);

@@ -2,7 +2,7 @@
 
 use quasilux_scene::{Files, Quantity, Scene, SensorShape, load};
 use quasilux_transport::trial::{Traced, Way, try_photons};
-use quasilux_transport::{Estimates, Estimator, Interval, Settings, Steering, simulate};
+use quasilux_transport::{Estimates, Estimator, Interval, Settings, Switch, simulate};
 use std::path::{Path, PathBuf};
 
 /// Sensor points along the floor, one a metre.
@@ -25,11 +25,11 @@ fn corridor(quantity: Quantity) -> Scene {
     scene
 }
 
-fn settings(steering: Steering) -> Settings {
+fn settings(steering: Switch) -> Settings {
     Settings { estimator: Estimator::Photon, steering, rel_tol: 0.0, ..Settings::default() }
 }
 
-fn counted(seed: u64, steering: Steering, samples: u64) -> (Vec<Interval>, Estimates) {
+fn counted(seed: u64, steering: Switch, samples: u64) -> (Vec<Interval>, Estimates) {
     let settings = Settings { seed, max_samples: Some(samples), ..settings(steering) };
     let estimates = simulate(&corridor(Quantity::Mean), &settings, &mut ());
     (estimates.point_intervals(0), estimates)
@@ -57,8 +57,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 #[test]
 fn steered_photons_know_the_dark_end_better() {
     let gain = |seed| {
-        let (plain, plain_estimates) = counted(seed, Steering::Off, 1 << 16);
-        let (steered, estimates) = counted(seed, Steering::Auto, 1 << 13);
+        let (plain, plain_estimates) = counted(seed, Switch::Off, 1 << 16);
+        let (steered, estimates) = counted(seed, Switch::Auto, 1 << 13);
         assert!(estimates.rays < plain_estimates.rays, "{} rays", estimates.rays);
         for point in 0..POINTS {
             let (a, b) = (&plain[point], &steered[point]);
@@ -77,7 +77,7 @@ fn steered_photons_know_the_dark_end_better() {
 
 #[test]
 fn illuminance_spans_nearly_four_orders_of_magnitude() {
-    let (steered, _) = counted(1, Steering::Auto, 1 << 15);
+    let (steered, _) = counted(1, Switch::Auto, 1 << 15);
     let values = steered.iter().map(|interval| interval.value);
     let (most, least) = (values.clone().fold(0.0, f64::max), values.fold(f64::INFINITY, f64::min));
     assert!(most / least >= 0.5e4, "{most} {least}");
@@ -87,7 +87,7 @@ fn illuminance_spans_nearly_four_orders_of_magnitude() {
 #[test]
 fn waves_of_split_photons_count_what_single_families_count() {
     let scene = corridor(Quantity::Mean);
-    let settings = Settings { replicates: 2, ..settings(Steering::On) };
+    let settings = Settings { replicates: 2, ..settings(Switch::On) };
     let outcome = |way, parts: &[u64]| {
         let mut outcome = None;
         try_photons(&scene, &settings, None, |trial| {
@@ -116,7 +116,7 @@ fn a_plain_room_is_left_alone() {
         let settings = Settings { max_samples: Some(1 << 10), ..settings(steering) };
         simulate(&scene, &settings, &mut ())
     };
-    let (plain, asked) = (run(Steering::Off), run(Steering::Auto));
+    let (plain, asked) = (run(Switch::Off), run(Switch::Auto));
     assert_eq!(plain.sensors, asked.sensors);
     assert_eq!(plain.flux, asked.flux);
     assert!(asked.rays > plain.rays);

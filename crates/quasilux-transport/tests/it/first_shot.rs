@@ -8,27 +8,12 @@
 
 use crate::agreement::coloured_room_with_mirror;
 use crate::scenes::{diffuse, point_light, points, room};
-use glam::{DMat3, DVec3};
-use quasilux_photometry::{LuminousShape, read_ies};
-use quasilux_scene::light::Luminaire;
-use quasilux_scene::{Light, Scene};
+use crate::spotlight::spotlight;
+use glam::DVec3;
+use quasilux_scene::Scene;
 use quasilux_stats::{sidak, student_t_cdf};
-use quasilux_transport::{CheckError, Estimates, Estimator, FirstShot, Settings, Steering};
+use quasilux_transport::{CheckError, Estimates, Estimator, Settings, Switch};
 use quasilux_transport::{check, simulate};
-use std::sync::Arc;
-
-/// A beam of 10 degrees straight down, and a faint glow from there to the horizon.
-fn spotlight(position: DVec3) -> Light {
-    let text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 6 1 1 2 0 0 0\n1 1 1\n0 4 6 30 90 180\n0\n\
-                9000 8000 300 40 0 0\n";
-    Light::Luminaire(Luminaire {
-        photometry: Arc::new(read_ies(text.as_bytes()).unwrap().photometry),
-        position,
-        world_from_luminaire: DMat3::IDENTITY,
-        dimming: 1.0,
-        shape: LuminousShape::POINT,
-    })
-}
 
 /// Two narrow beams; a bare lamp 20 cm from a wall; a point light beside an area light, with a mirror.
 fn rooms() -> [(&'static str, Scene); 3] {
@@ -54,7 +39,7 @@ fn run(scene: &Scene, settings: Settings) -> Estimates {
     estimates
 }
 
-fn map(first_shot: FirstShot, seed: u64) -> Settings {
+fn map(first_shot: Switch, seed: u64) -> Settings {
     Settings {
         estimator: Estimator::BidirectionalMap,
         first_shot,
@@ -82,8 +67,8 @@ fn p_of_difference(a: &Estimates, b: &Estimates, point: usize) -> f64 {
 fn maps_agree_with_and_without_first_shot_and_with_paths() {
     let significance = sidak(0.001, 27);
     for (name, scene) in rooms() {
-        let on = run(&scene, map(FirstShot::On, 1));
-        let off = run(&scene, map(FirstShot::Off, 2));
+        let on = run(&scene, map(Switch::On, 1));
+        let off = run(&scene, map(Switch::Off, 2));
         let paths = Settings { rel_tol: 0.0, max_samples: Some(1 << 10), ..Settings::default() };
         let paths = run(&scene, paths).point_intervals(0);
         for (point, (x, path)) in on.point_intervals(0).iter().zip(&paths).enumerate() {
@@ -103,12 +88,12 @@ fn maps_agree_with_and_without_first_shot_and_with_paths() {
 fn first_shot_goes_with_steering_and_with_corrected_maps() {
     let significance = sidak(0.001, 27);
     for (name, scene) in rooms() {
-        let off = run(&scene, map(FirstShot::Off, 2));
-        let steered = Settings { steering: Steering::On, ..map(FirstShot::On, 1) };
+        let off = run(&scene, map(Switch::Off, 2));
+        let steered = Settings { steering: Switch::On, ..map(Switch::On, 1) };
         let corrected = Settings {
             estimator: Estimator::Bidirectional,
             max_samples: Some(1 << 10),
-            ..map(FirstShot::On, 3)
+            ..map(Switch::On, 3)
         };
         let (steered, corrected) = (run(&scene, steered), run(&scene, corrected));
         for (point, x) in corrected.point_intervals(0).iter().enumerate() {
@@ -131,7 +116,7 @@ fn the_balance_of_the_flux_is_whole() {
                 estimator,
                 map_adaptive: false,
                 max_samples: Some(16),
-                ..map(FirstShot::On, 1)
+                ..map(Switch::On, 1)
             };
             let flux = run(&scene, settings).flux;
             let sum_lm = flux.absorbed_lm + flux.lost_lm + flux.cut_lm;
@@ -149,7 +134,7 @@ fn bounces_are_counted_from_the_lights() {
     for max_bounces in [Some(0), Some(1), Some(2), Some(3)] {
         let with =
             |first_shot, seed| run(&scene, Settings { max_bounces, ..map(first_shot, seed) });
-        let (on, off) = (with(FirstShot::On, 1), with(FirstShot::Off, 2));
+        let (on, off) = (with(Switch::On, 1), with(Switch::Off, 2));
         for point in 0..9 {
             let [x, y] = [&on, &off].map(|estimates| estimates.point_intervals(0)[point]);
             let allowed = 1.5 * (x.half_width.unwrap_or(0.0) + y.half_width.unwrap_or(0.0));
@@ -163,7 +148,7 @@ fn bounces_are_counted_from_the_lights() {
 fn estimators_without_maps_refuse_it() {
     let [(_, scene), ..] = rooms();
     for estimator in [Estimator::Path, Estimator::Photon] {
-        let settings = Settings { estimator, ..map(FirstShot::On, 1) };
+        let settings = Settings { estimator, ..map(Switch::On, 1) };
         let estimator = estimator.name();
         assert_eq!(check(&scene, &settings), Err(CheckError::FirstShotWithoutMap { estimator }));
     }

@@ -1,6 +1,6 @@
 //! Rooms of every material.
 
-use crate::scenes::{all_walls_emit, diffuse, mirror, point_light, points, room};
+use crate::scenes::{all_walls_emit, diffuse, level_grid, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Pane, Plastic, Translucent};
 use quasilux_scene::light::AreaLight;
@@ -142,17 +142,7 @@ fn paths_and_photons_agree_under_bodies_of_every_material() {
         let light = AreaLight { material: 1, triangles, area_m2, luminance_cd_m2: 1000.0 };
         scene.lights.push(Light::Area(light));
         add_ball(&mut scene, DVec3::new(1.0, 1.0, 0.9), 0.4, body.clone());
-        scene.sensors.push(Sensor {
-            name: "below".to_owned(),
-            shape: SensorShape::Grid(Grid {
-                origin: DVec3::new(0.6, 0.6, 0.2),
-                u: DVec3::X * 0.8,
-                v: DVec3::Y * 0.8,
-                counts: [1, 1],
-                normal: DVec3::Z,
-                quantity: Quantity::Mean,
-            }),
-        });
+        scene.sensors.push(level_grid(DVec3::new(0.6, 0.6, 0.2), [0.8, 0.8], [1, 1]));
         let [path, photon] = [Estimator::Path, Estimator::Photon].map(|estimator| {
             let settings = Settings { estimator, rel_tol: 0.01, ..Settings::default() };
             simulate(&scene, &settings, &mut ()).point_intervals(0)[0]
@@ -174,17 +164,7 @@ fn halls_of_perfect_mirrors_end_with_a_warning() {
             add_ball(&mut scene, DVec3::new(2.0, 1.5, 1.0), 0.5, bsdf);
         }
         scene.lights.push(point_light(DVec3::new(0.4, 0.3, 0.3), 10.0));
-        scene.sensors.push(Sensor {
-            name: "plane".to_owned(),
-            shape: SensorShape::Grid(Grid {
-                origin: DVec3::new(0.0, 0.0, 0.4),
-                u: DVec3::X * 4.0,
-                v: DVec3::Y * 3.0,
-                counts: [2, 2],
-                normal: DVec3::Z,
-                quantity: Quantity::Mean,
-            }),
-        });
+        scene.sensors.push(level_grid(DVec3::new(0.0, 0.0, 0.4), [4.0, 3.0], [2, 2]));
         for estimator in [Estimator::Photon, Estimator::Path] {
             let settings =
                 Settings { estimator, replicates: 2, max_samples: Some(16), ..Settings::default() };

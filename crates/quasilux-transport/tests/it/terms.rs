@@ -1,9 +1,9 @@
 //! The terms of the Neumann series one by one: their sum, their closed form, and who agrees.
 
 use crate::agreement::coloured_room_with_mirror;
-use crate::scenes::{all_walls_emit, diffuse, point_light, points, room};
+use crate::scenes::{all_walls_emit, diffuse, level_grid, point_light, points, room};
 use glam::DVec3;
-use quasilux_scene::{Grid, Quantity, Scene, Sensor, SensorShape};
+use quasilux_scene::Scene;
 use quasilux_transport::{CheckError, Estimates, Estimator, Settings, check, simulate};
 use std::f64::consts::PI;
 
@@ -24,17 +24,7 @@ fn terms_of_a_furnace_are_powers() {
     all_walls_emit(&mut scene, 100.0);
     for estimator in [Estimator::Path, Estimator::Photon] {
         scene.sensors = match estimator {
-            Estimator::Photon => vec![Sensor {
-                name: "grid".to_owned(),
-                shape: SensorShape::Grid(Grid {
-                    origin: DVec3::new(1.0, 1.0, 1.0),
-                    u: DVec3::X * 2.0,
-                    v: DVec3::Y,
-                    counts: [1, 1],
-                    normal: DVec3::Z,
-                    quantity: Quantity::Mean,
-                }),
-            }],
+            Estimator::Photon => vec![level_grid(DVec3::ONE, [2.0, 1.0], [1, 1])],
             _ => vec![points(
                 "probes",
                 &[
