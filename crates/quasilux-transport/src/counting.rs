@@ -6,14 +6,15 @@
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::grid_plane::GridPlane;
 use crate::map::{MapLayout, QUANTA_PER_PHOTON};
+use crate::observer::Snapshot;
 use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
-use crate::photons::{PhotonBatch, trace_photons};
+use crate::photons::{PhotonBatch, trace_photons_in_view};
 use crate::settings::Settings;
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::steering::{self, Plan, Windows};
-use crate::targets::{by_sensor, targets};
+use crate::targets::{by_sensor, snapshot, targets};
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::{Interaction, World};
@@ -105,7 +106,19 @@ impl<'a, S: Spectrum> Counting<'a, S> {
             windows,
             certain_bounces: 0,
         };
-        trace_photons(self.stage, &batch, receiver, watch)
+        let before = self.samples * counters.len() as u64;
+        let look = |emitted: u64| Some(self.snapshot(before + emitted));
+        trace_photons_in_view(self.stage, &batch, receiver, look, watch)
+    }
+
+    /// What the sensors show after so many photons of all replicates together.
+    fn snapshot(&self, photons: u64) -> Snapshot {
+        let photon_lm = self.stage.lights.flux_lm / photons as f64;
+        let value_lx = |&(counter, area_m2): &(u32, f64)| {
+            let photons = |own: &Counters| own.all(counter as usize) as f64 / own.quanta_per_photon;
+            Some(self.counters.iter().map(photons).sum::<f64>() * photon_lm / area_m2)
+        };
+        snapshot(self.scene, self.receivers.targets.iter().map(value_lx))
     }
 
     /// All counters of all replicates.

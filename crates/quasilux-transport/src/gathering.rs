@@ -1,8 +1,10 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
+mod moment;
+
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::join::{self, Joined};
-use crate::path_end::{Growth, PathEnd};
+use crate::path_end::{GrowingMaps, Growth, PathEnd};
 use crate::path_wave::{PathWave, WAVE};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
@@ -50,6 +52,8 @@ pub(crate) struct Gathering<'a, S> {
     invalid_points: u64,
     /// Targets to which light that is sampled may come straight.
     samples_direct: Vec<bool>,
+    /// What each target showed before the maps last changed.
+    last_lx: Vec<Option<f64>>,
 }
 
 /// What a sensor point gets of point-like lights, without sampling, in lx.
@@ -98,6 +102,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             hidden,
             joined,
             replicates,
+            last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             targets,
@@ -224,10 +229,17 @@ impl<S: Spectrum> Gathering<'_, S> {
 impl<S: Spectrum> Estimation for Gathering<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         let mut indices = self.samples..samples;
-        match self.end.grow(self.stage, indices.clone(), watch) {
+        let mut end = std::mem::replace(&mut self.end, PathEnd::Nothing);
+        let before = self.before();
+        let look = |maps: &GrowingMaps<'_, S>| Some(before.snapshot(maps));
+        let growth = end.grow(self.stage, indices.clone(), look, watch);
+        let before_lx = before.into_lx();
+        self.end = end;
+        match growth {
             Growth::Stopped => return false,
             Growth::None => {}
             Growth::NewMaps(photons) => {
+                self.last_lx = before_lx;
                 // The maps have changed, and what was read from them with them.
                 self.photons += photons;
                 self.sums.fill(PathSums::default());
@@ -261,6 +273,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 self.work += work;
             }
             done = round.end;
+            watch.show(|| Some(self.snapshot(&indices, done)));
             let (now, rays) = (self.work.paths - paths_before, self.work.rays - rays_before);
             if !watch.tick(0, now, rays, done as f64 / paths as f64) {
                 return false;

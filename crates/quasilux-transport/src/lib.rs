@@ -55,7 +55,7 @@ pub use check::{CheckError, check};
 pub use estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates};
 pub use explain::{Explanation, explain};
 pub use interval::Interval;
-pub use observer::{Control, Observer, Progress};
+pub use observer::{Control, Observer, Progress, Snapshot};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
 pub use settings::{Estimator, Reconstruction, Settings, Switch};

@@ -28,8 +28,26 @@ pub struct Progress {
     pub done: Option<f64>,
 }
 
-/// The one way out of a running simulation: progress, checkpoints, cancellation.
+/// What the sensors show at a moment between two checkpoints: a look at the tallies as they are. It
+/// disturbs nothing, has no interval, and is no result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Illuminance in lx, one row a sensor, one column a sensor point; `None` where nothing is known
+    /// yet. Of all photons or paths so far, whichever replicate they belong to. While photons of maps
+    /// fly, points on surfaces show what the maps have there, others what they had before.
+    pub illuminance_lx: Vec<Vec<Option<f64>>>,
+}
+
+/// The one way out of a running simulation: progress, snapshots, checkpoints, cancellation.
 pub trait Observer {
+    /// Whether it wants a snapshot now: asked many times a second, before [`Self::progress`].
+    fn wants_snapshot(&mut self) -> bool {
+        false
+    }
+
+    /// Gets the snapshot that it wanted, where there is one.
+    fn snapshot(&mut self, _snapshot: &Snapshot) {}
+
     /// Called many times a second.
     fn progress(&mut self, _progress: &Progress) -> Control {
         Control::Continue

@@ -14,6 +14,8 @@ use std::ops::Range;
 const WAVE: u64 = 4096;
 /// Most indices of one field: the more, the nearer neighbours are.
 const FIELD: u64 = 1 << 18;
+/// Most waves of one field.
+pub(crate) const WAVES_PER_FIELD: u64 = FIELD / WAVE;
 /// Photons of one group: the least that share their digits.
 const GROUP: u64 = 64;
 
@@ -59,6 +61,13 @@ impl Waves {
     /// The number of waves.
     pub(crate) fn len(&self) -> u64 {
         self.waves
+    }
+
+    /// The last gap between fields at or before the one in front of a wave: the indices before it
+    /// cover all directions, whatever their order. A field has at most [`WAVES_PER_FIELD`] waves.
+    pub(crate) fn gap_before(&self, wave: u64) -> u64 {
+        let run = &self.runs[self.runs.partition_point(|run| run.first_wave <= wave) - 1];
+        wave - (wave - run.first_wave) % run.waves_per_field
     }
 
     /// The indices of one wave.
@@ -110,6 +119,14 @@ mod tests {
                 }
                 indices.sort_unstable();
                 assert!(indices.into_iter().eq(range.clone()), "{sequence:?}, {range:?}");
+                for wave in 0..waves.len() {
+                    let gap = waves.gap_before(wave);
+                    assert!(gap <= wave && wave - gap < WAVES_PER_FIELD);
+                    let mut before: Vec<u64> = (0..gap).flat_map(|w| waves.indices(w)).collect();
+                    before.sort_unstable();
+                    let whole = range.start..range.start + before.len() as u64;
+                    assert!(before.into_iter().eq(whole), "{sequence:?}, {range:?}: {gap}");
+                }
             }
         }
     }

@@ -2,9 +2,10 @@
 
 use crate::first_shot::{LitCells, decide};
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
+use crate::observer::Snapshot;
 use crate::path::survival_factor;
 use crate::photon::{PhotonCounts, Source};
-use crate::photons::{PhotonBatch, trace_photons};
+use crate::photons::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -75,6 +76,29 @@ pub(crate) enum Growth {
     Stopped,
 }
 
+/// The maps of all replicates at a moment when no photon flies.
+pub(crate) struct GrowingMaps<'m, S> {
+    layout: &'m MapLayout,
+    tallies: &'m [MapTally<S>],
+    /// Flux of a photon, were all of them one replicate's.
+    photon_lm: f64,
+}
+
+impl<S: Spectrum> GrowingMaps<'_, S> {
+    /// Illuminance in lx by light that bounced, at a target that lies on a surface with a map.
+    pub(crate) fn illuminance_lx(&self, stage: &Stage<'_, S>, target: &Target) -> Option<f64> {
+        let Target::Point { position, normal } = *target else { return None };
+        let at = stage.world.facet_under(position, normal)?;
+        // With a limit, the map leaves out light that has no bounce left for the way to a sensor.
+        if !stage.world.bsdf(&at).keeps_illuminance() || stage.max_bounces.is_some() {
+            return None;
+        }
+        let place = self.layout.locate(&at);
+        let map_lx = |tally: &MapTally<S>| tally.read(self.photon_lm).illuminance_lx(&place);
+        Some(self.tallies.iter().map(|tally| map_lx(tally).luminance()).sum())
+    }
+}
+
 impl<S: Spectrum> PathEnd<S> {
     /// Traces the photons that come before all paths. Where others are joined to the sensors, hardly a path
     /// goes far enough for a map, and so there is none.
@@ -142,11 +166,12 @@ impl<S: Spectrum> PathEnd<S> {
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
 
-    /// Adds the photons `indices` to maps that grow.
+    /// Adds the photons `indices` to maps that grow; `look` sees them grow.
     pub(crate) fn grow(
         &mut self,
         stage: &Stage<'_, S>,
         indices: Range<u64>,
+        look: impl Fn(&GrowingMaps<'_, S>) -> Option<Snapshot>,
         watch: &mut Watch<'_>,
     ) -> Growth {
         let Self::Own { layout, tallies, flux_lm, lit_cells, windows } = self else {
@@ -164,7 +189,12 @@ impl<S: Spectrum> PathEnd<S> {
             windows: windows.as_ref(),
             certain_bounces: 0,
         };
-        let traced = trace_photons(stage, &batch, receiver, watch);
+        let before = batch.indices.start * tallies.len() as u64;
+        let look = |emitted: u64| {
+            let photon_lm = stage.lights.flux_lm / (before + emitted) as f64;
+            look(&GrowingMaps { layout, tallies, photon_lm })
+        };
+        let traced = trace_photons_in_view(stage, &batch, receiver, look, watch);
         let Some(counts) = traced else { return Growth::Stopped };
         *flux_lm = stage.lights.flux_lm / samples as f64;
         Growth::NewMaps(source.counted(counts))

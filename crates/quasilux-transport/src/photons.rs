@@ -1,7 +1,8 @@
 //! Many photons at once: ranges of indices of all replicates, shared between threads.
 
 use crate::estimates::FluxBalance;
-use crate::order::Waves;
+use crate::observer::Snapshot;
+use crate::order::{WAVES_PER_FIELD, Waves};
 use crate::photon::{Lead, MOST_EVENTS, PhotonCounts, PhotonReceiver, Source, trace_photon};
 use crate::photon_wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
@@ -14,8 +15,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Waves between two words to the observer.
-const WAVES_PER_ROUND: u64 = 64;
+/// Most waves between two words to the observer. There are no fields that are begun then.
+const WAVES_PER_ROUND: u64 = WAVES_PER_FIELD;
 
 /// Which photons are traced: the same indices of each replicate.
 pub(crate) struct PhotonBatch<'w> {
@@ -36,6 +37,18 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     stage: &Stage<'_, S>,
     batch: &PhotonBatch<'_>,
     receiver: impl Fn(u32) -> R + Sync,
+    watch: &mut Watch<'_>,
+) -> Option<PhotonCounts> {
+    trace_photons_in_view(stage, batch, receiver, |_| None, watch)
+}
+
+/// The same where `look` tells what the sensors show, when so many of the photons were emitted and
+/// none of them flies.
+pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
+    stage: &Stage<'_, S>,
+    batch: &PhotonBatch<'_>,
+    receiver: impl Fn(u32) -> R + Sync,
+    look: impl Fn(u64) -> Option<Snapshot>,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
     let PhotonBatch { stream, replicates, indices, way, source, windows, certain_bounces } = batch;
@@ -75,7 +88,9 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     let mut counts = PhotonCounts::default();
     let mut done = 0;
     while done < waves {
-        let round = done..(done + WAVES_PER_ROUND).min(waves);
+        let end = (done + WAVES_PER_ROUND).min(waves);
+        let round =
+            done..end - end % waves_each.len() + waves_each.gap_before(end % waves_each.len());
         done = round.end;
         let of_round =
             round.into_par_iter().map(trace).reduce(PhotonCounts::default, |mut a, b| {
@@ -84,6 +99,7 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
             });
         let (photons, rays) = (of_round.emitted, of_round.rays);
         counts += of_round;
+        watch.show(|| look(counts.emitted));
         if !watch.tick(photons, 0, rays, done as f64 / waves as f64) {
             return None;
         }

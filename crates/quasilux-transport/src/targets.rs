@@ -1,9 +1,10 @@
 //! The sensor points of all sensors in one list.
 
 use crate::estimates::SensorEstimates;
+use crate::observer::Snapshot;
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
-use quasilux_scene::{Quantity, Scene, SensorShape};
+use quasilux_scene::{Quantity, Scene, Sensor, SensorShape};
 
 /// One value that a sensor asks for.
 #[derive(Clone, Copy, Debug)]
@@ -45,4 +46,10 @@ pub(crate) fn by_sensor(scene: &Scene, all: &SensorEstimates) -> Vec<SensorEstim
             all.part(own)
         })
         .collect()
+}
+
+/// The snapshot with these values of all targets.
+pub(crate) fn snapshot(scene: &Scene, mut all: impl Iterator<Item = Option<f64>>) -> Snapshot {
+    let own = |sensor: &Sensor| all.by_ref().take(sensor.len()).collect();
+    Snapshot { illuminance_lx: scene.sensors.iter().map(own).collect() }
 }

@@ -1,7 +1,7 @@
 //! Counters of a run, and the observer behind them.
 
 use crate::estimates::Estimates;
-use crate::observer::{Control, Observer, Progress};
+use crate::observer::{Control, Observer, Progress, Snapshot};
 
 /// Tells the observer how far a run is, and remembers whether it said stop.
 pub(crate) struct Watch<'o> {
@@ -28,6 +28,15 @@ impl<'o> Watch<'o> {
     /// Says where the next checkpoint and the expected end lie.
     pub(crate) fn expect(&mut self, coming: u64, end: Option<u64>) {
         (self.coming, self.end) = (coming, end);
+    }
+
+    /// Shows a moment of the run, if the observer wants to see it and there is something to see.
+    pub(crate) fn show(&mut self, look: impl FnOnce() -> Option<Snapshot>) {
+        if self.observer.wants_snapshot()
+            && let Some(snapshot) = look()
+        {
+            self.observer.snapshot(&snapshot);
+        }
     }
 
     /// Counts work; `share` of the way to the coming checkpoint is done. Whether to go on: before

@@ -4,16 +4,29 @@
 
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use quasilux_measure::number::count;
-use quasilux_transport::{Control, Estimates, Observer, Progress};
+use quasilux_measure::number::{brief, count};
+use quasilux_scene::Scene;
+use quasilux_transport::{Control, Estimates, Observer, Progress, Snapshot};
 use std::time::{Duration, Instant};
 
 /// Steps of the progress bar.
 const STEPS: u64 = 1000;
 
+/// Sensors that are shown while a run goes, the first ones.
+const SHOWN_SENSORS: usize = 3;
+/// Between two looks at them is so much time at least, and so many times what a look takes.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
+const LOOK_SHARE: u32 = 50;
+
 /// The observer of the command line.
 pub(crate) struct Watcher {
     bar: ProgressBar,
+    /// Names of the sensors that are shown.
+    sensors: Vec<String>,
+    /// What they show.
+    values: String,
+    next_look: Instant,
+    look_asked: Instant,
     start: Instant,
     deadline: Option<Instant>,
     /// Why the run was told to stop, if it was.
@@ -31,7 +44,7 @@ pub(crate) enum Stopped {
 
 impl Watcher {
     /// Starts the clock. The bar goes to stderr, and only where that is a terminal.
-    pub(crate) fn new(time: Option<Duration>, quiet: bool) -> Self {
+    pub(crate) fn new(scene: &Scene, time: Option<Duration>, quiet: bool) -> Self {
         let start = Instant::now();
         let target = if quiet {
             ProgressDrawTarget::hidden()
@@ -44,7 +57,17 @@ impl Watcher {
         let bar = ProgressBar::with_draw_target(Some(STEPS), target).with_style(style);
         // A deadline too far away to be told is none.
         let deadline = time.and_then(|time| start.checked_add(time));
-        Self { bar, start, deadline, stopped: None }
+        let sensors = scene.sensors.iter().take(SHOWN_SENSORS);
+        Self {
+            bar,
+            sensors: sensors.map(|sensor| sensor.name.clone()).collect(),
+            values: String::new(),
+            next_look: start,
+            look_asked: start,
+            start,
+            deadline,
+            stopped: None,
+        }
     }
 
     /// Takes the bar away and says how long the run took.
@@ -64,6 +87,17 @@ impl Watcher {
 }
 
 impl Observer for Watcher {
+    fn wants_snapshot(&mut self) -> bool {
+        self.look_asked = Instant::now();
+        !self.bar.is_hidden() && self.look_asked >= self.next_look
+    }
+
+    fn snapshot(&mut self, snapshot: &Snapshot) {
+        let shown = self.sensors.iter().zip(&snapshot.illuminance_lx);
+        self.values = shown.filter_map(|(name, values)| value(name, values)).collect();
+        self.next_look = Instant::now() + BETWEEN_LOOKS.max(self.look_asked.elapsed() * LOOK_SHARE);
+    }
+
     fn progress(&mut self, progress: &Progress) -> Control {
         let elapsed_s = self.start.elapsed().as_secs_f64();
         let done = self.deadline.map_or(progress.done, |deadline| {
@@ -71,7 +105,7 @@ impl Observer for Watcher {
             Some(progress.done.unwrap_or(0.0).max((elapsed_s / whole_s).min(1.0)))
         });
         self.bar.set_position((done.unwrap_or(0.0) * STEPS as f64) as u64);
-        self.bar.set_message(message(progress, done, elapsed_s));
+        self.bar.set_message(message(progress, done, elapsed_s) + &self.values);
         self.control()
     }
 
@@ -98,4 +132,34 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
         count(progress.paths),
         rays_per_s * 1e-6,
     )
+}
+
+/// A line for what a sensor shows: its average, and the least and the most where they differ.
+fn value(name: &str, illuminance_lx: &[Option<f64>]) -> Option<String> {
+    let known: Vec<f64> = illuminance_lx.iter().copied().flatten().collect();
+    let least = known.iter().copied().reduce(f64::min)?;
+    let most = known.iter().copied().reduce(f64::max)?;
+    let mean = known.iter().sum::<f64>() / known.len() as f64;
+    let [mean, least, most] = [mean, least, most].map(|lx| brief(lx, 3));
+    let range = if known.len() > 1 { format!(" ({least} to {most})") } else { String::new() };
+    let part = if known.len() < illuminance_lx.len() {
+        format!(" at {} of {} points", known.len(), illuminance_lx.len())
+    } else {
+        String::new()
+    };
+    Some(format!("\n{name}: about {mean} lx{range}{part}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sensors_are_shown_as_far_as_they_are_known() {
+        let text = |values: &[Option<f64>]| value("desk", values);
+        assert_eq!(text(&[None, None]), None);
+        assert_eq!(text(&[Some(512.34)]).unwrap(), "\ndesk: about 512 lx");
+        let part = text(&[Some(100.0), None, Some(300.0)]).unwrap();
+        assert_eq!(part, "\ndesk: about 200 lx (100 to 300) at 2 of 3 points");
+    }
 }

@@ -61,7 +61,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let one = Settings { replicates: 1, ..settings.clone() };
         let (mut end, _) = PathEnd::prepare(stage, &one, &all, false, &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
-        end.grow(stage, 0..photons, &mut watch);
+        end.grow(stage, 0..photons, |_| None, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);
         Self { stage, targets, end, hidden, ends_on_map: settings.estimator != Estimator::Path }
     }

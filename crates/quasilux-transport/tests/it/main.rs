@@ -16,6 +16,7 @@ mod images;
 mod materials;
 mod mirrored_light;
 mod scenes;
+mod snapshots;
 mod spotlight;
 mod terms;
 mod traps;

@@ -66,7 +66,7 @@ pub(crate) fn simulate(
     let settings = project::settings(project, arguments)?;
     let scene = &project.loaded.scene;
     let pool = pool(arguments)?;
-    let mut watcher = Watcher::new(arguments.time, quiet);
+    let mut watcher = Watcher::new(scene, arguments.time, quiet);
     let estimates = pool.install(|| quasilux_transport::simulate(scene, &settings, &mut watcher));
     let facts = RunFacts {
         version: env!("CARGO_PKG_VERSION").to_owned(),
