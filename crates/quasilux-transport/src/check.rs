@@ -51,6 +51,12 @@ pub enum CheckError {
         /// Name of the estimator.
         estimator: &'static str,
     },
+    /// Other estimators have no use for such photons.
+    #[error("joining = \"on\" is for the estimator \"bidirectional\", not for \"{estimator}\"")]
+    NothingToJoin {
+        /// Name of the estimator.
+        estimator: &'static str,
+    },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -72,6 +78,9 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
+    }
+    if settings.joining == Switch::On && settings.estimator != Estimator::Bidirectional {
+        return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
     }
     if settings.estimator != Estimator::Photon {
         return Ok(());

@@ -3,12 +3,12 @@
 mod moment;
 
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
-use crate::join::{self, Joined};
+use crate::join::{self, Decision, Joined};
 use crate::path_end::{GrowingMaps, Growth, PathEnd};
 use crate::path_wave::{PathWave, WAVE};
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
-use crate::settings::{Estimator, Settings};
+use crate::settings::Settings;
 use crate::shadow::{Asker, Shadows};
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
@@ -86,13 +86,9 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
         let hidden = HiddenLight::new(stage, settings, &targets);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let joins = settings.estimator == Estimator::Bidirectional
-            && settings.max_bounces != Some(0)
-            && !targets.is_empty();
-        let decision =
-            joins.then(|| join::decide(stage, settings, &targets, &exact, quantum, watch));
-        work.rays += decision.as_ref().map_or(0, |decision| decision.rays);
-        let joined = decision.and_then(|decision| decision.joined);
+        let Decision { joined, rays } =
+            join::decide(stage, settings, &targets, &exact, quantum, watch);
+        work.rays += rays;
         let (end, photons) = PathEnd::prepare(stage, settings, &targets, joined.is_some(), watch);
         Self {
             stage,
@@ -166,6 +162,11 @@ impl<S: Spectrum> Gathering<'_, S> {
                     && (found_direct || found_indirect || !samples_direct)
             })
             .collect()
+    }
+
+    /// What photons gave to a target in one replicate.
+    fn joined_lx(&self, replicate: usize, target: usize) -> f64 {
+        self.joined.as_ref().map_or(0.0, |joined| joined.lx(replicate, target))
     }
 
     /// The terms of the Neumann series that are listed, and the rest.
@@ -290,15 +291,12 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         let hidden_lx = |r: usize, target: usize| {
             self.hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(r, target))
         };
-        let joined_lx = |r: usize, target: usize| {
-            self.joined.as_ref().map_or(0.0, |joined| joined.lx(r, target))
-        };
         let row = |r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates);
             let own = own.zip(&self.exact).enumerate();
             own.map(|(target, (sums, exact))| {
                 let sampled_lx = mean(sums.direct) + mean(sums.indirect);
-                exact.sum_lx() + sampled_lx + hidden_lx(r, target) + joined_lx(r, target)
+                exact.sum_lx() + sampled_lx + hidden_lx(r, target) + self.joined_lx(r, target)
             })
             .collect()
         };

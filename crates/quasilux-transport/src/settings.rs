@@ -10,8 +10,8 @@ pub enum Estimator {
     Photon,
     /// Paths from the sensors with next-event estimation.
     Path,
-    /// Paths from the sensors that end on an illumination map, corrected so that the map's
-    /// elements cause no bias.
+    /// Paths from the sensors beside photons that are joined to them, or paths that end on a frozen
+    /// illumination map, corrected so that its elements cause no bias: what a pilot finds better.
     Bidirectional,
     /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
     /// elements leave a bias.
@@ -114,6 +114,9 @@ pub struct Settings {
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where that
     /// helps the sensors; else they keep equal flux.
     pub steering: Switch,
+    /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; else
+    /// these end on a frozen map, which is corrected.
+    pub joining: Switch,
 }
 
 impl Settings {
@@ -147,6 +150,7 @@ impl Default for Settings {
             map_reconstruction: Reconstruction::Linear,
             image_depth: None,
             steering: Switch::Auto,
+            joining: Switch::Auto,
         }
     }
 }

@@ -79,6 +79,9 @@ pub(crate) fn settings(
     if let Some(name) = &section.steering {
         settings.steering = names::in_project(section, "steering", name, &Switch::NAMES)?;
     }
+    if let Some(name) = &section.joining {
+        settings.joining = names::in_project(section, "joining", name, &Switch::NAMES)?;
+    }
     if let Some(name) = &arguments.estimator {
         settings.estimator = names::on_command_line("--estimator", name, &Estimator::NAMES)?;
     }

@@ -62,6 +62,7 @@ impl<'a> ExplanationEntry<'a> {
                 WalkKind::Photons => "photons",
                 WalkKind::Paths => "paths",
                 WalkKind::PathsOnMap => "paths that end on a map",
+                WalkKind::PathsBesidePhotons => "paths beside joined photons",
             },
             targets: explanation.targets,
             samples: explanation.samples,

@@ -8,7 +8,7 @@
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`, `first_shot`),
+//! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`, `joining`, `first_shot`),
 //! `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end. Where it was asked for,
 //! `explain` says which coordinates carry the variance.
@@ -125,6 +125,7 @@ struct RunEntry<'a> {
     map_reconstruction: &'static str,
     image_depth: Option<u32>,
     steering: &'a str,
+    joining: &'a str,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
     #[serde(serialize_with = "finite_or_null")]
@@ -236,6 +237,7 @@ impl<'a> RunEntry<'a> {
             map_reconstruction: run.settings.map_reconstruction.name(),
             image_depth: run.settings.image_depth,
             steering: run.settings.steering.name(),
+            joining: run.settings.joining.name(),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

@@ -56,6 +56,9 @@ fn sampled(explanation: &Explanation) -> String {
         WalkKind::PathsOnMap => {
             (format!("{samples} paths to one map from each of {targets} points"), "path")
         }
+        WalkKind::PathsBesidePhotons => {
+            (format!("{samples} paths beside photons from each of {targets} points"), "path")
+        }
     };
     format!(
         "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, {} at \

@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "estimator",
     "sequence",
     "randomization",
@@ -23,6 +23,7 @@ const KEYS: [&str; 16] = [
     "map_reconstruction",
     "image_depth",
     "steering",
+    "joining",
 ];
 
 /// Most replicates that a project file may ask for.
@@ -72,6 +73,8 @@ pub struct SimulationSection {
     pub image_depth: Option<Placed<u32>>,
     /// Whether photons are steered, by name.
     pub steering: Option<Placed<String>>,
+    /// Whether photons are joined to the sensors beside paths.
+    pub joining: Option<Placed<String>>,
 }
 
 impl SimulationSection {
@@ -137,6 +140,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
             value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)
         })?,
         steering: name("steering")?,
+        joining: name("joining")?,
     })
 }
 

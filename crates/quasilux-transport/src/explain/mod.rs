@@ -77,6 +77,8 @@ pub enum WalkKind {
     Paths,
     /// Paths from the sensors that end on an illumination map, given the map.
     PathsOnMap,
+    /// Paths from the sensors beside photons that find the rest, given the photons.
+    PathsBesidePhotons,
 }
 
 /// Neighbouring coordinates that mostly feed the same decision.

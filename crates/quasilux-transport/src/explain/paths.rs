@@ -2,6 +2,7 @@
 
 use super::{Pilot, Points, Walk, WalkKind};
 use crate::gathering::exact;
+use crate::join::{self, Joined};
 use crate::path_end::PathEnd;
 use crate::path_wave::{PathWave, WAVE};
 use crate::sections::Section;
@@ -9,6 +10,7 @@ use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::specular::HiddenLight;
 use crate::stage::{Stage, Stream};
+use crate::tally::Quantum;
 use crate::targets::{Target, targets};
 use crate::watch::Watch;
 use quasilux_sampling::DimensionHistogram;
@@ -19,6 +21,8 @@ use rayon::prelude::*;
 const TARGETS: usize = 8;
 /// Paths from each.
 const SAMPLES: u64 = 1 << 10;
+/// Samples whose photons say how much light paths need not find.
+const JOINED_SAMPLES: u64 = 1 << 6;
 /// Photons on the map where it grows with the run.
 const MAP_PHOTONS: u64 = 1 << 14;
 
@@ -27,15 +31,17 @@ pub(super) struct PathWalk<'s, S> {
     targets: Vec<PathTarget>,
     end: PathEnd<S>,
     hidden: Option<HiddenLight<S>>,
-    ends_on_map: bool,
+    /// Photons that find a part of the light.
+    joined: Option<Joined>,
+    kind: WalkKind,
 }
 
 struct PathTarget {
     /// Its number among all.
     number: u64,
     target: Target,
-    /// Direct light that is no matter of paths.
-    exact_lx: f64,
+    /// Light that is no matter of paths: direct light, and what joined photons find.
+    given_lx: f64,
 }
 
 /// What some paths of one target found.
@@ -50,20 +56,42 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let all = targets(scene);
         let count = all.len().min(TARGETS);
         let numbers = (0..count).map(|i| (2 * i + 1) * all.len() / (2 * count));
-        let targets = numbers.map(|number| PathTarget {
-            number: number as u64,
-            target: all[number],
-            exact_lx: exact(stage, &[all[number]], &mut 0)[0].sum_lx(),
-        });
-        let targets: Vec<PathTarget> = targets.collect();
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
-        let (mut end, _) = PathEnd::prepare(stage, &one, &all, false, &mut watch);
+        let joined = Self::joined(stage, &one, &all, &mut watch);
+        let targets = numbers.map(|number| PathTarget {
+            number: number as u64,
+            target: all[number],
+            given_lx: exact(stage, &[all[number]], &mut 0)[0].sum_lx()
+                + joined.as_ref().map_or(0.0, |joined| joined.lx(0, number)),
+        });
+        let targets: Vec<PathTarget> = targets.collect();
+        let (mut end, _) = PathEnd::prepare(stage, &one, &all, joined.is_some(), &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(stage, 0..photons, |_| None, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);
-        Self { stage, targets, end, hidden, ends_on_map: settings.estimator != Estimator::Path }
+        let kind = match settings.estimator {
+            Estimator::Path => WalkKind::Paths,
+            _ if joined.is_some() => WalkKind::PathsBesidePhotons,
+            _ => WalkKind::PathsOnMap,
+        };
+        Self { stage, targets, end, hidden, joined, kind }
+    }
+
+    /// Photons that find a part of the light, as many as say how much that is.
+    fn joined(
+        stage: &Stage<'_, S>,
+        settings: &Settings,
+        targets: &[Target],
+        watch: &mut Watch<'_>,
+    ) -> Option<Joined> {
+        let exact = exact(stage, targets, &mut 0);
+        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
+        let decision = join::decide(stage, settings, targets, &exact, quantum, watch);
+        let mut joined = decision.joined?;
+        joined.grow(stage, JOINED_SAMPLES, watch)?;
+        Some(joined)
     }
 
     /// Light that only photons find, as far as paths read it.
@@ -79,13 +107,13 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         Some(hidden)
     }
 
-    fn piece(&self, wave: &mut PathWave<S>, section: &Section<'_, S>, exact_lx: f64) -> Piece {
+    fn piece(&self, wave: &mut PathWave<S>, section: &Section<'_, S>, given_lx: f64) -> Piece {
         let paths = wave.trace(self.stage, section.starts(self.stage));
         let rays = wave.take_rays();
         let mut piece = Piece { values: Vec::new(), rays, dimensions: DimensionHistogram::new() };
         for path in paths {
             let path = path.end();
-            let value_lx = exact_lx + (path.found.direct + path.found.indirect).luminance();
+            let value_lx = given_lx + (path.found.direct + path.found.indirect).luminance();
             // The run counts and reports what is no number.
             piece.values.push(if value_lx.is_finite() { value_lx } else { 0.0 });
             piece.dimensions.record(path.dimensions);
@@ -96,7 +124,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
 
 impl<S: Spectrum> Walk for PathWalk<'_, S> {
     fn kind(&self) -> WalkKind {
-        if self.ends_on_map { WalkKind::PathsOnMap } else { WalkKind::Paths }
+        self.kind
     }
 
     fn samples(&self) -> u64 {
@@ -113,11 +141,11 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
                 target: target.target,
                 points: points(Stream::Paths(target.number).id()),
                 rest: self.end.rest(0),
-                joining: None,
+                joining: self.joined.as_ref().map(|joined| &joined.joining),
                 hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),
                 indices: first..(first + WAVE).min(samples),
             };
-            self.piece(wave, &section, target.exact_lx)
+            self.piece(wave, &section, target.given_lx)
         };
         let pieces = (0..self.targets.len() as u64 * pieces_each).into_par_iter();
         let pieces: Vec<Piece> = pieces.map_init(PathWave::default, piece).collect();

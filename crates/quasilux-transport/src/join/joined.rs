@@ -91,7 +91,7 @@ impl Joined {
 
     /// What it got of one term of the Neumann series; of the last, of all that follow too.
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
-        let photons = self.samples as f64 * self.joining.photons as f64;
+        let photons = (self.samples * self.joining.photons).max(1) as f64;
         self.quantum.value(self.sum(replicate, target, term)) / photons
     }
 

@@ -29,7 +29,7 @@ mod pilot;
 mod receiver;
 
 pub(crate) use joined::Joined;
-pub(crate) use pilot::decide;
+pub(crate) use pilot::{Decision, decide};
 
 use crate::steering::{Landings, Windows};
 use glam::DVec3;

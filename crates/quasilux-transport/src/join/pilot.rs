@@ -11,7 +11,7 @@ use crate::gathering::Exact;
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
 use crate::sections::{Piece, Section, trace_sections};
-use crate::settings::Settings;
+use crate::settings::{Estimator, Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::steering::{self, Plan};
@@ -49,7 +49,7 @@ struct Trial {
     rays: f64,
 }
 
-/// Surveys the scene, tries both, and decides.
+/// Surveys the scene, tries both where the settings leave a choice, and decides.
 pub(crate) fn decide<S: Spectrum>(
     stage: &Stage<'_, S>,
     settings: &Settings,
@@ -58,25 +58,24 @@ pub(crate) fn decide<S: Spectrum>(
     quantum: Quantum,
     watch: &mut Watch<'_>,
 ) -> Decision {
+    let is_possible = settings.estimator == Estimator::Bidirectional
+        && settings.joining != Switch::Off
+        && settings.max_bounces != Some(0)
+        && !targets.is_empty();
+    if !is_possible {
+        return Decision { joined: None, rays: 0 };
+    }
     let Plan { windows, forecast, mut rays } = steering::foresee(stage, targets, settings.steering);
     let Some(forecast) = forecast else { return Decision { joined: None, rays } };
     let expected_lx: Vec<f64> =
         (0..targets.len()).map(|target| forecast.target_lx(target)).collect();
     let step = targets.len().div_ceil(TARGETS).max(1);
-    fn some<T: Clone>(all: &[T], step: usize) -> Vec<T> {
-        all.iter().step_by(step).cloned().collect()
-    }
+    let asked: Vec<Target> = targets.iter().step_by(step).copied().collect();
+    let asked_lx = expected_lx.iter().step_by(step).copied().collect();
     let joining = Joining { landings: forecast.landings, windows, photons: PHOTONS };
-    let mut pilot = Joined::new(
-        joining,
-        some(targets, step),
-        some(&expected_lx, step),
-        REPLICATES,
-        (0, quantum),
-    );
+    let mut pilot = Joined::new(joining, asked.clone(), asked_lx, REPLICATES, (0, quantum));
     // Before the first checkpoint the observer stops nothing, so there are always counts.
     let counts = pilot.grow(stage, SAMPLES, watch).unwrap_or_default();
-    let asked = some(targets, step);
     let joined = Trial {
         lx: (0..asked.len())
             .flat_map(|target| (0..REPLICATES.len()).map(move |r| (r, target)))
@@ -88,7 +87,9 @@ pub(crate) fn decide<S: Spectrum>(
     let alone = Trial::of_paths(stage, &asked, None, quantum);
     rays += counts.rays + (beside.rays + alone.rays) as u64;
     let exact_lx: Vec<f64> = exact.iter().step_by(step).map(Exact::sum_lx).collect();
-    let photons = best_photons(&joined, &beside, &alone, &exact_lx);
+    let best = Best::of(&joined, &beside, &alone, &exact_lx);
+    let joins = settings.joining == Switch::On || best.pays;
+    let photons = joins.then_some(best.photons);
     let joined = photons.map(|photons| {
         let joining = Joining { photons, ..pilot.joining };
         let replicates = 0..settings.effective_replicates();
@@ -98,31 +99,41 @@ pub(crate) fn decide<S: Spectrum>(
     Decision { joined, rays }
 }
 
-/// How many photons there should be for each path; `None` where paths should go alone.
-fn best_photons(joined: &Trial, beside: &Trial, alone: &Trial, exact_lx: &[f64]) -> Option<u64> {
-    let replicates = REPLICATES.len() as f64;
-    let (mut of_joined, mut of_beside, mut of_alone, mut seen) = (0.0, 0.0, 0.0, 0.0);
-    for (target, exact_lx) in exact_lx.iter().enumerate() {
-        let (joined, beside) = (joined.moments(target), beside.moments(target));
-        let alone = alone.moments(target);
-        let mean = exact_lx + joined.mean + beside.mean;
-        if mean <= 0.0 {
-            continue;
+/// How photons are joined best.
+struct Best {
+    /// For each path.
+    photons: u64,
+    /// Whether paths alone are worse.
+    pays: bool,
+}
+
+impl Best {
+    fn of(joined: &Trial, beside: &Trial, alone: &Trial, exact_lx: &[f64]) -> Self {
+        let replicates = REPLICATES.len() as f64;
+        let (mut of_joined, mut of_beside, mut of_alone, mut seen) = (0.0, 0.0, 0.0, 0.0);
+        for (target, exact_lx) in exact_lx.iter().enumerate() {
+            let (joined, beside) = (joined.moments(target), beside.moments(target));
+            let alone = alone.moments(target);
+            let mean = exact_lx + joined.mean + beside.mean;
+            if mean <= 0.0 {
+                continue;
+            }
+            let error = (joined.variance + beside.variance) / replicates;
+            let off = alone.mean + exact_lx - mean;
+            of_joined += joined.variance / (mean * mean);
+            of_beside += beside.variance / (mean * mean);
+            of_alone += (alone.variance + (off * off - error).max(0.0)) / (mean * mean);
+            seen += 1.0;
         }
-        let error = (joined.variance + beside.variance) / replicates;
-        let off = alone.mean + exact_lx - mean;
-        of_joined += joined.variance / (mean * mean);
-        of_beside += beside.variance / (mean * mean);
-        of_alone += (alone.variance + (off * off - error).max(0.0)) / (mean * mean);
-        seen += 1.0;
+        // Where nothing was found, photons are as good a chance as any.
+        let ratio = of_joined * beside.rays / (of_beside * joined.rays);
+        let best = if ratio.is_finite() { PHOTONS as f64 * ratio.sqrt() } else { PHOTONS as f64 };
+        let photons = libm::exp2(libm::round(libm::log2(best.clamp(1.0, MOST_PHOTONS))));
+        let more = photons / PHOTONS as f64;
+        let together = (of_beside + of_joined / more) * (beside.rays + joined.rays * more);
+        let pays = seen == 0.0 || together < of_alone * alone.rays;
+        Self { photons: photons as u64, pays }
     }
-    // Where nothing was found, photons are as good a chance as any.
-    let ratio = of_joined * beside.rays / (of_beside * joined.rays);
-    let best = if ratio.is_finite() { PHOTONS as f64 * ratio.sqrt() } else { PHOTONS as f64 };
-    let photons = libm::exp2(libm::round(libm::log2(best.clamp(1.0, MOST_PHOTONS))));
-    let more = photons / PHOTONS as f64;
-    let together = (of_beside + of_joined / more) * (beside.rays + joined.rays * more);
-    (seen == 0.0 || together < of_alone * alone.rays).then_some(photons as u64)
 }
 
 /// Of what the replicates found at one target.

@@ -7,7 +7,7 @@ use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Material, Scene};
 use quasilux_transport::explain::{Block, Share, WalkKind};
 use quasilux_transport::purpose::Purpose;
-use quasilux_transport::{Estimator, Explanation, Settings, explain};
+use quasilux_transport::{Estimator, Explanation, Settings, Switch, explain};
 
 /// A black room with half a bright ceiling, one triangle, and a point below it.
 fn black_room_under_a_ceiling() -> Scene {
@@ -88,7 +88,10 @@ fn coordinates_are_named_in_their_order() {
     let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
     assert_eq!(first(Estimator::Photon, 4), [leaves, across, on1, on2]);
     let estimator = Estimator::Bidirectional;
-    let on_map = explain(&scene, &Settings { estimator, ..Settings::default() });
+    let [on_map, beside] = [Switch::Off, Switch::On]
+        .map(|joining| explain(&scene, &Settings { estimator, joining, ..Settings::default() }));
+    assert_eq!(beside.walk, WalkKind::PathsBesidePhotons);
+    assert_eq!(uses(&beside)[..4], [place, Purpose::FirstDirection, lit0, seen1]);
     assert_eq!(on_map.walk, WalkKind::PathsOnMap);
     let mut named = on_map.blocks.iter().flat_map(|block| &block.uses);
     let is_correction = |purpose| matches!(purpose, Purpose::Correction { .. });

@@ -13,6 +13,7 @@ mod first_shot;
 mod furnace;
 mod hall;
 mod images;
+mod joining;
 mod materials;
 mod mirrored_light;
 mod scenes;
