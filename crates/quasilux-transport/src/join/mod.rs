@@ -17,7 +17,7 @@
 //! The first is Veach and Guibas's balance heuristic (SIGGRAPH 1995) with marginal densities: both
 //! estimates are good. For the second a path must go on, at a price, with light that it knows badly; it
 //! goes on with probability w, which is 0 wherever a photon's contribution is bounded well enough. This is
-//! the compensation of clamped photons by A. Kollig and T. Keller, "Illumination in the presence of weak
+//! the compensation of clamped photons by T. Kollig and A. Keller, "Illumination in the presence of weak
 //! singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Contributions that are small
 //! beside what the sensor gets are left to chance, and what survives counts more, so that rays are not
 //! spent on them.
