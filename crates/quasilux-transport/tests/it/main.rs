@@ -7,6 +7,8 @@ mod cameras;
 mod corridor;
 mod coverage;
 mod cube;
+mod dozen;
+mod dozen_scenes;
 mod element_size;
 mod explain;
 mod first_shot;
