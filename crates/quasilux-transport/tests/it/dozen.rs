@@ -6,7 +6,7 @@
 //! the value (0.4 % where the map takes part), so that a difference of 0.3 % is found every other time and one
 //! of 0.45 % nearly always. Each estimate goes on until its standard error is small enough for that.
 //!
-//! Photons are not steered here: few of them that weigh much would make intervals of 32 replicates that
+//! Photons are not joined to the sensors (`joining.rs` compares that), and not steered: few of them that weigh much would make intervals of 32 replicates that
 //! cannot be trusted at this significance.
 
 use crate::dozen_scenes as scenes;
@@ -87,6 +87,7 @@ fn estimate(scene: &Scene, estimator: Estimator) -> Mean {
         estimator,
         replicates: REPLICATES,
         steering: Switch::Off,
+        joining: Switch::Off,
         max_samples: Some(MOST_SAMPLES),
         rel_tol: 0.0,
         ..Settings::default()
@@ -98,16 +99,16 @@ fn estimate(scene: &Scene, estimator: Estimator) -> Mean {
     Mean::of(&estimates)
 }
 
-/// Paths, photons and both together are without bias; so, in means over all of a room, is
+/// Paths, photons and paths of the corrected map are without bias; so, in means over all of a room, is
 /// nearly the plain map, whose elements keep all flux where it lands within their size.
 fn assert_agree(scene: &Scene) {
-    let [path, photon, both, map] =
+    let [path, photon, corrected, map] =
         [Estimator::Path, Estimator::Photon, Estimator::Bidirectional, Estimator::BidirectionalMap]
             .map(|estimator| estimate(scene, estimator));
-    let found = format!("{path:?}, {photon:?}, {both:?}, {map:?}");
+    let found = format!("{path:?}, {photon:?}, {corrected:?}, {map:?}");
     assert!(path.agrees(&photon, FINE), "photons: {found}");
-    assert!(path.agrees(&both, FINE), "bidirectional: {found}");
-    assert!(photon.agrees(&both, FINE), "photons and bidirectional: {found}");
+    assert!(path.agrees(&corrected, FINE), "corrected map: {found}");
+    assert!(photon.agrees(&corrected, FINE), "photons and corrected map: {found}");
     assert!(path.agrees(&map, COARSE), "map: {found}");
 }
 
