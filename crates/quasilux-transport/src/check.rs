@@ -34,15 +34,6 @@ pub enum CheckError {
         /// Name of the camera.
         camera: String,
     },
-    /// A map keeps light of all bounces together.
-    #[error(
-        "list_terms: the map of the estimator \"{estimator}\" keeps light of all bounces in one; the \
-         other estimators can tell terms apart"
-    )]
-    TermsOfMap {
-        /// Name of the estimator.
-        estimator: &'static str,
-    },
     /// These photons are counted from their first flight on, or there are none.
     #[error(
         "first_shot = \"on\" is for the photons of illumination maps: the estimator \"{estimator}\" has none"
@@ -73,9 +64,6 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     let ends_on_map =
         matches!(settings.estimator, Estimator::Bidirectional | Estimator::BidirectionalMap);
-    if settings.list_terms > 0 && settings.estimator == Estimator::BidirectionalMap {
-        return Err(CheckError::TermsOfMap { estimator: settings.estimator.name() });
-    }
     if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }

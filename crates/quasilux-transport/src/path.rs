@@ -304,7 +304,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let correction = Purpose::Correction { surface: bounces + 1 };
         let everything =
             stage.draw(&mut self.cursor, correction, |cursor| end.goes_on(albedo, cursor));
-        self.found.add(bounces + 1, to_start * end.illuminance_lx(at) * (1.0 - everything));
+        let share = |lx: S| to_start * lx * (1.0 - everything);
+        self.found.indirect += share(end.illuminance_lx(at));
+        if stage.listed_terms > 0 {
+            for (photon_bounces, lx) in end.terms_lx(at) {
+                self.found.add_to_term(bounces + 1 + photon_bounces, share(lx));
+            }
+        }
         // The direction to a light that the next surface emits is part of the direct light here, so
         // it counts in every path.
         Some(Onward { emitted: 1.0, everything })
@@ -456,6 +462,11 @@ impl<S: Spectrum> Gathered<S> {
     /// runs into.
     fn add(&mut self, bounces: u32, light: S) {
         *if bounces == 0 { &mut self.direct } else { &mut self.indirect } += light;
+        self.add_to_term(bounces, light);
+    }
+
+    /// Adds light to its term alone.
+    fn add_to_term(&mut self, bounces: u32, light: S) {
         if let Some(rest) = self.terms.len().checked_sub(1) {
             self.terms[rest.min(bounces as usize)] += light;
         }

@@ -127,8 +127,7 @@ impl<S: Spectrum> PathEnd<S> {
         };
         let is_path = match settings.estimator {
             Estimator::Path => true,
-            // A frozen map holds light of all bounces in one.
-            Estimator::Bidirectional => is_joined || stage.listed_terms > 0,
+            Estimator::Bidirectional => is_joined,
             Estimator::Photon | Estimator::BidirectionalMap => false,
         };
         if is_path || settings.max_bounces == Some(0) {
@@ -148,7 +147,8 @@ impl<S: Spectrum> PathEnd<S> {
             counts.rays += rays;
             let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
             let replicates = 0..settings.effective_replicates();
-            let tallies = replicates.map(|_| MapTally::new(&layout, lightest)).collect();
+            let tallies =
+                replicates.map(|_| MapTally::new(&layout, lightest, layers(stage, 0))).collect();
             return (Self::Own { layout, tallies, flux_lm: 0.0, lit_cells, windows }, counts);
         }
         // Of wanted bounces, the first are found by the paths.
@@ -160,7 +160,7 @@ impl<S: Spectrum> PathEnd<S> {
         let layout = MapLayout::coarsest(&stage.world, settings);
         let wanted = (PHOTONS_PER_ELEMENT * layout.len() as u64).next_power_of_two();
         let photons = wanted.clamp(*PLAN_PHOTONS.start(), *PLAN_PHOTONS.end());
-        let tally = MapTally::new(&layout, source.usual_weight());
+        let tally = MapTally::new(&layout, source.usual_weight(), layers(stage, PASSES));
         let receiver = MapReceiver::up_to(most_bounces, &layout, &tally);
         counts += source.counted(plan(photons, source, Some(receiver), watch));
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
@@ -222,6 +222,11 @@ impl<S: Spectrum> MapEnd<'_, S> {
         self.map.illuminance_lx(&self.layout.locate(at))
     }
 
+    /// The parts of it by the number of bounces of the photons, the last of so many and more.
+    pub(crate) fn terms_lx(&self, at: &Interaction) -> impl Iterator<Item = (u32, S)> {
+        self.map.terms_lx(self.layout.locate(at))
+    }
+
     /// How many times what lies beyond a surface of this albedo counts, 0 for paths that end here.
     pub(crate) fn goes_on(&self, albedo: f64, cursor: &mut SampleCursor<'_>) -> f64 {
         if self.corrected { survival_factor(albedo, cursor) } else { 0.0 }
@@ -236,4 +241,10 @@ impl<S> Rest<'_, S> {
             Self::Map(end) => end.passes,
         }
     }
+}
+
+/// Layers of a map that tell the listed terms apart, for paths that end on it after this many surfaces
+/// or more: light of b bounces on the map has b + 1 more than these.
+fn layers<S>(stage: &Stage<'_, S>, passes: u32) -> u32 {
+    stage.listed_terms.saturating_sub(1 + passes).max(1)
 }

@@ -89,7 +89,8 @@ pub struct Settings {
     /// Bounces after which light is cut: `Some(0)` leaves the direct light, `None` cuts nothing.
     pub max_bounces: Option<u32>,
     /// How many terms of the Neumann series are listed, light of 0, 1, .. bounces, beside the rest;
-    /// 0 lists none. Not for the estimators that end on a map.
+    /// 0 lists none. An illumination map gets one layer for each but the first two, and one for the
+    /// rest: its memory grows so many times.
     pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.

@@ -86,13 +86,21 @@ impl Joined {
 
     /// What a target got in one replicate, in lx.
     pub(crate) fn lx(&self, replicate: usize, target: usize) -> f64 {
-        (0..self.terms).map(|term| self.term_lx(replicate, target, term)).sum()
+        // Quanta first, so that listing terms changes no bit.
+        let mut sum = Sum::default();
+        (0..self.terms).for_each(|term| sum += self.sum(replicate, target, term));
+        self.value_lx(sum)
     }
 
     /// What it got of one term of the Neumann series; of the last, of all that follow too.
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
+        self.value_lx(self.sum(replicate, target, term))
+    }
+
+    /// What a sum means so far.
+    fn value_lx(&self, sum: Sum) -> f64 {
         let photons = (self.samples * self.joining.photons).max(1) as f64;
-        self.quantum.value(self.sum(replicate, target, term)) / photons
+        self.quantum.value(sum) / photons
     }
 
     /// Whether any replicate found light of one term.

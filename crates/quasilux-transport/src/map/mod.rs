@@ -5,6 +5,7 @@
 //! element crosses an edge; the two sides of a facet are kept apart. An element's illuminance is
 //! `E = m flux / area`, m photons of equal flux (Voloboy, Dmitriev and Kopylov 2003), or the linear
 //! function with the moments that the photons have.
+//! Where terms of the Neumann series are listed, photons are counted in layers by their bounces.
 //!
 //! Read on at `layout` for which element a place belongs to, at `refine` for how elements are split,
 //! at `reconstruction` for what photons make of an element, at `tally` for how they are counted.

@@ -9,14 +9,21 @@ use crate::specular::Trail;
 use crate::stage::Stage;
 use crate::world::Interaction;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 /// Photons are counted in so many quanta each: 2^44 photons fit a counter.
 pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
 
-/// The photons counted by each element, writable by all threads. Elements where nothing lands take
-/// next to no memory; others take 4 bytes for each moment and channel.
+/// The photons counted by each element, writable by all threads, in layers by the number of their
+/// bounces. Elements where nothing lands take next to no memory; others take 4 bytes for each moment
+/// and channel in each layer that counts something there.
 pub(crate) struct MapTally<S> {
+    /// Layer after layer.
     sums: Blocks,
+    /// Counters of a layer.
+    layer: usize,
+    /// The first is for photons that bounced once, the last for all that bounced so often or more.
+    layers: u32,
     reconstruction: Reconstruction,
     quanta_per_photon: f64,
     channels: PhantomData<S>,
@@ -38,18 +45,18 @@ pub(crate) struct MapReceiver<'a, S> {
 }
 
 impl<S: Spectrum> MapTally<S> {
-    /// For photons that weigh `lightest` or more, a power of two.
-    pub(crate) fn new(layout: &MapLayout, lightest: f64) -> Self {
+    /// For photons that weigh `lightest` or more, a power of two, in so many layers, one at least.
+    pub(crate) fn new(layout: &MapLayout, lightest: f64, layers: u32) -> Self {
         let reconstruction = layout.reconstruction();
-        let moments = reconstruction.moments() * S::CHANNELS;
+        let layer = layout.len() * reconstruction.moments() * S::CHANNELS;
         let quanta_per_photon = QUANTA_PER_PHOTON / lightest;
-        let sums = Blocks::new(layout.len() * moments);
-        Self { sums, reconstruction, quanta_per_photon, channels: PhantomData }
+        let sums = Blocks::new(layer * layers as usize);
+        Self { sums, layer, layers, reconstruction, quanta_per_photon, channels: PhantomData }
     }
 
-    /// Counts a photon with this colour.
-    pub(crate) fn add(&self, place: &Place, weight: S) {
-        let first = self.first(place);
+    /// Counts a photon with this colour, which bounced so often, once at least.
+    pub(crate) fn add(&self, place: &Place, weight: S, bounces: u32) {
+        let first = self.first(place) + (bounces.min(self.layers) - 1) as usize * self.layer;
         match self.reconstruction {
             Reconstruction::Constant => {
                 for channel in 0..S::CHANNELS {
@@ -90,9 +97,23 @@ impl<S: Spectrum> MapTally<S> {
 impl<S: Spectrum> IlluminationMap<'_, S> {
     /// Illuminance in lx at a place. Linear ones may be negative in places.
     pub(crate) fn illuminance_lx(&self, place: &Place) -> S {
-        let MapTally { sums, reconstruction, .. } = self.tally;
+        self.of_layers_lx(place, 0..self.tally.layers)
+    }
+
+    /// The parts of it by the number of bounces of the photons, the last of so many and more.
+    pub(crate) fn terms_lx(&self, place: Place) -> impl Iterator<Item = (u32, S)> {
+        (0..self.tally.layers)
+            .map(move |layer| (layer + 1, self.of_layers_lx(&place, layer..layer + 1)))
+    }
+
+    /// Quanta are added before all else: their sum has the bits of one layer for all.
+    fn of_layers_lx(&self, place: &Place, layers: Range<u32>) -> S {
+        let MapTally { sums, layer, reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
-        let sum = |number: usize| sums.get(first + number) as f64;
+        let of_layer = |number: u32, counter: usize| sums.get(number as usize * layer + counter);
+        let sum = |number: usize| -> f64 {
+            layers.clone().map(|layer| of_layer(layer, first + number)).sum::<u64>() as f64
+        };
         let lx_per_quantum = self.lm_per_quantum / place.area_m2;
         S::from_channels(|channel| {
             let quanta = match reconstruction {
@@ -131,7 +152,7 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         // Light straight from the lights is never read from the map.
         if (1..=self.most_bounces).contains(&bounces) {
-            self.tally.add(&self.layout.locate(at), weight);
+            self.tally.add(&self.layout.locate(at), weight, bounces);
         }
     }
 
@@ -154,21 +175,25 @@ mod tests {
         for map_reconstruction in [Reconstruction::Constant, Reconstruction::Linear] {
             let settings = Settings { map_reconstruction, ..Settings::default() };
             let layout = MapLayout::new(&world, &settings);
-            let mut tally = MapTally::<f64>::new(&layout, 1.0);
+            let mut tally = MapTally::<f64>::new(&layout, 1.0, 3);
             for _ in 0..100 {
                 let place = layout.locate(&at(&world, numbers));
                 let gauss = |corner| {
                     std::array::from_fn(|i| [1.0 / 6.0, 2.0 / 3.0][usize::from(i == corner)])
                 };
-                for barycentric in [0, 1, 2].map(gauss) {
-                    tally.add(&Place { barycentric, ..place }, function(barycentric));
+                for (barycentric, bounces) in [0, 1, 2].map(gauss).into_iter().zip([1, 3, 7]) {
+                    tally.add(&Place { barycentric, ..place }, function(barycentric), bounces);
                 }
-                let found = tally.read(place.area_m2 / 3.0).illuminance_lx(&place);
+                let map = tally.read(place.area_m2 / 3.0);
+                let found = map.illuminance_lx(&place);
                 let wanted = match map_reconstruction {
                     Reconstruction::Constant => function([1.0 / 3.0; 3]),
                     Reconstruction::Linear => function(place.barycentric),
                 };
                 assert!((found - wanted).abs() < 2e-5, "{found}, wanted {wanted}");
+                let terms: Vec<(u32, f64)> = map.terms_lx(place).collect();
+                assert_eq!([terms[0].0, terms[1].0, terms[2].0], [1, 2, 3]);
+                assert!(terms[1].1 == 0.0 && (terms[0].1 + terms[2].1 - found).abs() < 1e-12);
                 tally.clear();
                 assert_eq!(tally.read(1.0).illuminance_lx(&place), 0.0);
             }
