@@ -75,10 +75,12 @@ impl<'a> SampleCursor<'a> {
     /// The cursor of child `child` of a sample that is split here, counted from 1; child 0 goes on
     /// with this cursor itself.
     ///
-    /// It starts at the first coordinate of a randomisation of its own, which is a function of the
+    /// It goes on at this dimension with a randomisation of its own, which is a function of the
     /// way to it: the dimensions at which its ancestors were split, and which children they were. So
     /// all children of one way, over all indices, have coordinates of one randomised sequence, and no
-    /// two ways share any.
+    /// two ways share any. Dimensions that its ancestors used are not used again: the digits of a point
+    /// are the same in each randomisation but for a permutation, so what became of its ancestors would
+    /// decide what becomes of the child, and no number of samples would average that out.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
@@ -93,7 +95,7 @@ impl<'a> SampleCursor<'a> {
         let place = (self.dimension as u64) << 32 | child as u64;
         // A key of 0 is the points' own.
         let branch = mix(self.branch ^ mix(place)) | 1;
-        Self { branch, ..Self::new(self.points, self.index) }
+        Self { branch, dimension: self.dimension, ..Self::new(self.points, self.index) }
     }
 
     /// Whether it is a split sample's child, or comes from one: its coordinates are not those of its

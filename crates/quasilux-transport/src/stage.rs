@@ -30,7 +30,8 @@ pub(crate) struct Stage<'a, S> {
     settings: &'a Settings,
 }
 
-/// What a stream of coordinates is for. Streams never share coordinates.
+/// What a stream of coordinates is for. Streams never share coordinates; but at one index they have the same
+/// digits in each dimension, permuted, so what is drawn together must come from different dimensions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Stream {
     /// Photons that enter the estimate.
@@ -47,7 +48,7 @@ pub(crate) enum Stream {
     Survey(u64),
     /// Photons that are joined to a group of sensor points.
     JoinedPhotons(u64),
-    /// Places in the cells of a group that photons are joined to.
+    /// Places in the cells of a group that photons are joined to, in dimensions that photons leave alone.
     JoinedPlaces(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),

@@ -166,6 +166,23 @@ fn children_of_one_way_are_as_even_as_their_sequence() {
     assert!(grandchild.is_branch() && grandchild.next_1d() != child(9, 3, 1).next_1d());
 }
 
+/// Where their ancestors began says nothing of the coordinates of children: those whose ancestors began in
+/// one eighth of the line are spread over all of it, as evenly as points of a net in two dimensions are.
+#[test]
+fn children_do_not_repeat_their_ancestors() {
+    for seed in 1..=20 {
+        let points = sobol(Randomization::Owen, seed);
+        let mut bins = [0; 8];
+        for index in 0..512 {
+            let mut parent = SampleCursor::new(&points, index);
+            if parent.next_1d() < 0.125 {
+                bins[(parent.child(1).next_1d() * 8.0) as usize] += 1;
+            }
+        }
+        assert_eq!(bins, [8; 8], "seed {seed}");
+    }
+}
+
 #[test]
 fn children_are_randomised_where_their_sequence_is_not() {
     let points = sobol(Randomization::None, 1);

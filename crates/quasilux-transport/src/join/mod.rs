@@ -20,12 +20,13 @@
 //! the compensation of clamped photons by T. Kollig and A. Keller, "Illumination in the presence of weak
 //! singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Contributions that are small
 //! beside what the sensor gets are left to chance, and what survives counts more, so that rays are not
-//! spent on them.
+//! spent on them. Where photons need steering, paths hardly ever find the light, and w = 0.
 //!
 //! How many photons come on a path, and whether any, is found out by a [`pilot`].
 
 mod joined;
 mod pilot;
+mod place;
 mod receiver;
 
 pub(crate) use joined::Joined;
@@ -36,9 +37,6 @@ use glam::DVec3;
 
 /// k: paths take over where a photon would count this many times what it does on average.
 const CLAMP: f64 = 10.0;
-/// The same where photons need steering: paths hardly ever find the light there.
-const CLAMP_OF_STEERED: f64 = 300.0;
-
 /// How photons are joined to sensors.
 pub(crate) struct Joining {
     /// Where to expect them.
@@ -70,7 +68,11 @@ impl Joining {
         let density = self.landings.at(position, n);
         let [first, rest] =
             [density.first, density.rest].map(|per_m2| per_m2 * self.photons as f64);
-        let clamp = if self.windows.is_some() { CLAMP_OF_STEERED } else { CLAMP };
-        Shares { first: pdf_m2 / (pdf_m2 + first), rest: (1.0 - clamp * rest / pdf_m2).max(0.0) }
+        let left = match &self.windows {
+            None => (1.0 - CLAMP * rest / pdf_m2).max(0.0),
+            // Where photons need steering, paths hardly ever find the light.
+            Some(_) => 0.0,
+        };
+        Shares { first: pdf_m2 / (pdf_m2 + first), rest: left }
     }
 }

@@ -2,14 +2,16 @@
 //!
 //! Paths with variance V and joined photons with variance U a photon, all of one sample, and costs c
 //! and d in rays: n photons a path make the error `(V + U / n) (c + n d)`, squared and times the cost; it
-//! is least for `n^2 = U c / (V d)`. It is compared with what paths cost that go alone. Variances are
-//! relative to the value, mean over the sensor points. They are taken around the mean of paths and
-//! photons together also where paths go alone: what paths hardly ever find would not show in their spread.
+//! is least for `n^2 = U c / (V d)`. Where a survey would have photons steered, they are tried steered and
+//! left alone. The best is compared with paths that go alone. Variances are relative to the value, mean over
+//! the sensor points. What paths hardly ever find does not show in their spread: what they are short of
+//! counts as an error of theirs.
 
 use super::{Joined, Joining};
 use crate::gathering::Exact;
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
+use crate::photon::PhotonCounts;
 use crate::sections::{Piece, Section, trace_sections};
 use crate::settings::{Estimator, Settings, Switch};
 use crate::spectrum::Spectrum;
@@ -65,74 +67,125 @@ pub(crate) fn decide<S: Spectrum>(
     if !is_possible {
         return Decision { joined: None, rays: 0 };
     }
-    let Plan { windows, forecast, mut rays } = steering::foresee(stage, targets, settings.steering);
-    let Some(forecast) = forecast else { return Decision { joined: None, rays } };
-    let expected_lx: Vec<f64> =
-        (0..targets.len()).map(|target| forecast.target_lx(target)).collect();
-    let step = targets.len().div_ceil(TARGETS).max(1);
-    let asked: Vec<Target> = targets.iter().step_by(step).copied().collect();
-    let asked_lx = expected_lx.iter().step_by(step).copied().collect();
-    let joining = Joining { landings: forecast.landings, windows, photons: PHOTONS };
-    let mut pilot = Joined::new(joining, asked.clone(), asked_lx, REPLICATES, (0, quantum));
-    // Before the first checkpoint the observer stops nothing, so there are always counts.
-    let counts = pilot.grow(stage, SAMPLES, watch).unwrap_or_default();
-    let joined = Trial {
-        lx: (0..asked.len())
-            .flat_map(|target| (0..REPLICATES.len()).map(move |r| (r, target)))
-            .map(|(r, target)| pilot.lx(r, target))
-            .collect(),
-        rays: (counts.rays - counts.joins) as f64 + JOINING_RAY * counts.joins as f64,
-    };
-    let beside = Trial::of_paths(stage, &asked, Some(&pilot.joining), quantum);
-    let alone = Trial::of_paths(stage, &asked, None, quantum);
-    rays += counts.rays + (beside.rays + alone.rays) as u64;
-    let exact_lx: Vec<f64> = exact.iter().step_by(step).map(Exact::sum_lx).collect();
-    let best = Best::of(&joined, &beside, &alone, &exact_lx);
-    let joins = settings.joining == Switch::On || best.pays;
-    let photons = joins.then_some(best.photons);
-    let joined = photons.map(|photons| {
-        let joining = Joining { photons, ..pilot.joining };
+    let sample = Sample::new(targets, exact);
+    let alone = Trial::of_paths(stage, &sample.targets, None, quantum);
+    let mut rays = alone.rays as u64;
+    let mut ways = Vec::new();
+    for Plan { windows, forecast, rays: of_survey } in plans(stage, targets, settings.steering) {
+        rays += of_survey;
+        let Some(forecast) = forecast else { continue };
+        let expected_lx: Vec<f64> =
+            (0..targets.len()).map(|target| forecast.target_lx(target)).collect();
+        let asked_lx = sample.of(&expected_lx);
+        let joining = Joining { landings: forecast.landings, windows, photons: PHOTONS };
+        let kept = (0, quantum);
+        let mut pilot = Joined::new(joining, sample.targets.clone(), asked_lx, REPLICATES, kept);
+        // Before the first checkpoint the observer stops nothing, so there are always counts.
+        let counts = pilot.grow(stage, SAMPLES, watch).unwrap_or_default();
+        let joined = Trial::of_joined(&pilot, sample.targets.len(), &counts);
+        let beside = Trial::of_paths(stage, &sample.targets, Some(&pilot.joining), quantum);
+        rays += counts.rays + beside.rays as u64;
+        ways.push(Way { joining: pilot.joining, expected_lx, joined, beside });
+    }
+    let means_lx = sample.means_lx(&ways, &alone);
+    let best = ways
+        .into_iter()
+        .map(|way| (way.best(&sample.exact_lx, &means_lx), way))
+        .min_by(|(a, _), (b, _)| a.error.total_cmp(&b.error));
+    let found_alone_lx = |target: usize| sample.exact_lx[target] + alone.moments(target).mean;
+    let of_alone = alone.variance(&means_lx) + shortfall(&means_lx, found_alone_lx);
+    let pays = |best: &Best| best.error < of_alone * alone.rays;
+    let best = best.filter(|(best, _)| settings.joining == Switch::On || pays(best));
+    let joined = best.map(|(Best { photons, .. }, way)| {
+        let joining = Joining { photons, ..way.joining };
         let replicates = 0..settings.effective_replicates();
         let kept = (stage.listed_terms, quantum);
-        Joined::new(joining, targets.to_vec(), expected_lx, replicates, kept)
+        Joined::new(joining, targets.to_vec(), way.expected_lx, replicates, kept)
     });
     Decision { joined, rays }
 }
 
-/// How photons are joined best.
+/// Photons as the survey says; where it says that they should be steered, also left alone.
+fn plans<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], steering: Switch) -> Vec<Plan> {
+    let plan = steering::foresee(stage, targets, steering);
+    let is_open = steering == Switch::Auto && plan.windows.is_some();
+    let plain = is_open.then(|| steering::foresee(stage, targets, Switch::Off));
+    std::iter::once(plan).chain(plain).collect()
+}
+
+/// The targets that are looked at.
+struct Sample {
+    /// Every so many of all.
+    step: usize,
+    targets: Vec<Target>,
+    exact_lx: Vec<f64>,
+}
+
+/// How much a trial is short of the means: squared and relative, mean over the targets.
+fn shortfall(means_lx: &[f64], found_lx: impl Fn(usize) -> f64) -> f64 {
+    let seen = means_lx.iter().enumerate().filter(|(_, mean_lx)| **mean_lx > 0.0);
+    let (sum, count) = seen.fold((0.0, 0.0), |(sum, count), (target, mean_lx)| {
+        let missing = 1.0 - found_lx(target) / mean_lx;
+        (sum + missing * missing, count + 1.0)
+    });
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+/// A way to join photons, tried.
+struct Way {
+    joining: Joining,
+    expected_lx: Vec<f64>,
+    joined: Trial,
+    beside: Trial,
+}
+
+/// How photons are joined best in one way.
 struct Best {
     /// For each path.
     photons: u64,
-    /// Whether paths alone are worse.
-    pays: bool,
+    /// Squared relative error times rays.
+    error: f64,
 }
 
-impl Best {
-    fn of(joined: &Trial, beside: &Trial, alone: &Trial, exact_lx: &[f64]) -> Self {
-        let replicates = REPLICATES.len() as f64;
-        let (mut of_joined, mut of_beside, mut of_alone, mut seen) = (0.0, 0.0, 0.0, 0.0);
-        for (target, exact_lx) in exact_lx.iter().enumerate() {
-            let (joined, beside) = (joined.moments(target), beside.moments(target));
-            let alone = alone.moments(target);
-            let mean = exact_lx + joined.mean + beside.mean;
-            if mean <= 0.0 {
-                continue;
-            }
-            let error = (joined.variance + beside.variance) / replicates;
-            let off = alone.mean + exact_lx - mean;
-            of_joined += joined.variance / (mean * mean);
-            of_beside += beside.variance / (mean * mean);
-            of_alone += (alone.variance + (off * off - error).max(0.0)) / (mean * mean);
-            seen += 1.0;
-        }
-        // Where nothing was found, photons are as good a chance as any.
-        let ratio = of_joined * beside.rays / (of_beside * joined.rays);
-        let best = if ratio.is_finite() { PHOTONS as f64 * ratio.sqrt() } else { PHOTONS as f64 };
+impl Sample {
+    fn new(targets: &[Target], exact: &[Exact]) -> Self {
+        let step = targets.len().div_ceil(TARGETS).max(1);
+        let exact_lx = exact.iter().step_by(step).map(Exact::sum_lx).collect();
+        Self { step, targets: targets.iter().step_by(step).copied().collect(), exact_lx }
+    }
+
+    fn of(&self, all: &[f64]) -> Vec<f64> {
+        all.iter().step_by(self.step).copied().collect()
+    }
+
+    /// The illuminance at each, as far as known: the most that any way found, for what is seldom found is
+    /// found too little by most.
+    fn means_lx(&self, ways: &[Way], alone: &Trial) -> Vec<f64> {
+        let mean_lx = |(target, exact_lx): (usize, &f64)| {
+            let found = |way: &Way| way.found_lx(target);
+            let most = ways.iter().map(found).fold(alone.moments(target).mean, f64::max);
+            exact_lx + most
+        };
+        self.exact_lx.iter().enumerate().map(mean_lx).collect()
+    }
+}
+
+impl Way {
+    /// By photons and by paths beside them, at one target.
+    fn found_lx(&self, target: usize) -> f64 {
+        self.joined.moments(target).mean + self.beside.moments(target).mean
+    }
+
+    fn best(&self, exact_lx: &[f64], means_lx: &[f64]) -> Best {
+        let found_lx = |target: usize| exact_lx[target] + self.found_lx(target);
+        let of_joined = self.joined.variance(means_lx) + shortfall(means_lx, found_lx);
+        let of_beside = self.beside.variance(means_lx);
+        let ratio = of_joined * self.beside.rays / (of_beside * self.joined.rays);
+        let best = if ratio.is_nan() { 1.0 } else { ratio.sqrt() } * PHOTONS as f64;
         let photons = libm::exp2(libm::round(libm::log2(best.clamp(1.0, MOST_PHOTONS))));
         let more = photons / PHOTONS as f64;
-        let together = (of_beside + of_joined / more) * (beside.rays + joined.rays * more);
-        let pays = seen == 0.0 || together < of_alone * alone.rays;
-        Self { photons: photons as u64, pays }
+        let error = (of_beside + of_joined / more) * (self.beside.rays + self.joined.rays * more);
+        Best { photons: photons as u64, error }
     }
 }
 
@@ -143,6 +196,13 @@ struct Moments {
 }
 
 impl Trial {
+    fn of_joined(pilot: &Joined, targets: usize, counts: &PhotonCounts) -> Self {
+        let pairs = (0..targets).flat_map(|target| (0..REPLICATES.len()).map(move |r| (r, target)));
+        let lx = pairs.map(|(r, target)| pilot.lx(r, target)).collect();
+        let joins = counts.joins as f64;
+        Self { lx, rays: counts.rays as f64 - joins + JOINING_RAY * joins }
+    }
+
     fn of_paths<S: Spectrum>(
         stage: &Stage<'_, S>,
         targets: &[Target],
@@ -172,6 +232,14 @@ impl Trial {
         };
         let rays: u64 = pieces.iter().map(|piece| piece.work.rays).sum();
         Self { lx: pieces.iter().map(value_lx).collect(), rays: rays as f64 }
+    }
+
+    /// Relative variance, mean over the targets.
+    fn variance(&self, means_lx: &[f64]) -> f64 {
+        let seen = || means_lx.iter().enumerate().filter(|(_, mean_lx)| **mean_lx > 0.0);
+        let relative =
+            seen().map(|(target, mean_lx)| self.moments(target).variance / (mean_lx * mean_lx));
+        relative.sum::<f64>() / seen().count().max(1) as f64
     }
 
     fn moments(&self, target: usize) -> Moments {

@@ -1,6 +1,7 @@
 //! What joins each landing of a photon to the sensors that see it.
 
 use super::Joining;
+use super::place::Place;
 use crate::bsdf::Mode;
 use crate::photon::{Flight, PhotonReceiver};
 use crate::spectrum::Spectrum;
@@ -18,6 +19,9 @@ use std::sync::{Mutex, PoisonError};
 const RAYS: usize = 512;
 /// Contributions of less than this part of what the target gets in all are left to chance.
 const SMALL: f64 = 0.1;
+/// The first of the coordinates for places in cells. In two streams a dimension has the same digits, permuted: those
+/// that photons draw first would decide where they are joined.
+const PLACE_DIMENSION: u32 = 512;
 /// Steps from target to target, and from bounce to bounce, of the number that decides it: the additive
 /// sequence in two dimensions with the evenest gaps (M. Roberts, "The unreasonable effectiveness of
 /// quasirandom sequences", 2018).
@@ -95,12 +99,12 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
     /// gives to one target.
     fn ask(&mut self, number: usize, at: &Interaction, leaving: &Leaving, bounces: u32) {
         let Some(Seen { in_cell, chance, .. }) = self.photon else { return };
-        let (position, n) = match self.group.targets[number] {
-            Target::Point { position, normal } => (position, normal),
-            Target::Cell { grid, cell } => (grid.point_in_cell(cell, in_cell), grid.normal),
+        let Some(place) = Place::of(&self.group.targets[number], at.position, in_cell) else {
+            return;
         };
+        let n = place.normal;
         let world = &self.stage.world;
-        let from = world.vantage_of_sensor(position, n);
+        let from = world.vantage_of_sensor(place.position, n);
         let way = at.position - from.position();
         let (cos_d, cos_d_there) = (n.dot(way), -at.n.dot(way));
         let behind = cos_d_there < 0.0;
@@ -113,7 +117,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
         let side = if behind { -at.n } else { at.n };
         let shares = self.joining.path_shares(pdf_m2, at.position, side);
         let share = if bounces == 0 { shares.first } else { shares.rest };
-        let mut lx = lm_sr * PI * pdf_m2 * (1.0 - share);
+        let mut lx = lm_sr * PI * pdf_m2 * place.weight * (1.0 - share);
         let least_lx = SMALL * self.group.expected_lx[number];
         if lx < least_lx {
             let u = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
@@ -166,6 +170,7 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
     fn follow(&mut self, index: u64) {
         if self.photon.as_ref().is_none_or(|photon| photon.index != index) {
             let mut cursor = SampleCursor::new(&self.points, index);
+            cursor.skip_to(PLACE_DIMENSION);
             let (in_cell, chance) = (cursor.next_2d(), cursor.next_1d());
             self.photon = Some(Seen { index, in_cell, chance });
         }
