@@ -45,11 +45,6 @@ impl Blocks {
         let word = |words: &Words| u64::from(words[counter % BLOCK].load(Ordering::Relaxed));
         word(&block.low) | block.high.get().map_or(0, |high| word(high) << 32)
     }
-
-    /// Makes all counters zero.
-    pub(super) fn clear(&mut self) {
-        self.blocks.iter_mut().for_each(|block| *block = OnceLock::new());
-    }
 }
 
 impl Block {
@@ -69,7 +64,7 @@ mod tests {
     #[test]
     fn counters_carry() {
         const MOST: u64 = u32::MAX as u64;
-        let mut blocks = Blocks::new(1000);
+        let blocks = Blocks::new(1000);
         for (counter, amount) in
             [(0, 5), (999, MOST), (999, 1), (999, 7), (998, MOST), (3, 5 << 32)]
         {
@@ -77,8 +72,6 @@ mod tests {
         }
         let counters = [0, 1, 3, 998, 999].map(|counter| blocks.get(counter));
         assert_eq!(counters, [5, 0, 5 << 32, MOST, (1 << 32) + 7]);
-        blocks.clear();
-        assert_eq!([0, 999].map(|counter| blocks.get(counter)), [0, 0]);
     }
 
     #[test]
