@@ -10,7 +10,7 @@ use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Grid, Light, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimates, Estimator, Settings, simulate};
+use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
 
 /// A room with a red wall, a mirror opposite, and a bright panel under the ceiling that lights the
 /// room from its front side only.
@@ -149,6 +149,7 @@ fn a_path_finds_alone_what_it_finds_in_company() {
                         seed,
                         replicates,
                         max_samples,
+                        joining: Switch::Off,
                         ..Settings::default()
                     };
                     simulate(scene, &settings, &mut ()).sensors[0].replicate_lx[0][0]

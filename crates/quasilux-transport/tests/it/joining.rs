@@ -55,7 +55,7 @@ fn rooms() -> [(&'static str, Scene); 2] {
 
 /// Each term at each point: the difference is at most three joint standard errors, or 3.6 for the most
 /// unlike of them (44 comparisons; two normal estimates from 16 replicates: right programs fail once in
-/// some hundred seeds, and the seed is fixed). The terms are known to 3 % and better, so a share that
+/// some hundred seeds, and the seed is fixed). The terms are known to 4 % and better, so a share that
 /// were counted twice or not at all would be seen.
 #[test]
 fn photons_and_paths_share_the_light_of_every_term() {
@@ -72,7 +72,7 @@ fn photons_and_paths_share_the_light_of_every_term() {
                     let found = format!("{name}, {sensor}, {point}, term {term}: {a:?}, {b:?}");
                     // Half-widths are 2.13 standard errors.
                     let [h, k] = [a, b].map(|interval| interval.half_width.unwrap() / 2.13);
-                    assert!(h.max(k) < 0.03 * a.value, "{found}");
+                    assert!(h.max(k) < 0.04 * a.value, "{found}");
                     assert!((a.value - b.value).abs() < 3.6 * (h * h + k * k).sqrt(), "{found}");
                 }
             }
