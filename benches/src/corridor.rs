@@ -1,4 +1,4 @@
-//! cargo run --release -p quasilux-benches --bin corridor [NAME...] [SECONDS]
+//! cargo run --release -p quasilux-benches --bin corridor [NAME or SECONDS...]
 //!
 //! Light that is hard to find: the error at the sensors of `examples/corridor` against rays and processor
 //! time, for all estimators, with photons steered and left alone.
