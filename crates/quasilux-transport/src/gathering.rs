@@ -327,7 +327,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             invalid_contributions: self.invalid_points
                 + self.joined.as_ref().map_or(0, Joined::invalid)
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
-            biased: self.work.endless > 0,
+            biased: self.work.endless + self.photons.trapped > 0,
             warnings: self.photons.warnings().into_iter().chain(self.warning()).collect(),
             ..Estimates::default()
         }

@@ -4,7 +4,8 @@
 //! luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never changes
 //! (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be drawn in exact
 //! proportion, leave it slightly changed. Photons that are steered ([`crate::steering`]) leave each
-//! place with the weight that belongs to it instead, by one or more of them or none. What goes on no
+//! place with the weight that belongs to it instead, by one or more of them or none; and those that are joined
+//! to sensors all leave the first surface, with what absorption leaves. What goes on no
 //! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::Mode;

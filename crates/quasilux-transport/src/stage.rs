@@ -71,8 +71,8 @@ impl Stream {
             Self::FirstShotPilots => 1 << 62 | 1,
             Self::HiddenPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
-            Self::JoinedPhotons(group) => (1 << 62) + 2 * group,
-            Self::JoinedPlaces(group) => (1 << 62) + 2 * group + 1,
+            Self::JoinedPhotons(group) => (1 << 62) + 2 + 2 * group,
+            Self::JoinedPlaces(group) => (1 << 62) + 3 + 2 * group,
             Self::Paths(point) => 2 + point,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }
@@ -116,11 +116,16 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             | Stream::MapPilots
             | Stream::FirstShotPilots
             | Stream::HiddenPhotons
+            | Stream::JoinedPhotons(_)
             | Stream::Survey(_),
         ) = (sequence, stream)
         {
             // A plan has its own number of photons.
             sequence = Sequence::Halton;
+        }
+        if let Stream::JoinedPlaces(_) = stream {
+            // Their dimensions are high ones, where other sequences are no good.
+            sequence = Sequence::Sobol;
         }
         PointSet::new(sequence, randomization, stream_key(seed, replicate, stream.id()))
     }

@@ -5,7 +5,8 @@
 //! is least for `n^2 = U c / (V d)`. Where a survey would have photons steered, they are tried steered and
 //! left alone. The best is compared with paths that go alone. Variances are relative to the value, mean over
 //! the sensor points. What paths hardly ever find does not show in their spread: what they are short of
-//! counts as an error of theirs.
+//! counts as an error of theirs. Paths alone stand for those that end on a corrected map, which are about as good
+//! or better: the map is made only where it is used.
 
 use super::{Joined, Joining};
 use crate::gathering::Exact;
@@ -74,8 +75,10 @@ pub(crate) fn decide<S: Spectrum>(
     for Plan { windows, forecast, rays: of_survey } in plans(stage, targets, settings.steering) {
         rays += of_survey;
         let Some(forecast) = forecast else { continue };
-        let expected_lx: Vec<f64> =
-            (0..targets.len()).map(|target| forecast.target_lx(target)).collect();
+        let expected_lx = exact.iter().enumerate();
+        let expected_lx: Vec<f64> = expected_lx
+            .map(|(target, exact)| exact.sum_lx() + forecast.indirect_lx(target))
+            .collect();
         let asked_lx = sample.of(&expected_lx);
         let joining = Joining { landings: forecast.landings, windows, photons: PHOTONS };
         let kept = (0, quantum);

@@ -114,6 +114,9 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
         }
         let square_m2 = way.length_squared();
         let pdf_m2 = cos_d * cos_d_there.abs() * FRAC_1_PI / (square_m2 * square_m2);
+        if pdf_m2 == 0.0 {
+            return;
+        }
         let side = if behind { -at.n } else { at.n };
         let shares = self.joining.path_shares(pdf_m2, at.position, side);
         let share = if bounces == 0 { shares.first } else { shares.rest };

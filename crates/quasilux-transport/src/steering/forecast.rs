@@ -12,8 +12,8 @@ use std::sync::Arc;
 /// What to expect of photons and sensors.
 pub(crate) struct Forecast {
     pub(crate) landings: Landings,
-    /// Illuminance at each surveyed sensor, in lx.
-    sensors_lx: Vec<f64>,
+    /// Illuminance at each surveyed sensor after reflections, in lx.
+    indirect_lx: Vec<f64>,
     /// Each surveyed sensor stands for so many that follow each other.
     step: usize,
 }
@@ -39,7 +39,7 @@ impl Forecast {
     pub(super) fn new(
         survey: &Survey,
         regions: Arc<Regions>,
-        balance: Balance,
+        balance: &Balance,
         areas_m2: &[f64],
         weights: &[f64],
     ) -> Self {
@@ -57,12 +57,15 @@ impl Forecast {
             }
         }
         let landings = Landings { regions, per_m2 };
-        Self { landings, sensors_lx: balance.sensors_lx, step: survey.sensor_step }
+        let sensors = balance.sensors_lx.iter().zip(&survey.sensors);
+        let indirect_lx = sensors.map(|(lx, sensor)| lx - sensor.direct_lx).collect();
+        Self { landings, indirect_lx, step: survey.sensor_step }
     }
 
-    /// Illuminance to expect at a target, in lx, by its number among all.
-    pub(crate) fn target_lx(&self, target: usize) -> f64 {
-        self.sensors_lx[target / self.step]
+    /// Illuminance to expect at a target after reflections, in lx, by its number among all: that of the
+    /// next one that was surveyed.
+    pub(crate) fn indirect_lx(&self, target: usize) -> f64 {
+        self.indirect_lx[target / self.step]
     }
 }
 

@@ -84,7 +84,7 @@ pub(crate) fn foresee<S: Spectrum>(
     let regions = Arc::new(survey.regions());
     let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
     let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
-    let forecast = Forecast::new(&survey, regions, balance, &areas_m2, &weights);
+    let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
     Plan { windows, forecast: Some(forecast), rays: survey.rays }
 }
 

@@ -133,7 +133,7 @@ impl Split {
     /// Of what is left of a photon after absorption, where photons leave with `target`; of more than
     /// [`MOST_CHILDREN`] each carries more.
     pub(crate) fn new(left: f64, target: f64) -> Self {
-        let expected = (left / target).min(MOST_CHILDREN);
+        let expected = if left > 0.0 { (left / target).min(MOST_CHILDREN) } else { 0.0 };
         Self { expected, weight: if expected < MOST_CHILDREN { target } else { left / expected } }
     }
 
