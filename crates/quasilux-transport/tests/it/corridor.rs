@@ -68,8 +68,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// With fewer rays than unsteered photons take, steered ones know the far half of the corridor at
-/// least twice as well by the median of three seeds (1.6, 3.7 and 3.8 times: rare photons that fly far
-/// are heavy), come to the same values within joint intervals (30 points of each seed at twice the joint
+/// least twice as well by the median of three seeds, come to the same values within joint intervals (30 points of each seed at twice the joint
 /// 95 % half-widths, about four standard errors: near the niche an error of 3 % would be found, at the
 /// dark end one of 60 %), and spend as much flux as they get.
 #[test]
