@@ -1,7 +1,7 @@
 //! Paths as a pilot sees them: what each finds at some of the sensor points.
 
 use super::{Pilot, Points, Walk, WalkKind};
-use crate::gathering::exact;
+use crate::gathering::{Exact, exact};
 use crate::join::{self, Joined};
 use crate::path_end::PathEnd;
 use crate::path_wave::{PathWave, WAVE};
@@ -59,11 +59,12 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
-        let joined = Self::joined(stage, &one, &all, &mut watch);
+        let exact = exact(stage, &all, &mut 0);
+        let joined = Self::joined(stage, &one, (&all, &exact), &mut watch);
         let targets = numbers.map(|number| PathTarget {
             number: number as u64,
             target: all[number],
-            given_lx: exact(stage, &[all[number]], &mut 0)[0].sum_lx()
+            given_lx: exact[number].sum_lx()
                 + joined.as_ref().map_or(0.0, |joined| joined.lx(0, number)),
         });
         let targets: Vec<PathTarget> = targets.collect();
@@ -83,12 +84,11 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
     fn joined(
         stage: &Stage<'_, S>,
         settings: &Settings,
-        targets: &[Target],
+        (targets, exact): (&[Target], &[Exact]),
         watch: &mut Watch<'_>,
     ) -> Option<Joined> {
-        let exact = exact(stage, targets, &mut 0);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let decision = join::decide(stage, settings, targets, &exact, quantum, watch);
+        let decision = join::decide(stage, settings, targets, exact, quantum, watch);
         let mut joined = decision.joined?;
         joined.grow(stage, JOINED_SAMPLES, watch)?;
         Some(joined)
