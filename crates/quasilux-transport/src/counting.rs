@@ -104,7 +104,7 @@ impl<'a, S: Spectrum> Counting<'a, S> {
             way,
             source: Source::Lights,
             windows,
-            certain_bounces: 0,
+            certain_weight: f64::INFINITY,
         };
         let before = self.samples * counters.len() as u64;
         let look = |emitted: u64| Some(self.snapshot(before + emitted));

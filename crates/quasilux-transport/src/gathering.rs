@@ -253,7 +253,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         }
         if let Some(joined) = &mut self.joined {
             let Some(photons) = joined.grow(self.stage, samples, watch) else { return false };
-            self.photons += photons.apart_from_flux();
+            photons.into_iter().for_each(|photons| self.photons += photons.apart_from_flux());
         }
         let paths = (indices.end - indices.start) * self.sums.len() as u64;
         let mut done = 0;

@@ -320,7 +320,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
     fn shares_at(&self, joining: &Joining, at: &Interaction) -> Shares {
         let cos_there = -at.n.dot(self.direction);
         let pdf_m2 = |pdf_sr| pdf_sr * cos_there / (at.distance_m * at.distance_m);
-        let share = |pdf_sr| joining.path_shares(pdf_m2(pdf_sr), at.position, at.n);
+        let share =
+            |pdf_sr| joining.path_shares(pdf_m2(pdf_sr), joining.landings(at.position, at.n));
         self.pdf_sr.map_or(Shares::ALL, share)
     }
 
@@ -336,15 +337,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
     }
 
-    /// Where photons are joined to the sensor, chance decides at its first surface by what they leave to it.
+    /// Where photons are joined to the sensor, it takes along from its first surface what they leave to it.
     /// Else Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
     fn survive(&mut self, stage: &Stage<'_, S>, bounces: u32, albedo: f64) -> Onward {
         if bounces == 0 && self.shares != Shares::ALL {
             let Shares { first, rest } = self.shares;
-            let bounce = Purpose::Bounce { surface: 1 };
-            let goes_on = stage.draw(&mut self.cursor, bounce, |cursor| cursor.choose_bool(rest));
-            return Onward { emitted: first, everything: f64::from(u8::from(goes_on)) };
+            return Onward { emitted: first, everything: rest };
         }
         if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };

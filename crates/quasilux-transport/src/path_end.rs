@@ -121,7 +121,7 @@ impl<S: Spectrum> PathEnd<S> {
                 way: Way::CoherentWaves,
                 source,
                 windows: None,
-                certain_bounces: 0,
+                certain_weight: f64::INFINITY,
             };
             trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
         };
@@ -187,7 +187,7 @@ impl<S: Spectrum> PathEnd<S> {
             way: Way::CoherentWaves,
             source,
             windows: windows.as_ref(),
-            certain_bounces: 0,
+            certain_weight: f64::INFINITY,
         };
         let before = batch.indices.start * tallies.len() as u64;
         let look = |emitted: u64| {

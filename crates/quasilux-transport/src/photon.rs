@@ -121,8 +121,9 @@ pub(crate) enum Source<'s> {
 pub(crate) struct Lead<'s> {
     pub(crate) source: Source<'s>,
     pub(crate) windows: Option<&'s Windows>,
-    /// Surfaces that photons leave for certain where nothing steers them, with what absorption leaves.
-    pub(crate) certain_bounces: u32,
+    /// Where nothing steers them, photons go on for certain with what absorption leaves, if that is so much
+    /// of what the first of them carry.
+    pub(crate) certain_weight: f64,
 }
 
 impl<'s> Source<'s> {
@@ -304,7 +305,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let left = (self.weight * bsdf.albedo(wo, at.front)).luminance();
         let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
         // Of drawn places those are rare that absorb much, so all photons go on from there.
-        let is_certain = arrival.is_drawn || arrival.bounces + self.bounces < lead.certain_bounces;
+        let is_certain = arrival.is_drawn || left >= lead.certain_weight;
         let survivor = if is_certain { left } else { luminance };
         let split = Split::new(left, window.map_or(survivor, |window| window.weight));
         let whole = split.expected.floor();

@@ -27,8 +27,8 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) source: Source<'w>,
     /// What steers them; `None` leaves them alone.
     pub(crate) windows: Option<&'w Windows>,
-    /// Surfaces that they leave for certain where nothing steers them.
-    pub(crate) certain_bounces: u32,
+    /// See [`Lead`].
+    pub(crate) certain_weight: f64,
 }
 
 /// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer
@@ -51,8 +51,8 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
     look: impl Fn(u64) -> Option<Snapshot>,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let PhotonBatch { stream, replicates, indices, way, source, windows, certain_bounces } = batch;
-    let lead = Lead { source: *source, windows: *windows, certain_bounces: *certain_bounces };
+    let PhotonBatch { stream, replicates, indices, way, source, windows, certain_weight } = batch;
+    let lead = Lead { source: *source, windows: *windows, certain_weight: *certain_weight };
     let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
     let close_in = match way {

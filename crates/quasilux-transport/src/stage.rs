@@ -48,6 +48,8 @@ pub(crate) enum Stream {
     Survey(u64),
     /// Photons that are joined to a group of sensor points.
     JoinedPhotons(u64),
+    /// Photons that are counted by the cell they land in.
+    CoarsePhotons,
     /// Places in the cells of a group that photons are joined to, in dimensions that photons leave alone.
     JoinedPlaces(u64),
     /// Paths from one sensor point, numbered through all sensors.
@@ -72,6 +74,7 @@ impl Stream {
             Self::HiddenPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
             Self::JoinedPhotons(group) => (1 << 62) + 2 + 2 * group,
+            Self::CoarsePhotons => u64::MAX - 64,
             Self::JoinedPlaces(group) => (1 << 62) + 3 + 2 * group,
             Self::Paths(point) => 2 + point,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
@@ -117,6 +120,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             | Stream::FirstShotPilots
             | Stream::HiddenPhotons
             | Stream::JoinedPhotons(_)
+            | Stream::CoarsePhotons
             | Stream::Survey(_),
         ) = (sequence, stream)
         {

@@ -77,7 +77,7 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
                 let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
                 let cursor = SampleCursor::new(&points, index);
                 let windows = self.windows.as_ref();
-                let lead = Lead { source: Source::Lights, windows, certain_bounces: 0 };
+                let lead = Lead { source: Source::Lights, windows, certain_weight: f64::INFINITY };
                 trace_photon(self.stage, lead, cursor, &mut found, &mut counts);
                 found.lx
             };

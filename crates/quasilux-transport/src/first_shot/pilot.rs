@@ -54,7 +54,7 @@ fn work<S: Spectrum>(stage: &Stage<'_, S>, source: Source<'_>, counts: &mut Phot
         let cursor = SampleCursor::new(&points, index);
         trace_photon(
             stage,
-            Lead { source, windows: None, certain_bounces: 0 },
+            Lead { source, windows: None, certain_weight: f64::INFINITY },
             cursor,
             &mut weights,
             &mut of_pilots,

@@ -147,7 +147,7 @@ fn landed<S: Spectrum>(
         Source::Lights => Stream::Photons,
         Source::LitCells(_) => Stream::Paths(0),
     };
-    let lead = Lead { source, windows: None, certain_bounces: 0 };
+    let lead = Lead { source, windows: None, certain_weight: f64::INFINITY };
     let points = stage.points(replicate, stream);
     let mut landed = Landed { shares: [[0.0; MOST_BOUNCES]; 7], total: 0.0 };
     for index in 0..photons {
@@ -275,7 +275,7 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
         indices: 0..10_000,
         way,
         windows: None,
-        certain_bounces: 0,
+        certain_weight: f64::INFINITY,
     };
     let landed = Mutex::new(vec![0; 14]);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

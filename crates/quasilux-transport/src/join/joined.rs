@@ -1,6 +1,8 @@
 //! What joined photons gave to all targets, in all replicates.
 
 use super::Joining;
+use super::coarse::Coarse;
+use super::outlook::Outlook;
 use super::receiver::{Group, JoinReceiver};
 use crate::photon::{PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons};
@@ -15,9 +17,9 @@ use std::sync::{Mutex, PoisonError};
 
 /// Targets that the same photons are joined to; others have photons of their own.
 const GROUP: usize = 256;
-/// Surfaces that photons leave for certain, with what absorption leaves of them: they are dear, and what
-/// lands first is seldom seen by the sensors.
-const CERTAIN_BOUNCES: u32 = 1;
+/// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
+/// by chance later: smooth sums are what quasi-random points are good at.
+const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// Sums that grow with a run.
 pub(crate) struct Joined {
@@ -30,13 +32,18 @@ pub(crate) struct Joined {
     quantum: Quantum,
     /// By group of targets and replicate; those of target t of a group from `t * terms` on.
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
+    /// What each group of targets sees of the survey's cells, and the photons counted there.
+    coarse: Option<(Vec<Outlook>, Coarse)>,
+    /// Rays that no count has yet.
+    rays: u64,
     replicates: Range<u32>,
     /// Indices so far.
     samples: u64,
 }
 
 impl Joined {
-    pub(crate) fn new(
+    pub(crate) fn new<S: Spectrum>(
+        stage: &Stage<'_, S>,
         joining: Joining,
         targets: Vec<Target>,
         expected_lx: Vec<f64>,
@@ -49,21 +56,55 @@ impl Joined {
             replicates.clone().map(|_| zeros()).collect()
         };
         let sums = targets.chunks(GROUP).map(of_group).collect();
-        Self { joining, targets, expected_lx, terms, quantum, sums, replicates, samples: 0 }
+        let mut rays = 0;
+        let coarse = joining.is_coarse(targets.len()).then(|| {
+            let look = |group: &[Target]| {
+                let (outlook, looks) = Outlook::new(stage, &joining, group);
+                rays += looks;
+                outlook
+            };
+            let quantum = Quantum::for_reference(stage.lights.flux_lm);
+            let cells = joining.places.len();
+            let outlooks = targets.chunks(GROUP).map(look).collect();
+            (outlooks, Coarse::new(cells, terms, quantum, replicates.clone()))
+        });
+        let samples = 0;
+        Self {
+            joining,
+            targets,
+            expected_lx,
+            terms,
+            quantum,
+            sums,
+            coarse,
+            rays,
+            replicates,
+            samples,
+        }
     }
 
-    /// Adds the photons that belong to the indices up to `samples`; `None` when the observer stopped it.
+    /// Adds the photons that belong to the indices up to `samples`, those that are joined and those that are
+    /// counted; `None` when the observer stopped it.
     pub(crate) fn grow<S: Spectrum>(
         &mut self,
         stage: &Stage<'_, S>,
         samples: u64,
         watch: &mut Watch<'_>,
-    ) -> Option<PhotonCounts> {
+    ) -> Option<[PhotonCounts; 2]> {
         let photons = self.joining.photons;
-        let mut counts = PhotonCounts::default();
+        let rays = std::mem::take(&mut self.rays);
+        let mut counts = PhotonCounts { rays, ..PhotonCounts::default() };
+        let mut counted = PhotonCounts::default();
+        if let Some((_, coarse)) = &mut self.coarse {
+            let each = self.joining.coarse_photons;
+            let photons = self.samples * each..samples * each;
+            counted = coarse.grow(stage, &self.joining, CERTAIN_WEIGHT, photons, watch)?;
+            coarse.settle(samples * each);
+        }
         let chunks = self.targets.chunks(GROUP).zip(self.expected_lx.chunks(GROUP));
         for (number, ((targets, expected_lx), sums)) in (0..).zip(chunks.zip(&self.sums)) {
-            let group = Group { targets, expected_lx, terms: self.terms };
+            let outlook = self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number as usize]);
+            let group = Group { targets, expected_lx, outlook, terms: self.terms };
             let receiver = |r: u32| {
                 let points = stage.points(r, Stream::JoinedPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
@@ -76,25 +117,38 @@ impl Joined {
                 way: Way::CoherentWaves,
                 source: Source::Lights,
                 windows: self.joining.windows.as_ref(),
-                certain_bounces: CERTAIN_BOUNCES,
+                certain_weight: CERTAIN_WEIGHT,
             };
             counts += trace_photons(stage, &batch, receiver, watch)?;
         }
         self.samples = samples;
-        Some(counts)
+        Some([counts, counted])
     }
 
     /// What a target got in one replicate, in lx.
     pub(crate) fn lx(&self, replicate: usize, target: usize) -> f64 {
+        self.fine_lx(replicate, target) + self.coarse_lx(replicate, target, None)
+    }
+
+    /// By photons that are joined, beyond what was foreseen of them.
+    pub(super) fn fine_lx(&self, replicate: usize, target: usize) -> f64 {
         // Quanta first, so that listing terms changes no bit.
         let mut sum = Sum::default();
         (0..self.terms).for_each(|term| sum += self.sum(replicate, target, term));
         self.value_lx(sum)
     }
 
+    /// By photons that are counted, of one term or of all.
+    pub(super) fn coarse_lx(&self, replicate: usize, target: usize, term: Option<usize>) -> f64 {
+        self.coarse.as_ref().map_or(0.0, |(outlooks, coarse)| {
+            coarse.lx(replicate, &outlooks[target / GROUP], target % GROUP, term)
+        })
+    }
+
     /// What it got of one term of the Neumann series; of the last, of all that follow too.
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
-        self.value_lx(self.sum(replicate, target, term))
+        let fine_lx = self.value_lx(self.sum(replicate, target, term));
+        fine_lx + self.coarse_lx(replicate, target, Some(term))
     }
 
     /// What a sum means so far.
@@ -117,7 +171,8 @@ impl Joined {
     /// Contributions that are not in the sums.
     pub(crate) fn invalid(&self) -> u64 {
         let lists = self.sums.iter().flatten();
-        lists.flat_map(|sums| lock(sums).clone()).map(|sum| sum.invalid).sum()
+        let fine: u64 = lists.flat_map(|sums| lock(sums).clone()).map(|sum| sum.invalid).sum();
+        fine + self.coarse.as_ref().map_or(0, |(_, coarse)| coarse.invalid())
     }
 
     fn sum(&self, replicate: usize, target: usize, term: usize) -> Sum {

@@ -15,28 +15,50 @@
 //! ```
 //!
 //! The first is Veach and Guibas's balance heuristic (SIGGRAPH 1995) with marginal densities: both
-//! estimates are good. For the second a path must go on, at a price, with light that it knows badly; it
-//! goes on with probability w, which is 0 wherever a photon's contribution is bounded well enough. This is
-//! the compensation of clamped photons by T. Kollig and A. Keller, "Illumination in the presence of weak
-//! singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Contributions that are small
-//! beside what the sensor gets are left to chance, and what survives counts more, so that rays are not
-//! spent on them. Where photons need steering, paths hardly ever find the light, and w = 0.
+//! estimates are good. For the second a path must go on, with light that it knows badly; it takes the part w along,
+//! which is 0 wherever a photon's contribution is bounded well enough. This is the compensation of clamped photons by
+//! T. Kollig and A. Keller, "Illumination in the presence of weak singularities", Monte Carlo and
+//! Quasi-Monte Carlo Methods 2004, Springer 2006. Where photons need steering, paths hardly ever find the light,
+//! and w = 0. The densities are interpolated, so that shares are continuous: each jump in what is summed
+//! costs quasi-random points some of their advantage.
 //!
-//! How many photons come on a path, and whether any, is found out by a [`pilot`].
+//! Joining is dear: a photon flies a few rays and asks for one to each sensor. Most photons are therefore only
+//! counted, by the cell of the survey where they land (`coarse`), and give each sensor what it is expected to see
+//! of that cell, which was found out before (`outlook`). Few are joined, and tell how much more or less than that
+//! they give. With A and B independent photons,
+//!
+//! ```text
+//! light by photons = mean over many A of expected(cell of A) + mean over few B of (given by B - expected(cell of B))
+//! ```
+//!
+//! whose mean is right for any expectation: two levels of M. B. Giles, "Multilevel Monte Carlo path simulation",
+//! Operations Research 56(3), 2008. Deviations from the expected that are small beside what the sensor gets are left
+//! to chance, and what survives counts more, so that rays are not spent on them.
+//!
+//! How many photons of each kind come on a path, and whether any, is found out by a [`pilot`].
 
+mod coarse;
 mod joined;
+mod leaving;
+mod outlook;
 mod pilot;
 mod place;
 mod receiver;
+mod view;
 
 pub(crate) use joined::Joined;
 pub(crate) use pilot::{Decision, decide};
 
-use crate::steering::{Landings, Windows};
+use crate::steering::{Density, Landings, Windows};
+use crate::world::Interaction;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// k: paths take over where a photon would count this many times what it does on average.
-const CLAMP: f64 = 10.0;
+const CLAMP: f64 = 3.0;
+/// Photons are not counted by cell where sensors times cells are more than this: they would take 8 bytes each.
+const MOST_VIEWS: usize = 1 << 24;
+
 /// How photons are joined to sensors.
 pub(crate) struct Joining {
     /// Where to expect them.
@@ -45,6 +67,10 @@ pub(crate) struct Joining {
     windows: Option<Windows>,
     /// For each path of a sensor.
     photons: u64,
+    /// More for each path, that are only counted by the cell they land in.
+    coarse_photons: u64,
+    /// Some places in each cell of the survey.
+    places: Arc<[Vec<Interaction>]>,
 }
 
 /// Parts of the light that comes to a sensor by one place which paths find.
@@ -62,10 +88,24 @@ impl Shares {
 }
 
 impl Joining {
-    /// The parts that paths find by a place on the side `n` of a surface, where their first hits have the
-    /// density `pdf_m2`, in m^-2.
-    pub(crate) fn path_shares(&self, pdf_m2: f64, position: DVec3, n: DVec3) -> Shares {
-        let density = self.landings.at(position, n);
+    /// What to expect of a photon on the side `n` of a surface.
+    pub(crate) fn landings(&self, position: DVec3, n: DVec3) -> Density {
+        self.landings.at(position, n)
+    }
+
+    /// Whether photons are also counted by cell, for so many targets.
+    fn is_coarse(&self, targets: usize) -> bool {
+        self.coarse_photons > 0 && targets * self.places.len() <= MOST_VIEWS
+    }
+
+    /// The survey's cell at a place on the side `n` of a surface, where it knows one.
+    fn cell(&self, position: DVec3, n: DVec3) -> Option<usize> {
+        self.landings.cell(position, n)
+    }
+
+    /// The parts that paths find by a place where their first hits have the density `pdf_m2`, in m^-2,
+    /// and landings this one.
+    pub(crate) fn path_shares(&self, pdf_m2: f64, density: Density) -> Shares {
         let [first, rest] =
             [density.first, density.rest].map(|per_m2| per_m2 * self.photons as f64);
         let left = match &self.windows {

@@ -1,24 +1,27 @@
 //! What joins each landing of a photon to the sensors that see it.
 
 use super::Joining;
-use super::place::Place;
-use crate::bsdf::Mode;
+use super::leaving::{Leaving, Side};
+use super::outlook::Outlook;
+use super::view::View;
 use crate::photon::{Flight, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::steering::Density;
 use crate::tally::{Quantum, Sum};
 use crate::targets::Target;
 use crate::world::Interaction;
-use glam::DVec3;
 use quasilux_bvh::Shot;
 use quasilux_sampling::{PointSet, SampleCursor};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::PI;
 use std::sync::{Mutex, PoisonError};
 
 /// Rays that are traced together.
 const RAYS: usize = 512;
-/// Contributions of less than this part of what the target gets in all are left to chance.
+/// What deviates from the foreseen by less than this part of what the target gets in all is left to chance.
 const SMALL: f64 = 0.1;
+/// What is right in the open may be in a shadow: it is asked for as if so large a part of it were wrong.
+const DOUBT: f64 = 0.25;
 /// The first of the coordinates for places in cells. In two streams a dimension has the same digits, permuted: those
 /// that photons draw first would decide where they are joined.
 const PLACE_DIMENSION: u32 = 512;
@@ -33,6 +36,8 @@ pub(super) struct Group<'a> {
     pub(super) targets: &'a [Target],
     /// Illuminance to expect at each, in lx.
     pub(super) expected_lx: &'a [f64],
+    /// What photons are taken to give by the cell they land in.
+    pub(super) outlook: Option<&'a Outlook>,
     /// Terms of the Neumann series that are told apart.
     pub(super) terms: usize,
 }
@@ -49,6 +54,8 @@ pub(super) struct JoinReceiver<'a, S> {
     /// Coordinates of the places in cells that photons are joined to.
     points: PointSet,
     photon: Option<Seen>,
+    /// How close photons are to be expected where it landed, by side.
+    landings: [Density; 2],
     sights: Vec<Shot>,
     offers: Vec<Offer>,
     visible: Vec<bool>,
@@ -64,11 +71,12 @@ struct Seen {
     chance: f64,
 }
 
-/// What a target gets if nothing stands in the way.
+/// What a target gets if nothing stands in the way, beside what it is taken to get in any case.
 struct Offer {
     /// Number of the sum.
     sum: usize,
     lx: f64,
+    foreseen_lx: f64,
 }
 
 impl<'a, S: Spectrum> JoinReceiver<'a, S> {
@@ -88,6 +96,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
             own: vec![Sum::default(); group.targets.len() * group.terms],
             points,
             photon: None,
+            landings: [Density::default(); 2],
             sights: Vec::new(),
             offers: Vec::new(),
             visible: Vec::new(),
@@ -95,47 +104,51 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
         }
     }
 
-    /// Asks for what a photon that leaves a place with this much luminance a lumen, in sr^-1 m^-2 lm,
-    /// gives to one target.
+    /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
     fn ask(&mut self, number: usize, at: &Interaction, leaving: &Leaving, bounces: u32) {
         let Some(Seen { in_cell, chance, .. }) = self.photon else { return };
-        let Some(place) = Place::of(&self.group.targets[number], at.position, in_cell) else {
-            return;
-        };
-        let n = place.normal;
-        let world = &self.stage.world;
-        let from = world.vantage_of_sensor(place.position, n);
-        let way = at.position - from.position();
-        let (cos_d, cos_d_there) = (n.dot(way), -at.n.dot(way));
-        let behind = cos_d_there < 0.0;
-        let lm_sr = if behind { leaving.behind } else { leaving.before };
-        if cos_d <= 0.0 || lm_sr <= 0.0 {
-            return;
-        }
-        let square_m2 = way.length_squared();
-        let pdf_m2 = cos_d * cos_d_there.abs() * FRAC_1_PI / (square_m2 * square_m2);
-        if pdf_m2 == 0.0 {
-            return;
-        }
-        let side = if behind { -at.n } else { at.n };
-        let shares = self.joining.path_shares(pdf_m2, at.position, side);
-        let share = if bounces == 0 { shares.first } else { shares.rest };
-        let mut lx = lm_sr * PI * pdf_m2 * place.weight * (1.0 - share);
-        let least_lx = SMALL * self.group.expected_lx[number];
-        if lx < least_lx {
+        let foreseen_lx = self.foreseen_lx(number, leaving, bounces == 0);
+        let view = View::of(&self.stage.world, &self.group.targets[number], at, in_cell);
+        let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
+        let doubtful_lx = (lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx);
+        let asked = doubtful_lx / (SMALL * self.group.expected_lx[number]);
+        let mut factor = 1.0;
+        if asked < 1.0 {
             let u = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
-            if (u - u.floor()) * least_lx >= lx {
+            if u - u.floor() >= asked {
                 return;
             }
-            lx = least_lx;
+            factor = 1.0 / asked;
         }
-        // What is not a number counts: the tally must refuse it.
-        if lx != 0.0 {
-            let distance_m = square_m2.sqrt();
-            self.sights.push(from.sight(way / distance_m, distance_m, at.facet));
-            let term = (bounces as usize + 1).min(self.group.terms - 1);
-            self.offers.push(Offer { sum: number * self.group.terms + term, lx });
+        let term = (bounces as usize + 1).min(self.group.terms - 1);
+        let sum = number * self.group.terms + term;
+        let offer = Offer { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
+        match view {
+            // What is not a number counts: the tally must refuse it.
+            Some(view) if lx != 0.0 => {
+                self.sights.push(view.sight());
+                self.offers.push(offer);
+            }
+            _ => self.own[sum].add_signed(-offer.foreseen_lx, self.quantum),
         }
+    }
+
+    /// What a target gets if nothing stands in the way.
+    fn unshadowed_lx(&self, view: &View, leaving: &Leaving, bounces: u32) -> f64 {
+        let side = usize::from(view.behind);
+        let shares = self.joining.path_shares(view.pdf_m2, self.landings[side]);
+        let share = if bounces == 0 { shares.first } else { shares.rest };
+        leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
+    }
+
+    /// What a target is taken to get in any case.
+    fn foreseen_lx(&self, number: usize, leaving: &Leaving, is_first: bool) -> f64 {
+        let Some(outlook) = self.group.outlook else { return 0.0 };
+        let of_side = |side: &Side| {
+            let seen = side.cell.map_or(0.0, |cell| outlook.from_cell(cell, is_first)[number]);
+            side.lm_sr * f64::from(seen)
+        };
+        leaving.sides.iter().map(of_side).sum()
     }
 
     /// Traces the rays that wait.
@@ -143,29 +156,10 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
         self.rays += self.sights.len() as u64;
         self.stage.world.are_visible(&self.sights, &mut self.visible);
         for (offer, visible) in self.offers.drain(..).zip(&self.visible) {
-            if *visible {
-                self.own[offer.sum].add(offer.lx, self.quantum);
-            }
+            let lx = if *visible { offer.lx } else { 0.0 };
+            self.own[offer.sum].add_signed(lx - offer.foreseen_lx, self.quantum);
         }
         self.sights.clear();
-    }
-}
-
-/// What leaves a place for each side, in lm/sr.
-struct Leaving {
-    before: f64,
-    behind: f64,
-}
-
-impl Leaving {
-    fn new<S: Spectrum>(stage: &Stage<'_, S>, at: &Interaction, weight: S) -> Self {
-        let bsdf = stage.world.bsdf(at);
-        let along = |wi: DVec3| {
-            let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
-            scattered.luminance() * stage.lights.flux_lm
-        };
-        let behind = if bsdf.transmits() { along(-DVec3::Z) } else { 0.0 };
-        Self { before: along(DVec3::Z), behind }
     }
 }
 
@@ -185,7 +179,8 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
         if self.stage.max_bounces.is_some_and(|most| bounces >= most) {
             return;
         }
-        let leaving = Leaving::new(self.stage, at, weight);
+        let leaving = Leaving::new(self.stage, self.joining, at, weight);
+        self.landings = [at.n, -at.n].map(|n| self.joining.landings(at.position, n));
         for number in 0..self.group.targets.len() {
             self.ask(number, at, &leaving, bounces);
         }

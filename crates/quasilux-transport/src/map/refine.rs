@@ -85,7 +85,7 @@ impl Pilot<'_> {
             way,
             source: Source::Lights,
             windows: None,
-            certain_bounces: 0,
+            certain_weight: f64::INFINITY,
         };
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         trace_photons(stage, &batch, |_| self, watch).unwrap_or_default()

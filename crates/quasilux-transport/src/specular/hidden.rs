@@ -146,7 +146,7 @@ impl<S: Spectrum> HiddenLight<S> {
             indices: self.photons..end,
             way: Way::CoherentWaves,
             windows: None,
-            certain_bounces: 0,
+            certain_weight: f64::INFINITY,
         };
         let counts = trace_photons(stage, &batch, receiver, watch)?;
         self.photons = end;

@@ -46,6 +46,19 @@ impl Regions {
         let number = self.number_of_cell[self.cells.cell_of(position, n)];
         (number != Self::UNKNOWN).then_some(number as usize)
     }
+
+    /// The known regions around a place on the side `n` of a surface, with the weights of linear
+    /// interpolation between the middles of their boxes, which sum to 1; none where no region is known.
+    pub(crate) fn around(&self, position: DVec3, n: DVec3) -> impl Iterator<Item = (usize, f64)> {
+        let corners = self.cells.corners(position, n);
+        let known = corners.map(|(cell, weight)| {
+            let number = self.number_of_cell[cell];
+            (number as usize, if number == Self::UNKNOWN { 0.0 } else { weight })
+        });
+        let sum: f64 = known.iter().map(|(_, weight)| weight).sum();
+        let known = known.into_iter().filter(|(_, weight)| *weight > 0.0);
+        known.map(move |(number, weight)| (number, weight / sum))
+    }
 }
 
 impl Cells {
@@ -81,8 +94,27 @@ impl Cells {
 
     fn cell_of(&self, position: DVec3, n: DVec3) -> usize {
         let place = ((position - self.low) / self.edge_m).to_array();
-        let [x, y, z] =
-            std::array::from_fn(|axis| (place[axis].max(0.0) as usize).min(self.counts[axis] - 1));
+        self.cell_in(place.map(|x| x.max(0.0) as usize), n)
+    }
+
+    /// The cells in the boxes around a place, and the weights of linear interpolation.
+    fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); 8] {
+        let place = ((position - self.low) / self.edge_m).to_array().map(|x| x - 0.5);
+        std::array::from_fn(|corner| {
+            let mut weight = 1.0;
+            let boxes = std::array::from_fn(|axis| {
+                let low = place[axis].floor();
+                let (high_share, is_high) = (place[axis] - low, corner >> axis & 1 == 1);
+                weight *= if is_high { high_share } else { 1.0 - high_share };
+                (low + f64::from(u8::from(is_high))).max(0.0) as usize
+            });
+            (self.cell_in(boxes, n), weight)
+        })
+    }
+
+    /// The cell in a box, or the nearest box that there is, on the side `n`.
+    fn cell_in(&self, boxes: [usize; 3], n: DVec3) -> usize {
+        let [x, y, z] = std::array::from_fn(|axis| boxes[axis].min(self.counts[axis] - 1));
         let size = n.abs();
         let axis = if size.x >= size.y && size.x >= size.z {
             0

@@ -6,12 +6,18 @@
 use crate::steering::balance::Balance;
 use crate::steering::cells::Regions;
 use crate::steering::survey::Survey;
+use crate::world::Interaction;
 use glam::DVec3;
 use std::sync::Arc;
+
+/// Times that light is gathered from what cells see: each evens out what the one before left uneven.
+const SWEEPS: u32 = 2;
 
 /// What to expect of photons and sensors.
 pub(crate) struct Forecast {
     pub(crate) landings: Landings,
+    /// Some places in each cell.
+    pub(crate) places: Arc<[Vec<Interaction>]>,
     /// Illuminance at each surveyed sensor after reflections, in lx.
     indirect_lx: Vec<f64>,
     /// Each surveyed sensor stands for so many that follow each other.
@@ -43,23 +49,18 @@ impl Forecast {
         areas_m2: &[f64],
         weights: &[f64],
     ) -> Self {
-        let mut per_m2: Vec<Density> = survey
-            .first_landings
-            .iter()
-            .zip(areas_m2)
-            .map(|(photons, area_m2)| Density { first: photons / area_m2, rest: 0.0 })
-            .collect();
-        for (cell, from) in survey.known.iter().enumerate() {
-            let leaving = balance.landing[cell] * from.albedo / weights[cell];
-            for step in from.steps() {
-                let number = step.cell as usize;
-                per_m2[number].rest += leaving * step.share / areas_m2[number];
-            }
-        }
+        let lit_per_m2 = lit_per_m2(survey, balance, areas_m2);
+        let first = survey.first_landings.iter().zip(areas_m2);
+        let per_m2 = first.enumerate().map(|(cell, (photons, area_m2))| Density {
+            first: photons / area_m2,
+            rest: seen_from(survey, cell, |there| lit_per_m2[there] / weights[there]),
+        });
+        let per_m2 = per_m2.collect();
         let landings = Landings { regions, per_m2 };
         let sensors = balance.sensors_lx.iter().zip(&survey.sensors);
         let indirect_lx = sensors.map(|(lx, sensor)| lx - sensor.direct_lx).collect();
-        Self { landings, indirect_lx, step: survey.sensor_step }
+        let places = survey.known.iter().map(|cell| cell.places.clone()).collect();
+        Self { landings, places, indirect_lx, step: survey.sensor_step }
     }
 
     /// Illuminance to expect at a target after reflections, in lx, by its number among all: that of the
@@ -69,10 +70,47 @@ impl Forecast {
     }
 }
 
+/// Flux that lands on a square metre of each surveyed cell, as a share of what all lights emit. Few of the
+/// steps that the balance is made of end in any one cell; many cells are seen from it, so what comes
+/// after a bounce is gathered from there.
+fn lit_per_m2(survey: &Survey, balance: &Balance, areas_m2: &[f64]) -> Vec<f64> {
+    let per_m2 = |flux: &[f64]| -> Vec<f64> {
+        flux.iter().zip(areas_m2).map(|(flux, area_m2)| flux / area_m2).collect()
+    };
+    let first = per_m2(&survey.first_landings);
+    let mut lit = per_m2(&balance.landing);
+    for _ in 0..SWEEPS {
+        let gather = |cell: usize| first[cell] + seen_from(survey, cell, |there| lit[there]);
+        lit = (0..first.len()).map(gather).collect();
+    }
+    lit
+}
+
+/// What a cell gets from those that it sees, if so much lands on a square metre of each.
+fn seen_from(survey: &Survey, cell: usize, lit_per_m2: impl Fn(usize) -> f64) -> f64 {
+    let steps = survey.known[cell].steps();
+    let from = steps.map(|step| {
+        let there = step.cell as usize;
+        step.share * step.weight * survey.known[there].albedo * lit_per_m2(there)
+    });
+    from.sum()
+}
+
 impl Landings {
-    /// What to expect at a place on the side `n` of a surface; nothing where the survey found nothing.
+    /// The surveyed cell at a place on the side `n` of a surface.
+    pub(crate) fn cell(&self, position: DVec3, n: DVec3) -> Option<usize> {
+        self.regions.number(position, n)
+    }
+
+    /// What to expect at a place on the side `n` of a surface; nothing where the survey found nothing. It
+    /// changes smoothly along a surface.
     pub(crate) fn at(&self, position: DVec3, n: DVec3) -> Density {
-        let number = self.regions.number(position, n);
-        number.map_or(Density::default(), |number| self.per_m2[number])
+        let mut density = Density::default();
+        for (number, weight) in self.regions.around(position, n) {
+            let there = self.per_m2[number];
+            density.first += weight * there.first;
+            density.rest += weight * there.rest;
+        }
+        density
     }
 }

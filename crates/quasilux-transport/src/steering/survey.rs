@@ -60,7 +60,7 @@ pub(crate) struct Survey {
 /// A cell that rays have found.
 pub(crate) struct Known {
     pub(crate) cell: usize,
-    places: Vec<Interaction>,
+    pub(crate) places: Vec<Interaction>,
     /// Luminance of the albedo, mean over the places.
     pub(crate) albedo: f64,
     /// Rays sent on from here.

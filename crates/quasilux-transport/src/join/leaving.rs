@@ -1,0 +1,44 @@
+//! What leaves a place where a photon landed.
+
+use super::Joining;
+use crate::bsdf::Mode;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::world::Interaction;
+use glam::DVec3;
+
+/// What a photon sends on from where it landed.
+pub(super) struct Leaving {
+    /// To the side that it came from, and to the other.
+    pub(super) sides: [Side; 2],
+}
+
+/// What leaves to one side.
+#[derive(Clone, Copy)]
+pub(super) struct Side {
+    /// The same in all directions, but for the cosine.
+    pub(super) lm_sr: f64,
+    /// The cell that it leaves, where anything does and the survey knows one.
+    pub(super) cell: Option<usize>,
+}
+
+impl Leaving {
+    /// What a photon of this weight sends on, on a surface that keeps illuminance.
+    pub(super) fn new<S: Spectrum>(
+        stage: &Stage<'_, S>,
+        joining: &Joining,
+        at: &Interaction,
+        weight: S,
+    ) -> Self {
+        let bsdf = stage.world.bsdf(at);
+        let side = |n: DVec3, wi: DVec3| {
+            let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
+            let lm_sr = scattered.luminance() * stage.lights.flux_lm;
+            let cell = if lm_sr > 0.0 { joining.cell(at.position, n) } else { None };
+            Side { lm_sr, cell }
+        };
+        let nothing = Side { lm_sr: 0.0, cell: None };
+        let behind = if bsdf.transmits() { side(-at.n, -DVec3::Z) } else { nothing };
+        Self { sides: [side(at.n, DVec3::Z), behind] }
+    }
+}

@@ -1,0 +1,87 @@
+//! What sensors are expected to see of each cell of the survey.
+//!
+//! A photon that lands in a cell gives about the same to a sensor wherever in the cell it lands. What it
+//! gives on the mean is found once, from a few remembered places of each cell, before any photon counts:
+//! a coarse picture of the sensors' views. It need not be right, see [`super`].
+
+use super::Joining;
+use super::view::View;
+use crate::spectrum::Spectrum;
+use crate::stage::Stage;
+use crate::targets::Target;
+use crate::world::Interaction;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Places of a cell that are looked at, at most.
+const PLACES: usize = 4;
+/// Where in cells of grids they are looked at from: each place from another quarter.
+const IN_CELL: [[f64; 2]; PLACES] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75], [0.75, 0.25]];
+/// Photons straight from their lights, and others: their shares differ.
+pub(super) const CLASSES: usize = 2;
+
+/// Illuminance in lx that each of some targets gets of a lm/sr that leaves a cell, mean over the cell.
+pub(super) struct Outlook {
+    targets: usize,
+    /// Of target t by class k from cell c at `(c * CLASSES + k) * targets + t`.
+    lx_sr_lm: Vec<f32>,
+}
+
+impl Outlook {
+    /// Looks from all targets at all cells; also says how many rays that took.
+    pub(super) fn new<S: Spectrum>(
+        stage: &Stage<'_, S>,
+        joining: &Joining,
+        targets: &[Target],
+    ) -> (Self, u64) {
+        let look = |places: &Vec<Interaction>| look(stage, joining, places, targets);
+        let (rows, rays): (Vec<Vec<f32>>, Vec<u64>) = joining.places.par_iter().map(look).unzip();
+        (Self { targets: targets.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
+    }
+
+    /// What all targets get from a cell, by what comes there straight from the lights or otherwise.
+    pub(super) fn from_cell(&self, cell: usize, is_first: bool) -> &[f32] {
+        let row = cell * CLASSES + usize::from(!is_first);
+        &self.lx_sr_lm[row * self.targets..(row + 1) * self.targets]
+    }
+
+    /// What one target gets from all cells.
+    pub(super) fn of_target(&self, target: usize, is_first: bool) -> impl Iterator<Item = f32> {
+        let from = usize::from(!is_first) * self.targets + target;
+        self.lx_sr_lm.iter().skip(from).step_by(CLASSES * self.targets).copied()
+    }
+}
+
+/// What all targets see of one cell, first light that comes there straight, then other light; and the
+/// number of rays.
+fn look<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    joining: &Joining,
+    places: &[Interaction],
+    targets: &[Target],
+) -> (Vec<f32>, u64) {
+    let places = &places[..places.len().min(PLACES)];
+    let densities: Vec<_> = places.iter().map(|at| joining.landings(at.position, at.n)).collect();
+    let (mut sights, mut offers) = (Vec::new(), Vec::new());
+    for (number, target) in targets.iter().enumerate() {
+        for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL) {
+            let Some(view) = View::of(&stage.world, target, at, in_cell) else { continue };
+            if view.behind {
+                continue;
+            }
+            let shares = joining.path_shares(view.pdf_m2, *density);
+            let lx = PI * view.pdf_m2 * view.weight / places.len() as f64;
+            sights.push(view.sight());
+            offers.push((number, lx * (1.0 - shares.first), lx * (1.0 - shares.rest)));
+        }
+    }
+    let mut visible = Vec::new();
+    stage.world.are_visible(&sights, &mut visible);
+    let mut row = vec![0.0; CLASSES * targets.len()];
+    for ((number, first, rest), _) in offers.into_iter().zip(visible).filter(|(_, seen)| *seen) {
+        row[number] += first as f32;
+        row[targets.len() + number] += rest as f32;
+    }
+    row.iter_mut().filter(|lx| !lx.is_finite()).for_each(|lx| *lx = 0.0);
+    (row, sights.len() as u64)
+}
