@@ -31,6 +31,28 @@ impl DimensionHistogram {
         Self { counts: Vec::new(), samples: 0, coordinates: 0, largest: 0 }
     }
 
+    /// The histogram with these [`counts`](Self::counts), [`coordinates`](Self::coordinates) and
+    /// [`largest`](Self::largest); `None` where no samples have them.
+    #[must_use]
+    pub fn of_counts(counts: Vec<u64>, coordinates: u128, largest: u32) -> Option<Self> {
+        let samples = counts.iter().try_fold(0_u64, |sum, count| sum.checked_add(*count))?;
+        let Some((last, before)) = counts.split_last() else {
+            return (coordinates == 0 && largest == 0).then(Self::new);
+        };
+        let bin = u32::try_from(before.len()).ok().filter(|bin| *bin <= Self::LAST + 1)?;
+        let is_last_fine = *last > 0 && largest.min(Self::LAST + 1) == bin;
+        let least = counts.iter().zip(0_u128..).map(|(count, used)| u128::from(*count) * used);
+        let least = least.sum::<u128>();
+        let most = least + u128::from(*last) * u128::from(largest - bin.min(largest));
+        let are_coordinates_fine = (least..=most).contains(&coordinates);
+        (is_last_fine && are_coordinates_fine).then_some(Self {
+            counts,
+            samples,
+            coordinates,
+            largest,
+        })
+    }
+
     /// Adds a sample that consumed `used` coordinates.
     pub fn record(&mut self, used: u32) {
         let bin = used.min(Self::LAST + 1) as usize;
@@ -62,6 +84,12 @@ impl DimensionHistogram {
         self.samples
     }
 
+    /// The number of coordinates that all samples consumed together.
+    #[must_use]
+    pub const fn coordinates(&self) -> u128 {
+        self.coordinates
+    }
+
     /// The mean number of coordinates of a sample; 0 without samples.
     #[must_use]
     pub fn mean(&self) -> f64 {
@@ -86,5 +114,32 @@ impl DimensionHistogram {
     #[must_use]
     pub fn counts(&self) -> &[u64] {
         &self.counts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn histograms_come_back_from_their_counts_and_others_do_not() {
+        let mut histogram = DimensionHistogram::new();
+        let again = |h: &DimensionHistogram| {
+            DimensionHistogram::of_counts(h.counts().to_vec(), h.coordinates(), h.largest())
+        };
+        assert_eq!(again(&histogram), Some(histogram.clone()));
+        for used in [3, 0, 7, 7, 1023, 1024, 5000, 3] {
+            histogram.record(used);
+            assert_eq!(again(&histogram), Some(histogram.clone()));
+        }
+        let of = |counts: &[u64], coordinates, largest| {
+            DimensionHistogram::of_counts(counts.to_vec(), coordinates, largest)
+        };
+        assert!(of(&[0, 2], 2, 1).is_some());
+        assert_eq!(of(&[0, 2], 3, 1), None, "too many coordinates");
+        assert_eq!(of(&[0, 2], 2, 2), None, "another largest");
+        assert_eq!(of(&[0, 2, 0], 2, 1), None, "an empty end");
+        assert_eq!(of(&[1, u64::MAX], u128::from(u64::MAX), 1), None, "too many samples");
+        assert_eq!(of(&[0; 1026], 0, 0), None, "too long");
     }
 }

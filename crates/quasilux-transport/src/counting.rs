@@ -13,6 +13,7 @@ use crate::settings::Settings;
 use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::state::{Decisions, Reader, StateError, Stored, Writer, digest};
 use crate::steering::{self, Plan, Windows};
 use crate::targets::{by_sensor, snapshot, targets};
 use crate::trial::Way;
@@ -38,6 +39,7 @@ pub(crate) struct Counting<'a, S> {
     /// One row of counters a replicate.
     counters: Vec<Counters>,
     samples: u64,
+    /// Without those of the plan.
     photons: PhotonCounts,
 }
 
@@ -83,7 +85,7 @@ impl<'a, S: Spectrum> Counting<'a, S> {
         let (quanta, terms) = (QUANTA_PER_PHOTON / lightest, settings.list_terms.max(1));
         let counters = || Counters::new(receivers.counters, terms, quanta);
         let counters = (0..replicates).map(|_| counters()).collect();
-        let photons = PhotonCounts { rays: plan.rays, ..PhotonCounts::default() };
+        let photons = PhotonCounts::default();
         Self { stage, scene, receivers, plan, counters, samples: 0, photons }
     }
 
@@ -133,14 +135,16 @@ impl<'a, S: Spectrum> Counting<'a, S> {
 
 impl<S: Spectrum> Estimation for Counting<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        match self.count(Way::CoherentWaves, self.samples..samples, watch) {
-            None => false,
-            Some(counts) => {
-                self.photons += counts;
-                self.samples = samples;
-                true
+        for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
+            let end = piece.end;
+            let Some(counts) = self.count(Way::CoherentWaves, piece, watch) else { return false };
+            self.photons += counts;
+            self.samples = end;
+            if !watch.keep(|out| self.put(out)) {
+                return false;
             }
         }
+        true
     }
 
     fn estimates(&self) -> Estimates {
@@ -178,7 +182,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,
-            rays: self.photons.rays,
+            rays: self.plan.rays + self.photons.rays,
             flux: self.photons.balance(self.stage.lights.flux_lm),
             dimensions: Dimensions {
                 photon: self.photons.dimensions.clone(),
@@ -188,6 +192,60 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
             warnings: self.photons.warnings(),
             ..Estimates::default()
         }
+    }
+
+    fn decisions(&self) -> Decisions {
+        let windows = &self.plan.windows;
+        Decisions {
+            is_steered: windows.is_some(),
+            digest: digest(|out| {
+                windows.iter().for_each(|windows| windows.put(out));
+                out.u64(self.plan.rays);
+                self.receivers.targets.iter().for_each(|(counter, area_m2)| {
+                    out.u32(*counter);
+                    out.f64(*area_m2);
+                });
+            }),
+            ..Decisions::default()
+        }
+    }
+
+    fn put(&self, out: &mut Writer) {
+        out.u64(self.samples);
+        self.put_part(out);
+    }
+
+    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.samples = from.u64()?;
+        self.take_in_part(from)?;
+        let is_fine = self.samples <= coming;
+        if is_fine { Ok(()) } else { Err(StateError::Unfit("the number of samples")) }
+    }
+
+    fn trace_part(&mut self, part: Range<u64>, _samples: u64, watch: &mut Watch<'_>) -> bool {
+        self.samples = part.start;
+        self.advance(part.end, watch)
+    }
+
+    /// Each photon serves itself.
+    fn put_served(&self, _out: &mut Writer) {}
+
+    fn take_in_served(&mut self, _from: &mut Reader<'_>) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    fn put_part(&self, out: &mut Writer) {
+        self.photons.put(out);
+        self.counters.as_slice().put(out);
+    }
+
+    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.photons.take_in(from)?;
+        self.counters.as_mut_slice().take_in(from)
+    }
+
+    fn complete_at(&mut self, samples: u64) {
+        self.samples = samples;
     }
 
     fn first_checkpoint(&self) -> u64 {
@@ -289,6 +347,27 @@ impl Counters {
         if let Some(counts) = self.by_bounces.get(bounces as usize) {
             counts[counter].fetch_add(quanta, Ordering::Relaxed);
         }
+    }
+}
+
+impl Stored for Counters {
+    fn put(&self, out: &mut Writer) {
+        let counters = self.all.iter().chain(self.by_bounces.iter().flatten());
+        out.u64((self.all.len() * (1 + self.by_bounces.len())) as u64);
+        counters.for_each(|counter| out.u64(counter.load(Ordering::Relaxed)));
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        from.expect_length(self.all.len() * (1 + self.by_bounces.len()))?;
+        let counters = self.all.iter_mut().chain(self.by_bounces.iter_mut().flatten());
+        counters.map(AtomicU64::get_mut).try_for_each(|counter| from.add_u64(counter))?;
+        let told_apart = |counter: usize| {
+            let counts =
+                self.by_bounces.iter().map(|counts| counts[counter].load(Ordering::Relaxed));
+            counts.map(u128::from).sum::<u128>()
+        };
+        let is_fine = |counter: usize| told_apart(counter) <= u128::from(self.all(counter));
+        if (0..self.all.len()).all(is_fine) { Ok(()) } else { Err(StateError::Unfit("a counter")) }
     }
 }
 

@@ -1,11 +1,13 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
+mod advance;
 mod moment;
+mod state;
 
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::join::{self, Decision, Joined};
-use crate::path_end::{GrowingMaps, Growth, PathEnd};
-use crate::path_wave::{PathWave, WAVE};
+use crate::path_end::PathEnd;
+use crate::path_wave::PathWave;
 use crate::photon::{MOST_EVENTS, PhotonCounts};
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::settings::Settings;
@@ -14,6 +16,7 @@ use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::specular::HiddenLight;
 use crate::stage::{Stage, Stream};
+use crate::state::{Decisions, Reader, StateError, Writer};
 use crate::tally::{Quantum, Sum};
 use crate::targets::{Target, by_sensor, targets};
 use crate::vertex::Vertex;
@@ -22,8 +25,6 @@ use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Paths between two words to the observer.
-const ROUND: u64 = 1 << 17;
 /// Targets whose light from the point-like lights is computed together.
 const TARGETS: usize = 256;
 /// The first checkpoint takes at most this many indices, and about this many paths in all.
@@ -45,15 +46,31 @@ pub(crate) struct Gathering<'a, S> {
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     sums: Vec<PathSums>,
+    /// The first index.
+    first: u64,
+    /// Indices of the last checkpoint.
     samples: u64,
-    work: WorkCounts,
-    photons: PhotonCounts,
+    /// Paths that are over since then, in the order of `sums`.
+    done: u64,
+    /// Before the first sample.
+    prepared: Costs,
+    /// Of photons that serve all paths.
+    served: Costs,
+    /// Of the paths, and of photons that come with each.
+    gathered: Costs,
     /// Targets whose direct light is not finite.
     invalid_points: u64,
     /// Targets to which light that is sampled may come straight.
     samples_direct: Vec<bool>,
     /// What each target showed before the maps last changed.
     last_lx: Vec<Option<f64>>,
+}
+
+/// What was traced.
+#[derive(Clone, Debug, Default)]
+struct Costs {
+    work: WorkCounts,
+    photons: PhotonCounts,
 }
 
 /// What a sensor point gets of point-like lights, without sampling, in lx.
@@ -102,9 +119,12 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             targets,
+            first: 0,
             samples: 0,
-            work,
-            photons,
+            done: 0,
+            prepared: Costs { work, photons },
+            served: Costs::default(),
+            gathered: Costs::default(),
             invalid_points,
             samples_direct,
         }
@@ -138,7 +158,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             number: number as usize,
             target: self.targets[target as usize],
             points: self.stage.points(replicate, Stream::Paths(target)),
-            rest: self.end.rest(replicate),
+            rest: self.end.rest(self.stage, replicate),
             hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
             joining: self.joined.as_ref().map(|joined| &joined.joining),
             indices,
@@ -219,8 +239,17 @@ impl<S: Spectrum> Gathering<'_, S> {
             .collect()
     }
 
-    fn warning(&self) -> Option<String> {
-        let paths = self.work.endless;
+    /// All that was traced.
+    fn costs(&self) -> Costs {
+        let Self { prepared, served, gathered, .. } = self;
+        [served, gathered].into_iter().fold(prepared.clone(), |mut sum, costs| {
+            sum.work += costs.work.clone();
+            sum.photons += costs.photons.clone();
+            sum
+        })
+    }
+
+    fn warning(paths: u64) -> Option<String> {
         (paths > 0).then(|| {
             format!("{paths} paths were cut after {MOST_EVENTS} bounces: light is trapped here, and values are too low")
         })
@@ -229,63 +258,12 @@ impl<S: Spectrum> Gathering<'_, S> {
 
 impl<S: Spectrum> Estimation for Gathering<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        let mut indices = self.samples..samples;
-        let mut end = std::mem::replace(&mut self.end, PathEnd::Nothing);
-        let before = self.before();
-        let look = |maps: &GrowingMaps<'_, S>| Some(before.snapshot(maps));
-        let growth = end.grow(self.stage, indices.clone(), look, watch);
-        let before_lx = before.into_lx();
-        self.end = end;
-        match growth {
-            Growth::Stopped => return false,
-            Growth::None => {}
-            Growth::NewMaps(photons) => {
-                self.last_lx = before_lx;
-                // The maps have changed, and what was read from them with them.
-                self.photons += photons;
-                self.sums.fill(PathSums::default());
-                indices.start = 0;
-            }
-        }
-        if let Some(hidden) = &mut self.hidden {
-            let Some(rays) = hidden.grow(self.stage, &(0..samples), watch) else { return false };
-            self.work.rays += rays;
-        }
-        if let Some(joined) = &mut self.joined {
-            let Some(photons) = joined.grow(self.stage, samples, watch) else { return false };
-            photons.into_iter().for_each(|photons| self.photons += photons.apart_from_flux());
-        }
-        let paths = (indices.end - indices.start) * self.sums.len() as u64;
-        let mut done = 0;
-        while done < paths {
-            let round = done..(done + ROUND).min(paths);
-            let pieces = (round.end - round.start).div_ceil(WAVE);
-            let trace = |wave: &mut PathWave<S>, piece: u64| {
-                let first = round.start + piece * WAVE;
-                self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
-            };
-            let found: Vec<Piece> =
-                (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
-            let (paths_before, rays_before) = (self.work.paths, self.work.rays);
-            for Piece { first, sums, work } in found {
-                for (sum, found) in self.sums[first..].iter_mut().zip(sums) {
-                    *sum += found;
-                }
-                self.work += work;
-            }
-            done = round.end;
-            watch.show(|| Some(self.snapshot(&indices, done)));
-            let (now, rays) = (self.work.paths - paths_before, self.work.rays - rays_before);
-            if !watch.tick(0, now, rays, done as f64 / paths as f64) {
-                return false;
-            }
-        }
-        self.samples = samples;
-        true
+        self.serve(samples, watch) && self.gather(samples, watch)
     }
 
     fn estimates(&self) -> Estimates {
         let n = self.samples as f64;
+        let Costs { work, photons } = self.costs();
         let replicates = self.replicates as usize;
         let mean = |sum: Sum| self.quantum.value(sum) / n;
         let hidden_lx = |r: usize, target: usize| {
@@ -318,19 +296,56 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,
-            rays: self.work.rays + self.photons.rays,
-            flux: self.photons.balance(self.stage.lights.flux_lm),
-            dimensions: Dimensions {
-                photon: self.photons.dimensions.clone(),
-                path: self.work.dimensions.clone(),
-            },
+            rays: work.rays + photons.rays,
+            flux: photons.balance(self.stage.lights.flux_lm),
+            biased: work.endless + photons.trapped > 0,
+            warnings: photons.warnings().into_iter().chain(Self::warning(work.endless)).collect(),
+            dimensions: Dimensions { photon: photons.dimensions, path: work.dimensions },
             invalid_contributions: self.invalid_points
                 + self.joined.as_ref().map_or(0, Joined::invalid)
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
-            biased: self.work.endless + self.photons.trapped > 0,
-            warnings: self.photons.warnings().into_iter().chain(self.warning()).collect(),
             ..Estimates::default()
         }
+    }
+
+    fn decisions(&self) -> Decisions {
+        self.decided()
+    }
+
+    fn put(&self, out: &mut Writer) {
+        self.put_all(out);
+    }
+
+    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_all(coming, from)
+    }
+
+    fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
+        (self.first, self.samples) = (part.start, part.start);
+        if let Some(joined) = &mut self.joined {
+            joined.go_to(part.start);
+        }
+        self.serve(samples, watch) && self.gather(part.end, watch)
+    }
+
+    fn put_served(&self, out: &mut Writer) {
+        self.put_shared(out);
+    }
+
+    fn put_part(&self, out: &mut Writer) {
+        self.put_own(out);
+    }
+
+    fn take_in_served(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_shared(from)
+    }
+
+    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_own(from)
+    }
+
+    fn complete_at(&mut self, samples: u64) {
+        self.complete(samples);
     }
 
     fn first_checkpoint(&self) -> u64 {

@@ -4,11 +4,14 @@
 //! independent replicates, from which intervals follow. It cannot fail, and reads neither the clock
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
+//! A run can be kept and gone on with ([`resume`]), or cut into parts and put together ([`trace_part`],
+//! [`merge`]), to the same bits.
+//!
 //! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
 //! `steering` for how they are split on their way, at `first_shot` for when
 //! they need not leave a light, at `path_wave` and `shadow` for how paths do, at `map` and `join` for where
-//! the two ways meet, at `pixels` for pictures.
+//! the two ways meet, at `pixels` for pictures, at `state` for how runs are kept.
 
 mod bsdf;
 mod check;
@@ -26,6 +29,7 @@ mod map;
 pub mod observer;
 mod order;
 mod panes;
+mod parts;
 mod path;
 mod path_end;
 mod path_wave;
@@ -43,6 +47,7 @@ mod simulate;
 mod spectrum;
 mod specular;
 mod stage;
+mod state;
 mod steering;
 mod tally;
 mod targets;
@@ -56,7 +61,9 @@ pub use estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates, TermEst
 pub use explain::{Explanation, explain};
 pub use interval::Interval;
 pub use observer::{Control, Observer, Progress, Snapshot};
+pub use parts::{MergeError, decide, merge, trace_part};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
 pub use settings::{Estimator, Reconstruction, Settings, Switch};
-pub use simulate::simulate;
+pub use simulate::{resume, simulate};
+pub use state::{Decisions, StateError};

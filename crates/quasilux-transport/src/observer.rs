@@ -38,8 +38,23 @@ pub struct Snapshot {
     pub illuminance_lx: Vec<Vec<Option<f64>>>,
 }
 
-/// The one way out of a running simulation: progress, snapshots, checkpoints, cancellation.
+/// The one way out of a running simulation: progress, snapshots, states, checkpoints, cancellation.
 pub trait Observer {
+    /// After how many photons or paths, about, it may want a state; `None` where it never does. Work is
+    /// then done in such pieces, each of them whole before the run stops, to the same bits. Asked once,
+    /// before the run.
+    fn piece(&self) -> Option<u64> {
+        None
+    }
+
+    /// Whether it wants the state now: asked after each piece, and after what it ended itself.
+    fn wants_state(&mut self) -> bool {
+        false
+    }
+
+    /// Gets the state that it wanted, for [`crate::resume`].
+    fn state(&mut self, _state: &[u8]) {}
+
     /// Whether it wants a snapshot now: asked many times a second, before [`Self::progress`].
     fn wants_snapshot(&mut self) -> bool {
         false

@@ -9,13 +9,13 @@ use crate::photons::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::state::{Reader, StateError, Stored, Writer};
 use crate::steering::{self, Plan, Windows};
 use crate::targets::Target;
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::Interaction;
 use quasilux_sampling::SampleCursor;
-use std::ops::Range;
 
 /// Surfaces that paths pass before they end on a map that is corrected: the light that comes from the
 /// first two is most of the light, and maps are too coarse for it.
@@ -42,8 +42,8 @@ pub(crate) enum PathEnd<S> {
     Own {
         layout: MapLayout,
         tallies: Vec<MapTally<S>>,
-        /// Flux of a photon.
-        flux_lm: f64,
+        /// Photons of each so far.
+        photons: u64,
         /// Where photons leave from instead of the point-like lights.
         lit_cells: Option<LitCells>,
         /// What steers their photons.
@@ -69,11 +69,15 @@ pub(crate) struct MapEnd<'m, S> {
     corrected: bool,
 }
 
-/// What happened to the maps before more paths are traced.
-pub(crate) enum Growth {
-    None,
-    NewMaps(PhotonCounts),
-    Stopped,
+/// What is to know of what the paths end on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MapFacts {
+    /// Sides of elements; `None` without a map.
+    pub(crate) elements: Option<u64>,
+    /// Whether photons of maps that grow leave lit places.
+    pub(crate) first_shot: bool,
+    /// Whether they are steered.
+    pub(crate) is_steered: bool,
 }
 
 /// The maps of all replicates at a moment when no photon flies.
@@ -149,7 +153,7 @@ impl<S: Spectrum> PathEnd<S> {
             let replicates = 0..settings.effective_replicates();
             let tallies =
                 replicates.map(|_| MapTally::new(&layout, lightest, layers(stage, 0))).collect();
-            return (Self::Own { layout, tallies, flux_lm: 0.0, lit_cells, windows }, counts);
+            return (Self::Own { layout, tallies, photons: 0, lit_cells, windows }, counts);
         }
         // Of wanted bounces, the first are found by the paths.
         let most_bounces = match stage.max_bounces {
@@ -166,18 +170,59 @@ impl<S: Spectrum> PathEnd<S> {
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
 
-    /// Adds the photons `indices` to maps that grow; `look` sees them grow.
+    /// Photons of each map that grows, so far; `None` where none does.
+    pub(crate) fn photons(&self) -> Option<u64> {
+        match self {
+            Self::Nothing | Self::Plan { .. } => None,
+            Self::Own { photons, .. } => Some(*photons),
+        }
+    }
+
+    /// What there is to know of it.
+    pub(crate) fn facts(&self) -> MapFacts {
+        match self {
+            Self::Nothing => MapFacts::default(),
+            Self::Plan { layout, .. } => {
+                MapFacts { elements: Some(layout.len() as u64), ..MapFacts::default() }
+            }
+            Self::Own { layout, lit_cells, windows, .. } => MapFacts {
+                elements: Some(layout.len() as u64),
+                first_shot: lit_cells.is_some(),
+                is_steered: windows.is_some(),
+            },
+        }
+    }
+
+    /// Puts out what was decided before the first path, a frozen map included.
+    pub(crate) fn put_decisions(&self, out: &mut Writer) {
+        match self {
+            Self::Nothing => {}
+            Self::Plan { layout, tally, flux_lm } => {
+                layout.put(out);
+                tally.put(out);
+                out.f64(*flux_lm);
+            }
+            Self::Own { layout, lit_cells, windows, .. } => {
+                layout.put(out);
+                lit_cells.iter().for_each(|cells| cells.put(out));
+                windows.iter().for_each(|windows| windows.put(out));
+            }
+        }
+    }
+
+    /// Adds the photons up to `end` to maps that grow; `look` sees them grow. `None` when the observer
+    /// stopped it.
     pub(crate) fn grow(
         &mut self,
         stage: &Stage<'_, S>,
-        indices: Range<u64>,
+        end: u64,
         look: impl Fn(&GrowingMaps<'_, S>) -> Option<Snapshot>,
         watch: &mut Watch<'_>,
-    ) -> Growth {
-        let Self::Own { layout, tallies, flux_lm, lit_cells, windows } = self else {
-            return Growth::None;
+    ) -> Option<PhotonCounts> {
+        let Self::Own { layout, tallies, photons, lit_cells, windows } = self else {
+            return Some(PhotonCounts::default());
         };
-        let samples = indices.end;
+        let indices = *photons..end;
         let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
         let source = Source::of(lit_cells.as_ref());
         let batch = PhotonBatch {
@@ -194,23 +239,43 @@ impl<S: Spectrum> PathEnd<S> {
             let photon_lm = stage.lights.flux_lm / (before + emitted) as f64;
             look(&GrowingMaps { layout, tallies, photon_lm })
         };
-        let traced = trace_photons_in_view(stage, &batch, receiver, look, watch);
-        let Some(counts) = traced else { return Growth::Stopped };
-        *flux_lm = stage.lights.flux_lm / samples as f64;
-        Growth::NewMaps(source.counted(counts))
+        let counts = trace_photons_in_view(stage, &batch, receiver, look, watch)?;
+        *photons = end;
+        Some(source.counted(counts))
     }
 
     /// Where the paths of one replicate end.
-    pub(crate) fn rest(&self, replicate: u32) -> Rest<'_, S> {
+    pub(crate) fn rest(&self, stage: &Stage<'_, S>, replicate: u32) -> Rest<'_, S> {
         match self {
             Self::Nothing => Rest::Path,
             Self::Plan { layout, tally, flux_lm } => {
                 let map = tally.read(*flux_lm);
                 Rest::Map(MapEnd { layout, map, passes: PASSES, corrected: true })
             }
-            Self::Own { layout, tallies, flux_lm, .. } => {
-                let map = tallies[replicate as usize].read(*flux_lm);
+            Self::Own { layout, tallies, photons, .. } => {
+                let flux_lm = stage.lights.flux_lm / *photons as f64;
+                let map = tallies[replicate as usize].read(flux_lm);
                 Rest::Map(MapEnd { layout, map, passes: 0, corrected: false })
+            }
+        }
+    }
+}
+
+/// Maps that grow.
+impl<S> Stored for PathEnd<S> {
+    fn put(&self, out: &mut Writer) {
+        if let Self::Own { tallies, photons, .. } = self {
+            out.u64(*photons);
+            tallies.as_slice().put(out);
+        }
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        match self {
+            Self::Nothing | Self::Plan { .. } => Ok(()),
+            Self::Own { tallies, photons, .. } => {
+                from.add_u64(photons)?;
+                tallies.as_mut_slice().take_in(from)
             }
         }
     }

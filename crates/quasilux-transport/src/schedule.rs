@@ -8,6 +8,8 @@
 //! half-widths follows where the next look pays. The bound holds for looks fixed ahead; that it also
 //! holds for looks planned from half-widths is measured by the coverage test.
 
+use crate::state::{Reader, StateError, Writer};
+
 /// Share of the miss probability that the first look spends; each later one a quarter of the one
 /// before.
 const FIRST_LOOK_SHARE: f64 = 0.75;
@@ -39,6 +41,26 @@ impl Schedule {
             next_look: None,
             next_checkpoint: first.min(limit),
         }
+    }
+
+    /// Puts out how far it has come; budget and limit belong to the settings.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        let Self { budget: _, limit: _, looks_done, next_look, next_checkpoint } = self;
+        out.u32(looks_done.cast_unsigned());
+        out.u64(next_look.unwrap_or(0));
+        out.u64(*next_checkpoint);
+    }
+
+    /// Comes as far as another of the same run has come.
+    pub(crate) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.looks_done = from.u32()?.cast_signed();
+        let (next_look, next_checkpoint) = (from.u64()?, from.u64()?);
+        let is_fine = (0..=64).contains(&self.looks_done)
+            && (1..=self.limit).contains(&next_checkpoint)
+            && next_look <= self.limit;
+        self.next_look = Some(next_look).filter(|look| *look > 0);
+        self.next_checkpoint = next_checkpoint;
+        if is_fine { Ok(()) } else { Err(StateError::Unfit("the schedule")) }
     }
 
     /// Indices per replicate at the next checkpoint.

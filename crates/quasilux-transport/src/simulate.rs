@@ -11,8 +11,10 @@ use crate::schedule::Schedule;
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::state::{Course, Decisions, Reader, StateError, Writer};
 use crate::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
+use std::ops::Range;
 
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
@@ -28,10 +30,29 @@ const LEAST_TRIES: f64 = (1 << 14) as f64;
 /// sense for the scene.
 #[must_use]
 pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
-    if is_grey(scene) {
-        run::<f64>(scene, settings, observer)
+    let estimates = if is_grey(scene) {
+        run::<f64>(scene, settings, None, observer)
     } else {
-        run::<Rgb>(scene, settings, observer)
+        run::<Rgb>(scene, settings, None, observer)
+    };
+    estimates.expect("a run from the start needs no state")
+}
+
+/// Goes on from a state that an observer of [`simulate`] with the same scene and settings got, and ends as that
+/// run would have ended, to the bit.
+///
+/// # Errors
+/// When the state is damaged or of another run.
+pub fn resume(
+    scene: &Scene,
+    settings: &Settings,
+    state: &[u8],
+    observer: &mut dyn Observer,
+) -> Result<Estimates, StateError> {
+    if is_grey(scene) {
+        run::<f64>(scene, settings, Some(state), observer)
+    } else {
+        run::<Rgb>(scene, settings, Some(state), observer)
     }
 }
 
@@ -47,6 +68,36 @@ pub(crate) trait Estimation {
     #[must_use]
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool;
 
+    /// What was decided before the first sample.
+    fn decisions(&self) -> Decisions;
+
+    /// Puts out all that has grown; called between pieces of the work.
+    fn put(&self, out: &mut Writer);
+
+    /// Takes that in before the first sample, so that [`Self::advance`] to the checkpoint `coming` does
+    /// what is left.
+    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Before the first sample: traces the indices of a part of a run of so many `samples`, and what
+    /// serves all of them; `false` when the observer stopped it.
+    #[must_use]
+    fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool;
+
+    /// Puts out what serves all indices, as far as estimates need it: the same in all parts.
+    fn put_served(&self, out: &mut Writer);
+
+    /// Takes that in, once.
+    fn take_in_served(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Puts out what belongs to the indices of a part.
+    fn put_part(&self, out: &mut Writer);
+
+    /// Adds that.
+    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Takes it that all indices before `samples` were added.
+    fn complete_at(&mut self, samples: u64);
+
     /// What is known now. Settings, intervals and warnings are filled in by the caller.
     fn estimates(&self) -> Estimates;
 
@@ -54,62 +105,115 @@ pub(crate) trait Estimation {
     fn first_checkpoint(&self) -> u64;
 }
 
-fn run<S: Spectrum>(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
+/// The estimator of the settings, its surveys and pilots done.
+pub(crate) fn estimation<'a, S: Spectrum>(
+    stage: &'a Stage<'a, S>,
+    scene: &'a Scene,
+    settings: &Settings,
+    watch: &mut Watch<'_>,
+) -> Box<dyn Estimation + 'a> {
+    match settings.estimator {
+        Estimator::Photon => Box::new(Counting::new(stage, scene, settings)),
+        Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
+            Box::new(Gathering::new(stage, scene, settings, watch))
+        }
+    }
+}
+
+fn run<S: Spectrum>(
+    scene: &Scene,
+    settings: &Settings,
+    state: Option<&[u8]>,
+    observer: &mut dyn Observer,
+) -> Result<Estimates, StateError> {
     let stage = Stage::<S>::new(scene, settings);
     let mut watch = Watch::new(observer);
-    let mut estimation: Box<dyn Estimation + '_> = match settings.estimator {
-        Estimator::Photon => Box::new(Counting::new(&stage, scene, settings)),
-        Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
-            Box::new(Gathering::new(&stage, scene, settings, &mut watch))
-        }
-    };
+    let mut estimation = estimation(&stage, scene, settings, &mut watch);
     let first = estimation.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
-    let mut schedule = Schedule::new(1.0 - settings.confidence, first, limit);
-    let mut last = None;
-    loop {
-        let samples = schedule.next_checkpoint();
-        watch.expect(samples, schedule.expected_end());
+    let mut course = Course::new(Schedule::new(1.0 - settings.confidence, first, limit));
+    let digest = estimation.decisions().digest;
+    if let Some(state) = state {
+        let mut from = Reader::new(state);
+        if from.bytes(digest.len())? != digest {
+            return Err(StateError::Decisions);
+        }
+        course.read(scene, &mut from)?;
+        estimation.take_in(course.schedule.next_checkpoint(), &mut from)?;
+        from.end()?;
+        if let Some(last) = &course.last {
+            watch.begin_at(last.samples, Convergence::of(last).largest);
+        }
+    }
+    let preface = |course: &Course, watch: &mut Watch<'_>| {
+        watch.preface(|out| {
+            out.bytes(&digest);
+            course.put(out);
+        });
+    };
+    preface(&course, &mut watch);
+    // The observer has a state before the first sample, too.
+    let _ = watch.keep(|out| estimation.put(out));
+    while !course.over {
+        let samples = course.schedule.next_checkpoint();
+        watch.expect(samples, course.schedule.expected_end());
         if !estimation.advance(samples, &mut watch) {
             break;
         }
-        let mut estimates = estimation.estimates();
-        estimates.confidence = settings.confidence;
-        estimates.miss_probability = schedule.miss_probability();
-        estimates.biased |= is_biased(scene, settings);
-        estimates.warnings.extend(caveats(scene, settings));
-        estimates.warnings.extend(stage.warning.clone());
-        if let (Some(ways), true) = (&stage.hides, settings.estimator != Estimator::Photon) {
-            estimates.biased = true;
-            estimates.warnings.push(format!(
-                "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
-                 density: it is blurred over about the length of a map element, and missing on rough surfaces"
-            ));
-        }
-        let convergence = Convergence::of(&estimates);
-        estimates.unresolved_points = convergence.unresolved;
-        estimates.warnings.extend(warnings_of_values(&estimates));
+        let miss_probability = course.schedule.miss_probability();
+        let (estimates, convergence) =
+            look(&stage, scene, settings, estimation.as_ref(), miss_probability);
         let excess = convergence.excess(&estimates, settings);
-        estimates.tolerance_reached =
-            excess.is_some_and(|excess| excess <= 1.0) && convergence.unresolved == 0;
         // Part of a set whose number of points is fixed would leave part of its lights out.
         let may_end = settings.sequence.points().is_none();
-        let over = schedule.complete(excess.filter(|_| may_end));
+        course.over = course.schedule.complete(excess.filter(|_| may_end));
         let control = watch.checkpoint(&estimates, convergence.largest);
-        last = Some(estimates);
-        if over || control == Control::Stop {
+        course.last = Some(estimates);
+        preface(&course, &mut watch);
+        let goes_on = watch.keep(|out| estimation.put(out));
+        if control == Control::Stop || !goes_on {
             break;
         }
     }
     drop(estimation);
-    let mut estimates = last.expect("a run is never stopped before its first checkpoint");
+    let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     add_pictures(&stage, scene, settings, &mut estimates, &mut watch);
-    estimates
+    Ok(estimates)
+}
+
+/// What is known at a checkpoint, and how near it is to the tolerance.
+pub(crate) fn look<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    scene: &Scene,
+    settings: &Settings,
+    estimation: &(dyn Estimation + '_),
+    miss_probability: f64,
+) -> (Estimates, Convergence) {
+    let mut estimates = estimation.estimates();
+    estimates.confidence = settings.confidence;
+    estimates.miss_probability = miss_probability;
+    estimates.biased |= is_biased(scene, settings);
+    estimates.warnings.extend(caveats(scene, settings));
+    estimates.warnings.extend(stage.warning.clone());
+    if let (Some(ways), true) = (&stage.hides, settings.estimator != Estimator::Photon) {
+        estimates.biased = true;
+        estimates.warnings.push(format!(
+            "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
+             density: it is blurred over about the length of a map element, and missing on rough surfaces"
+        ));
+    }
+    let convergence = Convergence::of(&estimates);
+    estimates.unresolved_points = convergence.unresolved;
+    estimates.warnings.extend(warnings_of_values(&estimates));
+    let excess = convergence.excess(&estimates, settings);
+    estimates.tolerance_reached =
+        excess.is_some_and(|excess| excess <= 1.0) && convergence.unresolved == 0;
+    (estimates, convergence)
 }
 
 /// How near a run is to its tolerance.
-struct Convergence {
+pub(crate) struct Convergence {
     /// The largest half-width over value among the points that have one; `None` without any.
     largest: Option<f64>,
     /// Points where nothing was found yet.

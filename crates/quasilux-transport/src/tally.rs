@@ -4,6 +4,7 @@
 //! order, thread count or split gives the same bits. The quantum is a power of two fixed before
 //! sampling from the light that the scene can get, so dimming all lights scales it with them.
 
+use crate::state::{Reader, StateError, Stored, Writer};
 use std::ops::AddAssign;
 
 /// Quanta per unit of the reference, as a power of two: contributions down to 2^-80 of it count.
@@ -25,6 +26,11 @@ impl Quantum {
         Self { size: libm::ldexp(1.0, exponent), per_unit: libm::ldexp(1.0, -exponent) }
     }
 
+    /// Puts it among the decisions.
+    pub(crate) fn put(self, out: &mut Writer) {
+        out.f64(self.size);
+    }
+
     /// The value of a sum.
     pub(crate) fn value(self, sum: Sum) -> f64 {
         sum.quanta as f64 * self.size
@@ -40,6 +46,9 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
+    /// What it takes in a state.
+    pub(crate) const BYTES: usize = size_of::<i128>() + size_of::<u64>();
+
     /// Whether nothing but zeros was added.
     pub(crate) fn is_zero(&self) -> bool {
         self.quanta == 0
@@ -75,6 +84,19 @@ impl AddAssign for Sum {
             None => self.invalid += 1,
         }
         self.invalid += other.invalid;
+    }
+}
+
+impl Stored for Sum {
+    fn put(&self, out: &mut Writer) {
+        out.i128(self.quanta);
+        out.u64(self.invalid);
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        let quanta = self.quanta.checked_add(from.i128()?);
+        self.quanta = quanta.ok_or(StateError::Unfit("a sum"))?;
+        from.add_u64(&mut self.invalid)
     }
 }
 

@@ -70,7 +70,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let targets: Vec<PathTarget> = targets.collect();
         let (mut end, _) = PathEnd::prepare(stage, &one, &all, joined.is_some(), &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
-        end.grow(stage, 0..photons, |_| None, &mut watch);
+        end.grow(stage, photons, |_| None, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);
         let kind = match settings.estimator {
             Estimator::Path => WalkKind::Paths,
@@ -103,7 +103,8 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
     ) -> Option<HiddenLight<S>> {
         let targets: Vec<Target> = targets.iter().map(|target| target.target).collect();
         let mut hidden = HiddenLight::new(stage, settings, &targets)?;
-        hidden.grow(stage, &(0..SAMPLES), watch)?;
+        hidden.grow(stage, hidden.photons_for(SAMPLES), watch)?;
+        hidden.show(stage);
         Some(hidden)
     }
 
@@ -140,7 +141,7 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
                 number: 0,
                 target: target.target,
                 points: points(Stream::Paths(target.number).id()),
-                rest: self.end.rest(0),
+                rest: self.end.rest(self.stage, 0),
                 joining: self.joined.as_ref().map(|joined| &joined.joining),
                 hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),
                 indices: first..(first + WAVE).min(samples),

@@ -31,6 +31,7 @@ use crate::photon::Arrival;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::state::Writer;
 use crate::world::Interaction;
 use cell::Cell;
 use lit::{Beam, LitCell};
@@ -158,6 +159,17 @@ impl LitCells {
         let by_flux = Discrete::new(&fluxes)?;
         let flux_share = by_flux.total() / lights.flux_lm;
         Some(Self { cells, by_flux, first_area_light, flux_share, rays })
+    }
+
+    /// Puts them among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        for DrawnCell { cell: _, facet, light, front, density } in &self.cells {
+            out.u32(*facet);
+            out.u32(*light);
+            out.bool(*front);
+            density.iter().for_each(|lm_m2| out.f64(*lm_m2));
+        }
+        out.f64(self.flux_share);
     }
 
     /// Flux that a photon stands for, as a share of that of one photon of all lights, before its place

@@ -7,6 +7,7 @@ use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::state::{Reader, StateError, Stored, Writer};
 use crate::tally::{Quantum, Sum};
 use crate::trial::Way;
 use crate::watch::Watch;
@@ -111,6 +112,16 @@ impl Coarse {
     /// Contributions that are not in the sums.
     pub(super) fn invalid(&self) -> u64 {
         self.sums.iter().flat_map(|sums| lock(sums).clone()).map(|sum| sum.invalid).sum()
+    }
+}
+
+impl Stored for Coarse {
+    fn put(&self, out: &mut Writer) {
+        self.sums.iter().for_each(|sums| lock(sums).as_slice().put(out));
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.iter().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))
     }
 }
 

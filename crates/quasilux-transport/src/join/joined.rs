@@ -8,6 +8,7 @@ use crate::photon::{PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::state::{Reader, StateError, Stored, Writer};
 use crate::tally::{Quantum, Sum};
 use crate::targets::Target;
 use crate::trial::Way;
@@ -20,6 +21,9 @@ const GROUP: usize = 256;
 /// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
 /// by chance later: smooth sums are what quasi-random points are good at.
 const CERTAIN_WEIGHT: f64 = 0.1;
+
+/// A photon that is joined takes as long as so many others, about.
+const JOINING: u64 = 4;
 
 /// Sums that grow with a run.
 pub(crate) struct Joined {
@@ -34,8 +38,8 @@ pub(crate) struct Joined {
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
     coarse: Option<(Vec<Outlook>, Coarse)>,
-    /// Rays that no count has yet.
-    rays: u64,
+    /// Rays that it took to find out what targets see.
+    pub(super) rays: u64,
     replicates: Range<u32>,
     /// Indices so far.
     samples: u64,
@@ -83,6 +87,30 @@ impl Joined {
         }
     }
 
+    /// Indices so far.
+    pub(crate) fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// Takes it that the photons of all indices before this one are with others.
+    pub(crate) fn go_to(&mut self, index: u64) {
+        self.samples = index;
+        self.settle();
+    }
+
+    /// Takes it that all sums are those of as many photons as belong to the indices so far.
+    fn settle(&mut self) {
+        if let Some((_, coarse)) = &mut self.coarse {
+            coarse.settle(self.samples * self.joining.coarse_photons);
+        }
+    }
+
+    /// How much work an index is, in photons that are not joined.
+    pub(crate) fn work_of_an_index(&self) -> u64 {
+        let joined = self.joining.photons * self.sums.len() as u64 * JOINING;
+        (joined + self.joining.coarse_photons) * self.replicates.len() as u64
+    }
+
     /// Adds the photons that belong to the indices up to `samples`, those that are joined and those that are
     /// counted; `None` when the observer stopped it.
     pub(crate) fn grow<S: Spectrum>(
@@ -92,14 +120,12 @@ impl Joined {
         watch: &mut Watch<'_>,
     ) -> Option<[PhotonCounts; 2]> {
         let photons = self.joining.photons;
-        let rays = std::mem::take(&mut self.rays);
-        let mut counts = PhotonCounts { rays, ..PhotonCounts::default() };
+        let mut counts = PhotonCounts::default();
         let mut counted = PhotonCounts::default();
         if let Some((_, coarse)) = &mut self.coarse {
             let each = self.joining.coarse_photons;
             let photons = self.samples * each..samples * each;
             counted = coarse.grow(stage, &self.joining, CERTAIN_WEIGHT, photons, watch)?;
-            coarse.settle(samples * each);
         }
         let chunks = self.targets.chunks(GROUP).zip(self.expected_lx.chunks(GROUP));
         for (number, ((targets, expected_lx), sums)) in (0..).zip(chunks.zip(&self.sums)) {
@@ -122,6 +148,7 @@ impl Joined {
             counts += trace_photons(stage, &batch, receiver, watch)?;
         }
         self.samples = samples;
+        self.settle();
         Some([counts, counted])
     }
 
@@ -177,6 +204,20 @@ impl Joined {
 
     fn sum(&self, replicate: usize, target: usize, term: usize) -> Sum {
         lock(&self.sums[target / GROUP][replicate])[target % GROUP * self.terms + term]
+    }
+}
+
+impl Stored for Joined {
+    fn put(&self, out: &mut Writer) {
+        self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
+        if let Some((_, coarse)) = &self.coarse {
+            coarse.put(out);
+        }
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.iter().flatten().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))?;
+        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.take_in(from))
     }
 }
 

@@ -49,6 +49,7 @@ mod view;
 pub(crate) use joined::Joined;
 pub(crate) use pilot::{Decision, decide};
 
+use crate::state::Writer;
 use crate::steering::{Density, Landings, Windows};
 use crate::world::Interaction;
 use glam::DVec3;
@@ -88,6 +89,30 @@ impl Shares {
 }
 
 impl Joining {
+    /// Puts it among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        let Self { landings, windows, photons, coarse_photons, places } = self;
+        landings.put(out);
+        out.bool(windows.is_some());
+        if let Some(windows) = windows {
+            windows.put(out);
+        }
+        out.u64(*photons);
+        out.u64(*coarse_photons);
+        let places = places.iter().flatten().flat_map(|at| at.position.to_array());
+        places.for_each(|x| out.f64(x));
+    }
+
+    /// Photons for each path of a sensor.
+    pub(crate) fn photons(&self) -> u64 {
+        self.photons
+    }
+
+    /// Whether they are steered.
+    pub(crate) fn is_steered(&self) -> bool {
+        self.windows.is_some()
+    }
+
     /// What to expect of a photon on the side `n` of a surface.
     pub(crate) fn landings(&self, position: DVec3, n: DVec3) -> Density {
         self.landings.at(position, n)

@@ -103,7 +103,8 @@ pub(crate) fn decide<S: Spectrum>(
         // Photons that are counted serve all targets, not those alone that are looked at.
         let coarse = Trial { rays: coarse.rays / sample.step as f64, ..coarse };
         let beside = Trial::of_paths(stage, &sample.targets, Some(&pilot.joining), quantum);
-        rays += counts.iter().map(|counts| counts.rays).sum::<u64>() + beside.rays as u64;
+        rays += pilot.rays + beside.rays as u64;
+        rays += counts.iter().map(|counts| counts.rays).sum::<u64>();
         ways.push(Way { joining: pilot.joining, expected_lx, joined, coarse, beside });
     }
     let means_lx = sample.means_lx(&ways, &alone);
@@ -124,6 +125,7 @@ pub(crate) fn decide<S: Spectrum>(
         let kept = (stage.listed_terms, quantum);
         Joined::new(stage, joining, targets.to_vec(), way.expected_lx, replicates, kept)
     });
+    rays += joined.as_ref().map_or(0, |joined| joined.rays);
     Decision { joined, rays }
 }
 

@@ -4,6 +4,7 @@ use super::reconstruction::Reconstruction;
 use super::subdivision::{InCell, cut, split};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::state::Writer;
 use crate::world::{Facet, Interaction, World};
 use glam::DVec3;
 use quasilux_sampling::warp::sample_triangle;
@@ -105,6 +106,18 @@ impl MapLayout {
             .collect();
         let trees = Trees { roots: Vec::new(), lists: Vec::new(), leaves: trees as usize };
         Self { facets, trees, reconstruction: settings.map_reconstruction }
+    }
+
+    /// Puts it among the decisions: how facets are cut, and their parts split.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        for Subdivision { first, parts, area_m2: _ } in &self.facets {
+            out.u32(*first);
+            out.u32(*parts);
+        }
+        let Trees { roots, lists, leaves } = &self.trees;
+        let entries = roots.iter().chain(lists.iter().flatten());
+        entries.for_each(|entry| out.u32(*entry));
+        out.u64(*leaves as u64);
     }
 
     /// What photons say about an element.

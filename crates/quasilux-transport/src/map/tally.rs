@@ -7,6 +7,7 @@ use crate::photon::{Flight, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::specular::Trail;
 use crate::stage::Stage;
+use crate::state::{Reader, StateError, Stored, Writer};
 use crate::world::Interaction;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -85,6 +86,16 @@ impl<S: Spectrum> MapTally<S> {
 
     fn first(&self, place: &Place) -> usize {
         place.element * self.reconstruction.moments() * S::CHANNELS
+    }
+}
+
+impl<S> Stored for MapTally<S> {
+    fn put(&self, out: &mut Writer) {
+        self.sums.put(out);
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.take_in(from)
     }
 }
 

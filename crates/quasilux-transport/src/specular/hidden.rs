@@ -15,6 +15,7 @@ use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
+use crate::state::{Reader, StateError, Stored, Writer};
 use crate::targets::Target;
 use crate::trial::Way;
 use crate::watch::Watch;
@@ -44,6 +45,8 @@ pub(crate) struct HiddenLight<S> {
     photons_per_path: u64,
     photons: u64,
     flux_lm: f64,
+    /// Of the scene.
+    facets: usize,
 }
 
 /// Hidden illuminance on map elements, in one replicate.
@@ -120,15 +123,31 @@ impl<S: Spectrum> HiddenLight<S> {
             photons_per_path: (targets.len() as u64 / TARGETS_PER_PHOTON).clamp(least, most),
             photons: 0,
             flux_lm: stage.lights.flux_lm,
+            facets: stage.world.facets.len(),
         })
     }
 
-    /// Adds the photons that belong to the paths `indices`: how many rays they took, `None` when the
-    /// observer stopped it.
+    /// Photons of each replicate so far.
+    pub(crate) fn photons(&self) -> u64 {
+        self.photons
+    }
+
+    /// Photons that belong to each path.
+    pub(crate) fn photons_per_path(&self) -> u64 {
+        self.photons_per_path
+    }
+
+    /// Photons of each replicate when so many paths are served.
+    pub(crate) fn photons_for(&self, paths: u64) -> u64 {
+        paths.saturating_mul(self.photons_per_path)
+    }
+
+    /// Adds the photons up to `end`: how many rays they took, `None` when the observer stopped it.
+    /// Paths see them after [`Self::show`].
     pub(crate) fn grow(
         &mut self,
         stage: &Stage<'_, S>,
-        indices: &Range<u64>,
+        end: u64,
         watch: &mut Watch<'_>,
     ) -> Option<u64> {
         let Self { element_m, receivers, tallies, .. } = &*self;
@@ -138,7 +157,6 @@ impl<S: Spectrum> HiddenLight<S> {
             let (world, element_m) = (&stage.world, *element_m);
             HiddenReceiver { world, element_m, receivers, tally, tells_bounces }
         };
-        let end = indices.end.saturating_mul(self.photons_per_path);
         let batch = PhotonBatch {
             source: Source::Lights,
             stream: Stream::HiddenPhotons,
@@ -150,8 +168,29 @@ impl<S: Spectrum> HiddenLight<S> {
         };
         let counts = trace_photons(stage, &batch, receiver, watch)?;
         self.photons = end;
-        self.maps = self.tallies.iter().map(|tally| self.read(&stage.world, tally)).collect();
         Some(counts.rays)
+    }
+
+    /// Lets paths see all photons so far.
+    pub(crate) fn show(&mut self, stage: &Stage<'_, S>) {
+        self.maps = self.tallies.iter().map(|tally| self.read(&stage.world, tally)).collect();
+    }
+
+    /// Puts out what the photons gave to the targets, without what paths see of them.
+    pub(crate) fn put_targets(&self, out: &mut Writer) {
+        out.u64(self.photons);
+        for quanta in self.tallies.iter().flat_map(|tally| tally.targets.iter().flatten()) {
+            out.i64(quanta.load(Ordering::Relaxed));
+        }
+    }
+
+    /// Takes that in.
+    pub(crate) fn take_targets(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        from.add_u64(&mut self.photons)?;
+        for quanta in self.tallies.iter_mut().flat_map(|tally| tally.targets.iter_mut().flatten()) {
+            from.add_i64(quanta.get_mut())?;
+        }
+        Ok(())
     }
 
     fn read(&self, world: &World<S>, tally: &Tally) -> HiddenMap<S> {
@@ -190,6 +229,37 @@ impl<S: Spectrum> HiddenLight<S> {
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
         let quanta = self.tallies[replicate].targets[term][target].load(Ordering::Relaxed);
         quanta as f64 * (self.lm_per_quantum() / self.receivers.areas_m2[target])
+    }
+}
+
+/// Everything, landings included.
+impl<S: Spectrum> Stored for HiddenLight<S> {
+    fn put(&self, out: &mut Writer) {
+        self.put_targets(out);
+        for tally in &self.tallies {
+            let landings = tally.landings.lock().unwrap_or_else(PoisonError::into_inner);
+            out.u64(landings.len() as u64);
+            for (Key { facet, element, bounces }, quanta) in landings.iter() {
+                [facet, element, bounces].into_iter().for_each(|number| out.u32(*number));
+                quanta.iter().for_each(|quanta| out.i64(*quanta));
+            }
+        }
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_targets(from)?;
+        for tally in &mut self.tallies {
+            let landings = tally.landings.get_mut().unwrap_or_else(PoisonError::into_inner);
+            for _ in 0..from.length(3 * size_of::<u32>() + 3 * size_of::<i64>())? {
+                let (facet, element, bounces) = (from.u32()?, from.u32()?, from.u32()?);
+                if facet as usize >= self.facets {
+                    return Err(StateError::Unfit("a landing"));
+                }
+                let quanta = landings.entry(Key { facet, element, bounces }).or_default();
+                quanta.iter_mut().try_for_each(|quanta| from.add_i64(quanta))?;
+            }
+        }
+        Ok(())
     }
 }
 

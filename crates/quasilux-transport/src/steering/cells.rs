@@ -4,6 +4,7 @@
 //! of six ways together: coarse, which costs effort and never bias.
 
 use crate::spectrum::Spectrum;
+use crate::state::Writer;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 
@@ -35,6 +36,11 @@ pub(crate) struct Cells {
 impl Regions {
     /// Marks cells without a number.
     pub(crate) const UNKNOWN: u32 = u32::MAX;
+
+    /// Puts them among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        self.number_of_cell.iter().for_each(|number| out.u32(*number));
+    }
 
     /// By the number of each cell, [`Self::UNKNOWN`] for none.
     pub(crate) fn new(cells: Cells, number_of_cell: Vec<u32>) -> Self {

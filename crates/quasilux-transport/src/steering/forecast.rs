@@ -3,6 +3,7 @@
 //! Whoever shares work between photons and paths goes by it; a wrong forecast costs effort and never
 //! bias.
 
+use crate::state::Writer;
 use crate::steering::balance::Balance;
 use crate::steering::cells::Regions;
 use crate::steering::survey::Survey;
@@ -97,6 +98,15 @@ fn seen_from(survey: &Survey, cell: usize, lit_per_m2: impl Fn(usize) -> f64) ->
 }
 
 impl Landings {
+    /// Puts them among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        self.regions.put(out);
+        self.per_m2
+            .iter()
+            .flat_map(|density| [density.first, density.rest])
+            .for_each(|x| out.f64(x));
+    }
+
     /// The surveyed cell at a place on the side `n` of a surface.
     pub(crate) fn cell(&self, position: DVec3, n: DVec3) -> Option<usize> {
         self.regions.number(position, n)

@@ -7,6 +7,8 @@
 //! in J. Vorba et al., "On-line learning of parametric mixture models for light transport simulation",
 //! ACM Trans. Graph. 33(4), 2014, with piecewise constant densities).
 
+use crate::state::Writer;
+
 /// Bins along each edge of the square.
 const EDGE: usize = 32;
 /// What few rays say of near places is told to blocks of this many bins along each edge.
@@ -67,6 +69,12 @@ impl Worths {
 }
 
 impl Guide {
+    /// Puts it among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        let shares = self.rows.iter().chain(self.columns.iter().flatten());
+        shares.for_each(|share| out.f32(*share));
+    }
+
     /// In proportion to the worths, but for an even share.
     pub(crate) fn new(worths: &Worths) -> Self {
         let total: f64 = worths.0.iter().flatten().sum();

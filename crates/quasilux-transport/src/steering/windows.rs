@@ -7,6 +7,7 @@
 //! photon that leaves is worth, in the mean square over its next step, so that rays times variance are
 //! least; a photon at its light is worth as much as the mean of those that leave where it lands.
 
+use crate::state::Writer;
 use crate::steering::balance::Balance;
 use crate::steering::cells::Regions;
 use crate::steering::guide::{Guide, Worths};
@@ -58,6 +59,15 @@ impl Windows {
     /// The weight with which photons leave each known cell.
     pub(crate) fn weights(&self) -> Vec<f64> {
         self.windows.iter().map(|window| window.weight).collect()
+    }
+
+    /// Puts them among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        self.regions.put(out);
+        for Window { weight, guide } in &self.windows {
+            out.f64(*weight);
+            guide.put(out);
+        }
     }
 
     /// A power of two that no photon leaves below, but for what guiding and rough surfaces take from it.

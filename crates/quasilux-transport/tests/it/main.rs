@@ -21,6 +21,7 @@ mod mirrored_light;
 mod scenes;
 mod snapshots;
 mod spotlight;
+mod states;
 mod terms;
 mod traps;
 mod ways;

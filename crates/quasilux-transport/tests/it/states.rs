@@ -1,0 +1,307 @@
+//! Runs that are kept, gone on with, cut and put together: the bits are always those of one run.
+
+use crate::agreement::coloured_room_with_mirror;
+use crate::dozen_scenes::{closed, glass_ball};
+use crate::scenes::{point_light, points};
+use glam::DVec3;
+use quasilux_scene::{Camera, Scene};
+use quasilux_transport::{
+    Control, Estimates, Estimator, MergeError, Observer, Progress, Settings, StateError, Switch,
+    decide, merge, resume, simulate, trace_part,
+};
+use std::ops::Range;
+
+/// Keeps all states of a run, or stops it after one.
+struct Keeper {
+    piece: u64,
+    states: Vec<Vec<u8>>,
+    /// How many progresses are waited for before the run is stopped.
+    patience: Option<u64>,
+}
+
+impl Keeper {
+    fn new(piece: u64) -> Self {
+        Self { piece, states: Vec::new(), patience: None }
+    }
+}
+
+impl Observer for Keeper {
+    fn piece(&self) -> Option<u64> {
+        Some(self.piece)
+    }
+
+    fn wants_state(&mut self) -> bool {
+        true
+    }
+
+    fn state(&mut self, state: &[u8]) {
+        self.states.push(state.to_vec());
+    }
+
+    fn progress(&mut self, _: &Progress) -> Control {
+        match &mut self.patience {
+            None => Control::Continue,
+            Some(0) => Control::Stop,
+            Some(patience) => {
+                *patience -= 1;
+                Control::Continue
+            }
+        }
+    }
+}
+
+/// Numbers that look random (Knuth's MMIX generator).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % bound
+    }
+
+    fn shuffle<T>(&mut self, things: &mut [T]) {
+        for i in (1..things.len()).rev() {
+            things.swap(i, self.below(i + 1));
+        }
+    }
+}
+
+/// Its survey is most of the time of these tests.
+const STEERED: &str = "photon, steered";
+
+/// A run of each kind: its name, scene and settings.
+fn runs() -> Vec<(&'static str, Scene, Settings)> {
+    let mut coloured = coloured_room_with_mirror();
+    coloured.lights.push(point_light(DVec3::new(2.5, 1.2, 1.5), 400.0));
+    coloured.cameras.push(Camera {
+        name: "view".to_owned(),
+        position: DVec3::new(0.5, 0.5, 1.0),
+        target: DVec3::new(3.0, 2.0, 1.0),
+        up: DVec3::Z,
+        vertical_fov_rad: 1.0,
+        resolution: [4, 3],
+    });
+    let mut with_points = coloured.clone();
+    with_points.sensors.push(points("points", &[(DVec3::new(1.0, 2.0, 0.7), DVec3::Z)]));
+    let mut hidden = glass_ball();
+    hidden.lights.push(point_light(DVec3::new(1.3, 1.1, 1.9), 300.0));
+    let settings = |estimator| Settings {
+        estimator,
+        replicates: 4,
+        max_samples: Some(48),
+        rel_tol: 1e-9,
+        ..Settings::default()
+    };
+    let photon = Settings {
+        max_samples: Some(900),
+        list_terms: 2,
+        map_element_m: Some(1.0),
+        steering: Switch::Off,
+        ..settings(Estimator::Photon)
+    };
+    let steered = Settings { steering: Switch::On, ..photon.clone() };
+    let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
+    let joined = Settings { joining: Switch::On, ..listing(Estimator::Bidirectional) };
+    let mapped = Settings { joining: Switch::Off, ..settings(Estimator::Bidirectional) };
+    let grown = Settings {
+        map_adaptive: false,
+        map_element_m: Some(0.5),
+        steering: Switch::Off,
+        ..settings(Estimator::BidirectionalMap)
+    };
+    let of_hidden = Settings { max_bounces: Some(3), ..settings(Estimator::Path) };
+    vec![
+        ("photon", coloured.clone(), photon),
+        (STEERED, coloured, steered),
+        ("path", with_points.clone(), listing(Estimator::Path)),
+        ("joined", with_points.clone(), joined),
+        ("on a frozen map", with_points.clone(), mapped),
+        ("on maps that grow", with_points, grown),
+        ("hidden light", hidden, of_hidden),
+    ]
+}
+
+/// Every state of every phase leads to the same end, and none of them disturbs the run.
+#[test]
+fn a_run_goes_on_from_any_of_its_states() {
+    for (name, scene, settings) in runs() {
+        let whole = simulate(&scene, &settings, &mut ());
+        let mut keeper = Keeper::new(300);
+        assert_eq!(simulate(&scene, &settings, &mut keeper), whole, "{name}");
+        let count = keeper.states.len();
+        assert!(count > 8, "{name}: {count} states");
+        // All kinds of places, the first and the last among them.
+        let steps = if name == STEERED { 1 } else { 6 };
+        for number in (0..count).step_by((count / steps).max(1)).chain([count - 1]) {
+            let again = resume(&scene, &settings, &keeper.states[number], &mut ());
+            assert_eq!(again.as_ref(), Ok(&whole), "{name}: state {number} of {count}");
+        }
+    }
+}
+
+/// Stopped again and again, with a state each time, a run comes to the same end; stopped right after
+/// it has gone on, it has the results of its last checkpoint.
+#[test]
+fn a_run_that_is_stopped_loses_nothing() {
+    for (name, scene, settings) in runs() {
+        if name == STEERED {
+            continue;
+        }
+        let whole = simulate(&scene, &settings, &mut ());
+        let mut keeper = Keeper { patience: Some(3), ..Keeper::new(200) };
+        let mut estimates = simulate(&scene, &settings, &mut keeper);
+        let (mut rounds, mut stopped_at) = (0, 0);
+        while estimates.samples < whole.samples || !keeper.states.is_empty() && rounds == 0 {
+            assert!(estimates.samples >= stopped_at, "{name}");
+            stopped_at = estimates.samples;
+            let state = keeper.states.last().expect("a state is kept before a run stops").clone();
+            keeper = Keeper { patience: Some(7), ..Keeper::new(200) };
+            estimates = resume(&scene, &settings, &state, &mut keeper).expect("a good state");
+            rounds += 1;
+            assert!(rounds < 1000, "{name}: no progress");
+        }
+        let state = keeper.states.last().expect("a state of the end");
+        assert_eq!(resume(&scene, &settings, state, &mut ()).as_ref(), Ok(&whole), "{name}");
+    }
+}
+
+fn parts_of(scene: &Scene, settings: &Settings, samples: u64, bounds: &[u64]) -> Vec<Vec<u8>> {
+    let range = |pair: &[u64]| -> Range<u64> { pair[0]..pair[1] };
+    bounds
+        .windows(2)
+        .map(|pair| {
+            trace_part(scene, settings, samples, range(pair), &mut ()).expect("not stopped")
+        })
+        .collect()
+}
+
+fn merged(
+    scene: &Scene,
+    settings: &Settings,
+    samples: u64,
+    parts: &[Vec<u8>],
+) -> Result<Estimates, MergeError> {
+    let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
+    merge(scene, settings, samples, &parts, &mut ())
+}
+
+/// One part, three, sixteen at random bounds, merged in random order; and the values are those of a plain run,
+/// whose intervals are wider for having been looked at before.
+#[test]
+fn parts_make_the_same_run_however_it_is_cut() {
+    let mut numbers = Numbers(7);
+    for (name, scene, settings) in runs() {
+        let samples = settings.max_samples.expect("a number of samples");
+        let whole = merged(
+            &scene,
+            &settings,
+            samples,
+            &parts_of(&scene, &settings, samples, &[0, samples]),
+        );
+        let whole = whole.expect("a good part");
+        assert_eq!((whole.samples, whole.miss_probability), (samples, 1.0 - settings.confidence));
+        // Surveys and pilots are most of the time of so small parts.
+        let many = matches!(name, "photon" | "path" | "joined");
+        for count in if many { vec![3, 16] } else { vec![3] } {
+            let mut inner: Vec<u64> = (1..samples).collect();
+            numbers.shuffle(&mut inner);
+            let mut bounds = [&[0, samples], &inner[..count - 1]].concat();
+            bounds.sort_unstable();
+            let mut parts = parts_of(&scene, &settings, samples, &bounds);
+            numbers.shuffle(&mut parts);
+            let again = merged(&scene, &settings, samples, &parts);
+            assert_eq!(again.as_ref(), Ok(&whole), "{name}: {count} parts");
+        }
+        let plain = simulate(&scene, &settings, &mut ());
+        let mut values = whole.sensors.iter().zip(&plain.sensors);
+        // Hidden light is read from photons so far: a run that stops on its way reads fewer.
+        assert!(name == "hidden light" || values.all(|(a, b)| a == b), "{name}");
+    }
+}
+
+#[test]
+fn a_part_is_a_function_of_its_range_whoever_computes_it() {
+    for (name, scene, settings) in runs() {
+        let part = || trace_part(&scene, &settings, 40, 7..23, &mut ()).expect("not stopped");
+        let [one, seven] = [1, 7].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("threads start").install(part)
+        });
+        assert!(one == seven, "{name}");
+        assert_eq!(decide(&scene, &settings), decide(&scene, &settings), "{name}");
+        let mut stopped = Keeper { patience: Some(0), ..Keeper::new(100) };
+        assert_eq!(trace_part(&scene, &settings, 40, 7..23, &mut stopped), None, "{name}");
+    }
+}
+
+#[test]
+fn parts_and_states_of_other_runs_are_refused() {
+    let runs = runs();
+    for (name, scene, settings) in runs.iter().filter(|(name, ..)| *name != STEERED) {
+        let other = Settings { seed: 2, ..settings.clone() };
+        let parts = parts_of(scene, settings, 40, &[0, 20, 40]);
+        let foreign = parts_of(scene, &other, 40, &[20, 40]);
+        let mixed = [parts[0].clone(), foreign[0].clone()];
+        let plain_photon = *name == "photon";
+        match merged(scene, settings, 40, &mixed) {
+            Err(MergeError { part: 1, error: StateError::Decisions }) => {}
+            // Nothing is decided by a pilot: the command line compares the settings.
+            other => assert!(plain_photon, "{name}: {:?}", other.map(|_| ())),
+        }
+    }
+    let (_, scene, settings) = &runs[2];
+    let mut keeper = Keeper::new(1000);
+    let _ = simulate(scene, settings, &mut keeper);
+    let state = keeper.states.last().expect("a state");
+    for (name, scene, settings) in &runs[3..6] {
+        let refused = resume(scene, settings, state, &mut ()).is_err();
+        assert!(refused, "{name}");
+    }
+}
+
+/// Truncations and changed bits, without the digest over all bytes that files have: errors or other numbers,
+/// never a panic, and no more memory than the bytes say.
+#[test]
+fn damage_is_no_panic() {
+    let mut numbers = Numbers(11);
+    let settings = |estimator| Settings {
+        estimator,
+        replicates: 2,
+        max_samples: Some(4),
+        joining: Switch::On,
+        map_element_m: Some(2.0),
+        steering: Switch::Off,
+        list_terms: 1,
+        ..Settings::default()
+    };
+    for (estimator, times) in
+        [(Estimator::Photon, 45), (Estimator::Path, 45), (Estimator::BidirectionalMap, 9)]
+    {
+        let (scene, settings) = (closed(0.5), settings(estimator));
+        let mut keeper = Keeper::new(10);
+        let _ = simulate(&scene, &settings, &mut keeper);
+        let state = keeper.states.swap_remove(keeper.states.len() / 2);
+        let part = trace_part(&scene, &settings, 4, 0..4, &mut ()).expect("not stopped");
+        for number in 0..times {
+            let damage = |bytes: &[u8], numbers: &mut Numbers| {
+                let mut bytes = bytes.to_vec();
+                // Past the digest of the decisions.
+                let at = 32 + numbers.below(bytes.len() - 32);
+                if number % 3 == 0 {
+                    bytes.truncate(at);
+                } else {
+                    bytes[at] ^= 1 << numbers.below(8);
+                }
+                bytes
+            };
+            let damaged = damage(&state, &mut numbers);
+            let is_cut = damaged.len() < state.len();
+            let outcome = resume(&scene, &settings, &damaged, &mut ());
+            assert!(!is_cut || outcome.is_err(), "{estimator:?}: {number}");
+            let damaged = damage(&part, &mut numbers);
+            let outcome = merge(&scene, &settings, 4, &[&damaged], &mut ());
+            assert!(!is_cut || outcome.is_err(), "{estimator:?}: {number}");
+        }
+    }
+}
