@@ -150,6 +150,7 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
     let (scene, estimates) = scene_and_estimates(sensors);
     let facts = RunFacts {
         version: "0.1.0".into(),
+        scene_sha256: "c0ffee".into(),
         seconds: 9.8125,
         threads: 2,
         warnings: vec![WARNING.into()],

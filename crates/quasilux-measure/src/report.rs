@@ -14,6 +14,8 @@ use quasilux_transport::{Dimensions, Estimates, Explanation, FluxBalance, Interv
 pub struct RunFacts {
     /// Version of the program.
     pub version: String,
+    /// SHA-256 of the files that the scene was read from; empty where nobody knows.
+    pub scene_sha256: String,
     /// Duration of the run in s.
     pub seconds: f64,
     /// Threads that worked on it.
@@ -105,6 +107,8 @@ pub struct Summary {
 pub struct Run {
     /// Version of the program.
     pub version: String,
+    /// SHA-256 of the files that the scene was read from; empty where nobody knows.
+    pub scene_sha256: String,
     /// What was asked for.
     pub settings: Settings,
     /// Independent replicates behind each interval; 1 where nothing is randomised.
@@ -156,6 +160,7 @@ impl Report {
             cameras,
             run: Run {
                 version: facts.version,
+                scene_sha256: facts.scene_sha256,
                 settings: settings.clone(),
                 replicates: settings.effective_replicates(),
                 samples: estimates.samples,

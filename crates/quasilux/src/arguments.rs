@@ -1,8 +1,12 @@
 //! What can be said on the command line.
 
+mod parts;
 mod photometry;
 mod points;
 
+pub(crate) use parts::{
+    MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments,
+};
 pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
 
@@ -32,35 +36,60 @@ pub(crate) enum Command {
     Photometry(PhotometryArguments),
     /// Summarise or draw measured surfaces (not built yet)
     Bsdf(NotBuilt),
-    /// Freeze map, importance and allocation of a project (not built yet)
-    Plan(NotBuilt),
-    /// Compute a part of a project's samples (not built yet)
-    Shard(NotBuilt),
-    /// Put parts together (not built yet)
-    Merge(NotBuilt),
-    /// Continue from a checkpoint (not built yet)
-    Resume(NotBuilt),
+    /// Write down what a run of a fixed number of samples does, for shards
+    Plan(PlanArguments),
+    /// Compute a part of a project's samples
+    Shard(ShardArguments),
+    /// Put the parts of a run together
+    Merge(MergeArguments),
+    /// Go on from a checkpoint
+    Resume(ResumeArguments),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
     /// The project file
     pub(crate) project: PathBuf,
-    /// Folder for the results [default: out/NAME, NAME being the project file's]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) simulation: SimulationArguments,
+    /// Do what a plan says, in one part: the same bits as its parts put together
+    #[arg(long, value_name = "FILE", conflicts_with_all = [
+        "rel_tol", "time", "samples", "estimator", "sequence", "seed", "checkpoint", "explain",
+    ])]
+    pub(crate) plan: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) keeping: KeepingArguments,
     /// Also say which coordinates carry the variance, and what the sequence is worth here; takes some
     /// seconds more
     #[arg(long)]
     pub(crate) explain: bool,
+    #[command(flatten)]
+    pub(crate) output: OutputArguments,
+}
+
+/// Where results go.
+#[derive(Debug, Args)]
+pub(crate) struct OutputArguments {
+    /// Folder for the results [default: out/NAME, NAME being the project file's]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
     /// Print the result document on stdout and nothing else
     #[arg(long)]
     pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(long)]
     pub(crate) quiet: bool,
+}
+
+/// Whether a run is kept on disk.
+#[derive(Debug, Args)]
+pub(crate) struct KeepingArguments {
+    /// Keep the run in this file while it goes, for `resume`
+    #[arg(long, value_name = "FILE")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// How often, at most
+    #[arg(long, value_name = "TIME", value_parser = duration, default_value = "5s")]
+    pub(crate) checkpoint_every: Duration,
 }
 
 /// Options that go before what the project file says.

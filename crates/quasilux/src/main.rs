@@ -5,13 +5,18 @@
 
 mod arguments;
 mod cases;
+mod checkpoint;
 mod commands;
+mod digest;
 mod exit;
 mod interrupt;
 mod names;
+mod plan;
 mod print;
 mod project;
+mod record;
 mod results;
+mod sealed;
 mod watcher;
 
 use arguments::{Arguments, Command};
@@ -27,10 +32,10 @@ fn main() -> ExitCode {
         Command::Points(arguments) => commands::points(&arguments),
         Command::Photometry(arguments) => commands::photometry(&arguments),
         Command::Bsdf(_) => Err(Refusal::not_built("quasilux bsdf")),
-        Command::Plan(_) => Err(Refusal::not_built("quasilux plan")),
-        Command::Shard(_) => Err(Refusal::not_built("quasilux shard")),
-        Command::Merge(_) => Err(Refusal::not_built("quasilux merge")),
-        Command::Resume(_) => Err(Refusal::not_built("quasilux resume")),
+        Command::Plan(arguments) => commands::plan(&arguments),
+        Command::Shard(arguments) => commands::shard(&arguments),
+        Command::Merge(arguments) => commands::merge(&arguments),
+        Command::Resume(arguments) => commands::resume(&arguments),
     };
     match outcome {
         Ok(exit) => exit.into(),

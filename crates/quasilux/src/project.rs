@@ -1,11 +1,14 @@
 //! A project on disk: its files, and the settings that follow from it and the command line.
 
 use crate::arguments::SimulationArguments;
+use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
 use quasilux_transport::{Estimator, Reconstruction, Settings, Switch};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -13,11 +16,18 @@ use std::path::{Path, PathBuf};
 const MOST_BYTES: u64 = 8 << 30;
 
 /// Files relative to the project file's folder.
-struct Folder(PathBuf);
+struct Folder {
+    path: PathBuf,
+    /// Digests of what was read, by name; `None` where there was no file.
+    read: RefCell<BTreeMap<String, Option<String>>>,
+}
 
 impl Files for Folder {
     fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
-        read_bounded(&self.0.join(path))
+        let outcome = read_bounded(&self.path.join(path));
+        let digest = outcome.as_ref().ok().map(|bytes| sha256_hex(bytes));
+        self.read.borrow_mut().insert(path.to_owned(), digest);
+        outcome
     }
 }
 
@@ -25,15 +35,22 @@ impl Files for Folder {
 pub(crate) struct Project {
     pub(crate) name: String,
     pub(crate) loaded: Loaded,
+    /// Which scene it is.
+    pub(crate) identity: SceneIdentity,
 }
 
 /// Loads a project; messages name its files as the user does.
 pub(crate) fn open(path: &Path) -> Result<Project, Refusal> {
     let name = path.display().to_string();
     let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
-    let folder = Folder(path.parent().unwrap_or(Path::new("")).to_owned());
+    let path_of_folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let folder = Folder { path: path_of_folder, read: RefCell::default() };
     let loaded = load(&name, &bytes, &folder)?;
-    Ok(Project { name, loaded })
+    let own_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let own = SceneFile { path: own_name, sha256: Some(sha256_hex(&bytes)) };
+    let others = folder.read.into_inner().into_iter();
+    let others = others.map(|(path, sha256)| SceneFile { path, sha256 }).collect();
+    Ok(Project { name, loaded, identity: SceneIdentity::new(own, others) })
 }
 
 /// The bytes of a file, up to a bound.

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place that reads the clock")]
 
+use crate::checkpoint::Keeping;
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quasilux_measure::number::{brief, count};
@@ -14,9 +15,13 @@ const STEPS: u64 = 1000;
 
 /// Sensors that are shown while a run goes, the first ones.
 const SHOWN_SENSORS: usize = 3;
+/// Photons or paths after which the run can be kept: about a second's.
+const PIECE: u64 = 1 << 19;
 /// Between two looks at them is so much time at least, and so many times what a look takes.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 const LOOK_SHARE: u32 = 50;
+/// The same for keeping the run.
+const KEEPING_SHARE: u32 = 30;
 
 /// The observer of the command line.
 pub(crate) struct Watcher {
@@ -29,8 +34,19 @@ pub(crate) struct Watcher {
     look_asked: Instant,
     start: Instant,
     deadline: Option<Instant>,
+    /// Where the run is kept, and when it is next.
+    kept: Option<Kept>,
     /// Why the run was told to stop, if it was.
     pub(crate) stopped: Option<Stopped>,
+}
+
+/// A run that is kept on disk.
+struct Kept {
+    keeping: Keeping,
+    every: Duration,
+    next: Instant,
+    asked: Instant,
+    has_failed: bool,
 }
 
 /// Why a run was told to stop.
@@ -66,8 +82,16 @@ impl Watcher {
             look_asked: start,
             start,
             deadline,
+            kept: None,
             stopped: None,
         }
+    }
+
+    /// Keeps the run on disk: at once, every so often, and when it is told to stop.
+    pub(crate) fn keeping(mut self, keeping: Keeping, every: Duration) -> Self {
+        let (next, asked) = (self.start, self.start);
+        self.kept = Some(Kept { keeping, every, next, asked, has_failed: false });
+        self
     }
 
     /// Takes the bar away and says how long the run took.
@@ -87,6 +111,29 @@ impl Watcher {
 }
 
 impl Observer for Watcher {
+    fn piece(&self) -> Option<u64> {
+        self.kept.is_some().then_some(PIECE)
+    }
+
+    fn wants_state(&mut self) -> bool {
+        let Some(kept) = &mut self.kept else { return false };
+        kept.asked = Instant::now();
+        self.stopped.is_some() || kept.asked >= kept.next
+    }
+
+    fn state(&mut self, state: &[u8]) {
+        let Some(kept) = &mut self.kept else { return };
+        if let Err(error) = kept.keeping.write(state)
+            && !kept.has_failed
+        {
+            kept.has_failed = true;
+            let name = kept.keeping.path().display();
+            self.bar.suspend(|| eprintln!("warning: {name}: cannot keep the run: {error}"));
+        }
+        // A large state takes no more than a small share of the time.
+        kept.next = Instant::now() + kept.every.max(kept.asked.elapsed() * KEEPING_SHARE);
+    }
+
     fn wants_snapshot(&mut self) -> bool {
         self.look_asked = Instant::now();
         !self.bar.is_hidden() && self.look_asked >= self.next_look

@@ -7,7 +7,7 @@
 //! each point and `average_terms_lx` in each summary, the last of them with `"bounces": "rest"`; in
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
-//! run repeatable (`randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
+//! run repeatable (`scene_sha256`, `randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
 //! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`, `joining`, `first_shot`),
 //! `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end. Where it was asked for,
@@ -101,6 +101,8 @@ struct FigureEntry {
 #[derive(Serialize)]
 struct RunEntry<'a> {
     version: &'a str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    scene_sha256: &'a str,
     estimator: &'static str,
     sequence: &'a str,
     randomization: &'a str,
@@ -216,6 +218,7 @@ impl<'a> RunEntry<'a> {
     fn of(run: &'a Run) -> Self {
         Self {
             version: &run.version,
+            scene_sha256: &run.scene_sha256,
             estimator: run.settings.estimator.name(),
             sequence: run.settings.sequence.name(),
             randomization: run.settings.randomization.name(),
@@ -318,6 +321,7 @@ mod tests {
         let average = &sensor["summary"]["average_lx"];
         assert_eq!(average["value"].as_f64(), report.sensors[0].summary.average_lx.value);
         assert_eq!(document["run"]["replicates"], 16);
+        assert_eq!(document["run"]["scene_sha256"], "c0ffee");
         assert_eq!(document["run"]["mean_dimension"]["photon"], 3.0);
         assert_eq!(document["run"]["mean_dimension"]["path"], Value::Null);
         let counts = serde_json::json!({"photon": [0, 0, 2, 0, 0, 1], "path": []});

@@ -1,13 +1,21 @@
 //! One file a command.
 
 mod experiment;
+mod merge;
 mod photometry;
+mod plan;
 mod points;
+mod resume;
 mod run;
+mod shard;
 mod validate;
 
 pub(crate) use experiment::experiment;
+pub(crate) use merge::merge;
 pub(crate) use photometry::photometry;
+pub(crate) use plan::plan;
 pub(crate) use points::points;
+pub(crate) use resume::resume;
 pub(crate) use run::run;
+pub(crate) use shard::shard;
 pub(crate) use validate::validate;

@@ -1,14 +1,18 @@
 //! `quasilux run`: from a project file to results.
 
-use crate::arguments::{RunArguments, SimulationArguments};
+use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
+use crate::checkpoint::Keeping;
 use crate::exit::{Exit, Refusal};
+use crate::plan::Plan;
 use crate::print::print;
 use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
 use quasilux_measure::{Report, RunFacts, Style, json, table};
+use quasilux_transport::{Estimates, Settings};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// A finished simulation.
 pub(crate) struct Finished {
@@ -20,41 +24,62 @@ pub(crate) struct Finished {
 pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
     interrupt::listen()?;
     let project = project::open(&arguments.project)?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.project));
-    if arguments.json && !arguments.quiet {
-        // The table has the warnings; the document is for programs.
-        for warning in &project.loaded.warnings {
-            eprintln!("warning: {warning}");
-        }
-    }
+    let folder = Folder::prepare(&arguments.output, &arguments.project, &project)?;
     if arguments.explain && project.loaded.scene.sensors.is_empty() {
         return Err(Refusal::new(format!(
             "{}: --explain looks at sensors, and the project has none",
             project.name
         )));
     }
-    results::prepare(&folder)?;
-    let mut finished = simulate(&project, &arguments.simulation, arguments.quiet)?;
+    if let Some(plan) = &arguments.plan {
+        return run_plan(arguments, &project, &folder, plan);
+    }
+    let SimulationArguments { time, threads, .. } = arguments.simulation;
+    let (scene, settings) =
+        (&project.loaded.scene, project::settings(&project, &arguments.simulation)?);
+    let mut watcher = Watcher::new(scene, time, arguments.output.quiet);
+    if let Some(path) = &arguments.keeping.checkpoint {
+        let keeping = Keeping::new(path, &arguments.project, &project, &settings)?;
+        watcher = watcher.keeping(keeping, arguments.keeping.checkpoint_every);
+    }
+    let simulate =
+        |watcher: &mut Watcher| Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)));
+    let Some(mut finished) = work(&project, &settings, threads, watcher, simulate)? else {
+        return Ok(Exit::Interrupted);
+    };
     if arguments.explain && finished.exit != Exit::Interrupted {
-        let (scene, settings) = (&project.loaded.scene, &finished.report.run.settings);
-        let pool = pool(&arguments.simulation)?;
+        let pool = pool(threads)?;
         finished.report.explanation =
-            Some(pool.install(|| quasilux_transport::explain(scene, settings)));
+            Some(pool.install(|| quasilux_transport::explain(scene, &settings)));
     }
-    results::write(&folder, &finished.report)?;
-    if arguments.json {
-        print(&json::json(&finished.report))?;
-        if let (Some(explanation), false) = (&finished.report.explanation, arguments.quiet) {
-            eprint!("{}", table::explanation(explanation, Style::Plain));
-        }
-    } else if !arguments.quiet {
-        print(&table::table(&finished.report, style()))?;
-        if let Some(explanation) = &finished.report.explanation {
-            print(&format!("\n{}\n", table::explanation(explanation, style())))?;
-        }
-        print(&format!("results in {}\n", folder.display()))?;
+    folder.deliver(&finished)
+}
+
+/// Runs all indices of a plan as one part.
+fn run_plan(
+    arguments: &RunArguments,
+    project: &Project,
+    folder: &Folder<'_>,
+    path: &Path,
+) -> Result<Exit, Refusal> {
+    let plan = Plan::read(path)?;
+    let settings = plan.settings(&path.display().to_string(), project)?;
+    let scene = &project.loaded.scene;
+    let watcher = Watcher::new(scene, None, arguments.output.quiet);
+    let run = |watcher: &mut Watcher| {
+        let samples = plan.samples;
+        let part = quasilux_transport::trace_part(scene, &settings, samples, 0..samples, watcher);
+        let merge = |part: Vec<u8>| {
+            plan.expect_decisions(&part, &path.display().to_string())?;
+            quasilux_transport::merge(scene, &settings, samples, &[&part], watcher)
+                .map_err(|error| Refusal::new(error.error))
+        };
+        part.map(merge).transpose()
+    };
+    match work(project, &settings, arguments.simulation.threads, watcher, run)? {
+        Some(finished) => folder.deliver(&finished),
+        None => Ok(Exit::Interrupted),
     }
-    Ok(finished.exit)
 }
 
 /// Simulates a loaded project on the wanted number of threads.
@@ -65,12 +90,30 @@ pub(crate) fn simulate(
 ) -> Result<Finished, Refusal> {
     let settings = project::settings(project, arguments)?;
     let scene = &project.loaded.scene;
-    let pool = pool(arguments)?;
-    let mut watcher = Watcher::new(scene, arguments.time, quiet);
-    let estimates = pool.install(|| quasilux_transport::simulate(scene, &settings, &mut watcher));
+    let watcher = Watcher::new(scene, arguments.time, quiet);
+    let simulate =
+        |watcher: &mut Watcher| Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)));
+    let finished = work(project, &settings, arguments.threads, watcher, simulate)?;
+    Ok(finished.expect("a run has results once it has begun"))
+}
+
+/// Does a job on the wanted number of threads, watched; `None` when the user interrupted it before it had
+/// results.
+pub(crate) fn work(
+    project: &Project,
+    settings: &Settings,
+    threads: Option<u16>,
+    mut watcher: Watcher,
+    job: impl FnOnce(&mut Watcher) -> Result<Option<Estimates>, Refusal> + Send,
+) -> Result<Option<Finished>, Refusal> {
+    let pool = pool(threads)?;
+    let outcome = pool.install(|| job(&mut watcher));
+    let seconds: Duration = watcher.finish();
+    let Some(estimates) = outcome? else { return Ok(None) };
     let facts = RunFacts {
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        seconds: watcher.finish().as_secs_f64(),
+        scene_sha256: project.identity.sha256.clone(),
+        seconds: seconds.as_secs_f64(),
         threads: pool.current_num_threads(),
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
     };
@@ -79,13 +122,13 @@ pub(crate) fn simulate(
         _ if estimates.tolerance_reached => Exit::Done,
         _ => Exit::Limited,
     };
-    let report = Report::new(scene, &settings, &estimates, facts);
-    Ok(Finished { report, exit })
+    let report = Report::new(&project.loaded.scene, settings, &estimates, facts);
+    Ok(Some(Finished { report, exit }))
 }
 
 /// The wanted number of threads.
-fn pool(arguments: &SimulationArguments) -> Result<rayon::ThreadPool, Refusal> {
-    let threads = match arguments.threads {
+pub(crate) fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Refusal> {
+    let threads = match threads {
         Some(threads) => usize::from(threads),
         None => std::thread::available_parallelism().map_or(1, usize::from),
     };
@@ -95,8 +138,49 @@ fn pool(arguments: &SimulationArguments) -> Result<rayon::ThreadPool, Refusal> {
         .map_err(|error| Refusal::new(format!("cannot start {threads} threads: {error}")))
 }
 
-fn default_folder(project: &Path) -> PathBuf {
-    Path::new("out").join(project.file_stem().unwrap_or_default())
+/// Where results go.
+pub(crate) struct Folder<'a> {
+    path: PathBuf,
+    output: &'a OutputArguments,
+}
+
+impl<'a> Folder<'a> {
+    /// Makes sure that results can be written before anything is computed.
+    pub(crate) fn prepare(
+        output: &'a OutputArguments,
+        file: &Path,
+        project: &Project,
+    ) -> Result<Self, Refusal> {
+        if output.json && !output.quiet {
+            // The table has the warnings; the document is for programs.
+            for warning in &project.loaded.warnings {
+                eprintln!("warning: {warning}");
+            }
+        }
+        let by_name = || Path::new("out").join(file.file_stem().unwrap_or_default());
+        let path = output.out.clone().unwrap_or_else(by_name);
+        results::prepare(&path)?;
+        Ok(Self { path, output })
+    }
+
+    /// Writes results and prints what was asked for.
+    pub(crate) fn deliver(&self, finished: &Finished) -> Result<Exit, Refusal> {
+        let Finished { report, exit } = finished;
+        results::write(&self.path, report)?;
+        if self.output.json {
+            print(&json::json(report))?;
+            if let (Some(explanation), false) = (&report.explanation, self.output.quiet) {
+                eprint!("{}", table::explanation(explanation, Style::Plain));
+            }
+        } else if !self.output.quiet {
+            print(&table::table(report, style()))?;
+            if let Some(explanation) = &report.explanation {
+                print(&format!("\n{}\n", table::explanation(explanation, style())))?;
+            }
+            print(&format!("results in {}\n", self.path.display()))?;
+        }
+        Ok(*exit)
+    }
 }
 
 /// Colours where a person looks on and has not said no (no-color.org).

@@ -251,5 +251,10 @@ fn a_grey_triple_is_a_number() {
     let triple = folder.document("room.toml", "a", &[], 0);
     write_room(&folder, "room", &Look::GREY);
     let number = folder.document("room.toml", "b", &[], 0);
-    assert_eq!(without_seconds_and_threads(&triple), without_seconds_and_threads(&number));
+    // The project files differ, and so does what names them.
+    let [triple, number] = [triple, number].map(|document| {
+        let lines = document.lines().filter(|line| !line.contains("\"scene_sha256\""));
+        without_seconds_and_threads(&lines.collect::<Vec<_>>().join("\n"))
+    });
+    assert_eq!(triple, number);
 }

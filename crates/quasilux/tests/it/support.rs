@@ -133,3 +133,46 @@ pub(crate) fn panel_obj(z_m: f64, first_vertex: usize) -> String {
          {z_m}\nf {a} {b} {c} {d}\n"
     )
 }
+
+/// Numbers that look random (Knuth's MMIX generator).
+pub(crate) struct Numbers(pub(crate) u64);
+
+impl Numbers {
+    pub(crate) fn below(&mut self, bound: usize) -> usize {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % bound
+    }
+
+    pub(crate) fn shuffle<T>(&mut self, things: &mut [T]) {
+        for i in (1..things.len()).rev() {
+            things.swap(i, self.below(i + 1));
+        }
+    }
+}
+
+/// A file cut short, or with one bit changed, at random.
+pub(crate) fn damaged(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    let at = numbers.below(bytes.len());
+    if numbers.below(2) == 0 {
+        bytes.truncate(at);
+    } else {
+        bytes[at] ^= 1 << numbers.below(8);
+    }
+    bytes
+}
+
+/// A checkpoint or part with another text of the same length in its header, and the digest that belongs to
+/// it.
+pub(crate) fn forged(bytes: &[u8], old: &str, new: &str) -> Vec<u8> {
+    use sha2::{Digest, Sha256};
+    assert_eq!(old.len(), new.len());
+    let mut bytes = bytes[..bytes.len() - 32].to_vec();
+    let at = bytes.windows(old.len()).position(|window| window == old.as_bytes());
+    let at = at.unwrap_or_else(|| panic!("no {old}"));
+    bytes[at..at + new.len()].copy_from_slice(new.as_bytes());
+    let digest = Sha256::digest(&bytes);
+    bytes.extend_from_slice(&digest);
+    bytes
+}

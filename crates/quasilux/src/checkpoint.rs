@@ -1,0 +1,137 @@
+//! Checkpoints: a run on disk, to go on from.
+//!
+//! A checkpoint is written beside its place and renamed into it, so that it is there whole or not at all; the
+//! one before of the same run stays as `FILE.previous`.
+
+use crate::digest::SceneIdentity;
+use crate::exit::Refusal;
+use crate::project::{Project, read_bounded};
+use crate::record::SettingsRecord;
+use crate::results;
+use crate::sealed::{seal, unseal};
+use quasilux_measure::json;
+use quasilux_transport::Settings;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Name and version of the format.
+pub(crate) const FORMAT: &str = "quasilux-checkpoint/1";
+
+/// What a checkpoint says of its run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Heading {
+    pub(crate) version: String,
+    /// The project file as it was given, and from the root.
+    pub(crate) project: PathBuf,
+    pub(crate) project_absolute: PathBuf,
+    pub(crate) scene: SceneIdentity,
+    pub(crate) settings: SettingsRecord,
+}
+
+/// A checkpoint that was read.
+#[derive(Debug)]
+pub(crate) struct Checkpoint {
+    pub(crate) heading: Heading,
+    pub(crate) state: Vec<u8>,
+}
+
+/// Where a run is kept.
+pub(crate) struct Keeping {
+    path: PathBuf,
+    heading: String,
+    /// Whether what is at the path is of the same run.
+    goes_on: bool,
+}
+
+impl Keeping {
+    /// Makes sure that it can be.
+    pub(crate) fn new(
+        path: &Path,
+        file: &Path,
+        project: &Project,
+        settings: &Settings,
+    ) -> Result<Self, Refusal> {
+        results::prepare_file(path)?;
+        let heading = Heading {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            project: file.to_owned(),
+            project_absolute: std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
+            scene: project.identity.clone(),
+            settings: SettingsRecord::of(settings),
+        };
+        Ok(Self { path: path.to_owned(), heading: json::text(&heading), goes_on: false })
+    }
+
+    /// For a run that goes on from there.
+    pub(crate) fn going_on(self) -> Self {
+        Self { goes_on: true, ..self }
+    }
+
+    /// Puts a state in the place of the one before.
+    pub(crate) fn write(&mut self, state: &[u8]) -> io::Result<()> {
+        let bytes = seal(FORMAT, &self.heading, state);
+        let fresh = beside(&self.path, "part");
+        let mut file = File::create(&fresh)?;
+        file.write_all(&bytes)?;
+        // On disk before it takes the place of one that is.
+        file.sync_all()?;
+        drop(file);
+        let previous = beside(&self.path, "previous");
+        let made_way = if self.goes_on {
+            fs::rename(&self.path, previous)
+        } else {
+            // Nobody may go on from another run by mistake.
+            fs::remove_file(previous)
+        };
+        match made_way {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        fs::rename(&fresh, &self.path)?;
+        self.goes_on = true;
+        Ok(())
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Reads a checkpoint, or the one before it where it is damaged or missing, with a warning.
+pub(crate) fn read(path: &Path) -> Result<(Checkpoint, Option<String>), Refusal> {
+    let refusal = match read_one(path) {
+        Ok(checkpoint) => return Ok((checkpoint, None)),
+        Err(refusal) => refusal,
+    };
+    let previous = beside(path, "previous");
+    match read_one(&previous) {
+        Ok(checkpoint) => {
+            let warning = format!("{refusal}; going on from {}", previous.display());
+            Ok((checkpoint, Some(warning)))
+        }
+        Err(_) => Err(refusal),
+    }
+}
+
+fn read_one(path: &Path) -> Result<Checkpoint, Refusal> {
+    let name = path.display();
+    let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+    parse(&bytes).map_err(|what| Refusal::new(format!("{name}: {what}")))
+}
+
+/// A checkpoint from the bytes of its file.
+fn parse(bytes: &[u8]) -> Result<Checkpoint, String> {
+    let (heading, state) = unseal(FORMAT, bytes)?;
+    let heading = serde_json::from_str(heading).map_err(|error| format!("its header: {error}"))?;
+    Ok(Checkpoint { heading, state: state.to_vec() })
+}
+
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".");
+    name.push(ending);
+    name.into()
+}

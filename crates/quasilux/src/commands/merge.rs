@@ -1,0 +1,38 @@
+//! `quasilux merge`: the parts of a run become its result.
+
+use super::run::{Folder, work};
+use crate::arguments::MergeArguments;
+use crate::exit::{Exit, Refusal};
+use crate::plan::{Part, in_order};
+use crate::watcher::Watcher;
+use crate::{interrupt, project};
+
+/// Puts parts together and writes the results of the run.
+pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Refusal> {
+    interrupt::listen()?;
+    let parts: Result<Vec<Part>, Refusal> =
+        arguments.parts.iter().map(|path| Part::read(path)).collect();
+    let parts = in_order(parts?)?;
+    let Some(Part { name, plan, .. }) = parts.first() else {
+        return Err(Refusal::new("no parts"));
+    };
+    let file = arguments.project.as_ref().unwrap_or(&plan.project);
+    let project = project::open(file)?;
+    let settings = plan.settings(name, &project)?;
+    for part in &parts {
+        plan.expect_decisions(&part.sums, &part.name)?;
+    }
+    let folder = Folder::prepare(&arguments.output, file, &project)?;
+    let scene = &project.loaded.scene;
+    let watcher = Watcher::new(scene, None, arguments.output.quiet);
+    let put_together = |watcher: &mut Watcher| {
+        let sums: Vec<&[u8]> = parts.iter().map(|part| part.sums.as_slice()).collect();
+        quasilux_transport::merge(scene, &settings, plan.samples, &sums, watcher)
+            .map(Some)
+            .map_err(|error| Refusal::new(format!("{}: {}", parts[error.part].name, error.error)))
+    };
+    match work(&project, &settings, arguments.work.threads, watcher, put_together)? {
+        Some(finished) => folder.deliver(&finished),
+        None => Ok(Exit::Interrupted),
+    }
+}

@@ -1,0 +1,59 @@
+//! `quasilux resume`: a run goes on from its checkpoint.
+
+use super::run::{Folder, work};
+use crate::arguments::ResumeArguments;
+use crate::checkpoint::{self, Checkpoint, Heading, Keeping};
+use crate::exit::{Exit, Refusal};
+use crate::watcher::Watcher;
+use crate::{interrupt, project};
+use std::path::PathBuf;
+
+/// Goes on with a run, and ends with the bits that it would have had.
+pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, Refusal> {
+    interrupt::listen()?;
+    let (Checkpoint { heading, state }, warning) = checkpoint::read(&arguments.checkpoint)?;
+    if let (Some(warning), false) = (warning, arguments.output.quiet) {
+        eprintln!("warning: {warning}");
+    }
+    let name = arguments.checkpoint.display().to_string();
+    let own = env!("CARGO_PKG_VERSION");
+    if heading.version != own {
+        let version = &heading.version;
+        return Err(Refusal::new(format!("{name}: is of version {version}, and this is {own}")));
+    }
+    let file = project_file(arguments, &heading);
+    let project = project::open(&file)?;
+    if let Some(change) = project.identity.difference(&heading.scene) {
+        let project = &project.name;
+        return Err(Refusal::new(format!("{name}: {project} is another scene now: {change}")));
+    }
+    let settings = heading.settings.settings(&name)?;
+    let scene = &project.loaded.scene;
+    let checked = quasilux_transport::check(scene, &settings);
+    checked.map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+    if settings.sequence.points().is_some() && arguments.time.is_some() {
+        return Err(Refusal::new(format!(
+            "{name}: {} needs all of its points: --time cannot end the run before",
+            settings.sequence.name()
+        )));
+    }
+    let folder = Folder::prepare(&arguments.output, &file, &project)?;
+    let keeping = Keeping::new(&arguments.checkpoint, &file, &project, &settings)?.going_on();
+    let watcher = Watcher::new(scene, arguments.time, arguments.output.quiet)
+        .keeping(keeping, arguments.checkpoint_every);
+    let go_on = |watcher: &mut Watcher| {
+        let estimates = quasilux_transport::resume(scene, &settings, &state, watcher);
+        estimates.map(Some).map_err(|error| Refusal::new(format!("{name}: {error}")))
+    };
+    match work(&project, &settings, arguments.work.threads, watcher, go_on)? {
+        Some(finished) => folder.deliver(&finished),
+        None => Ok(Exit::Interrupted),
+    }
+}
+
+/// Where the project is: as told, or as it was given to the run, here or there.
+fn project_file(arguments: &ResumeArguments, heading: &Heading) -> PathBuf {
+    let known = [&heading.project, &heading.project_absolute];
+    let found = known.into_iter().find(|path| path.is_file()).unwrap_or(&heading.project);
+    arguments.project.clone().unwrap_or_else(|| found.clone())
+}

@@ -1,0 +1,257 @@
+//! Plans and parts of a run that is spread over machines.
+//!
+//! A plan is a readable file that says all about a run of a fixed number of samples: scene, settings, and what
+//! surveys and pilots decided. A part has the plan within it, and the sums of a range of indices.
+
+use crate::digest::{BYTES, SceneIdentity, hex, sha256_hex};
+use crate::exit::Refusal;
+use crate::project::{Project, read_bounded};
+use crate::record::SettingsRecord;
+use crate::sealed::{seal, unseal};
+use quasilux_measure::json;
+use quasilux_transport::{Decisions, Settings};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Name and version of the format of plans.
+const PLAN_FORMAT: &str = "quasilux-plan/1";
+/// Name and version of the format of parts.
+pub(crate) const PART_FORMAT: &str = "quasilux-part/1";
+
+/// All about a run of a fixed number of samples.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Plan {
+    format: String,
+    version: String,
+    /// As it was given where the plan was made.
+    pub(crate) project: PathBuf,
+    scene: SceneIdentity,
+    /// Indices per replicate.
+    pub(crate) samples: u64,
+    settings: SettingsRecord,
+    decisions: DecisionsRecord,
+    /// Of all the above but for the project's path.
+    pub(crate) sha256: String,
+}
+
+/// What surveys and pilots decided.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DecisionsRecord {
+    joined_photons: Option<u64>,
+    steered: bool,
+    first_shot: bool,
+    map_elements: Option<u64>,
+    hidden_photons: Option<u64>,
+    sha256: String,
+}
+
+/// A part that was read.
+#[derive(Debug)]
+pub(crate) struct Part {
+    /// What messages call its file.
+    pub(crate) name: String,
+    pub(crate) plan: Plan,
+    pub(crate) range: Range<u64>,
+    pub(crate) sums: Vec<u8>,
+}
+
+/// What a part says of itself.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PartHeading {
+    plan: Plan,
+    index_range: [u64; 2],
+}
+
+impl Plan {
+    /// Of a project and settings with a number of samples.
+    pub(crate) fn new(
+        path: &Path,
+        project: &Project,
+        settings: &Settings,
+        samples: u64,
+        decisions: &Decisions,
+    ) -> Self {
+        let Decisions {
+            joined_photons,
+            is_steered,
+            first_shot,
+            map_elements,
+            hidden_photons,
+            digest,
+        } = decisions;
+        let decisions = DecisionsRecord {
+            joined_photons: *joined_photons,
+            steered: *is_steered,
+            first_shot: *first_shot,
+            map_elements: *map_elements,
+            hidden_photons: *hidden_photons,
+            sha256: hex(digest),
+        };
+        let plan = Self {
+            format: PLAN_FORMAT.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            project: path.to_owned(),
+            scene: project.identity.clone(),
+            samples,
+            settings: SettingsRecord::of(settings),
+            decisions,
+            sha256: String::new(),
+        };
+        Self { sha256: plan.digest(), ..plan }
+    }
+
+    /// Reads a plan; `path` is what messages call it.
+    pub(crate) fn read(path: &Path) -> Result<Self, Refusal> {
+        let name = path.display();
+        let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+        let plan: Self = serde_json::from_slice(&bytes)
+            .map_err(|error| Refusal::new(format!("{name}: is no plan: {error}")))?;
+        plan.check().map_err(|what| Refusal::new(format!("{name}: {what}")))?;
+        Ok(plan)
+    }
+
+    /// The plan as a file.
+    pub(crate) fn text(&self) -> String {
+        json::text(self)
+    }
+
+    /// The settings of the run; refuses projects that have changed since. `name` is what messages call
+    /// the file that the plan stands in.
+    pub(crate) fn settings(&self, name: &str, project: &Project) -> Result<Settings, Refusal> {
+        if let Some(change) = project.identity.difference(&self.scene) {
+            return Err(Refusal::new(format!(
+                "{name}: was made for another scene than {}: {change}",
+                project.name
+            )));
+        }
+        let settings = self.settings.settings(name)?;
+        let checked = quasilux_transport::check(&project.loaded.scene, &settings);
+        checked.map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+        Ok(settings)
+    }
+
+    /// Refuses sums that come from other decisions of surveys and pilots, which stand at their front.
+    pub(crate) fn expect_decisions(&self, sums: &[u8], name: &str) -> Result<(), Refusal> {
+        let decided = sums.first_chunk::<BYTES>().map(|digest| hex(digest));
+        if decided.as_ref() == Some(&self.decisions.sha256) {
+            return Ok(());
+        }
+        Err(Refusal::new(format!("{name}: surveys and pilots decide otherwise than in the plan")))
+    }
+
+    /// What is wrong with it by itself.
+    fn check(&self) -> Result<(), String> {
+        if self.format != PLAN_FORMAT {
+            return Err(format!("has the format {}, expected {PLAN_FORMAT}", self.format));
+        }
+        if self.version != env!("CARGO_PKG_VERSION") {
+            let own = env!("CARGO_PKG_VERSION");
+            return Err(format!("was made by version {}, and this is {own}", self.version));
+        }
+        if self.digest() != self.sha256 {
+            return Err("was changed after it was made: its sha256 is another".to_owned());
+        }
+        Ok(())
+    }
+
+    fn digest(&self) -> String {
+        let Self { format, version, project: _, scene, samples, settings, decisions, sha256: _ } =
+            self;
+        let content = (format, version, &scene.sha256, samples, settings, decisions);
+        sha256_hex(json::text(&content).as_bytes())
+    }
+}
+
+/// The bytes of a part.
+pub(crate) fn part(plan: &Plan, range: &Range<u64>, sums: &[u8]) -> Vec<u8> {
+    let heading = PartHeading { plan: plan.clone(), index_range: [range.start, range.end] };
+    seal(PART_FORMAT, &json::text(&heading), sums)
+}
+
+impl Part {
+    /// Reads a part.
+    pub(crate) fn read(path: &Path) -> Result<Self, Refusal> {
+        let name = path.display().to_string();
+        let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+        Self::parse(&name, &bytes).map_err(|what| Refusal::new(format!("{name}: {what}")))
+    }
+
+    /// A part from the bytes of its file.
+    fn parse(name: &str, bytes: &[u8]) -> Result<Self, String> {
+        let (heading, sums) = unseal(PART_FORMAT, bytes)?;
+        let heading: PartHeading =
+            serde_json::from_str(heading).map_err(|error| format!("its header: {error}"))?;
+        let PartHeading { plan, index_range: [start, end] } = heading;
+        plan.check()?;
+        if start >= end || end > plan.samples {
+            return Err(format!("has no such indices: {start}..{end} of {}", plan.samples));
+        }
+        Ok(Self { name: name.to_owned(), plan, range: start..end, sums: sums.to_vec() })
+    }
+}
+
+/// Sorts parts by their indices, and refuses what does not make a run: parts of other plans, gaps and overlaps.
+pub(crate) fn in_order(mut parts: Vec<Part>) -> Result<Vec<Part>, Refusal> {
+    parts.sort_by_key(|part| (part.range.start, part.range.end));
+    let Some(first) = parts.first() else { return Err(Refusal::new("no parts")) };
+    let samples = first.plan.samples;
+    if let Some(other) = parts.iter().find(|part| part.plan.sha256 != first.plan.sha256) {
+        let what = other.plan.differs_in(&first.plan);
+        return Err(Refusal::new(format!(
+            "{} and {} belong to different runs: {what} differs",
+            first.name, other.name
+        )));
+    }
+    if first.range.start > 0 {
+        return Err(gap(0..first.range.start, &format!("before {}", first.name)));
+    }
+    for pair in parts.windows(2) {
+        let [before, after] = pair else { continue };
+        if after.range.start < before.range.end {
+            return Err(Refusal::new(format!(
+                "{} and {} overlap: {} to {}, and {} to {}",
+                before.name,
+                after.name,
+                before.range.start,
+                before.range.end - 1,
+                after.range.start,
+                after.range.end - 1
+            )));
+        }
+        if after.range.start > before.range.end {
+            let place = format!("between {} and {}", before.name, after.name);
+            return Err(gap(before.range.end..after.range.start, &place));
+        }
+    }
+    match parts.last() {
+        Some(last) if last.range.end < samples => {
+            Err(gap(last.range.end..samples, &format!("after {}", last.name)))
+        }
+        _ => Ok(parts),
+    }
+}
+
+fn gap(range: Range<u64>, place: &str) -> Refusal {
+    Refusal::new(format!("{place}, the indices {} to {} are missing", range.start, range.end - 1))
+}
+
+impl Plan {
+    /// The first thing in which two plans differ, in words.
+    fn differs_in(&self, other: &Self) -> &'static str {
+        if self.version != other.version {
+            "the version of the program"
+        } else if self.scene.sha256 != other.scene.sha256 {
+            "the scene"
+        } else if self.samples != other.samples {
+            "the number of samples"
+        } else if self.settings != other.settings {
+            "a setting"
+        } else {
+            "what pilots decided"
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Files that are whole or refused: checkpoints and parts.
+//!
+//! ```text
+//! FORMAT/VERSION line feed      such as quasilux-part/1
+//! length of the header          u64, little-endian
+//! header                        JSON
+//! length of the body            u64, little-endian
+//! body
+//! SHA-256 of all bytes before   32 bytes
+//! ```
+//!
+//! Any bit that changes and any cut changes the digest. It is no signature: who can write the file can
+//! write the digest.
+
+use crate::digest::{BYTES, sha256};
+
+/// The bytes of a file of this format.
+pub(crate) fn seal(format: &str, header: &str, body: &[u8]) -> Vec<u8> {
+    let mut bytes = format!("{format}\n").into_bytes();
+    for part in [header.as_bytes(), body] {
+        bytes.extend_from_slice(&(part.len() as u64).to_le_bytes());
+        bytes.extend_from_slice(part);
+    }
+    let digest = sha256(&bytes);
+    bytes.extend_from_slice(&digest);
+    bytes
+}
+
+/// Header and body of a file of this format, or what is wrong with it.
+pub(crate) fn unseal<'b>(format: &str, bytes: &'b [u8]) -> Result<(&'b str, &'b [u8]), String> {
+    let name = format.split('/').next().unwrap_or(format);
+    let Some(version) = bytes.strip_prefix(format!("{name}/").as_bytes()) else {
+        return Err(format!("is no file of the format {format}"));
+    };
+    let digits = version.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    if &bytes[..name.len() + 1 + digits] != format.as_bytes() {
+        let found = String::from_utf8_lossy(&version[..digits.min(9)]);
+        return Err(format!("has the format {name}/{found}, and this program reads {format}"));
+    }
+    let damaged = || "is damaged: it was cut short or changed".to_owned();
+    let (sealed, digest) = bytes.split_last_chunk::<BYTES>().ok_or_else(damaged)?;
+    if sha256(sealed) != *digest {
+        return Err(damaged());
+    }
+    let mut rest = sealed.get(format.len() + 1..).ok_or_else(damaged)?;
+    let mut next = || {
+        let (length, behind) = rest.split_first_chunk().ok_or_else(damaged)?;
+        let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
+        let (part, behind) = behind.split_at_checked(length).ok_or_else(damaged)?;
+        rest = behind;
+        Ok::<_, String>(part)
+    };
+    let (header, body) = (next()?, next()?);
+    let header = std::str::from_utf8(header).map_err(|_| damaged())?;
+    if rest.is_empty() { Ok((header, body)) } else { Err(damaged()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FORMAT: &str = "quasilux-part/1";
+
+    /// Every cut, every bit of a small file, and bytes behind its end.
+    #[test]
+    fn nothing_but_the_whole_file_is_accepted() {
+        let bytes = seal(FORMAT, "{\"a\": 1}", &[0, 255, 7]);
+        assert_eq!(unseal(FORMAT, &bytes), Ok(("{\"a\": 1}", &[0, 255, 7][..])));
+        for length in 0..bytes.len() {
+            assert!(unseal(FORMAT, &bytes[..length]).is_err(), "{length}");
+        }
+        for bit in 0..8 * bytes.len() {
+            let mut changed = bytes.clone();
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert!(unseal(FORMAT, &changed).is_err(), "{bit}");
+        }
+        assert!(unseal(FORMAT, &[&bytes[..], &[0]].concat()).is_err());
+    }
+
+    #[test]
+    fn other_formats_are_named() {
+        let message = |format, bytes: &[u8]| unseal(format, bytes).unwrap_err();
+        let other = message("quasilux-checkpoint/1", &seal(FORMAT, "", &[]));
+        assert!(other.contains("no file of the format quasilux-checkpoint/1"), "{other}");
+        let newer = message(FORMAT, &seal("quasilux-part/12", "", &[]));
+        assert!(newer.contains("quasilux-part/12") && newer.contains("reads quasilux-part/1"));
+        let damaged = message(FORMAT, b"quasilux-part/1\nshort");
+        assert!(damaged.contains("cut short"), "{damaged}");
+    }
+}
