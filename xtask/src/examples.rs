@@ -3,8 +3,8 @@
 //! An example is a folder of `examples/` with one or more project files, a `README.md` that gives
 //! the command and the numbers, and the same numbers in `expected.toml`.
 
-use crate::Failure;
 use crate::expectation::Expected;
+use crate::{Failure, cluster};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,6 +26,7 @@ pub(crate) fn run_all(root: &Path) -> Result<(), Failure> {
         example.check_readme(root)?;
         example.run(root, &out)
     });
+    let outcome = outcome.and_then(|()| cluster::run(root, &out.join("cluster")));
     // What a failed run left behind is where the search for its cause begins.
     if outcome.is_ok() {
         let _ = fs::remove_dir_all(&out);

@@ -1,8 +1,9 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
-//! [`steps`] is the test command, [`examples`] its last step, [`office`] the generator behind
+//! [`steps`] is the test command, [`examples`] and [`cluster`] its last step, [`office`] the generator behind
 //! `examples/office/`. The rules that no compiler checks are in `tests/architecture/`.
 
+mod cluster;
 mod examples;
 mod expectation;
 mod office;

@@ -1,0 +1,8 @@
+#!/bin/bash
+#SBATCH --job-name=quasilux-merge
+#SBATCH --cpus-per-task=8
+#SBATCH --mem=4G
+#SBATCH --time=00:10:00
+# Puts the parts together, and takes the pictures of cameras.
+set -eu
+quasilux merge parts/*.part --out out --threads "$SLURM_CPUS_PER_TASK"
