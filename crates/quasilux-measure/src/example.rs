@@ -4,8 +4,8 @@ use crate::{Figure, Report, RunFacts, TermReport};
 use glam::DVec3;
 use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
-    CameraEstimates, DimensionHistogram, Dimensions, Estimates, Estimator, FluxBalance, Pixel,
-    SensorEstimates, Settings,
+    CameraEstimates, Convergence, DimensionHistogram, Dimensions, Estimates, Estimator,
+    FluxBalance, Pixel, SensorEstimates, Settings,
 };
 
 /// A grid in the xy plane.
@@ -163,6 +163,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         replicate_lx: rows.clone(),
         direct_lx: rows[0].iter().map(|lx| 0.8 * lx).collect(),
         resolved: vec![true; rows[0].len()],
+        samples: vec![65_536; rows[0].len()],
         terms: Vec::new(),
     });
     let estimates = Estimates {
@@ -181,6 +182,12 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         confidence: 0.95,
         miss_probability: 0.025,
         tolerance_reached: true,
+        convergence: Convergence {
+            slope: Some(-0.72),
+            samples: Some(65_536),
+            rays: Some(187_654_321),
+            against_prediction: Some(1.1),
+        },
         unresolved_points: 0,
         biased: false,
         warnings: Vec::new(),

@@ -7,7 +7,10 @@
 use crate::CameraReport;
 use glam::DVec3;
 use quasilux_scene::{Grid, Scene, SensorShape};
-use quasilux_transport::{Dimensions, Estimates, Explanation, FluxBalance, Interval, Settings};
+use quasilux_transport::{
+    Convergence, Dimensions, Estimates, Explanation, FluxBalance, Interval, SensorEstimates,
+    Settings,
+};
 
 /// What the program that ran the simulation knows and the simulation does not.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,6 +81,8 @@ pub struct PointReport {
     pub illuminance_lx: Figure,
     /// The part of it that comes straight from the lights, in lx.
     pub direct_lx: Option<f64>,
+    /// Indices used by each replicate for this point.
+    pub samples: u64,
 }
 
 /// A finite value and half the width of its confidence interval, as far as they are known.
@@ -113,7 +118,7 @@ pub struct Run {
     pub settings: Settings,
     /// Independent replicates behind each interval; 1 where nothing is randomised.
     pub replicates: u32,
-    /// Indices used by each replicate: photons, and paths for each sensor point.
+    /// Indices used by each replicate: photons, and paths for each sensor point that needed the most.
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
@@ -123,8 +128,10 @@ pub struct Run {
     pub threads: usize,
     /// Confidence level of all intervals.
     pub confidence: f64,
-    /// Whether every sensor point reached the wanted tolerance.
+    /// Whether every sensor point, or every average, reached the wanted tolerance.
     pub tolerance_reached: bool,
+    /// How half-widths shrank, and what that foretells.
+    pub convergence: Convergence,
     /// Numbers of coordinates that photons and paths used.
     pub dimensions: Dimensions,
     /// Where the photons' flux went.
@@ -169,6 +176,7 @@ impl Report {
                 threads: facts.threads,
                 confidence: estimates.confidence,
                 tolerance_reached: estimates.tolerance_reached,
+                convergence: estimates.convergence,
                 dimensions: estimates.dimensions.clone(),
                 flux: estimates.flux,
                 invalid_contributions: estimates.invalid_contributions,
@@ -184,7 +192,7 @@ impl SensorReport {
     fn new(scene: &Scene, estimates: &Estimates, index: usize) -> Self {
         let sensor = &scene.sensors[index];
         let intervals = estimates.point_intervals(index);
-        let direct_lx = &estimates.sensors[index].direct_lx;
+        let SensorEstimates { direct_lx, samples, .. } = &estimates.sensors[index];
         let points = sensor
             .points()
             .into_iter()
@@ -194,9 +202,9 @@ impl SensorReport {
                 normal: point.normal,
                 illuminance_lx: intervals.get(i).map(|&x| x.into()).unwrap_or_default(),
                 direct_lx: direct_lx.get(i).and_then(|&x| finite(x)),
+                samples: samples.get(i).copied().unwrap_or_default(),
             })
             .collect();
-        let figure = |statistic: fn(&[f64]) -> f64| estimates.interval_of(index, statistic).into();
         Self {
             name: sensor.name.clone(),
             grid: match &sensor.shape {
@@ -205,10 +213,10 @@ impl SensorReport {
             },
             points,
             summary: Summary {
-                average_lx: figure(average),
-                minimum_lx: figure(minimum),
-                maximum_lx: figure(maximum),
-                uniformity: figure(|values| minimum(values) / average(values)),
+                average_lx: estimates.average(index).into(),
+                minimum_lx: estimates.minimum(index).into(),
+                maximum_lx: estimates.maximum(index).into(),
+                uniformity: estimates.uniformity(index).into(),
             },
             terms: TermReport::all(estimates, index),
         }
@@ -268,28 +276,6 @@ impl From<Interval> for Figure {
 
 fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
-}
-
-fn average(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// The smallest value; not a number if any of them is not.
-fn minimum(values: &[f64]) -> f64 {
-    extreme(values, f64::min)
-}
-
-/// The largest value; not a number if any of them is not.
-fn maximum(values: &[f64]) -> f64 {
-    extreme(values, f64::max)
-}
-
-/// Folds with `pick`, which by itself would drop what is not a number in silence.
-fn extreme(values: &[f64], pick: fn(f64, f64) -> f64) -> f64 {
-    if values.iter().any(|x| x.is_nan()) {
-        return f64::NAN;
-    }
-    values.iter().copied().reduce(pick).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The table on the terminal: one line a sensor or camera, each figure with its interval.
 
+mod convergence;
 mod explanation;
 mod terms;
 
@@ -7,6 +8,7 @@ pub use explanation::explanation;
 
 use crate::number::{FigureText, brief, count, figure_text};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
+use quasilux_transport::{Settings, ToleranceOn};
 use std::fmt::Write;
 
 /// Whether the table may use colours.
@@ -43,6 +45,9 @@ pub fn table(report: &Report, style: Style) -> String {
     let faint = style.paint(Emphasis::Faint, &format!("{}; ", run_facts(report)));
     let (emphasis, verdict) = verdict(report);
     writeln!(text, "\n{faint}{}", style.paint(emphasis, &verdict)).expect("strings grow");
+    if let Some(line) = convergence::convergence(report) {
+        writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
+    }
     for warning in &report.warnings {
         let mark = style.paint(Emphasis::Caution, "warning:");
         writeln!(text, "{mark} {}", printable(warning)).expect("strings grow");
@@ -164,12 +169,14 @@ fn points(sensor: &SensorReport) -> String {
 
 fn run_facts(report: &Report) -> String {
     let run = &report.run;
-    let plural = |n: u64, one: &str| format!("{} {one}{}", count(n), if n == 1 { "" } else { "s" });
     let replicates = u64::from(run.replicates);
+    let least = report.sensors.iter().flat_map(|s| &s.points).map(|point| point.samples).min();
+    let from = least.filter(|least| *least < run.samples);
     format!(
-        "{} % confidence, {} of {}, {}, {} s on {}",
+        "{} % confidence, {} of {}{}, {}, {} s on {}",
         brief(100.0 * run.confidence, 4),
         plural(replicates, "replicate"),
+        from.map(|least| format!("{} to ", count(least))).unwrap_or_default(),
         plural(run.samples, "sample"),
         plural(run.rays, "ray"),
         brief(run.seconds, 3),
@@ -177,17 +184,37 @@ fn run_facts(report: &Report) -> String {
     )
 }
 
+/// A number of things.
+fn plural(n: u64, one: &str) -> String {
+    format!("{} {one}{}", count(n), if n == 1 { "" } else { "s" })
+}
+
+/// The wanted tolerance in words.
+fn tolerance(settings: &Settings) -> String {
+    let relative = format!("{} %", brief(100.0 * settings.rel_tol, 4));
+    let absolute = format!("{} lx", brief(settings.abs_tol_lx, 4));
+    match (settings.rel_tol > 0.0, settings.abs_tol_lx > 0.0) {
+        (true, true) => format!("{relative} or {absolute}"),
+        (false, true) => absolute,
+        _ => relative,
+    }
+}
+
 fn verdict(report: &Report) -> (Emphasis, String) {
-    let wanted = report.run.settings.rel_tol;
-    let percent = brief(100.0 * wanted, 4);
+    let settings = &report.run.settings;
+    let wanted = tolerance(settings);
+    let at = match settings.tolerance_on {
+        ToleranceOn::Points => "at every point",
+        ToleranceOn::Summary => "by every average",
+    };
     if report.sensors.is_empty() && report.run.tolerance_reached {
         (Emphasis::Good, "every picture has all its paths".into())
-    } else if wanted <= 0.0 {
+    } else if !settings.has_tolerance() {
         (Emphasis::Faint, "no tolerance was asked for".into())
     } else if report.run.tolerance_reached {
-        (Emphasis::Good, format!("tolerance of {percent} % reached at every point"))
+        (Emphasis::Good, format!("tolerance of {wanted} reached {at}"))
     } else {
-        (Emphasis::Caution, format!("tolerance of {percent} % not reached"))
+        (Emphasis::Caution, format!("tolerance of {wanted} not reached"))
     }
 }
 
@@ -268,9 +295,16 @@ mod tests {
                     9.81 s on 2 threads; tolerance of 1 % reached at every point";
         assert!(table(&report, Style::Plain).contains(last));
         assert!(table(&report, Style::Plain).ends_with("warning: a \"quoted\" warning\n"));
+        assert!(table(&report, Style::Plain).contains("half-widths shrink like N^-0.72\n"));
+        report.sensors[0].points[7].samples = 1024;
+        assert!(table(&report, Style::Plain).contains("of 1024 to 65 536 samples"));
+        report.run.settings.tolerance_on = ToleranceOn::Summary;
+        assert!(table(&report, Style::Plain).contains("1 % reached by every average"));
         report.run.tolerance_reached = false;
         assert!(table(&report, Style::Plain).contains("1 % not reached"));
-        report.run.settings.rel_tol = 0.0;
+        report.run.settings.abs_tol_lx = 2.5;
+        assert!(table(&report, Style::Plain).contains("1 % or 2.5 lx not reached"));
+        (report.run.settings.rel_tol, report.run.settings.abs_tol_lx) = (0.0, 0.0);
         assert!(table(&report, Style::Plain).contains("no tolerance was asked for"));
     }
 

@@ -178,7 +178,8 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
         });
         let terms = terms.collect();
         let resolved = found(&replicate_lx);
-        let all = SensorEstimates { replicate_lx, direct_lx, resolved, terms };
+        let samples = vec![self.samples; direct_lx.len()];
+        let all = SensorEstimates { replicate_lx, direct_lx, resolved, samples, terms };
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,

@@ -1,7 +1,9 @@
 //! What a simulation knows at a checkpoint: figures of each replicate, nothing summarised yet.
 
 use crate::Interval;
-use crate::interval::{jackknife, t_quantile_for};
+use crate::convergence::Convergence;
+use crate::interval::t_quantile_for;
+use crate::lowest::{lowest, ratios};
 use crate::picture::CameraEstimates;
 use quasilux_sampling::DimensionHistogram;
 use std::ops::Range;
@@ -26,11 +28,14 @@ pub struct Estimates {
     pub invalid_contributions: u64,
     /// Nominal confidence level of the intervals.
     pub confidence: f64,
-    /// Two-sided miss probability that this checkpoint may spend, at most `1 - confidence`: looking
-    /// several times shares one budget.
+    /// Two-sided miss probability that intervals of this checkpoint are made for, at most
+    /// `1 - confidence`: less where the run may stop at a good look.
     pub miss_probability: f64,
-    /// Whether every sensor point reached the wanted tolerance, and every picture got all its paths.
+    /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and every
+    /// picture got all its paths.
     pub tolerance_reached: bool,
+    /// How half-widths shrank so far, and what follows from that.
+    pub convergence: Convergence,
     /// Sensor points where light may be that no path or photon has found: their value is what was
     /// found, and nothing is known of its error.
     pub unresolved_points: u64,
@@ -49,6 +54,8 @@ pub struct SensorEstimates {
     pub direct_lx: Vec<f64>,
     /// Whether light was found wherever it was looked for; points without have no interval.
     pub resolved: Vec<bool>,
+    /// Indices per replicate behind each point: fewer than of others where it reached its tolerance before.
+    pub samples: Vec<u64>,
     /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
     pub terms: Vec<TermEstimates>,
 }
@@ -85,13 +92,43 @@ pub struct Dimensions {
 }
 
 impl Estimates {
-    /// The interval of a figure of one sensor: `statistic` maps the sensor's values in lx to it.
-    ///
-    /// The figure's bias under noise (a noisy minimum is too low) is removed to first order by the
-    /// jackknife over replicates.
+    /// The interval of an average or another figure that is linear in the values of one sensor, in lx:
+    /// `statistic` maps them to it.
     #[must_use]
     pub fn interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
-        jackknife(&self.sensors[sensor].replicate_lx, self.miss_probability, statistic)
+        let rows = &self.sensors[sensor].replicate_lx;
+        let figures: Vec<f64> = rows.iter().map(|row| statistic(row)).collect();
+        let t = t_quantile_for(rows.len(), self.miss_probability);
+        Interval::of_mean(figures.into_iter(), t)
+    }
+
+    /// The interval of the mean of the points of one sensor, in lx.
+    #[must_use]
+    pub fn average(&self, sensor: usize) -> Interval {
+        self.interval_of(sensor, |lx| lx.iter().sum::<f64>() / lx.len() as f64)
+    }
+
+    /// The interval of the smallest value of one sensor, in lx: that of the point where it truly is
+    /// smallest, which need not be the one that seems to be.
+    #[must_use]
+    pub fn minimum(&self, sensor: usize) -> Interval {
+        lowest(&self.sensors[sensor].replicate_lx, self.miss_probability)
+    }
+
+    /// The interval of the largest value of one sensor, in lx.
+    #[must_use]
+    pub fn maximum(&self, sensor: usize) -> Interval {
+        let rows = &self.sensors[sensor].replicate_lx;
+        let negative: Vec<Vec<f64>> =
+            rows.iter().map(|row| row.iter().map(|lx| -lx).collect()).collect();
+        let Interval { value, half_width } = lowest(&negative, self.miss_probability);
+        Interval { value: -value, half_width }
+    }
+
+    /// The interval of the smallest value over the mean of one sensor.
+    #[must_use]
+    pub fn uniformity(&self, sensor: usize) -> Interval {
+        lowest(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability)
     }
 
     /// The intervals of all points of one sensor, in lx; no half-width where nothing was found.
@@ -141,6 +178,7 @@ impl SensorEstimates {
             replicate_lx: columns(&self.replicate_lx),
             direct_lx: self.direct_lx[points.clone()].to_vec(),
             resolved: self.resolved[points.clone()].to_vec(),
+            samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),
         }
     }

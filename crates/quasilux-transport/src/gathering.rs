@@ -50,6 +50,10 @@ pub(crate) struct Gathering<'a, S> {
     first: u64,
     /// Indices of the last checkpoint.
     samples: u64,
+    /// Targets that get more paths, in order.
+    growing: Vec<usize>,
+    /// Of each target that gets no more, the indices that it has.
+    ends: Vec<Option<u64>>,
     /// Paths that are over since then, in the order of `sums`.
     done: u64,
     /// Before the first sample.
@@ -118,6 +122,8 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
+            growing: (0..targets.len()).collect(),
+            ends: vec![None; targets.len()],
             targets,
             first: 0,
             samples: 0,
@@ -130,7 +136,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         }
     }
 
-    /// Traces the paths `piece`, of those that are left when the paths `indices` of all targets and
+    /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing targets and
     /// replicates, in the order of [`Self::sums`], are put in one row.
     fn trace_piece(
         &self,
@@ -150,14 +156,14 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         trace_sections(self.stage, &sections, self.quantum, wave)
     }
 
-    /// The paths `indices` of entry `number` of [`Self::sums`].
+    /// The paths `indices` of the pair `number` of a growing target and a replicate.
     fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
-        let target = number / u64::from(self.replicates);
+        let target = self.growing[(number / u64::from(self.replicates)) as usize];
         let replicate = (number % u64::from(self.replicates)) as u32;
         Section {
             number: number as usize,
-            target: self.targets[target as usize],
-            points: self.stage.points(replicate, Stream::Paths(target)),
+            target: self.targets[target],
+            points: self.stage.points(replicate, Stream::Paths(target as u64)),
             rest: self.end.rest(self.stage, replicate),
             hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
             joining: self.joined.as_ref().map(|joined| &joined.joining),
@@ -167,6 +173,34 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 }
 
 impl<S: Spectrum> Gathering<'_, S> {
+    /// Where the pair `number` of a growing target and a replicate has its sums.
+    fn place(&self, number: usize) -> usize {
+        let replicates = self.replicates as usize;
+        self.growing[number / replicates] * replicates + number % replicates
+    }
+
+    /// Leaves targets that have an end at that, with what else is done for each of them alone; other paths and
+    /// photons stay what they are.
+    fn keep_to_ends(&mut self) {
+        self.growing.retain(|&target| self.ends[target].is_none());
+        if let Some(hidden) = &mut self.hidden {
+            hidden.settle(&self.ends);
+        }
+        if let Some(joined) = &mut self.joined {
+            joined.settle(&self.ends);
+        }
+    }
+
+    /// Indices that a target has.
+    fn samples_of(&self, target: usize) -> u64 {
+        self.ends[target].unwrap_or(self.samples)
+    }
+
+    /// Mean of a sum over the paths of a target in one replicate.
+    fn mean(&self, target: usize, sum: Sum) -> f64 {
+        self.quantum.value(sum) / self.samples_of(target) as f64
+    }
+
     /// Whether the paths of each target found light where they came to surfaces that reflect.
     fn resolved(&self) -> Vec<bool> {
         self.sums
@@ -190,7 +224,7 @@ impl<S: Spectrum> Gathering<'_, S> {
     }
 
     /// The terms of the Neumann series that are listed, and the rest.
-    fn terms(&self, mean: impl Fn(Sum) -> f64) -> Vec<TermEstimates> {
+    fn terms(&self) -> Vec<TermEstimates> {
         let (listed, replicates) = (self.stage.listed_terms as usize, self.replicates as usize);
         if listed == 0 {
             return Vec::new();
@@ -207,7 +241,7 @@ impl<S: Spectrum> Gathering<'_, S> {
             own.map(|(target, (sums, exact))| {
                 let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
                 exact_lx.unwrap_or(0.0)
-                    + mean(sum(sums, term))
+                    + self.mean(target, sum(sums, term))
                     + hidden_lx(r, target, term)
                     + joined_lx(r, target, term)
             })
@@ -262,10 +296,8 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
     }
 
     fn estimates(&self) -> Estimates {
-        let n = self.samples as f64;
         let Costs { work, photons } = self.costs();
         let replicates = self.replicates as usize;
-        let mean = |sum: Sum| self.quantum.value(sum) / n;
         let hidden_lx = |r: usize, target: usize| {
             self.hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(r, target))
         };
@@ -273,7 +305,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             let own = self.sums.iter().skip(r).step_by(replicates);
             let own = own.zip(&self.exact).enumerate();
             own.map(|(target, (sums, exact))| {
-                let sampled_lx = mean(sums.direct) + mean(sums.indirect);
+                let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
                 exact.sum_lx() + sampled_lx + hidden_lx(r, target) + self.joined_lx(r, target)
             })
             .collect()
@@ -282,16 +314,18 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             .sums
             .chunks_exact(replicates)
             .zip(&self.exact)
-            .map(|(own, Exact { direct_lx, .. })| {
-                direct_lx
-                    + own.iter().map(|sums| mean(sums.direct)).sum::<f64>() / replicates as f64
+            .enumerate()
+            .map(|(target, (own, Exact { direct_lx, .. }))| {
+                let sampled_lx = own.iter().map(|sums| self.mean(target, sums.direct));
+                direct_lx + sampled_lx.sum::<f64>() / replicates as f64
             })
             .collect();
         let all = SensorEstimates {
             replicate_lx: (0..replicates).map(row).collect(),
             direct_lx,
             resolved: self.resolved(),
-            terms: self.terms(mean),
+            samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
+            terms: self.terms(),
         };
         Estimates {
             sensors: by_sensor(self.scene, &all),
@@ -346,6 +380,14 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
 
     fn complete_at(&mut self, samples: u64) {
         self.complete(samples);
+    }
+
+    fn settle(&mut self, done: &[bool]) -> bool {
+        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
+            end.get_or_insert(self.samples);
+        }
+        self.keep_to_ends();
+        true
     }
 
     fn first_checkpoint(&self) -> u64 {

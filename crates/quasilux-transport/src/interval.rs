@@ -1,7 +1,9 @@
-//! Intervals from replicates: Student's t, and the jackknife for figures that are not means.
+//! Intervals of means from replicates, by Student's t.
 //!
 //! The error of a quasi-Monte Carlo mean comes from independent randomisations of the whole point
-//! set, never from the spread of its points (L'Ecuyer, Nakayama, Owen and Tuffin 2023).
+//! set, never from the spread of its points (L'Ecuyer, Nakayama, Owen and Tuffin 2023). Read on at
+//! `lowest` for figures that are not means, and at `looks` for what it costs to look at them while a run
+//! goes.
 
 /// A value and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,37 +42,6 @@ impl Interval {
 #[must_use]
 pub fn t_quantile_for(replicates: usize, miss_probability: f64) -> Option<f64> {
     (replicates >= 2).then(|| student_t_quantile((replicates - 1) as f64, miss_probability))
-}
-
-/// The interval of a figure that is not a mean, by the jackknife over replicates (Quenouille 1956,
-/// Tukey 1958): leave one replicate out of the mean, see how the figure moves.
-///
-/// `rows` has one row of values a replicate. For linear figures this is the interval of the mean;
-/// for others, like a minimum, it also removes the bias of first order in one over the number of
-/// replicates.
-pub(crate) fn jackknife(
-    rows: &[Vec<f64>],
-    miss_probability: f64,
-    statistic: impl Fn(&[f64]) -> f64,
-) -> Interval {
-    let n = rows.len() as f64;
-    let columns = rows.first().map_or(0, Vec::len);
-    let sums: Vec<f64> = (0..columns).map(|c| rows.iter().map(|row| row[c]).sum()).collect();
-    let of_all = statistic(&sums.iter().map(|s| s / n).collect::<Vec<_>>());
-    let Some(t) = t_quantile_for(rows.len(), miss_probability) else {
-        return Interval { value: of_all, half_width: None };
-    };
-    let mut without = vec![0.0; columns];
-    let pseudo_values: Vec<f64> = rows
-        .iter()
-        .map(|row| {
-            for (mean, (sum, value)) in without.iter_mut().zip(sums.iter().zip(row)) {
-                *mean = (sum - value) / (n - 1.0);
-            }
-            n * of_all - (n - 1.0) * statistic(&without)
-        })
-        .collect();
-    Interval::of_mean(pseudo_values.into_iter(), Some(t))
 }
 
 /// The value that |T| exceeds with probability `miss_probability`, T having Student's t
@@ -136,7 +107,6 @@ fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use quasilux_sampling::{PointSet, Randomization, Sequence};
 
     /// Two-sided quantiles as printed in Abramowitz and Stegun (1964), table 26.10.
     #[test]
@@ -153,35 +123,5 @@ mod tests {
             let got = student_t_quantile(degrees, miss);
             assert!((got - wanted).abs() < 6e-4, "{degrees} degrees, {miss}: {got}");
         }
-    }
-
-    #[test]
-    fn a_mean_by_jackknife_is_the_mean() {
-        let rows: Vec<Vec<f64>> = [3.0, 5.0, 4.0, 8.0].iter().map(|&x| vec![x, 2.0 * x]).collect();
-        let average = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
-        let got = jackknife(&rows, 0.05, average);
-        let t = t_quantile_for(4, 0.05);
-        let wanted = Interval::of_mean([4.5, 7.5, 6.0, 12.0].into_iter(), t);
-        assert!((got.value - wanted.value).abs() < 1e-12);
-        assert!((got.half_width.unwrap() - wanted.half_width.unwrap()).abs() < 1e-12);
-    }
-
-    /// The minimum of n equal noisy means is low by c s / sqrt(R); the jackknife takes part of it.
-    #[test]
-    fn the_bias_of_a_noisy_minimum_shrinks() {
-        let points = PointSet::new(Sequence::Random, Randomization::None, 5);
-        let noise = |i: u32| points.coordinate(u64::from(i), 0) - 0.5;
-        let minimum = |v: &[f64]| v.iter().copied().fold(f64::INFINITY, f64::min);
-        let (mut plain, mut corrected) = (0.0, 0.0);
-        for run in 0..1000 {
-            let rows: Vec<Vec<f64>> = (0..16)
-                .map(|r| (0..5).map(|p| 10.0 + noise(run * 1000 + r * 31 + p)).collect())
-                .collect();
-            let means: Vec<f64> =
-                (0..5).map(|p| rows.iter().map(|row| row[p]).sum::<f64>() / 16.0).collect();
-            plain += (minimum(&means) - 10.0) / 1000.0;
-            corrected += (jackknife(&rows, 0.05, minimum).value - 10.0) / 1000.0;
-        }
-        assert!(plain < -0.03 && corrected.abs() < 0.7 * plain.abs(), "{plain} {corrected}");
     }
 }

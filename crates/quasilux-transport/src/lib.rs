@@ -7,7 +7,8 @@
 //! A run can be kept and gone on with ([`resume`]), or cut into parts and put together ([`trace_part`],
 //! [`merge`]), to the same bits.
 //!
-//! Read on at `simulate` for the loop over checkpoints, at `photon` and `path` for the two ways
+//! Read on at `simulate` for the loop over checkpoints, at `looks` and `lowest` for why its intervals are
+//! true, at `convergence` for what is foreseen, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
 //! `steering` for how they are split on their way, at `first_shot` for when
 //! they need not leave a light, at `path_wave` and `shadow` for how paths do, at `map` and `join` for where
@@ -15,6 +16,7 @@
 
 mod bsdf;
 mod check;
+pub mod convergence;
 mod counting;
 pub mod estimates;
 pub mod explain;
@@ -25,6 +27,8 @@ mod grid_plane;
 pub mod interval;
 mod join;
 mod lights;
+mod looks;
+mod lowest;
 mod map;
 pub mod observer;
 mod order;
@@ -51,12 +55,14 @@ mod state;
 mod steering;
 mod tally;
 mod targets;
+mod tolerance;
 pub mod trial;
 mod vertex;
 mod watch;
 mod world;
 
 pub use check::{CheckError, check};
+pub use convergence::Convergence;
 pub use estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates};
 pub use explain::{Explanation, explain};
 pub use interval::Interval;
@@ -64,6 +70,6 @@ pub use observer::{Control, Observer, Progress, Snapshot};
 pub use parts::{MergeError, decide, merge, trace_part};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
-pub use settings::{Estimator, Reconstruction, Settings, Switch};
+pub use settings::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
 pub use simulate::{resume, simulate};
 pub use state::{Decisions, StateError};

@@ -24,6 +24,10 @@ pub struct Progress {
     pub samples: u64,
     /// Largest half-width over value among all sensor points at the last checkpoint.
     pub largest_relative_half_width: Option<f64>,
+    /// Measured exponent of N in half-widths at the last checkpoint.
+    pub slope: Option<f64>,
+    /// Indices per replicate at which the run is expected to end.
+    pub expected_samples: Option<u64>,
     /// Share in [0, 1] of the expected work that is done, `None` while nothing is known.
     pub done: Option<f64>,
 }

@@ -88,7 +88,6 @@ fn trace<S: Spectrum>(
     let mut estimation = estimation(&stage, scene, settings, watch);
     // There is no checkpoint before the end, and so no result if it is stopped.
     watch.obey();
-    watch.expect(samples, Some(samples));
     let mut out = Writer::default();
     out.bytes(&estimation.decisions().digest);
     if !estimation.trace_part(part, samples, watch) {

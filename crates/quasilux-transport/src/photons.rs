@@ -100,7 +100,7 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
         let (photons, rays) = (of_round.emitted, of_round.rays);
         counts += of_round;
         watch.show(|| look(counts.emitted));
-        if !watch.tick(photons, 0, rays, done as f64 / waves as f64) {
+        if !watch.tick(photons, 0, rays) {
             return None;
         }
     }

@@ -67,6 +67,31 @@ impl Switch {
     }
 }
 
+/// What has to reach the tolerance: a closed set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToleranceOn {
+    /// The illuminance at every sensor point.
+    #[default]
+    Points,
+    /// The average of every sensor.
+    Summary,
+}
+
+impl ToleranceOn {
+    /// All of them with their names in project files and on the command line.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("points", Self::Points), ("summary", Self::Summary)];
+
+    /// The name in project files, on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Points => "points",
+            Self::Summary => "summary",
+        }
+    }
+}
+
 /// What a simulation is asked to do. No field refers to threads or time: the result is a function
 /// of the scene and this.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,8 +103,13 @@ pub struct Settings {
     pub sequence: Sequence,
     /// How replicates are made independent.
     pub randomization: Randomization,
-    /// Wanted half-width of the interval over the value, for each sensor point; 0 asks for no stop.
+    /// Wanted half-width of the interval over the value; 0 where none is wanted.
     pub rel_tol: f64,
+    /// Half-width in lx that is enough whatever the value; 0 where none is. Without either tolerance
+    /// nothing but a limit ends the run.
+    pub abs_tol_lx: f64,
+    /// What has to reach the tolerance.
+    pub tolerance_on: ToleranceOn,
     /// Confidence level of all intervals, in (0, 1).
     pub confidence: f64,
     /// Number of independent randomisations; 1 leaves results without intervals.
@@ -95,6 +125,9 @@ pub struct Settings {
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
     pub max_samples: Option<u64>,
+    /// Limit on the number of rays: the run ends with the last checkpoint, past the first, that takes no
+    /// more.
+    pub max_rays: Option<u64>,
     /// Whether photons for the illumination map leave lit places instead of point-like lights, where
     /// there are any and not too many facets times lights.
     pub first_shot: Switch,
@@ -121,6 +154,18 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Whether there is a tolerance to reach.
+    #[must_use]
+    pub fn has_tolerance(&self) -> bool {
+        self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
+    }
+
+    /// The half-width in lx that is enough for this value.
+    #[must_use]
+    pub fn tolerance_lx(&self, value_lx: f64) -> f64 {
+        (self.rel_tol * value_lx.abs()).max(self.abs_tol_lx)
+    }
+
     /// The number of replicates that differ: one where nothing is randomised.
     #[must_use]
     pub fn effective_replicates(&self) -> u32 {
@@ -138,12 +183,15 @@ impl Default for Settings {
             sequence: Sequence::Sobol,
             randomization: Randomization::Owen,
             rel_tol: 0.01,
+            abs_tol_lx: 0.0,
+            tolerance_on: ToleranceOn::Points,
             confidence: 0.95,
             replicates: 16,
             seed: 1,
             max_bounces: None,
             list_terms: 0,
             max_samples: None,
+            max_rays: None,
             first_shot: Switch::Auto,
             map_element_m: None,
             map_elements: 1 << 22,

@@ -4,7 +4,7 @@ use crate::check::{caveats, is_biased};
 use crate::counting::Counting;
 use crate::estimates::Estimates;
 use crate::gathering::Gathering;
-use crate::interval::Interval;
+use crate::looks::miss_probability_of_a_look;
 use crate::observer::{Control, Observer};
 use crate::pixels::add_pictures;
 use crate::schedule::Schedule;
@@ -12,16 +12,14 @@ use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::state::{Course, Decisions, Reader, StateError, Writer};
+use crate::tolerance::Standing;
 use crate::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
 
-/// Paths or photons, all replicates together, that a point where nothing is found gets before a
-/// run may end without it.
-const LEAST_TRIES: f64 = (1 << 14) as f64;
-
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
-/// first, or the observer stops it; at least up to the first checkpoint. Then takes the pictures of the
+/// first, or the observer stops it; at least up to the first checkpoint. A point that is done before the
+/// others gets no more samples: what it has then is what it would have, were this the end. Then takes the pictures of the
 /// cameras, with a fixed number of paths a pixel.
 ///
 /// The result is a function of scene and settings, whatever the number of threads; an observer
@@ -101,6 +99,12 @@ pub(crate) trait Estimation {
     /// What is known now. Settings, intervals and warnings are filled in by the caller.
     fn estimates(&self) -> Estimates;
 
+    /// Leaves it at that for the targets that are `done`, and samples the others alone from now on; `false`
+    /// where samples are for all targets.
+    fn settle(&mut self, _done: &[bool]) -> bool {
+        false
+    }
+
     /// Indices per replicate of the first checkpoint: enough to plan by, little work.
     fn first_checkpoint(&self) -> u64;
 }
@@ -128,22 +132,24 @@ fn run<S: Spectrum>(
 ) -> Result<Estimates, StateError> {
     let stage = Stage::<S>::new(scene, settings);
     let mut watch = Watch::new(observer);
+    watch.limit_rays(settings.max_rays);
     let mut estimation = estimation(&stage, scene, settings, &mut watch);
     let first = estimation.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
-    let mut course = Course::new(Schedule::new(1.0 - settings.confidence, first, limit));
+    let mut course = Course::new(Schedule::new(first, limit));
     let digest = estimation.decisions().digest;
     if let Some(state) = state {
         let mut from = Reader::new(state);
         if from.bytes(digest.len())? != digest {
             return Err(StateError::Decisions);
         }
-        course.read(scene, &mut from)?;
+        course.read(scene, settings, &mut from)?;
+        watch.read(&mut from)?;
         estimation.take_in(course.schedule.next_checkpoint(), &mut from)?;
         from.end()?;
         if let Some(last) = &course.last {
-            watch.begin_at(last.samples, Convergence::of(last).largest);
+            watch.begin_at(last, Standing::of(last, settings).largest());
         }
     }
     let preface = |course: &Course, watch: &mut Watch<'_>| {
@@ -155,21 +161,32 @@ fn run<S: Spectrum>(
     preface(&course, &mut watch);
     // The observer has a state before the first sample, too.
     let _ = watch.keep(|out| estimation.put(out));
+    // Part of a set whose number of points is fixed would leave part of its lights out.
+    let may_end = settings.sequence.points().is_none();
+    let mut miss_probability = 1.0 - settings.confidence;
+    if may_end && settings.has_tolerance() {
+        let replicates = settings.effective_replicates();
+        miss_probability = miss_probability_of_a_look(miss_probability, replicates);
+    }
     while !course.over {
-        let samples = course.schedule.next_checkpoint();
-        watch.expect(samples, course.schedule.expected_end());
-        if !estimation.advance(samples, &mut watch) {
+        let foretold = course.last.as_ref().and_then(|estimates| estimates.convergence.rays);
+        watch.expect(foretold);
+        if !estimation.advance(course.schedule.next_checkpoint(), &mut watch) {
             break;
         }
-        let miss_probability = course.schedule.miss_probability();
-        let (estimates, convergence) =
+        let (mut estimates, standing) =
             look(&stage, scene, settings, estimation.as_ref(), miss_probability);
-        let excess = convergence.excess(&estimates, settings);
-        // Part of a set whose number of points is fixed would leave part of its lights out.
-        let may_end = settings.sequence.points().is_none();
-        course.over = course.schedule.complete(excess.filter(|_| may_end));
-        let control = watch.checkpoint(&estimates, convergence.largest);
+        let is_look = may_end && course.schedule.is_look();
+        let is_enough = is_look && standing.may_end;
+        if is_look && !is_enough {
+            course.is_adaptive = estimation.settle(&standing.done);
+        }
+        let is_adaptive = course.is_adaptive;
+        estimates.convergence =
+            course.history.record(&estimates, (&standing, is_adaptive), &course.schedule, settings);
+        let control = watch.checkpoint(&estimates, standing.largest());
         course.last = Some(estimates);
+        course.over = is_enough || !course.schedule.advance();
         preface(&course, &mut watch);
         let goes_on = watch.keep(|out| estimation.put(out));
         if control == Control::Stop || !goes_on {
@@ -182,14 +199,14 @@ fn run<S: Spectrum>(
     Ok(estimates)
 }
 
-/// What is known at a checkpoint, and how near it is to the tolerance.
+/// What is known at a checkpoint, and how all targets stand there.
 pub(crate) fn look<S: Spectrum>(
     stage: &Stage<'_, S>,
     scene: &Scene,
     settings: &Settings,
     estimation: &(dyn Estimation + '_),
     miss_probability: f64,
-) -> (Estimates, Convergence) {
+) -> (Estimates, Standing) {
     let mut estimates = estimation.estimates();
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
@@ -203,48 +220,11 @@ pub(crate) fn look<S: Spectrum>(
              density: it is blurred over about the length of a map element, and missing on rough surfaces"
         ));
     }
-    let convergence = Convergence::of(&estimates);
-    estimates.unresolved_points = convergence.unresolved;
+    let standing = Standing::of(&estimates, settings);
+    estimates.unresolved_points = standing.unresolved;
     estimates.warnings.extend(warnings_of_values(&estimates));
-    let excess = convergence.excess(&estimates, settings);
-    estimates.tolerance_reached =
-        excess.is_some_and(|excess| excess <= 1.0) && convergence.unresolved == 0;
-    (estimates, convergence)
-}
-
-/// How near a run is to its tolerance.
-pub(crate) struct Convergence {
-    /// The largest half-width over value among the points that have one; `None` without any.
-    largest: Option<f64>,
-    /// Points where nothing was found yet.
-    unresolved: u64,
-}
-
-impl Convergence {
-    fn of(estimates: &Estimates) -> Self {
-        let mut convergence = Self { largest: None, unresolved: 0 };
-        for (sensor, figures) in estimates.sensors.iter().enumerate() {
-            let unresolved = figures.resolved.iter().filter(|resolved| !**resolved).count();
-            convergence.unresolved += unresolved as u64;
-            let intervals = estimates.point_intervals(sensor);
-            let widths = intervals.iter().filter_map(Interval::relative_half_width);
-            convergence.largest =
-                widths.chain(convergence.largest).reduce(|a, b| if a > b { a } else { b });
-        }
-        convergence
-    }
-
-    /// Half-width over tolerance; `None` where there is no tolerance or no half-width. Points where
-    /// nothing was found hold a run up until they had a fair chance, not for ever.
-    fn excess(&self, estimates: &Estimates, settings: &Settings) -> Option<f64> {
-        if settings.rel_tol <= 0.0 || settings.effective_replicates() < 2 {
-            return None;
-        }
-        let resolved = self.largest.unwrap_or(0.0) / settings.rel_tol;
-        let tried = estimates.samples as f64 * f64::from(settings.effective_replicates());
-        let hold_up = (LEAST_TRIES / tried).sqrt();
-        Some(if self.unresolved > 0 && hold_up > 1.0 { resolved.max(hold_up) } else { resolved })
-    }
+    estimates.tolerance_reached = standing.is_reached;
+    (estimates, standing)
 }
 
 /// What a reader must know of the values of this checkpoint.

@@ -2,16 +2,17 @@
 
 use crate::estimates::Estimates;
 use crate::observer::{Control, Observer, Progress, Snapshot};
-use crate::state::Writer;
+use crate::state::{Reader, StateError, Writer};
 use std::ops::Range;
 
 /// Tells the observer how far a run is, and remembers whether it said stop.
 pub(crate) struct Watch<'o> {
     observer: &'o mut dyn Observer,
     progress: Progress,
-    /// Expected work at the coming checkpoint and at the end, in indices per replicate.
-    coming: u64,
-    end: Option<u64>,
+    /// Rays expected in all.
+    expected_rays: Option<u64>,
+    /// Rays allowed after the first checkpoint.
+    max_rays: u64,
     /// Photons or paths between states that the observer may want.
     piece: Option<u64>,
     /// What a state begins with: all that does not change before the next checkpoint.
@@ -30,11 +31,14 @@ impl<'o> Watch<'o> {
             rays: 0,
             samples: 0,
             largest_relative_half_width: None,
+            slope: None,
+            expected_samples: None,
             done: None,
         };
         let (piece, preface) = (observer.piece(), Vec::new());
+        let (expected_rays, max_rays) = (None, u64::MAX);
         let (obeys, stopped) = (false, false);
-        Self { observer, progress, coming: 0, end: None, piece, preface, obeys, stopped }
+        Self { observer, progress, expected_rays, max_rays, piece, preface, obeys, stopped }
     }
 
     /// A range of indices, each of so many photons or paths, in pieces between which states are kept; in
@@ -67,22 +71,37 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// After a piece: gives the observer the state, if it wants it, and says whether to go on.
+    /// After a piece: gives the observer the state, if it wants it, with the work so far before what is put
+    /// out, and says whether to go on.
     #[must_use]
     pub(crate) fn keep(&mut self, put: impl FnOnce(&mut Writer)) -> bool {
         if self.piece.is_some() && self.observer.wants_state() {
             let mut out = Writer::behind(&self.preface);
+            let Progress { photons, paths, rays, .. } = self.progress;
+            [photons, paths, rays].into_iter().for_each(|count| out.u64(count));
             put(&mut out);
             self.observer.state(&out.finish());
         }
         !self.stopped
     }
 
-    /// Begins where another run was at its last checkpoint.
-    pub(crate) fn begin_at(&mut self, samples: u64, largest: Option<f64>) {
-        self.progress.samples = samples;
-        self.progress.largest_relative_half_width = largest;
+    /// Begins with the work that another run had done.
+    pub(crate) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        let Progress { photons, paths, rays, .. } = &mut self.progress;
+        for count in [photons, paths, rays] {
+            *count = from.u64()?;
+        }
+        Ok(())
+    }
+
+    /// Knows of the last checkpoint.
+    pub(crate) fn begin_at(&mut self, estimates: &Estimates, largest: Option<f64>) {
         self.obeys = true;
+        self.progress.samples = estimates.samples;
+        self.progress.rays = self.progress.rays.max(estimates.rays);
+        self.progress.slope = estimates.convergence.slope;
+        self.progress.expected_samples = estimates.convergence.samples;
+        self.progress.largest_relative_half_width = largest;
     }
 
     /// Lets the observer stop the run from here on: by itself it may after the first checkpoint.
@@ -90,9 +109,14 @@ impl<'o> Watch<'o> {
         self.obeys = true;
     }
 
-    /// Says where the next checkpoint and the expected end lie.
-    pub(crate) fn expect(&mut self, coming: u64, end: Option<u64>) {
-        (self.coming, self.end) = (coming, end);
+    /// Ends the run, past its first checkpoint, rather than trace more rays.
+    pub(crate) fn limit_rays(&mut self, max_rays: Option<u64>) {
+        self.max_rays = max_rays.unwrap_or(u64::MAX);
+    }
+
+    /// Says how many rays the whole run is expected to take.
+    pub(crate) fn expect(&mut self, rays: Option<u64>) {
+        self.expected_rays = rays;
     }
 
     /// Shows a moment of the run, if the observer wants to see it and there is something to see.
@@ -104,36 +128,35 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// Counts work; `share` of the way to the coming checkpoint is done. Whether to go on: before
-    /// the first checkpoint always, and to the end of a piece after which a state can be kept.
+    /// Counts work. Whether to go on: before the first checkpoint always, and to the end of a piece
+    /// after which a state can be kept, unless there are too many rays, which no state may hold.
     #[must_use]
-    pub(crate) fn tick(&mut self, photons: u64, paths: u64, rays: u64, share: f64) -> bool {
-        self.progress.photons += photons;
-        self.progress.paths += paths;
-        self.progress.rays += rays;
-        let before = self.progress.samples as f64;
-        self.progress.done = self.end.map(|end| {
-            let now = before + (self.coming as f64 - before) * share;
-            (now / end as f64).clamp(0.0, 1.0)
-        });
+    pub(crate) fn tick(&mut self, photons: u64, paths: u64, rays: u64) -> bool {
+        let so_far = &mut self.progress;
+        // What a damaged state says may be any number.
+        so_far.photons = so_far.photons.saturating_add(photons);
+        so_far.paths = so_far.paths.saturating_add(paths);
+        so_far.rays = so_far.rays.saturating_add(rays);
+        let share = |rays: u64| (self.progress.rays as f64 / rays.max(1) as f64).clamp(0.0, 1.0);
+        self.progress.done = self.expected_rays.map(share);
         let control = self.observer.progress(&self.progress);
         self.stopped = control == Control::Stop && self.obeys;
-        !self.stopped || self.piece.is_some()
+        let is_within_limit = self.progress.rays <= self.max_rays || self.progress.samples == 0;
+        is_within_limit && (!self.stopped || self.piece.is_some())
     }
 
     /// Counts the work at a picture, of whose pass a share is done. Whether to go on.
     #[must_use]
     pub(crate) fn tick_picture(&mut self, paths: u64, rays: u64, share: f64) -> bool {
-        self.progress.paths += paths;
-        self.progress.rays += rays;
+        self.progress.paths = self.progress.paths.saturating_add(paths);
+        self.progress.rays = self.progress.rays.saturating_add(rays);
         self.progress.done = Some(share);
-        self.observer.progress(&self.progress) == Control::Continue
+        let may_go_on = self.progress.rays <= self.max_rays;
+        self.observer.progress(&self.progress) == Control::Continue && may_go_on
     }
 
     pub(crate) fn checkpoint(&mut self, estimates: &Estimates, largest: Option<f64>) -> Control {
-        self.obeys = true;
-        self.progress.samples = estimates.samples;
-        self.progress.largest_relative_half_width = largest;
+        self.begin_at(estimates, largest);
         self.observer.checkpoint(estimates)
     }
 }

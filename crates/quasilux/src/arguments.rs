@@ -28,7 +28,7 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Run the cases of validation/ against their closed forms; exit code 1 when one fails
     Validate(ValidateArguments),
-    /// Repeat one of the experiments of the paper
+    /// Repeat one of the experiments of the paper, or one of our own; exit code 1 when what it checks fails
     Experiment(ExperimentArguments),
     /// Print or draw points of a sequence, or compare all sequences
     Points(PointsArguments),
@@ -98,12 +98,24 @@ pub(crate) struct SimulationArguments {
     /// Wanted half-width of the interval over the value, like 1% or 0.01
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(crate) rel_tol: Option<f64>,
+    /// Half-width in lx that is enough whatever the value, like 0.5 or 0.5lx
+    #[arg(long, value_name = "LUX", value_parser = illuminance)]
+    pub(crate) abs_tol: Option<f64>,
+    /// What has to reach the tolerance: points, or summary for the averages alone
+    #[arg(long, value_name = "NAME")]
+    pub(crate) tolerance_on: Option<String>,
+    /// Confidence level of the intervals, like 95% or 0.99
+    #[arg(long, value_name = "SHARE", value_parser = level)]
+    pub(crate) confidence: Option<f64>,
     /// Stop after this time, like 60s, 5m or 1.5h, at the last completed checkpoint
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
     /// Stop after this many indices per replicate: photons, and paths for each sensor point
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 48))]
     pub(crate) samples: Option<u64>,
+    /// Stop before more rays are traced, at the last completed checkpoint
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) rays: Option<u64>,
     /// photon, path, bidirectional or bidirectional-map
     #[arg(long, value_name = "NAME")]
     pub(crate) estimator: Option<String>,
@@ -135,7 +147,10 @@ pub(crate) struct ExperimentArguments {
     /// Largest number of photons or points compared [default: the experiment's own]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(64..=1 << 30))]
     pub(crate) max_n: Option<u64>,
-    /// Seed of all randomisations
+    /// Runs of each setup, where the experiment has such [default: the experiment's own]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) seeds: Option<u32>,
+    /// Seed of all randomisations; the first one where there are several
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
 }
@@ -156,6 +171,21 @@ fn share(text: &str) -> Result<f64, String> {
     share
         .filter(|share| *share > 0.0 && *share <= 1.0)
         .ok_or_else(|| "expected a share above 0 and up to 1, like 1% or 0.01".to_owned())
+}
+
+/// A share in (0, 1).
+fn level(text: &str) -> Result<f64, String> {
+    let below_one = share(text).ok().filter(|level| *level < 1.0);
+    below_one.ok_or_else(|| "expected a share between 0 and 1, like 95% or 0.99".to_owned())
+}
+
+/// A positive illuminance in lx.
+fn illuminance(text: &str) -> Result<f64, String> {
+    let number = text.strip_suffix("lx").unwrap_or(text).trim().parse::<f64>();
+    number
+        .ok()
+        .filter(|lx| *lx > 0.0 && lx.is_finite())
+        .ok_or_else(|| "expected an illuminance above 0, like 0.5 or 0.5lx".to_owned())
 }
 
 /// A positive time in seconds, minutes or hours; seconds where no unit is given.
@@ -190,6 +220,11 @@ mod tests {
         assert_eq!(share("0.02"), Ok(0.02));
         for bad in ["0", "-1%", "101%", "x", "", "%", "nan", "inf"] {
             assert!(share(bad).is_err(), "{bad}");
+        }
+        assert_eq!((level("99%"), illuminance("0.5 lx")), (Ok(0.99), Ok(0.5)));
+        assert!(level("1").is_err() && level("100%").is_err());
+        for bad in ["0", "-1lx", "lx", "inf", "nan", "1 fc"] {
+            assert!(illuminance(bad).is_err(), "{bad}");
         }
         assert_eq!(duration("90"), Ok(Duration::from_secs(90)));
         assert_eq!(duration("1.5h"), Ok(Duration::from_secs(5400)));

@@ -6,7 +6,7 @@ use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
-use quasilux_transport::{Estimator, Reconstruction, Settings, Switch};
+use quasilux_transport::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -106,16 +106,30 @@ pub(crate) fn settings(
         let known = names::sequences(arguments.samples);
         settings.sequence = names::on_command_line("--sequence", name, &known)?;
     }
-    if settings.sequence.points().is_some() && arguments.time.is_some() {
+    let limit = [("--time", arguments.time.is_some()), ("--rays", arguments.rays.is_some())];
+    if let (Some(_), Some((limit, _))) =
+        (settings.sequence.points(), limit.into_iter().find(|(_, is_given)| *is_given))
+    {
         return Err(Refusal::new(format!(
-            "{} fills its first dimension with all of --samples: --time cannot end it before",
+            "{} fills its first dimension with all of --samples: {limit} cannot end it before",
             settings.sequence.name()
         )));
     }
     let placed = |at: &Option<quasilux_scene::Placed<f64>>| at.as_ref().map(|at| at.value);
     let defaults = Settings::default();
     settings.rel_tol = arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
-    settings.confidence = placed(&section.confidence).unwrap_or(defaults.confidence);
+    settings.abs_tol_lx =
+        arguments.abs_tol.or(placed(&section.abs_tol_lx)).unwrap_or(defaults.abs_tol_lx);
+    if let Some(name) = &section.tolerance_on {
+        let known = &ToleranceOn::NAMES;
+        settings.tolerance_on = names::in_project(section, "tolerance_on", name, known)?;
+    }
+    if let Some(name) = &arguments.tolerance_on {
+        let known = &ToleranceOn::NAMES;
+        settings.tolerance_on = names::on_command_line("--tolerance-on", name, known)?;
+    }
+    settings.confidence =
+        arguments.confidence.or(placed(&section.confidence)).unwrap_or(defaults.confidence);
     if let Some(name) = &section.first_shot {
         let known = &Switch::NAMES;
         settings.first_shot = names::in_project(section, "first shot", name, known)?;
@@ -136,13 +150,15 @@ pub(crate) fn settings(
     settings.max_bounces = section.max_bounces.as_ref().and_then(|at| at.value);
     settings.list_terms = section.list_terms.as_ref().map_or(0, |at| at.value);
     settings.max_samples = arguments.samples;
+    settings.max_rays = arguments.rays;
     if settings.effective_replicates() < 2
         && arguments.samples.is_none()
         && arguments.time.is_none()
+        && arguments.rays.is_none()
     {
         return Err(Refusal::new(format!(
-            "{}: one replicate gives no interval, so no tolerance can end the run: give --samples \
-             or --time, or ask for more replicates and a randomization",
+            "{}: one replicate gives no interval, so no tolerance can end the run: give --samples, \
+             --rays or --time, or ask for more replicates and a randomization",
             project.name
         )));
     }

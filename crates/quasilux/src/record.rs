@@ -3,7 +3,7 @@
 use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
-use quasilux_transport::{Estimator, Reconstruction, Settings, Switch};
+use quasilux_transport::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
 use serde::{Deserialize, Serialize};
 
 /// All settings, by the names and in the units of the project file.
@@ -14,12 +14,15 @@ pub(crate) struct SettingsRecord {
     sequence: String,
     randomization: String,
     rel_tol: f64,
+    abs_tol_lx: f64,
+    tolerance_on: String,
     confidence: f64,
     replicates: u32,
     seed: u64,
     max_bounces: Option<u32>,
     list_terms: u32,
     samples: Option<u64>,
+    rays: Option<u64>,
     first_shot: String,
     map_element_m: Option<f64>,
     map_elements: u64,
@@ -37,12 +40,15 @@ impl SettingsRecord {
             sequence,
             randomization,
             rel_tol,
+            abs_tol_lx,
+            tolerance_on,
             confidence,
             replicates,
             seed,
             max_bounces,
             list_terms,
             max_samples,
+            max_rays,
             first_shot,
             map_element_m,
             map_elements,
@@ -57,12 +63,15 @@ impl SettingsRecord {
             sequence: sequence.name().to_owned(),
             randomization: randomization.name().to_owned(),
             rel_tol,
+            abs_tol_lx,
+            tolerance_on: tolerance_on.name().to_owned(),
             confidence,
             replicates,
             seed,
             max_bounces,
             list_terms,
             samples: max_samples,
+            rays: max_rays,
             first_shot: first_shot.name().to_owned(),
             map_element_m,
             map_elements,
@@ -83,9 +92,12 @@ impl SettingsRecord {
         let is_length = |x: f64| x > 0.0 && x.is_finite();
         let in_range = is_share(self.confidence)
             && (0.0..=1.0).contains(&self.rel_tol)
+            && self.abs_tol_lx >= 0.0
+            && self.abs_tol_lx.is_finite()
             && self.replicates > 0
             && self.map_elements > 0
             && self.samples.is_none_or(|samples| samples > 0)
+            && self.rays.is_none_or(|rays| rays > 0)
             && self.map_element_m.is_none_or(is_length);
         if !in_range {
             return Err(Refusal::new(format!("{file}: its settings are out of range")));
@@ -95,12 +107,15 @@ impl SettingsRecord {
             sequence: named(file, &self.sequence, &names::sequences(self.samples))?,
             randomization: named(file, &self.randomization, &Randomization::NAMES)?,
             rel_tol: self.rel_tol,
+            abs_tol_lx: self.abs_tol_lx,
+            tolerance_on: named(file, &self.tolerance_on, &ToleranceOn::NAMES)?,
             confidence: self.confidence,
             replicates: self.replicates,
             seed: self.seed,
             max_bounces: self.max_bounces,
             list_terms: self.list_terms,
             max_samples: self.samples,
+            max_rays: self.rays,
             first_shot: named(file, &self.first_shot, &Switch::NAMES)?,
             map_element_m: self.map_element_m,
             map_elements: self.map_elements,
@@ -125,6 +140,10 @@ mod tests {
             max_samples: Some(77),
             seed: u64::MAX,
             rel_tol: 0.1 + 0.2,
+            abs_tol_lx: 0.7,
+            tolerance_on: ToleranceOn::Summary,
+            confidence: 0.99,
+            max_rays: Some(1 << 60),
             map_element_m: Some(1.0 / 3.0),
             joining: Switch::Off,
             ..Settings::default()

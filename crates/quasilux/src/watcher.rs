@@ -161,12 +161,13 @@ impl Observer for Watcher {
     }
 }
 
-/// Photons, paths, rays a second, the largest relative half-width, and the time left.
+/// Photons, paths, rays a second, the largest relative half-width and how it shrinks, and the time left.
 fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     let rays_per_s = progress.rays as f64 / elapsed_s.max(1e-3);
     let width = progress
         .largest_relative_half_width
         .map_or_else(|| "±?".to_owned(), |width| format!("±{:.2} %", 100.0 * width));
+    let slope = progress.slope.map_or_else(String::new, |slope| format!(" ~ N^{slope:.2}"));
     let left = match done {
         Some(done) if done > 0.01 => {
             format!("{:.0} s left", elapsed_s * (1.0 - done) / done)
@@ -174,7 +175,7 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
         _ => "? s left".to_owned(),
     };
     format!(
-        "{} photons, {} paths, {:.2} M rays/s, {width}, {left}",
+        "{} photons, {} paths, {:.2} M rays/s, {width}{slope}, {left}",
         count(progress.photons),
         count(progress.paths),
         rays_per_s * 1e-6,

@@ -7,21 +7,24 @@
 //! each point and `average_terms_lx` in each summary, the last of them with `"bounces": "rest"`; in
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
-//! run repeatable (`scene_sha256`, `randomization`, `seed`, `rel_tol`, `max_bounces`, `map_element_m`,
+//! run repeatable (`scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
 //! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`, `joining`, `first_shot`),
-//! `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
-//! coordinates, in one list each, all of more than 1023 together at its end. Where it was asked for,
+//! `prediction` (see [`prediction`]), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
+//! coordinates, in one list each, all of more than 1023 together at its end. A point that reached its
+//! tolerance before others has its own number of `samples`. Where it was asked for,
 //! `explain` says which coordinates carry the variance.
 
 mod camera;
 mod explanation;
 mod layout;
+mod prediction;
 mod terms;
 
 use crate::{Figure, Report, Run, SensorReport};
 use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
+use prediction::PredictionEntry;
 use quasilux_transport::DimensionHistogram;
 use serde::{Serialize, Serializer};
 use terms::TermEntry;
@@ -78,6 +81,8 @@ struct PointEntry {
     illuminance_lx: Option<f64>,
     half_width_lx: Option<f64>,
     direct_lx: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     terms_lx: Vec<TermEntry>,
 }
@@ -116,7 +121,10 @@ struct RunEntry<'a> {
     confidence: f64,
     #[serde(serialize_with = "finite_or_null")]
     rel_tol: f64,
+    abs_tol_lx: f64,
+    tolerance_on: &'static str,
     tolerance_reached: bool,
+    prediction: PredictionEntry,
     max_bounces: Option<u32>,
     #[serde(skip_serializing_if = "is_zero")]
     list_terms: u32,
@@ -159,7 +167,7 @@ impl<'a> Document<'a> {
         Self {
             format: FORMAT,
             biased: report.biased,
-            sensors: report.sensors.iter().map(SensorEntry::of).collect(),
+            sensors: report.sensors.iter().map(|s| SensorEntry::of(s, &report.run)).collect(),
             cameras: report.cameras.iter().map(CameraEntry::of).collect(),
             run: RunEntry::of(&report.run),
             explain: report.explanation.as_ref().map(ExplanationEntry::of),
@@ -169,19 +177,19 @@ impl<'a> Document<'a> {
 }
 
 impl<'a> SensorEntry<'a> {
-    fn of(sensor: &'a SensorReport) -> Self {
+    fn of(sensor: &'a SensorReport, run: &Run) -> Self {
         Self {
             name: &sensor.name,
             kind: if sensor.grid.is_some() { "grid" } else { "points" },
             counts: sensor.grid.map(|grid| grid.counts),
-            points: (0..sensor.points.len()).map(|point| PointEntry::of(sensor, point)).collect(),
+            points: (0..sensor.points.len()).map(|p| PointEntry::of(sensor, p, run)).collect(),
             summary: SummaryEntry::of(sensor),
         }
     }
 }
 
 impl PointEntry {
-    fn of(sensor: &SensorReport, number: usize) -> Self {
+    fn of(sensor: &SensorReport, number: usize, run: &Run) -> Self {
         let point = &sensor.points[number];
         Self {
             position: point.position_m.to_array(),
@@ -189,6 +197,7 @@ impl PointEntry {
             illuminance_lx: point.illuminance_lx.value,
             half_width_lx: point.illuminance_lx.half_width,
             direct_lx: point.direct_lx,
+            samples: Some(point.samples).filter(|samples| *samples != run.samples),
             terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),
         }
     }
@@ -230,7 +239,10 @@ impl<'a> RunEntry<'a> {
             threads: run.threads,
             confidence: run.confidence,
             rel_tol: run.settings.rel_tol,
+            abs_tol_lx: run.settings.abs_tol_lx,
+            tolerance_on: run.settings.tolerance_on.name(),
             tolerance_reached: run.tolerance_reached,
+            prediction: PredictionEntry::of(run.convergence),
             max_bounces: run.settings.max_bounces,
             list_terms: run.settings.list_terms,
             first_shot: run.settings.first_shot.name(),

@@ -6,11 +6,13 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 19] = [
     "estimator",
     "sequence",
     "randomization",
     "rel_tol",
+    "abs_tol",
+    "tolerance_on",
     "confidence",
     "replicates",
     "seed",
@@ -49,6 +51,10 @@ pub struct SimulationSection {
     pub randomization: Option<Placed<String>>,
     /// Wanted half-width over value, in (0, 1].
     pub rel_tol: Option<Placed<f64>>,
+    /// Half-width in lx that is enough, above 0.
+    pub abs_tol_lx: Option<Placed<f64>>,
+    /// Name of what has to reach the tolerance.
+    pub tolerance_on: Option<Placed<String>>,
     /// Confidence level in (0, 1).
     pub confidence: Option<Placed<f64>>,
     /// Number of independent randomisations, at least 1.
@@ -112,6 +118,8 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         rel_tol: number("rel_tol", "a share above 0, at most 1, such as 0.01", |x| {
             x > 0.0 && x <= 1.0
         })?,
+        abs_tol_lx: number("abs_tol", "an illuminance in lx above 0", |x| x > 0.0)?,
+        tolerance_on: name("tolerance_on")?,
         confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
             x > 0.0 && x < 1.0
         })?,

@@ -70,10 +70,14 @@ impl<S: Spectrum> Gathering<'_, S> {
             // The maps have changed, and what was read from them with them.
             indices.start = self.first;
             if self.done == 0 {
-                self.sums.fill(PathSums::default());
+                let replicates = self.replicates as usize;
+                for target in &self.growing {
+                    self.sums[target * replicates..][..replicates].fill(PathSums::default());
+                }
             }
         }
-        let paths = (indices.end - indices.start) * self.sums.len() as u64;
+        let each = (indices.end - indices.start) * u64::from(self.replicates);
+        let paths = each * self.growing.len() as u64;
         for round in watch.rounds(self.done..paths, ROUND) {
             let pieces = (round.end - round.start).div_ceil(WAVE);
             let trace = |wave: &mut PathWave<S>, piece: u64| {
@@ -84,8 +88,9 @@ impl<S: Spectrum> Gathering<'_, S> {
                 (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
             let mut of_round = WorkCounts::default();
             for Piece { first, sums, work } in found {
-                for (sum, found) in self.sums[first..].iter_mut().zip(sums) {
-                    *sum += found;
+                for (number, found) in (first..).zip(sums) {
+                    let place = self.place(number);
+                    self.sums[place] += found;
                 }
                 of_round += work;
             }
@@ -93,7 +98,7 @@ impl<S: Spectrum> Gathering<'_, S> {
             self.gathered.work += of_round;
             self.done = round.end;
             watch.show(|| Some(self.snapshot(&indices, self.done)));
-            let goes_on = watch.tick(0, now, rays, self.done as f64 / paths as f64);
+            let goes_on = watch.tick(0, now, rays);
             if !goes_on || !watch.keep(|out| self.put_all(out)) {
                 return false;
             }

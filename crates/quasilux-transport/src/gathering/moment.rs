@@ -29,20 +29,26 @@ pub(super) struct Before<'g, 'a, S> {
 impl<'a, S: Spectrum> Gathering<'a, S> {
     /// What the targets show at the last checkpoint.
     pub(super) fn before(&self) -> Before<'_, 'a, S> {
-        let paths = self.samples * u64::from(self.replicates);
-        let moments = (0..self.targets.len()).map(|target| self.moment(target, paths)).collect();
+        let paths = |target: usize| self.samples_of(target) * u64::from(self.replicates);
+        let targets = 0..self.targets.len();
+        let moments = targets.map(|target| self.moment(target, paths(target))).collect();
         Before { gathering: self, moments }
     }
 
-    /// What the sensors show when `done` of the paths `indices` of all targets and replicates are over,
-    /// in the order of [`Gathering::sums`].
+    /// What the sensors show when `done` of the paths `indices` of all growing targets and replicates are
+    /// over, in the order of [`Gathering::sums`].
     pub(super) fn snapshot(&self, indices: &Range<u64>, done: u64) -> Snapshot {
         let replicates = u64::from(self.replicates);
         let each = (indices.end - indices.start) * replicates;
         let value_lx = |target: usize| {
-            let own = done.saturating_sub(target as u64 * each).min(each);
-            let moment = self.moment(target, indices.start * replicates + own);
-            moment.all_lx.or(self.last_lx[target])
+            let paths = match self.growing.binary_search(&target) {
+                Ok(rank) => {
+                    let own = done.saturating_sub(rank as u64 * each).min(each);
+                    indices.start * replicates + own
+                }
+                Err(_) => self.samples_of(target) * replicates,
+            };
+            self.moment(target, paths).all_lx.or(self.last_lx[target])
         };
         snapshot(self.scene, (0..self.targets.len()).map(value_lx))
     }

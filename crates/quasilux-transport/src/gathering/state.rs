@@ -32,6 +32,7 @@ impl<S: Spectrum> Gathering<'_, S> {
         out.u64(self.samples);
         out.u64(self.done);
         out.u64(self.joined.as_ref().map_or(0, |joined| joined.samples()));
+        self.ends.iter().for_each(|end| out.u64(end.unwrap_or(0)));
         self.served.put(out);
         self.end.put(out);
         self.hidden.iter().for_each(|hidden| hidden.put(out));
@@ -47,6 +48,9 @@ impl<S: Spectrum> Gathering<'_, S> {
         self.samples = from.u64()?;
         self.done = from.u64()?;
         let joined = from.u64()?;
+        for end in &mut self.ends {
+            *end = Some(from.u64()?).filter(|end| *end > 0);
+        }
         self.served.take_in(from)?;
         self.end.take_in(from)?;
         self.hidden.iter_mut().try_for_each(|hidden| hidden.take_in(from))?;
@@ -54,8 +58,10 @@ impl<S: Spectrum> Gathering<'_, S> {
         if let Some(own) = &mut self.joined {
             own.go_to(joined);
         }
+        self.keep_to_ends();
         let photons = self.end.photons().unwrap_or(0);
         let is_fine = self.samples.max(joined).max(photons) <= coming
+            && self.ends.iter().flatten().all(|end| *end <= self.samples)
             && self.hidden.as_ref().is_none_or(|h| h.photons() <= h.photons_for(coming));
         if is_fine { Ok(()) } else { Err(StateError::Unfit("the number of samples")) }
     }

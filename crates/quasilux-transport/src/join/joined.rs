@@ -43,6 +43,10 @@ pub(crate) struct Joined {
     replicates: Range<u32>,
     /// Indices so far.
     samples: u64,
+    /// Of each target that gets no more, the indices that it has.
+    ends: Vec<Option<u64>>,
+    /// What photons that are counted had given to each of them by then, see [`Self::coarse_parts_lx`].
+    settled: Vec<Option<Vec<f64>>>,
 }
 
 impl Joined {
@@ -72,7 +76,8 @@ impl Joined {
             let outlooks = targets.chunks(GROUP).map(look).collect();
             (outlooks, Coarse::new(cells, terms, quantum, replicates.clone()))
         });
-        let samples = 0;
+        let (samples, ends) = (0, vec![None; targets.len()]);
+        let settled = vec![None; targets.len()];
         Self {
             joining,
             targets,
@@ -84,6 +89,8 @@ impl Joined {
             rays,
             replicates,
             samples,
+            ends,
+            settled,
         }
     }
 
@@ -95,11 +102,11 @@ impl Joined {
     /// Takes it that the photons of all indices before this one are with others.
     pub(crate) fn go_to(&mut self, index: u64) {
         self.samples = index;
-        self.settle();
+        self.count();
     }
 
     /// Takes it that all sums are those of as many photons as belong to the indices so far.
-    fn settle(&mut self) {
+    fn count(&mut self) {
         if let Some((_, coarse)) = &mut self.coarse {
             coarse.settle(self.samples * self.joining.coarse_photons);
         }
@@ -128,9 +135,13 @@ impl Joined {
             counted = coarse.grow(stage, &self.joining, CERTAIN_WEIGHT, photons, watch)?;
         }
         let chunks = self.targets.chunks(GROUP).zip(self.expected_lx.chunks(GROUP));
-        for (number, ((targets, expected_lx), sums)) in (0..).zip(chunks.zip(&self.sums)) {
+        let chunks = chunks.zip(self.ends.chunks(GROUP));
+        for (number, (((targets, expected_lx), ends), sums)) in (0..).zip(chunks.zip(&self.sums)) {
+            if ends.iter().all(Option::is_some) {
+                continue;
+            }
             let outlook = self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number as usize]);
-            let group = Group { targets, expected_lx, outlook, terms: self.terms };
+            let group = Group { targets, expected_lx, outlook, ends, terms: self.terms };
             let receiver = |r: u32| {
                 let points = stage.points(r, Stream::JoinedPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
@@ -148,8 +159,27 @@ impl Joined {
             counts += trace_photons(stage, &batch, receiver, watch)?;
         }
         self.samples = samples;
-        self.settle();
+        self.count();
         Some([counts, counted])
+    }
+
+    /// Joins no more photons to targets that have an end.
+    pub(crate) fn settle(&mut self, ends: &[Option<u64>]) {
+        self.ends.copy_from_slice(ends);
+        // Photons that are counted go on to serve the others.
+        for target in 0..ends.len() {
+            if ends[target].is_some() && self.settled[target].is_none() {
+                self.settled[target] = Some(self.coarse_parts_lx(target));
+            }
+        }
+    }
+
+    /// What photons that are counted gave to a target: in each replicate all, then each term.
+    fn coarse_parts_lx(&self, target: usize) -> Vec<f64> {
+        let parts = || std::iter::once(None).chain((0..self.terms).map(Some));
+        let replicates = 0..self.replicates.len();
+        let of_replicate = |r| parts().map(move |part| self.coarse_lx(r, target, part));
+        replicates.flat_map(of_replicate).collect()
     }
 
     /// What a target got in one replicate, in lx.
@@ -162,11 +192,14 @@ impl Joined {
         // Quanta first, so that listing terms changes no bit.
         let mut sum = Sum::default();
         (0..self.terms).for_each(|term| sum += self.sum(replicate, target, term));
-        self.value_lx(sum)
+        self.value_lx(target, sum)
     }
 
     /// By photons that are counted, of one term or of all.
     pub(super) fn coarse_lx(&self, replicate: usize, target: usize, term: Option<usize>) -> f64 {
+        if let Some(parts) = &self.settled[target] {
+            return parts[replicate * (1 + self.terms) + term.map_or(0, |term| 1 + term)];
+        }
         self.coarse.as_ref().map_or(0.0, |(outlooks, coarse)| {
             coarse.lx(replicate, &outlooks[target / GROUP], target % GROUP, term)
         })
@@ -174,13 +207,14 @@ impl Joined {
 
     /// What it got of one term of the Neumann series; of the last, of all that follow too.
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
-        let fine_lx = self.value_lx(self.sum(replicate, target, term));
+        let fine_lx = self.value_lx(target, self.sum(replicate, target, term));
         fine_lx + self.coarse_lx(replicate, target, Some(term))
     }
 
-    /// What a sum means so far.
-    fn value_lx(&self, sum: Sum) -> f64 {
-        let photons = (self.samples * self.joining.photons).max(1) as f64;
+    /// What a sum of a target means so far.
+    fn value_lx(&self, target: usize, sum: Sum) -> f64 {
+        let samples = self.ends[target].unwrap_or(self.samples);
+        let photons = (samples * self.joining.photons).max(1) as f64;
         self.quantum.value(sum) / photons
     }
 
@@ -213,11 +247,22 @@ impl Stored for Joined {
         if let Some((_, coarse)) = &self.coarse {
             coarse.put(out);
         }
+        for parts in &self.settled {
+            out.option(parts.as_ref(), |out, parts| out.f64s(parts));
+        }
     }
 
     fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.sums.iter().flatten().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))?;
-        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.take_in(from))
+        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.take_in(from))?;
+        let length = self.replicates.len() * (1 + self.terms);
+        for parts in &mut self.settled {
+            *parts = from.option(Reader::f64s)?;
+            if parts.as_ref().is_some_and(|parts| parts.len() != length) {
+                return Err(StateError::Unfit("the number of terms"));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -38,6 +38,8 @@ pub(super) struct Group<'a> {
     pub(super) expected_lx: &'a [f64],
     /// What photons are taken to give by the cell they land in.
     pub(super) outlook: Option<&'a Outlook>,
+    /// Those with an end get no more.
+    pub(super) ends: &'a [Option<u64>],
     /// Terms of the Neumann series that are told apart.
     pub(super) terms: usize,
 }
@@ -182,7 +184,9 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
         let leaving = Leaving::new(self.stage, self.joining, at, weight);
         self.landings = [at.n, -at.n].map(|n| self.joining.landings(at.position, n));
         for number in 0..self.group.targets.len() {
-            self.ask(number, at, &leaving, bounces);
+            if self.group.ends[number].is_none() {
+                self.ask(number, at, &leaving, bounces);
+            }
         }
         if self.sights.len() >= RAYS {
             self.answer();

@@ -45,6 +45,8 @@ pub(crate) struct HiddenLight<S> {
     photons_per_path: u64,
     photons: u64,
     flux_lm: f64,
+    /// Of each target that gets no more, the photons of each replicate so far.
+    ends: Vec<Option<u64>>,
     /// Of the scene.
     facets: usize,
 }
@@ -97,6 +99,7 @@ struct HiddenReceiver<'a, S> {
     world: &'a World<S>,
     element_m: f64,
     receivers: &'a Receivers,
+    ends: &'a [Option<u64>],
     tally: &'a Tally,
     tells_bounces: bool,
 }
@@ -123,6 +126,7 @@ impl<S: Spectrum> HiddenLight<S> {
             photons_per_path: (targets.len() as u64 / TARGETS_PER_PHOTON).clamp(least, most),
             photons: 0,
             flux_lm: stage.lights.flux_lm,
+            ends: vec![None; targets.len()],
             facets: stage.world.facets.len(),
         })
     }
@@ -150,12 +154,12 @@ impl<S: Spectrum> HiddenLight<S> {
         end: u64,
         watch: &mut Watch<'_>,
     ) -> Option<u64> {
-        let Self { element_m, receivers, tallies, .. } = &*self;
+        let Self { element_m, receivers, tallies, ends, .. } = &*self;
         let tells_bounces = stage.max_bounces.is_some() || stage.listed_terms > 0;
         let receiver = |r: u32| {
             let tally = &tallies[r as usize];
             let (world, element_m) = (&stage.world, *element_m);
-            HiddenReceiver { world, element_m, receivers, tally, tells_bounces }
+            HiddenReceiver { world, element_m, receivers, ends, tally, tells_bounces }
         };
         let batch = PhotonBatch {
             source: Source::Lights,
@@ -193,8 +197,13 @@ impl<S: Spectrum> HiddenLight<S> {
         Ok(())
     }
 
+    /// Counts no more for targets that end with so many paths; the maps go on.
+    pub(crate) fn settle(&mut self, ends: &[Option<u64>]) {
+        self.ends = ends.iter().map(|end| end.map(|paths| self.photons_for(paths))).collect();
+    }
+
     fn read(&self, world: &World<S>, tally: &Tally) -> HiddenMap<S> {
-        let lm_per_quantum = self.lm_per_quantum();
+        let lm_per_quantum = self.lm_per_quantum(self.photons);
         let landings = tally.landings.lock().unwrap_or_else(PoisonError::into_inner);
         let illuminance_lx = landings
             .iter()
@@ -208,8 +217,13 @@ impl<S: Spectrum> HiddenLight<S> {
         HiddenMap { illuminance_lx }
     }
 
-    fn lm_per_quantum(&self) -> f64 {
-        self.flux_lm / self.photons.max(1) as f64 / QUANTA_PER_PHOTON
+    fn lm_per_quantum(&self, photons: u64) -> f64 {
+        self.flux_lm / photons.max(1) as f64 / QUANTA_PER_PHOTON
+    }
+
+    fn lx_per_quantum(&self, target: usize) -> f64 {
+        let photons = self.ends[target].unwrap_or(self.photons);
+        self.lm_per_quantum(photons) / self.receivers.areas_m2[target]
     }
 
     /// What the paths of one replicate read.
@@ -222,13 +236,13 @@ impl<S: Spectrum> HiddenLight<S> {
     pub(crate) fn target_lx(&self, replicate: usize, target: usize) -> f64 {
         let terms = self.tallies[replicate].targets.iter();
         let quanta: i64 = terms.map(|counts| counts[target].load(Ordering::Relaxed)).sum();
-        quanta as f64 * (self.lm_per_quantum() / self.receivers.areas_m2[target])
+        quanta as f64 * self.lx_per_quantum(target)
     }
 
     /// The part of it of one number of bounces, where terms are listed; the last is the rest.
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
         let quanta = self.tallies[replicate].targets[term][target].load(Ordering::Relaxed);
-        quanta as f64 * (self.lm_per_quantum() / self.receivers.areas_m2[target])
+        quanta as f64 * self.lx_per_quantum(target)
     }
 }
 
@@ -378,6 +392,14 @@ fn quanta(photons: f64) -> i64 {
     (photons * QUANTA_PER_PHOTON).round_ties_even() as i64
 }
 
+impl<S> HiddenReceiver<'_, S> {
+    fn count(&self, target: usize, photons: f64, bounces: u32) {
+        if self.ends[target].is_none() {
+            self.tally.count(target, photons, bounces);
+        }
+    }
+}
+
 impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
     const SPECULAR_ONLY: bool = true;
 
@@ -392,11 +414,11 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
         for CellReceiver { plane, first_target, cells } in &self.receivers.planes {
             if let Some(cell) = plane.cell(flight).filter(|cell| cells.contains(cell)) {
                 let photons = weight.luminance() * plane.tilt_factor(flight.direction);
-                self.tally.count(first_target + cell - cells.start, photons, bounces);
+                self.count(first_target + cell - cells.start, photons, bounces);
             }
         }
         for disc in self.receivers.discs.iter().filter(|disc| disc.is_met(flight)) {
-            self.tally.count(disc.target, weight.luminance(), bounces);
+            self.count(disc.target, weight.luminance(), bounces);
         }
     }
 

@@ -71,6 +71,14 @@ impl<'b> Reader<'b> {
         Ok(f64::from_bits(self.u64()?))
     }
 
+    /// What there may be.
+    pub(crate) fn option<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<T, StateError>,
+    ) -> Result<Option<T>, StateError> {
+        if self.bool()? { read(self).map(Some) } else { Ok(None) }
+    }
+
     /// A list of things of so many bytes each, at least.
     pub(crate) fn length(&mut self, bytes_each: usize) -> Result<usize, StateError> {
         let length = usize::try_from(self.u64()?).map_err(|_| StateError::Length)?;

@@ -44,6 +44,14 @@ impl Writer {
         self.u64(number.to_bits());
     }
 
+    /// Whether there is one, then what there is.
+    pub(crate) fn option<T>(&mut self, thing: Option<T>, put: impl FnOnce(&mut Self, T)) {
+        self.bool(thing.is_some());
+        if let Some(thing) = thing {
+            put(self, thing);
+        }
+    }
+
     /// Their number, then each.
     pub(crate) fn f64s(&mut self, numbers: &[f64]) {
         self.u64(numbers.len() as u64);

@@ -1,5 +1,6 @@
 //! Simulations against closed forms.
 
+mod adaptivity;
 mod agreement;
 mod area_luminaires;
 mod balance;

@@ -1,0 +1,57 @@
+//! What the run says of its own convergence: one line, with what is left to do where a limit came first.
+
+use super::plural;
+use crate::Report;
+use crate::number::brief;
+
+/// Above this slope, the points do little more than random ones do.
+const LIKE_RANDOM: f64 = -0.6;
+
+/// One line; nothing where no slope was measured.
+pub(super) fn convergence(report: &Report) -> Option<String> {
+    let run = &report.run;
+    let slope = run.convergence.slope?;
+    let mut text = format!("half-widths shrink like N^{slope:.2}");
+    if slope > LIKE_RANDOM && run.settings.sequence.name() != "random" {
+        text += ", as with random points";
+        if report.explanation.is_none() {
+            text += " (--explain says why)";
+        }
+    }
+    let left = run.convergence.samples.zip(run.convergence.rays);
+    if let (false, true, Some((samples, rays))) =
+        (run.tolerance_reached, run.settings.has_tolerance(), left)
+        && samples > run.samples
+    {
+        let seconds = run.seconds * rays as f64 / run.rays.max(1) as f64;
+        text += &format!(
+            "; the tolerance would take {}, {}, about {} s in all",
+            plural(samples, "sample"),
+            plural(rays, "ray"),
+            brief(seconds, 2),
+        );
+    }
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn the_slope_is_told_and_what_is_left_where_a_limit_came_first() {
+        let mut report = example::office();
+        assert_eq!(convergence(&report).unwrap(), "half-widths shrink like N^-0.72");
+        report.run.tolerance_reached = false;
+        report.run.convergence.slope = Some(-0.5);
+        report.run.convergence.samples = Some(1 << 18);
+        report.run.convergence.rays = Some(750_617_284);
+        report.run.seconds = 10.0;
+        let wanted = "half-widths shrink like N^-0.50, as with random points (--explain says why); the \
+                      tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all";
+        assert_eq!(convergence(&report).unwrap(), wanted);
+        report.run.convergence.slope = None;
+        assert_eq!(convergence(&report), None);
+    }
+}

@@ -1,0 +1,293 @@
+//! How fast half-widths shrink, and what that foretells.
+//!
+//! Half-widths of independent samples shrink like N^(-1/2); those of quasi-random points faster, as far as
+//! the values let them. The exponent is measured while a run goes. Points that are done get no more
+//! samples, so half-widths are compared from one checkpoint to the next, over the points that grew, and the ratios
+//! chained:
+//!
+//! ```text
+//! y_0 = 0,   y_(k+1) = y_k + mean( ln h_(k+1) - ln h_k ) + 1/2 luck_k,   h half-width over value
+//! ```
+//!
+//! The slope is that of the line through (ln N_k, y_k) with the least squares. A single point with R
+//! replicates knows each y to about one in sqrt(R - 1), so with few points it is rough at first.
+//!
+//! Points that go on are those that seemed worst, in part by chance, and look better the next time. That
+//! part of their half-widths is estimated as empirical Bayes does (B. Efron and C. Morris, Journal of the American
+//! Statistical Association 68, 1973): a half-width from R replicates has a logarithm with the variance
+//! v = 1 / (2 (R - 1)); where those of all points before the choice vary by T^2 around a mean, the points that were
+//! chosen owe v / T^2 of their distance from it to luck. Half of it is lost at the next checkpoint, for half of the
+//! samples are the same.
+
+use crate::estimates::Estimates;
+use crate::schedule::Schedule;
+use crate::settings::Settings;
+use crate::state::{Reader, StateError, Writer};
+use crate::tolerance::Standing;
+use quasilux_sampling::quality::fit_power_law;
+
+/// Checkpoints that a slope is fitted to at least.
+const LEAST_CHECKPOINTS: usize = 3;
+/// Checkpoints after which a prediction is compared with what came.
+const LATER: usize = 2;
+/// The slope where none is measured: that of independent samples.
+const EXPECTED_SLOPE: f64 = -0.5;
+/// What is foretold with: measured slopes may be steep or flat by chance.
+const SLOPES: std::ops::RangeInclusive<f64> = -1.5..=-0.4;
+
+/// How half-widths shrank so far, and what follows from that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Convergence {
+    /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or where
+    /// nothing has a half-width above 0. About -0.5 says that the points are no better than random ones.
+    pub slope: Option<f64>,
+    /// Indices per replicate at which the run is expected to end; `None` where nothing says when.
+    pub samples: Option<u64>,
+    /// Rays of the whole run up to there.
+    pub rays: Option<u64>,
+    /// Half-widths now over what was foretold for now two checkpoints before, all that grew together.
+    pub against_prediction: Option<f64>,
+}
+
+/// The checkpoints of a run so far.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct History {
+    checkpoints: Vec<Checkpoint>,
+    /// Half-width over value and indices of each target at the last one.
+    widths: Vec<(Option<f64>, u64)>,
+    rays: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Checkpoint {
+    samples: u64,
+    /// exp y: half-widths in units of those at the first checkpoint.
+    width: f64,
+    slope: Option<f64>,
+}
+
+impl History {
+    /// Adds a checkpoint. `is_adaptive` says whether targets that are done get no more samples.
+    pub(crate) fn record(
+        &mut self,
+        estimates: &Estimates,
+        (standing, is_adaptive): (&Standing, bool),
+        schedule: &Schedule,
+        settings: &Settings,
+    ) -> Convergence {
+        let now = widths(estimates, standing);
+        let noise = 0.5 / (f64::from(settings.effective_replicates()) - 1.0).max(1.0);
+        let width = self.checkpoints.last().map_or(1.0, |last| {
+            last.width * libm::exp(self.shrinkage(&now, (last.samples, noise)))
+        });
+        self.checkpoints.push(Checkpoint { samples: estimates.samples, width, slope: None });
+        let slope = self.slope();
+        let against_prediction = self.against_prediction();
+        if let Some(last) = self.checkpoints.last_mut() {
+            last.slope = slope;
+        }
+        let steepness = slope.unwrap_or(EXPECTED_SLOPE).clamp(*SLOPES.start(), *SLOPES.end()).abs();
+        let ends: Vec<Option<u64>> = (0..now.len())
+            .map(|target| {
+                if standing.done[target] && schedule.is_look() {
+                    return Some(now[target].1);
+                }
+                let excess = standing.excess[target].filter(|excess| excess.is_finite());
+                let Some(excess) = excess else { return settings.max_samples };
+                let wanted = estimates.samples as f64 * libm::pow(excess.max(1.0), 1.0 / steepness);
+                Some(schedule.at_or_after((wanted as u64).max(estimates.samples)))
+            })
+            .collect();
+        let grown = now.iter().filter(|(_, samples)| *samples == estimates.samples).count();
+        let end = ends.iter().copied().try_fold(0, |end: u64, own| Some(end.max(own?)));
+        let rays = end.and_then(|end| {
+            let before = self.checkpoints.iter().rev().nth(1)?;
+            let step = estimates.samples.saturating_sub(before.samples).max(1) as f64;
+            let rays = estimates.rays.saturating_sub(self.rays) as f64;
+            let rays_per_index = rays / (step * grown.max(1) as f64);
+            let own_end = |own: &Option<u64>| own.filter(|_| is_adaptive).unwrap_or(end);
+            let left = |own| own_end(own).saturating_sub(estimates.samples) as f64;
+            let indices: f64 = ends.iter().map(left).sum();
+            let most = settings.max_rays.unwrap_or(u64::MAX);
+            Some(estimates.rays.saturating_add((indices * rays_per_index) as u64).min(most))
+        });
+        self.widths = now;
+        self.rays = estimates.rays;
+        Convergence { slope, samples: end, rays, against_prediction }
+    }
+
+    /// Puts out the checkpoints; the rest follows from the estimates of the last one.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        let Self { checkpoints, widths: _, rays: _ } = self;
+        out.u64(checkpoints.len() as u64);
+        for Checkpoint { samples, width, slope } in checkpoints {
+            out.u64(*samples);
+            out.f64(*width);
+            out.option(*slope, Writer::f64);
+        }
+    }
+
+    /// That of a run whose last checkpoint had these estimates.
+    pub(crate) fn read(
+        last: &Estimates,
+        settings: &Settings,
+        from: &mut Reader<'_>,
+    ) -> Result<Self, StateError> {
+        let checkpoint = |from: &mut Reader<'_>| {
+            let (samples, width) = (from.u64()?, from.f64()?);
+            Ok(Checkpoint { samples, width, slope: from.option(Reader::f64)? })
+        };
+        let count = from.length(size_of::<u64>())?;
+        let checkpoints = (0..count).map(|_| checkpoint(from)).collect::<Result<_, _>>()?;
+        let widths = widths(last, &Standing::of(last, settings));
+        Ok(Self { checkpoints, widths, rays: last.rays })
+    }
+
+    /// By what the logarithms of half-widths changed since the last checkpoint, which had `samples` indices, on average over
+    /// the targets that grew; `noise` is their variance by chance.
+    fn shrinkage(&self, now: &[(Option<f64>, u64)], (samples, noise): (u64, f64)) -> f64 {
+        let logarithm = |width: Option<f64>| {
+            width.filter(|width| *width > 0.0 && width.is_finite()).map(libm::log)
+        };
+        let (mut all, mut chosen, mut change) = (Moments::default(), Moments::default(), 0.0);
+        for ((width_before, samples_before), (width, samples_now)) in self.widths.iter().zip(now) {
+            let Some(before) = logarithm(*width_before).filter(|_| *samples_before == samples)
+            else {
+                continue;
+            };
+            all.add(before);
+            if let Some(width) = logarithm(*width).filter(|_| samples_now > samples_before) {
+                chosen.add(before);
+                change += width - before;
+            }
+        }
+        if chosen.count == 0.0 {
+            return 0.0;
+        }
+        let by_chance = (noise / all.variance().max(noise)).min(1.0);
+        let luck = by_chance * (chosen.mean() - all.mean());
+        change / chosen.count + 0.5 * luck
+    }
+
+    fn slope(&self) -> Option<f64> {
+        let points: Vec<[f64; 2]> = self
+            .checkpoints
+            .iter()
+            .map(|checkpoint| [checkpoint.samples as f64, checkpoint.width])
+            .collect();
+        let has_shrunk = points.iter().any(|[_, width]| *width != 1.0);
+        let fit =
+            fit_power_law(&points).filter(|_| points.len() >= LEAST_CHECKPOINTS && has_shrunk);
+        fit.map(|line| line.exponent)
+    }
+
+    fn against_prediction(&self) -> Option<f64> {
+        let now = self.checkpoints.last()?;
+        let then = self.checkpoints.iter().rev().nth(LATER)?;
+        let more = now.samples as f64 / then.samples as f64;
+        Some(now.width / (then.width * libm::pow(more, then.slope?)))
+    }
+}
+
+/// Half-width over value and indices of each target.
+fn widths(estimates: &Estimates, standing: &Standing) -> Vec<(Option<f64>, u64)> {
+    let samples = estimates.sensors.iter().flat_map(|sensor| sensor.samples.iter().copied());
+    standing.relative_widths.iter().copied().zip(samples).collect()
+}
+
+/// Sums of numbers.
+#[derive(Default)]
+struct Moments {
+    count: f64,
+    sum: f64,
+    squares: f64,
+}
+
+impl Moments {
+    fn add(&mut self, x: f64) {
+        self.count += 1.0;
+        self.sum += x;
+        self.squares += x * x;
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.count
+    }
+
+    fn variance(&self) -> f64 {
+        self.squares / self.count - self.mean() * self.mean()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimates::SensorEstimates;
+    use crate::settings::Settings;
+
+    /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`; what is known at the
+    /// last checkpoint up to `last`.
+    fn known(slope: f64, scales: [f64; 2], done: u64, last: u64) -> Convergence {
+        let settings = Settings { rel_tol: 0.01, ..Settings::default() };
+        let (mut history, mut schedule) = (History::default(), Schedule::new(16, None));
+        let mut rays = 0;
+        loop {
+            let n = schedule.next_checkpoint();
+            let samples = vec![n.min(done), n];
+            rays += if n > done { n / 2 } else { n };
+            let widths: Vec<f64> =
+                scales.iter().zip(&samples).map(|(s, n)| s * (*n as f64).powf(slope)).collect();
+            let estimates = Estimates {
+                sensors: vec![SensorEstimates {
+                    replicate_lx: Vec::new(),
+                    direct_lx: Vec::new(),
+                    resolved: vec![true; 2],
+                    samples,
+                    terms: Vec::new(),
+                }],
+                samples: n,
+                rays,
+                ..Estimates::default()
+            };
+            let standing = Standing {
+                relative_widths: widths.iter().copied().map(Some).collect(),
+                excess: widths.iter().map(|width| Some(width / settings.rel_tol)).collect(),
+                done: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
+                unresolved: 0,
+                is_reached: false,
+                may_end: false,
+            };
+            let convergence = history.record(&estimates, (&standing, true), &schedule, &settings);
+            if n >= last {
+                return convergence;
+            }
+            schedule.advance();
+        }
+    }
+
+    #[test]
+    fn a_power_law_is_found_though_points_stop() {
+        for slope in [-0.5, -0.8, -1.0] {
+            let scale = 0.01 * 256.0_f64.powf(-slope);
+            let Convergence { slope: got, against_prediction, samples, .. } =
+                known(slope, [0.5 * scale, 4.0 * scale], 128, 512);
+            // Half-widths without noise: a little is taken for luck.
+            assert!((got.unwrap() - slope).abs() < 0.02, "{got:?}");
+            assert!((against_prediction.unwrap() - 1.0).abs() < 0.05);
+            let wanted = (256.0 * 4.0_f64.powf(-1.0 / slope)).ceil() as u64;
+            assert_eq!(samples, Some(wanted.next_power_of_two()));
+        }
+    }
+
+    /// With slope -1/2 the targets end at 64 and 4096 indices; each index of each target takes a ray.
+    #[test]
+    fn rays_are_those_of_targets_that_go_on() {
+        let scale = 0.0099 * 64.0_f64.sqrt();
+        let at = |last| known(-0.5, [scale, 8.0 * scale], 64, last).rays.unwrap();
+        let all = at(4096);
+        for last in [64, 256, 1024] {
+            let foretold = at(last) as f64;
+            assert!((foretold / all as f64 - 1.0).abs() < 0.1, "{last}: {foretold} {all}");
+        }
+    }
+}
