@@ -1,5 +1,7 @@
-//! `quasilux experiment NAME`: the experiments of the paper, each a folder of its own once built.
+//! `quasilux experiment NAME`: the experiments of the paper and our own, each a folder of its own once
+//! built.
 
+mod coverage;
 mod rejection;
 
 use crate::arguments::ExperimentArguments;
@@ -9,11 +11,18 @@ use crate::results;
 use std::path::{Path, PathBuf};
 
 /// Experiments that can be run, with what they show.
-const BUILT: [Experiment; 1] = [Experiment {
-    name: "rejection",
-    shows: "inverse transform against rejection",
-    run: rejection::run,
-}];
+const BUILT: [Experiment; 2] = [
+    Experiment {
+        name: "rejection",
+        shows: "inverse transform against rejection",
+        run: rejection::run,
+    },
+    Experiment {
+        name: "coverage",
+        shows: "how often the intervals hold the truth",
+        run: coverage::run,
+    },
+];
 
 /// Experiments that are planned, with what they show.
 const PLANNED: [(&str, &str); 7] = [
@@ -41,6 +50,8 @@ struct Outcome {
     markdown: String,
     /// The plot.
     svg: String,
+    /// Whether what it checks holds.
+    passed: bool,
 }
 
 /// Runs an experiment, writes its files and prints its table.
@@ -57,7 +68,7 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     results::write_whole(&file("md"), outcome.markdown.as_bytes())?;
     results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
     print(&format!("{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display()))?;
-    Ok(Exit::Done)
+    Ok(if outcome.passed { Exit::Done } else { Exit::CheckFailed })
 }
 
 fn refused(name: &str) -> Refusal {

@@ -85,6 +85,7 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
         csv: report::csv(&curves),
         markdown: report::markdown(&curves, &luminaire, &floor),
         svg: picture::svg(&curves),
+        passed: true,
     }
 }
 

@@ -1,0 +1,226 @@
+//! Scenes whose illuminances are known.
+//!
+//! In each of them every point has noise: what is computed without sampling has no interval to test.
+
+use glam::DVec3;
+use quasilux_scene::bsdf::{Diffuse, Mirror};
+use quasilux_scene::light::{AreaLight, PointLight};
+use quasilux_scene::{
+    Bsdf, Grid, Light, Material, Mesh, Quantity, Rgb, Scene, Sensor, SensorPoint, SensorShape,
+};
+use quasilux_transport::Estimator;
+use std::f64::consts::PI;
+
+/// A scene with one sensor, and what its points get.
+pub(super) struct Known {
+    pub(super) name: &'static str,
+    /// Why the values are known.
+    pub(super) why: &'static str,
+    pub(super) scene: Scene,
+    pub(super) truth_lx: Vec<f64>,
+    pub(super) estimator: Estimator,
+    /// Reached after a few checkpoints.
+    pub(super) rel_tol: f64,
+}
+
+/// Luminance of what shines, in cd/m^2.
+const LUMINANCE_CD_M2: f64 = 100.0;
+/// Of the mirror beside the panel.
+const MIRROR: f64 = 0.8;
+/// Of the walls that photons are counted on.
+const WALLS: f64 = 0.5;
+
+/// The six scenes.
+pub(super) fn all() -> Vec<Known> {
+    vec![furnace(), coloured_furnace(), panel(), mirror(), cube(), walls()]
+}
+
+/// Walls of reflectance a that all have the luminance L give pi L / (1 - a) everywhere.
+fn furnace() -> Known {
+    let reflectance = Rgb::grey(0.5);
+    let (scene, truth_lx) = furnace_of(reflectance);
+    let why = "pi L / (1 - reflectance), at points that are all equal";
+    Known { name: "furnace", why, scene, truth_lx, estimator: Estimator::Path, rel_tol: 0.05 }
+}
+
+/// The same for each channel.
+fn coloured_furnace() -> Known {
+    let (scene, truth_lx) = furnace_of(Rgb([0.7, 0.5, 0.2]));
+    let why = "the same for each colour";
+    let name = "coloured furnace";
+    Known { name, why, scene, truth_lx, estimator: Estimator::Path, rel_tol: 0.05 }
+}
+
+fn furnace_of(reflectance: Rgb) -> (Scene, Vec<f64>) {
+    let mut scene = room(2.0, Bsdf::Diffuse(Diffuse { reflectance }));
+    shine(&mut scene, 0, 0);
+    let places = [
+        (DVec3::new(0.7, 0.9, 0.4), DVec3::Z),
+        (DVec3::new(1.6, 0.3, 1.1), DVec3::X),
+        (DVec3::new(0.2, 1.5, 1.7), DVec3::NEG_Z),
+    ];
+    scene.sensors.push(points(&places));
+    let Rgb(channels) = reflectance;
+    let lx = Rgb(channels.map(|share| PI * LUMINANCE_CD_M2 / (1.0 - share))).luminance();
+    (scene, vec![lx; places.len()])
+}
+
+/// A panel of 1 m by 1 m that shines down from 1.5 m, and nothing else.
+fn panel() -> Known {
+    let mut scene = Scene::default();
+    let corners = add_panel(&mut scene);
+    let places = below_panel(&mut scene);
+    let truth_lx = places.iter().map(|&(at, n)| polygon_lx(at, n, &corners)).collect();
+    let why = "the contour integral of Lambert (1760)";
+    Known { name: "panel", why, scene, truth_lx, estimator: Estimator::Path, rel_tol: 0.05 }
+}
+
+/// The same beside a mirror, which shows a second panel.
+fn mirror() -> Known {
+    let mut scene = Scene::default();
+    let corners = add_panel(&mut scene);
+    let material =
+        add_material(&mut scene, Bsdf::Mirror(Mirror { reflectance: Rgb::grey(MIRROR) }));
+    // At x = -0.5, wide enough to show all of it from everywhere below.
+    let mirror = [[-2.0, -0.5], [3.0, -0.5], [3.0, 2.5], [-2.0, 2.5]];
+    add_quad(&mut scene, mirror.map(|[y, z]| DVec3::new(-0.5, y, z)), material);
+    let places = below_panel(&mut scene);
+    let mut image = corners.map(|corner| DVec3::new(-1.0 - corner.x, corner.y, corner.z));
+    image.reverse();
+    let truth_lx = places
+        .iter()
+        .map(|&(at, n)| polygon_lx(at, n, &corners) + MIRROR * polygon_lx(at, n, &image))
+        .collect();
+    let why = "the contour integral for the panel and its image";
+    Known { name: "mirror", why, scene, truth_lx, estimator: Estimator::Path, rel_tol: 0.05 }
+}
+
+/// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose luminance is
+/// known to 1e-5 from the solution of its integral equation.
+fn cube() -> Known {
+    let mut scene = room(10.0, Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(2.0 / 3.0) }));
+    lamp(&mut scene, 5.0, 50_000.0);
+    let known = [((5.0, 5.0), 892.80), ((7.5, 5.0), 768.69), ((7.5, 7.5), 686.70)];
+    let place = |((y, z), _): ((f64, f64), f64)| (DVec3::new(0.0, y, z), DVec3::X);
+    scene.sensors.push(points(&known.map(place)));
+    let truth_lx = known.iter().map(|(_, luminance_cd_m2)| luminance_cd_m2 * PI * 1.5).collect();
+    let why = "the integral equation of the diffuse cube, solved to 1e-5";
+    Known { name: "cube", why, scene, truth_lx, estimator: Estimator::Bidirectional, rel_tol: 0.03 }
+}
+
+/// A cube with a lamp in its middle: a quarter of a wall gets 1/24 of the light, the reflected too.
+fn walls() -> Known {
+    let mut scene = room(2.0, Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(WALLS) }));
+    lamp(&mut scene, 1.0, 100.0);
+    let (u, v) = (DVec3::Y * 2.0, DVec3::Z * 2.0);
+    let quantity = Quantity::Mean;
+    let grid = Grid { origin: DVec3::ZERO, u, v, counts: [2, 2], normal: DVec3::X, quantity };
+    scene.sensors.push(Sensor { name: "wall".to_owned(), shape: SensorShape::Grid(grid) });
+    let truth_lx = vec![4.0 * PI * 100.0 / (24.0 * (1.0 - WALLS)); 4];
+    let why = "flux over area over 1 - reflectance, by symmetry in all quarters of a wall";
+    Known { name: "walls", why, scene, truth_lx, estimator: Estimator::Photon, rel_tol: 0.08 }
+}
+
+/// What a polygon with the luminance of all lights gives to a place that sees all of it from above its horizon
+/// (J. H. Lambert, Photometria, 1760): half the luminance times the sum over edges of the angle that an edge
+/// subtends times the cosine of its plane's normal. Corners run counter-clockwise as the place sees them.
+fn polygon_lx(at: DVec3, n: DVec3, corners: &[DVec3]) -> f64 {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let edge = |(a, b): (&DVec3, &DVec3)| {
+        let (a, b) = ((*a - at).normalize(), (*b - at).normalize());
+        let normal = a.cross(b);
+        libm::acos(a.dot(b).clamp(-1.0, 1.0)) * n.dot(normal) / normal.length()
+    };
+    (0.5 * LUMINANCE_CD_M2 * edges.map(edge).sum::<f64>()).abs()
+}
+
+/// The panel's corners.
+fn add_panel(scene: &mut Scene) -> [DVec3; 4] {
+    let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+    let corners = corners.map(|[x, y]| DVec3::new(x, y, 1.5));
+    let black = Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(0.0) });
+    let material = add_material(scene, black);
+    let first = scene.mesh.triangles.len() as u32;
+    add_quad(scene, corners, material);
+    shine(scene, material, first);
+    corners
+}
+
+/// Four places on the floor, looking up.
+fn below_panel(scene: &mut Scene) -> Vec<(DVec3, DVec3)> {
+    let at = [[0.5, 0.5], [1.1, 0.2], [0.1, 1.3], [1.5, 1.2]];
+    let places: Vec<_> = at.iter().map(|&[x, y]| (DVec3::new(x, y, 0.0), DVec3::Z)).collect();
+    scene.sensors.push(points(&places));
+    places
+}
+
+/// A closed cube from the origin on, its normals inward.
+fn room(side_m: f64, bsdf: Bsdf) -> Scene {
+    let mut scene = Scene::default();
+    let material = add_material(&mut scene, bsdf);
+    let quads =
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
+    for quad in quads {
+        let corner = |i: i32| {
+            let axis = |bit: i32| f64::from(i >> bit & 1);
+            DVec3::new(axis(0), axis(1), axis(2)) * side_m
+        };
+        add_quad(&mut scene, quad.map(corner), material);
+    }
+    scene
+}
+
+fn add_material(scene: &mut Scene, bsdf: Bsdf) -> u32 {
+    let number = scene.materials.len() as u32;
+    scene.materials.push(Material { name: format!("material {number}"), bsdf });
+    number
+}
+
+fn add_quad(scene: &mut Scene, corners: [DVec3; 4], material: u32) {
+    let mesh: &mut Mesh = &mut scene.mesh;
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(corners);
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
+        mesh.triangles.push([first + a, first + b, first + c]);
+        mesh.material_of.push(material);
+        mesh.object_of.push(0);
+    }
+    if mesh.objects.is_empty() {
+        mesh.objects.push("scene".to_owned());
+    }
+}
+
+/// Makes all triangles from `first` on shine.
+fn shine(scene: &mut Scene, material: u32, first: u32) {
+    let triangles: Vec<u32> = (first..scene.mesh.triangles.len() as u32).collect();
+    let area_m2 = triangles.iter().map(|&triangle| scene.mesh.area_m2(triangle)).sum();
+    let luminance_cd_m2 = LUMINANCE_CD_M2;
+    scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
+}
+
+/// A point light on the diagonal.
+fn lamp(scene: &mut Scene, at_m: f64, intensity_cd: f64) {
+    scene.lights.push(Light::Point(PointLight { position: DVec3::splat(at_m), intensity_cd }));
+}
+
+fn points(places: &[(DVec3, DVec3)]) -> Sensor {
+    let points = places.iter().map(|&(position, normal)| SensorPoint { position, normal });
+    Sensor { name: "places".to_owned(), shape: SensorShape::Points(points.collect()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Below the middle of a square of half side a at height a, the configuration factor is 4/pi times 1/sqrt 2 times
+    /// atan(1/sqrt 2) (Howell's catalogue, B-3, four times).
+    #[test]
+    fn the_contour_integral_is_right_for_a_square() {
+        let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
+        let corners = corners.map(|[x, y]| DVec3::new(x, y, 1.0));
+        let root = std::f64::consts::FRAC_1_SQRT_2;
+        let factor = 4.0 / PI * root * libm::atan(root);
+        let got = polygon_lx(DVec3::ZERO, DVec3::Z, &corners);
+        assert!((got / (PI * LUMINANCE_CD_M2 * factor) - 1.0).abs() < 1e-12, "{got}");
+    }
+}

@@ -1,0 +1,81 @@
+//! One run: its intervals at the first checkpoint and where it stops, against the truth.
+
+use super::count::{Figure, Moment};
+use super::scenes::Known;
+use quasilux_sampling::{Randomization, Sequence};
+use quasilux_transport::{Control, Estimates, Interval, Observer, Settings, simulate};
+
+/// Errors over half-widths of all figures, in the order of [`Figure::all`].
+pub(super) struct Trial {
+    fixed: Vec<f64>,
+    stop: Vec<f64>,
+}
+
+/// Keeps what is known at the first checkpoint.
+#[derive(Default)]
+struct First(Option<Estimates>);
+
+impl Observer for First {
+    fn checkpoint(&mut self, estimates: &Estimates) -> Control {
+        self.0.get_or_insert_with(|| estimates.clone());
+        Control::Continue
+    }
+}
+
+impl Trial {
+    pub(super) fn run(
+        known: &Known,
+        (sequence, randomization): (Sequence, Randomization),
+        seed: u64,
+    ) -> Self {
+        let settings = Settings {
+            estimator: known.estimator,
+            rel_tol: known.rel_tol,
+            sequence,
+            randomization,
+            seed,
+            ..Settings::default()
+        };
+        let mut first = First::default();
+        let stopped = simulate(&known.scene, &settings, &mut first);
+        let errors = |mut estimates: Estimates, moment: Moment| {
+            if moment == Moment::Fixed {
+                // No run stops here, so the interval need not pay for looks.
+                estimates.miss_probability = 1.0 - estimates.confidence;
+            }
+            errors(known, &estimates)
+        };
+        let first = first.0.unwrap_or_else(|| stopped.clone());
+        Self { fixed: errors(first, Moment::Fixed), stop: errors(stopped, Moment::Stop) }
+    }
+
+    /// Distance from the truth over half-width.
+    pub(super) fn error(&self, moment: Moment, figure: Figure) -> f64 {
+        let errors = match moment {
+            Moment::Fixed => &self.fixed,
+            Moment::Stop => &self.stop,
+        };
+        let points = errors.len() - 2;
+        errors[match figure {
+            Figure::Point(number) => number,
+            Figure::Average => points,
+            Figure::Minimum => points + 1,
+        }]
+    }
+}
+
+fn errors(known: &Known, estimates: &Estimates) -> Vec<f64> {
+    let truth_lx = &known.truth_lx;
+    let average_lx = truth_lx.iter().sum::<f64>() / truth_lx.len() as f64;
+    let minimum_lx = truth_lx.iter().copied().fold(f64::INFINITY, f64::min);
+    let error = |interval: Interval, truth_lx: f64| {
+        let half_width = interval.half_width.unwrap_or(f64::NAN);
+        (interval.value - truth_lx).abs() / half_width
+    };
+    let points = estimates.point_intervals(0);
+    let of_points =
+        points.into_iter().zip(truth_lx).map(|(point, truth_lx)| error(point, *truth_lx));
+    of_points
+        .chain([error(estimates.average(0), average_lx), error(estimates.minimum(0), minimum_lx)])
+        .collect()
+}
