@@ -1,10 +1,10 @@
-//! Runs every example and checks the numbers that it promises.
+//! Runs every example and checks the numbers that it promises, and those that it foretold of itself.
 //!
 //! An example is a folder of `examples/` with one or more project files, a `README.md` that gives
 //! the command and the numbers, and the same numbers in `expected.toml`.
 
 use crate::expectation::Expected;
-use crate::{Failure, cluster};
+use crate::{Failure, cluster, prediction};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -89,6 +89,7 @@ impl Example {
             for expectation in &self.expected.expect {
                 expectation.check(&result).map_err(|failure| format!("{name}: {failure}"))?;
             }
+            prediction::check(&result).map_err(|failure| format!("{name}: {failure}"))?;
         }
         Ok(())
     }

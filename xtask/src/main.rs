@@ -7,6 +7,7 @@ mod cluster;
 mod examples;
 mod expectation;
 mod office;
+mod prediction;
 mod steps;
 
 use std::path::{Path, PathBuf};

@@ -27,6 +27,28 @@ fn a_reached_tolerance_gives_exit_code_0() {
 }
 
 #[test]
+fn rays_end_a_run_with_exit_code_3() {
+    let folder = room("limits_rays");
+    let more = [&OUT_OF_REACH[..], &["--rays", "300000"]].concat();
+    let document = folder.document("room.toml", "rays", &more, 3);
+    assert!(number(&parsed(&document), "/run/rays") <= 300_000.0);
+    assert_is_a_samples_run(&folder, &document, "path");
+}
+
+#[test]
+fn what_is_enough_can_be_said_in_lx_and_for_averages() {
+    let folder = room("limits_tolerances");
+    let more = ["--rel-tol", "0.01%", "--abs-tol", "500lx", "--samples", "100000"];
+    let document = parsed(&folder.document("room.toml", "lx", &more, 0));
+    assert_eq!(document["run"]["abs_tol_lx"], 500.0);
+    assert!(number(&document, "/run/samples") < 1000.0);
+    let more = ["--rel-tol", "20%", "--tolerance-on", "summary", "--confidence", "90%"];
+    let document = parsed(&folder.document("room.toml", "summary", &more, 0));
+    assert_eq!(document["run"]["tolerance_on"], "summary");
+    assert_eq!(document["run"]["confidence"], 0.9);
+}
+
+#[test]
 fn without_intervals_samples_end_a_run() {
     let folder = room("limits_unrandomised");
     let project = folder.read("room.toml").replace("replicates = 8", "randomization = \"none\"");
