@@ -65,7 +65,7 @@ impl Joined {
         };
         let sums = targets.chunks(GROUP).map(of_group).collect();
         let mut rays = 0;
-        let coarse = joining.is_coarse(targets.len()).then(|| {
+        let coarse = (joining.coarse_photons > 0).then(|| {
             let look = |group: &[Target]| {
                 let (outlook, looks) = Outlook::new(stage, &joining, group);
                 rays += looks;

@@ -57,8 +57,6 @@ use std::sync::Arc;
 
 /// k: paths take over where a photon would count this many times what it does on average.
 const CLAMP: f64 = 3.0;
-/// Photons are not counted by cell where sensors times cells are more than this: they would take 8 bytes each.
-const MOST_VIEWS: usize = 1 << 24;
 
 /// How photons are joined to sensors.
 pub(crate) struct Joining {
@@ -116,11 +114,6 @@ impl Joining {
     /// What to expect of a photon on the side `n` of a surface.
     pub(crate) fn landings(&self, position: DVec3, n: DVec3) -> Density {
         self.landings.at(position, n)
-    }
-
-    /// Whether photons are also counted by cell, for so many targets.
-    fn is_coarse(&self, targets: usize) -> bool {
-        self.coarse_photons > 0 && targets * self.places.len() <= MOST_VIEWS
     }
 
     /// The survey's cell at a place on the side `n` of a surface, where it knows one.

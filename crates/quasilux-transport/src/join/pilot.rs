@@ -40,6 +40,8 @@ const MOST_COARSE_PHOTONS: f64 = 1024.0;
 /// In a longer run, the error of the paths falls to about this part of what photons leave by then: they ask for
 /// fewer coordinates. Measured on the office and the cube, where it makes the error least for the rays.
 const LATER: f64 = 0.125;
+/// Photons are not counted by cell where sensors times cells are more than this: they would take 8 bytes each.
+const MOST_VIEWS: usize = 1 << 24;
 /// A shortfall of so many times the variance of means may be by chance.
 const BY_CHANCE: f64 = 4.0;
 /// A ray that joins costs this part of a ray on a path: it only asks whether anything is in the way, and
@@ -88,12 +90,13 @@ pub(crate) fn decide<S: Spectrum>(
             .map(|(target, exact)| exact.sum_lx() + forecast.indirect_lx(target))
             .collect();
         let asked_lx = sample.of(&expected_lx);
+        let is_coarse = targets.len() * forecast.places.len() <= MOST_VIEWS;
         let joining = Joining {
             landings: forecast.landings,
             places: forecast.places,
             windows,
             photons: PHOTONS,
-            coarse_photons: COARSE_PHOTONS,
+            coarse_photons: if is_coarse { COARSE_PHOTONS } else { 0 },
         };
         let (tried, kept) = (sample.targets.clone(), (0, quantum));
         let mut pilot = Joined::new(stage, joining, tried, asked_lx, REPLICATES, kept);
@@ -217,20 +220,21 @@ impl Way {
         let found_lx = |target: usize| exact_lx[target] + self.found_lx(target);
         let shortfall = shortfall(means_lx, found_lx, noise);
         let of_beside = self.beside.variance(means_lx);
-        let part = |trial: &Trial, tried: u64, most: f64| {
-            let variance = trial.variance(means_lx);
-            if variance + shortfall == 0.0 {
+        let part = |trial: &Trial, variance: f64, tried: u64, most: f64| {
+            if trial.rays == 0.0 {
                 return Part { photons: 0.0, error: 0.0, rays: 0.0 };
             }
-            let variance = variance + shortfall;
             let ratio = variance * self.beside.rays / (of_beside * LATER * trial.rays);
             let best = if ratio.is_nan() { 1.0 } else { ratio.sqrt() } * tried as f64;
             let photons = libm::exp2(libm::round(libm::log2(best.clamp(1.0, most))));
             let more = photons / tried as f64;
             Part { photons, error: variance / more, rays: trial.rays * more }
         };
-        let joined = part(&self.joined, PHOTONS, MOST_PHOTONS);
-        let coarse = part(&self.coarse, COARSE_PHOTONS, MOST_COARSE_PHOTONS);
+        // What is seldom found, joined photons would have found.
+        let of_joined = self.joined.variance(means_lx) + shortfall;
+        let joined = part(&self.joined, of_joined, PHOTONS, MOST_PHOTONS);
+        let of_coarse = self.coarse.variance(means_lx);
+        let coarse = part(&self.coarse, of_coarse, COARSE_PHOTONS, MOST_COARSE_PHOTONS);
         let error = of_beside + joined.error + coarse.error;
         Best {
             photons: joined.photons as u64,
