@@ -152,6 +152,7 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
         version: "0.1.0".into(),
         scene_sha256: "c0ffee".into(),
         seconds: 9.8125,
+        earlier_rays: 0,
         threads: 2,
         warnings: vec![WARNING.into()],
     };

@@ -19,8 +19,10 @@ pub struct RunFacts {
     pub version: String,
     /// SHA-256 of the files that the scene was read from; empty where nobody knows.
     pub scene_sha256: String,
-    /// Duration of the run in s.
+    /// Duration of the run in s, since it was gone on with if it was.
     pub seconds: f64,
+    /// Rays that were traced before that.
+    pub earlier_rays: u64,
     /// Threads that worked on it.
     pub threads: usize,
     /// Warnings of the loaders.
@@ -122,8 +124,10 @@ pub struct Run {
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
-    /// Duration of the run in s.
+    /// Duration of the run in s, since it was gone on with if it was.
     pub seconds: f64,
+    /// Rays that were traced before that.
+    pub earlier_rays: u64,
     /// Threads that worked on it.
     pub threads: usize,
     /// Confidence level of all intervals.
@@ -173,6 +177,7 @@ impl Report {
                 samples: estimates.samples,
                 rays: estimates.rays,
                 seconds: facts.seconds,
+                earlier_rays: facts.earlier_rays,
                 threads: facts.threads,
                 confidence: estimates.confidence,
                 tolerance_reached: estimates.tolerance_reached,

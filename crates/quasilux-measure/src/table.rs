@@ -297,7 +297,7 @@ mod tests {
         assert!(table(&report, Style::Plain).ends_with("warning: a \"quoted\" warning\n"));
         assert!(table(&report, Style::Plain).contains("half-widths shrink like N^-0.72\n"));
         report.sensors[0].points[7].samples = 1024;
-        assert!(table(&report, Style::Plain).contains("of 1024 to 65 536 samples"));
+        assert!(table(&report, Style::Plain).contains("of 1 024 to 65 536 samples"));
         report.run.settings.tolerance_on = ToleranceOn::Summary;
         assert!(table(&report, Style::Plain).contains("1 % reached by every average"));
         report.run.tolerance_reached = false;

@@ -20,7 +20,7 @@
 //! samples are the same.
 
 use crate::estimates::Estimates;
-use crate::schedule::Schedule;
+use crate::schedule::{MOST_SAMPLES, Schedule};
 use crate::settings::Settings;
 use crate::state::{Reader, StateError, Writer};
 use crate::tolerance::Standing;
@@ -41,7 +41,8 @@ pub struct Convergence {
     /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or where
     /// nothing has a half-width above 0. About -0.5 says that the points are no better than random ones.
     pub slope: Option<f64>,
-    /// Indices per replicate at which the run is expected to end; `None` where nothing says when.
+    /// Indices per replicate at which the tolerance should be reached, whatever limit may come first; `None`
+    /// where nothing says when.
     pub samples: Option<u64>,
     /// Rays of the whole run up to there.
     pub rays: Option<u64>,
@@ -93,9 +94,10 @@ impl History {
                     return Some(now[target].1);
                 }
                 let excess = standing.excess[target].filter(|excess| excess.is_finite());
-                let Some(excess) = excess else { return settings.max_samples };
-                let wanted = estimates.samples as f64 * libm::pow(excess.max(1.0), 1.0 / steepness);
-                Some(schedule.at_or_after((wanted as u64).max(estimates.samples)))
+                let wanted =
+                    estimates.samples as f64 * libm::pow(excess?.max(1.0), 1.0 / steepness);
+                let is_possible = wanted <= MOST_SAMPLES as f64;
+                is_possible.then(|| schedule.without_limit((wanted as u64).max(estimates.samples)))
             })
             .collect();
         let grown = now.iter().filter(|(_, samples)| *samples == estimates.samples).count();
@@ -108,8 +110,7 @@ impl History {
             let own_end = |own: &Option<u64>| own.filter(|_| is_adaptive).unwrap_or(end);
             let left = |own| own_end(own).saturating_sub(estimates.samples) as f64;
             let indices: f64 = ends.iter().map(left).sum();
-            let most = settings.max_rays.unwrap_or(u64::MAX);
-            Some(estimates.rays.saturating_add((indices * rays_per_index) as u64).min(most))
+            Some(estimates.rays.saturating_add((indices * rays_per_index) as u64))
         });
         self.widths = now;
         self.rays = estimates.rays;

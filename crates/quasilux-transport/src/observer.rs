@@ -20,13 +20,15 @@ pub struct Progress {
     pub paths: u64,
     /// Rays traced so far.
     pub rays: u64,
+    /// How many of them the run had traced before it was gone on with.
+    pub earlier_rays: u64,
     /// Indices per replicate of the last completed checkpoint, 0 before the first.
     pub samples: u64,
     /// Largest half-width over value among all sensor points at the last checkpoint.
     pub largest_relative_half_width: Option<f64>,
     /// Measured exponent of N in half-widths at the last checkpoint.
     pub slope: Option<f64>,
-    /// Indices per replicate at which the run is expected to end.
+    /// Indices per replicate at which the tolerance should be reached.
     pub expected_samples: Option<u64>,
     /// Share in [0, 1] of the expected work that is done, `None` while nothing is known.
     pub done: Option<f64>,

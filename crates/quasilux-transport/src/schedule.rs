@@ -58,7 +58,12 @@ impl Schedule {
 
     /// The first checkpoint with as many indices, or the last.
     pub(crate) fn at_or_after(&self, samples: u64) -> u64 {
-        samples.min(MOST_SAMPLES).next_power_of_two().clamp(self.first, self.limit)
+        self.without_limit(samples).min(self.limit)
+    }
+
+    /// The same of a run that has no limit.
+    pub(crate) fn without_limit(&self, samples: u64) -> u64 {
+        samples.min(MOST_SAMPLES).next_power_of_two().max(self.first)
     }
 }
 

@@ -169,8 +169,7 @@ fn run<S: Spectrum>(
         miss_probability = miss_probability_of_a_look(miss_probability, replicates);
     }
     while !course.over {
-        let foretold = course.last.as_ref().and_then(|estimates| estimates.convergence.rays);
-        watch.expect(foretold);
+        watch.expect(course.last.as_ref().and_then(|last| expected_rays(last, settings)));
         if !estimation.advance(course.schedule.next_checkpoint(), &mut watch) {
             break;
         }
@@ -197,6 +196,13 @@ fn run<S: Spectrum>(
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     add_pictures(&stage, scene, settings, &mut estimates, &mut watch);
     Ok(estimates)
+}
+
+/// Rays up to the tolerance or a limit: at that on samples, as if all points went on.
+fn expected_rays(last: &Estimates, settings: &Settings) -> Option<u64> {
+    let share = |most: u64| most as f64 / last.samples.max(1) as f64;
+    let at_limit = settings.max_samples.map(|most| (last.rays as f64 * share(most)) as u64);
+    [last.convergence.rays, at_limit, settings.max_rays].into_iter().flatten().min()
 }
 
 /// What is known at a checkpoint, and how all targets stand there.

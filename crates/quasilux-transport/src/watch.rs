@@ -29,6 +29,7 @@ impl<'o> Watch<'o> {
             photons: 0,
             paths: 0,
             rays: 0,
+            earlier_rays: 0,
             samples: 0,
             largest_relative_half_width: None,
             slope: None,
@@ -87,10 +88,13 @@ impl<'o> Watch<'o> {
 
     /// Begins with the work that another run had done.
     pub(crate) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        // Surveys and pilots are made again.
+        let own_rays = self.progress.rays;
         let Progress { photons, paths, rays, .. } = &mut self.progress;
         for count in [photons, paths, rays] {
             *count = from.u64()?;
         }
+        self.progress.earlier_rays = self.progress.rays.saturating_sub(own_rays);
         Ok(())
     }
 

@@ -38,6 +38,8 @@ pub(crate) struct Watcher {
     kept: Option<Kept>,
     /// Why the run was told to stop, if it was.
     pub(crate) stopped: Option<Stopped>,
+    /// Rays that were traced before the clock was started.
+    pub(crate) earlier_rays: u64,
 }
 
 /// A run that is kept on disk.
@@ -84,6 +86,7 @@ impl Watcher {
             deadline,
             kept: None,
             stopped: None,
+            earlier_rays: 0,
         }
     }
 
@@ -146,6 +149,7 @@ impl Observer for Watcher {
     }
 
     fn progress(&mut self, progress: &Progress) -> Control {
+        self.earlier_rays = progress.earlier_rays;
         let elapsed_s = self.start.elapsed().as_secs_f64();
         let done = self.deadline.map_or(progress.done, |deadline| {
             let whole_s = (deadline - self.start).as_secs_f64();
@@ -163,14 +167,16 @@ impl Observer for Watcher {
 
 /// Photons, paths, rays a second, the largest relative half-width and how it shrinks, and the time left.
 fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
-    let rays_per_s = progress.rays as f64 / elapsed_s.max(1e-3);
+    let rays = progress.rays as f64;
+    let own_rays = progress.rays.saturating_sub(progress.earlier_rays).max(1) as f64;
+    let rays_per_s = own_rays / elapsed_s.max(1e-3);
     let width = progress
         .largest_relative_half_width
         .map_or_else(|| "±?".to_owned(), |width| format!("±{:.2} %", 100.0 * width));
     let slope = progress.slope.map_or_else(String::new, |slope| format!(" ~ N^{slope:.2}"));
     let left = match done {
         Some(done) if done > 0.01 => {
-            format!("{:.0} s left", elapsed_s * (1.0 - done) / done)
+            format!("{:.0} s left", elapsed_s * (1.0 - done) / done * rays.max(1.0) / own_rays)
         }
         _ => "? s left".to_owned(),
     };

@@ -23,13 +23,14 @@ pub(super) fn convergence(report: &Report) -> Option<String> {
         (run.tolerance_reached, run.settings.has_tolerance(), left)
         && samples > run.samples
     {
-        let seconds = run.seconds * rays as f64 / run.rays.max(1) as f64;
-        text += &format!(
-            "; the tolerance would take {}, {}, about {} s in all",
-            plural(samples, "sample"),
-            plural(rays, "ray"),
-            brief(seconds, 2),
-        );
+        let all = [plural(samples, "sample"), plural(rays, "ray")];
+        text += &format!("; the tolerance would take {}", all.join(", "));
+        // A run that was gone on with knows its speed from its own rays, if it had any.
+        let own_rays = run.rays.saturating_sub(run.earlier_rays);
+        if own_rays > 0 {
+            let seconds = run.seconds * rays as f64 / own_rays as f64;
+            text += &format!(", about {} s in all", brief(seconds, 2));
+        }
     }
     Some(text)
 }
@@ -51,6 +52,10 @@ mod tests {
         let wanted = "half-widths shrink like N^-0.50, as with random points (--explain says why); the \
                       tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all";
         assert_eq!(convergence(&report).unwrap(), wanted);
+        report.run.earlier_rays = report.run.rays / 2;
+        assert!(convergence(&report).unwrap().ends_with(" rays, about 80 s in all"));
+        report.run.earlier_rays = report.run.rays;
+        assert!(convergence(&report).unwrap().ends_with(" rays"));
         report.run.convergence.slope = None;
         assert_eq!(convergence(&report), None);
     }

@@ -114,6 +114,7 @@ pub(crate) fn work(
         version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_sha256: project.identity.sha256.clone(),
         seconds: seconds.as_secs_f64(),
+        earlier_rays: watcher.earlier_rays,
         threads: pool.current_num_threads(),
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
     };
