@@ -10,7 +10,7 @@ use quasilux_scene::Scene;
 use quasilux_transport::{Estimates, Estimator, Settings, ToleranceOn, simulate};
 
 /// A lamp behind a screen: the first place is open to it, the others get what comes around.
-fn screened() -> Scene {
+pub(crate) fn screened() -> Scene {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
     let corner = DVec3::new(1.5, 0.0, 0.0);
     add_panel(&mut scene, corner, DVec3::Y * 2.4, DVec3::Z * 2.5, diffuse(0.3));
@@ -58,7 +58,8 @@ fn is_each_point_that_of_a_limited_run(scene: &Scene, settings: &Settings) {
 #[test]
 fn a_point_that_is_done_is_as_in_a_run_that_ends_there() {
     for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap] {
-        is_each_point_that_of_a_limited_run(&screened(), &settings(estimator));
+        let settings = Settings { rel_tol: 0.06, ..settings(estimator) };
+        is_each_point_that_of_a_limited_run(&screened(), &settings);
     }
 }
 

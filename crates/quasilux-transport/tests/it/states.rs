@@ -1,8 +1,10 @@
 //! Runs that are kept, gone on with, cut and put together: the bits are always those of one run.
 
+use crate::adaptivity::screened;
 use crate::agreement::coloured_room_with_mirror;
 use crate::dozen_scenes::{closed, glass_ball};
-use crate::scenes::{point_light, points};
+use crate::images::add_panel;
+use crate::scenes::{mirror, point_light, points};
 use glam::DVec3;
 use quasilux_scene::{Camera, Scene};
 use quasilux_transport::{
@@ -132,7 +134,7 @@ fn a_run_goes_on_from_any_of_its_states() {
         let count = keeper.states.len();
         assert!(count > 8, "{name}: {count} states");
         // All kinds of places, the first and the last among them.
-        let steps = if name == STEERED { 1 } else { 6 };
+        let steps = if name == STEERED { 1 } else { 4 };
         for number in (0..count).step_by((count / steps).max(1)).chain([count - 1]) {
             let again = resume(&scene, &settings, &keeper.states[number], &mut ());
             assert_eq!(again.as_ref(), Ok(&whole), "{name}: state {number} of {count}");
@@ -166,6 +168,50 @@ fn a_run_that_is_stopped_loses_nothing() {
     }
 }
 
+/// Points that were done before the run was stopped stay as they are, the others go on; and what is foretold, and
+/// where a limit on rays ends the run, hangs on all that came before.
+#[test]
+fn points_that_are_done_stay_done() {
+    let mut mirrored = screened();
+    add_panel(&mut mirrored, DVec3::new(0.0, 2.9, 0.5), DVec3::X, DVec3::Z, mirror(0.9));
+    let settings = |estimator| Settings {
+        estimator,
+        rel_tol: 0.2,
+        replicates: 8,
+        list_terms: 1,
+        image_depth: Some(0),
+        ..Settings::default()
+    };
+    let joined = Settings { joining: Switch::On, ..settings(Estimator::Bidirectional) };
+    for (name, scene, settings) in [
+        ("hidden light", mirrored, settings(Estimator::Path)),
+        ("joined", screened(), joined),
+        ("on maps that grow", screened(), settings(Estimator::BidirectionalMap)),
+    ] {
+        let whole = simulate(&scene, &settings, &mut ());
+        let samples: Vec<u64> = whole.sensors.iter().flat_map(|s| s.samples.clone()).collect();
+        let some_are_done = samples.iter().any(|samples| *samples < whole.samples);
+        assert!(some_are_done && whole.convergence.slope.is_some(), "{name}: {samples:?}");
+        goes_on_to(&whole, &scene, &settings, name);
+        let limited = Settings { max_rays: Some(whole.rays - 1), ..settings };
+        let before = simulate(&scene, &limited, &mut ());
+        assert!(before.samples < whole.samples, "{name}");
+        goes_on_to(&before, &scene, &limited, name);
+    }
+}
+
+/// From some states of its last third, where most of the work is that follows the last checkpoints.
+fn goes_on_to(whole: &Estimates, scene: &Scene, settings: &Settings, name: &str) {
+    let mut keeper = Keeper::new((whole.rays / 64).max(64));
+    assert_eq!(&simulate(scene, settings, &mut keeper), whole, "{name}");
+    let count = keeper.states.len();
+    assert!(count > 8, "{name}: {count} states");
+    for number in [count * 3 / 4, count - 2] {
+        let again = resume(scene, settings, &keeper.states[number], &mut ());
+        assert_eq!(again.as_ref(), Ok(whole), "{name}: state {number} of {count}");
+    }
+}
+
 fn parts_of(scene: &Scene, settings: &Settings, samples: u64, bounds: &[u64]) -> Vec<Vec<u8>> {
     let range = |pair: &[u64]| -> Range<u64> { pair[0]..pair[1] };
     bounds
@@ -192,6 +238,9 @@ fn merged(
 fn parts_make_the_same_run_however_it_is_cut() {
     let mut numbers = Numbers(7);
     for (name, scene, settings) in runs() {
+        if name == STEERED {
+            continue;
+        }
         let samples = settings.max_samples.expect("a number of samples");
         let whole = merged(
             &scene,
