@@ -1,7 +1,7 @@
 //! A run cut into parts by its indices, to be computed anywhere and put together.
 //!
-//! The number of samples is fixed beforehand, so there is one checkpoint, and its intervals spend all of
-//! the miss probability. A part is a function of scene, settings, the number of samples and its range of
+//! The number of samples is fixed beforehand: every point gets all of them, whatever the tolerance, for no part
+//! knows when the others have enough. There is one checkpoint, and its intervals are those of a single look. A part is a function of scene, settings, the number of samples and its range of
 //! indices. Photons that serve all paths, those of maps that grow and those that find hidden light, are not cut:
 //! every part traces all of them.
 

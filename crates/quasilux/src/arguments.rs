@@ -36,7 +36,8 @@ pub(crate) enum Command {
     Photometry(PhotometryArguments),
     /// Summarise or draw measured surfaces (not built yet)
     Bsdf(NotBuilt),
-    /// Write down what a run of a fixed number of samples does, for shards
+    /// Write down what a run of a fixed number of samples does, for shards: every point gets them all, whatever
+    /// the tolerance
     Plan(PlanArguments),
     /// Compute a part of a project's samples
     Shard(ShardArguments),
@@ -54,7 +55,8 @@ pub(crate) struct RunArguments {
     pub(crate) simulation: SimulationArguments,
     /// Do what a plan says, in one part: the same bits as its parts put together
     #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "rel_tol", "time", "samples", "estimator", "sequence", "seed", "checkpoint", "explain",
+        "rel_tol", "abs_tol", "tolerance_on", "confidence", "time", "samples", "rays", "estimator", "sequence",
+        "seed", "checkpoint", "explain",
     ])]
     pub(crate) plan: Option<PathBuf>,
     #[command(flatten)]

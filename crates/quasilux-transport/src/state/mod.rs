@@ -5,6 +5,9 @@
 //! before its first sample (surveys, pilots, frozen maps) is a function of scene and settings: it is made
 //! again, and only a digest of it is kept, so that a difference is refused and not silently wrong.
 //!
+//! Points that are done have ended with fewer samples than others: which ones, and with how many, is in a state, and the
+//! checkpoints that the next prediction is made from. Parts have no such points.
+//!
 //! Numbers are little-endian; lists have their lengths before them. `docs/formats.md` has the whole.
 
 mod counts;
