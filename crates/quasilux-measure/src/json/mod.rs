@@ -9,7 +9,7 @@
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
 //! `map_elements`, `map_adaptive`, `map_reconstruction`, `image_depth`, `steering`, `joining`, `first_shot`),
-//! `prediction` (see [`prediction`]), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
+//! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for,
 //! `explain` says which coordinates carry the variance.
