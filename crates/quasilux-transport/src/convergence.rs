@@ -97,7 +97,8 @@ impl History {
                 let wanted =
                     estimates.samples as f64 * libm::pow(excess?.max(1.0), 1.0 / steepness);
                 let is_possible = wanted <= MOST_SAMPLES as f64;
-                is_possible.then(|| schedule.without_limit((wanted as u64).max(estimates.samples)))
+                is_possible
+                    .then(|| schedule.look_at_or_after((wanted as u64).max(estimates.samples)))
             })
             .collect();
         let grown = now.iter().filter(|(_, samples)| *samples == estimates.samples).count();

@@ -1,6 +1,6 @@
 //! What it costs to look: the miss probability of intervals that a run may stop at.
 //!
-//! At every checkpoint but the first, a figure whose half-width has reached its tolerance is done. So an
+//! At every checkpoint but the first ones, a figure whose half-width has reached its tolerance is done. So an
 //! interval is taken where it happens to be narrow, and with Student's t for one look it would miss too
 //! often: R replicates say what the spread is only to one in sqrt(2 (R - 1)), however long they run.
 //! Stopping rules with consistent estimates of the spread need no correction as the tolerance goes to zero

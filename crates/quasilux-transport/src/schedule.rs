@@ -1,11 +1,15 @@
 //! Where checkpoints lie: at powers of two, where nets are balanced, and at the limit.
 //!
-//! The first one only plans; at each of the others a run may end ([`crate::looks`]).
+//! The first ones only plan; at each of the others a run may end ([`crate::looks`]).
 
 use crate::state::{Reader, StateError, Writer};
 
 /// No run goes past this many indices per replicate.
 pub(crate) const MOST_SAMPLES: u64 = 1 << 48;
+
+/// Before so many indices nothing is called done. Light that few paths find, such as that of a lamp in a mirror,
+/// makes means of fewer so skew that Student's t is worth nothing, and a lucky spread would end them.
+const LEAST_SAMPLES: u64 = 128;
 
 /// The checkpoints of one run: a function of counts alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +50,7 @@ impl Schedule {
 
     /// Whether a figure may be called done there.
     pub(crate) fn is_look(&self) -> bool {
-        self.next > self.first
+        self.next > self.first && self.next >= LEAST_SAMPLES
     }
 
     /// Goes on to the checkpoint after it; `false` where the limit is reached.
@@ -61,8 +65,12 @@ impl Schedule {
         self.without_limit(samples).min(self.limit)
     }
 
-    /// The same of a run that has no limit.
-    pub(crate) fn without_limit(&self, samples: u64) -> u64 {
+    /// The first one of a run without a limit where a figure may be called done that needs as many.
+    pub(crate) fn look_at_or_after(&self, samples: u64) -> u64 {
+        self.without_limit(samples.max(LEAST_SAMPLES))
+    }
+
+    fn without_limit(&self, samples: u64) -> u64 {
         samples.min(MOST_SAMPLES).next_power_of_two().max(self.first)
     }
 }
@@ -89,10 +97,15 @@ mod tests {
     }
 
     #[test]
-    fn the_first_checkpoint_is_no_look() {
-        let mut schedule = Schedule::new(16, None);
-        assert!(!schedule.is_look());
-        assert!(schedule.advance() && schedule.is_look());
-        assert_eq!(schedule.at_or_after(1000), 1024);
+    fn the_first_checkpoints_are_no_looks() {
+        for (first, planning) in [(16, 3), (64, 1), (1024, 1)] {
+            let mut schedule = Schedule::new(first, None);
+            for _ in 0..planning {
+                assert!(!schedule.is_look());
+                schedule.advance();
+            }
+            assert!(schedule.is_look());
+        }
+        assert_eq!(Schedule::new(16, None).at_or_after(1000), 1024);
     }
 }
