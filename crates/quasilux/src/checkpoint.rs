@@ -42,8 +42,18 @@ pub(crate) struct Checkpoint {
 pub(crate) struct Keeping {
     path: PathBuf,
     heading: String,
-    /// Whether what is at the path is of the same run.
-    goes_on: bool,
+    before: Before,
+}
+
+/// What is at the path before the next state is.
+#[derive(Clone, Copy)]
+enum Before {
+    /// A state of the same run.
+    Own,
+    /// Something that cannot be read: the one before it is the only good one.
+    Damaged,
+    /// Nothing, or what another run left.
+    Foreign,
 }
 
 impl Keeping {
@@ -62,12 +72,13 @@ impl Keeping {
             scene: project.identity.clone(),
             settings: SettingsRecord::of(settings),
         };
-        Ok(Self { path: path.to_owned(), heading: json::text(&heading), goes_on: false })
+        Ok(Self { path: path.to_owned(), heading: json::text(&heading), before: Before::Foreign })
     }
 
-    /// For a run that goes on from there.
-    pub(crate) fn going_on(self) -> Self {
-        Self { goes_on: true, ..self }
+    /// For a run that goes on from there, or, where that was damaged, from the one before.
+    pub(crate) fn going_on(self, was_damaged: bool) -> Self {
+        let before = if was_damaged { Before::Damaged } else { Before::Own };
+        Self { before, ..self }
     }
 
     /// Puts a state in the place of the one before.
@@ -80,18 +91,18 @@ impl Keeping {
         file.sync_all()?;
         drop(file);
         let previous = beside(&self.path, "previous");
-        let made_way = if self.goes_on {
-            fs::rename(&self.path, previous)
-        } else {
+        let made_way = match self.before {
+            Before::Own => fs::rename(&self.path, previous),
+            Before::Damaged => Ok(()),
             // Nobody may go on from another run by mistake.
-            fs::remove_file(previous)
+            Before::Foreign => fs::remove_file(previous),
         };
         match made_way {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => {}
         }
         fs::rename(&fresh, &self.path)?;
-        self.goes_on = true;
+        self.before = Before::Own;
         Ok(())
     }
 

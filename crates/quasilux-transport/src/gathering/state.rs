@@ -19,7 +19,7 @@ impl<S: Spectrum> Gathering<'_, S> {
             digest: digest(|out| {
                 self.quantum.put(out);
                 out.f64s(&self.exact.iter().map(|exact| exact.sum_lx()).collect::<Vec<_>>());
-                joining.iter().for_each(|joining| joining.put(out));
+                self.joined.iter().for_each(|joined| joined.put_decisions(out));
                 self.end.put_decisions(out);
                 out.u64(hidden_photons.unwrap_or(0));
                 self.prepared.put(out);
@@ -55,15 +55,18 @@ impl<S: Spectrum> Gathering<'_, S> {
         self.end.take_in(from)?;
         self.hidden.iter_mut().try_for_each(|hidden| hidden.take_in(from))?;
         self.take_in_own(from)?;
-        if let Some(own) = &mut self.joined {
-            own.go_to(joined);
-        }
-        self.keep_to_ends();
         let photons = self.end.photons().unwrap_or(0);
         let is_fine = self.samples.max(joined).max(photons) <= coming
             && self.ends.iter().flatten().all(|end| *end <= self.samples)
             && self.hidden.as_ref().is_none_or(|h| h.photons() <= h.photons_for(coming));
-        if is_fine { Ok(()) } else { Err(StateError::Unfit("the number of samples")) }
+        if !is_fine {
+            return Err(StateError::Unfit("the number of samples"));
+        }
+        if let Some(own) = &mut self.joined {
+            own.go_to(joined);
+        }
+        self.keep_to_ends();
+        Ok(())
     }
 
     /// What is the same in all parts of one run: of the photons that serve all paths, what the estimate

@@ -94,6 +94,14 @@ impl Joined {
         }
     }
 
+    /// Puts what was found out before the first photon among the decisions.
+    pub(crate) fn put_decisions(&self, out: &mut Writer) {
+        self.joining.put(out);
+        out.f64s(&self.expected_lx);
+        let outlooks = self.coarse.iter().flat_map(|(outlooks, _)| outlooks);
+        outlooks.for_each(|outlook| outlook.put(out));
+    }
+
     /// Indices so far.
     pub(crate) fn samples(&self) -> u64 {
         self.samples
@@ -167,8 +175,8 @@ impl Joined {
     pub(crate) fn settle(&mut self, ends: &[Option<u64>]) {
         self.ends.copy_from_slice(ends);
         // Photons that are counted go on to serve the others.
-        for target in 0..ends.len() {
-            if ends[target].is_some() && self.settled[target].is_none() {
+        for (target, end) in ends.iter().enumerate() {
+            if end.is_some() && self.settled[target].is_none() {
                 self.settled[target] = Some(self.coarse_parts_lx(target));
             }
         }
@@ -220,8 +228,9 @@ impl Joined {
 
     /// Whether any replicate found light of one term.
     pub(crate) fn found_term(&self, target: usize, term: usize) -> bool {
-        let replicates = 0..self.replicates.len();
-        replicates.into_iter().any(|r| !self.sum(r, target, term).is_zero())
+        (0..self.replicates.len()).any(|r| {
+            !self.sum(r, target, term).is_zero() || self.coarse_lx(r, target, Some(term)) != 0.0
+        })
     }
 
     /// Whether any replicate found light.

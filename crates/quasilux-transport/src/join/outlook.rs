@@ -8,6 +8,7 @@ use super::Joining;
 use super::view::View;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::state::Writer;
 use crate::targets::Target;
 use crate::world::Interaction;
 use rayon::prelude::*;
@@ -39,8 +40,13 @@ impl Outlook {
         (Self { targets: targets.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
     }
 
+    /// Puts it among the decisions.
+    pub(super) fn put(&self, out: &mut Writer) {
+        self.lx_sr_lm.iter().for_each(|lx| out.f32(*lx));
+    }
+
     /// What all targets get from a cell, by what comes there straight from the lights or otherwise.
-    pub(super) fn from_cell(&self, cell: usize, is_first: bool) -> &[f32] {
+    pub(super) fn of_cell(&self, cell: usize, is_first: bool) -> &[f32] {
         let row = cell * CLASSES + usize::from(!is_first);
         &self.lx_sr_lm[row * self.targets..(row + 1) * self.targets]
     }

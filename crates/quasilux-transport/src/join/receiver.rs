@@ -147,7 +147,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
     fn foreseen_lx(&self, number: usize, leaving: &Leaving, is_first: bool) -> f64 {
         let Some(outlook) = self.group.outlook else { return 0.0 };
         let of_side = |side: &Side| {
-            let seen = side.cell.map_or(0.0, |cell| outlook.from_cell(cell, is_first)[number]);
+            let seen = side.cell.map_or(0.0, |cell| outlook.of_cell(cell, is_first)[number]);
             side.lm_sr * f64::from(seen)
         };
         leaving.sides.iter().map(of_side).sum()

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, Refusal> {
     interrupt::listen()?;
     let (Checkpoint { heading, state }, warning) = checkpoint::read(&arguments.checkpoint)?;
-    if let (Some(warning), false) = (warning, arguments.output.quiet) {
+    if let (Some(warning), false) = (&warning, arguments.output.quiet) {
         eprintln!("warning: {warning}");
     }
     let name = arguments.checkpoint.display().to_string();
@@ -38,7 +38,8 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, Refusal> {
         )));
     }
     let folder = Folder::prepare(&arguments.output, &file, &project)?;
-    let keeping = Keeping::new(&arguments.checkpoint, &file, &project, &settings)?.going_on();
+    let keeping = Keeping::new(&arguments.checkpoint, &file, &project, &settings)?
+        .going_on(warning.is_some());
     let watcher = Watcher::new(scene, arguments.time, arguments.output.quiet)
         .keeping(keeping, arguments.checkpoint_every);
     let go_on = |watcher: &mut Watcher| {
