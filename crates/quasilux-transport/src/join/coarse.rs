@@ -1,6 +1,7 @@
 //! Photons counted by the cell they land in.
 
 use super::Joining;
+use super::joined::lock;
 use super::leaving::Leaving;
 use super::outlook::{CLASSES, Outlook};
 use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
@@ -13,7 +14,7 @@ use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::Interaction;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// What leaves each cell of the survey, in all replicates.
 pub(super) struct Coarse {
@@ -155,12 +156,8 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
     }
 
     fn finish(self) -> u64 {
-        let mut sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sums = lock(self.sums);
         sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
         0
     }
-}
-
-fn lock(sums: &Mutex<Vec<Sum>>) -> std::sync::MutexGuard<'_, Vec<Sum>> {
-    sums.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -275,6 +275,6 @@ impl Stored for Joined {
     }
 }
 
-fn lock(sums: &Mutex<Vec<Sum>>) -> std::sync::MutexGuard<'_, Vec<Sum>> {
+pub(super) fn lock(sums: &Mutex<Vec<Sum>>) -> std::sync::MutexGuard<'_, Vec<Sum>> {
     sums.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,6 +1,7 @@
 //! What joins each landing of a photon to the sensors that see it.
 
 use super::Joining;
+use super::joined::lock;
 use super::leaving::{Leaving, Side};
 use super::outlook::Outlook;
 use super::view::View;
@@ -14,7 +15,7 @@ use crate::world::Interaction;
 use quasilux_bvh::Shot;
 use quasilux_sampling::{PointSet, SampleCursor};
 use std::f64::consts::PI;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// Rays that are traced together.
 const RAYS: usize = 512;
@@ -195,7 +196,7 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
 
     fn finish(mut self) -> u64 {
         self.answer();
-        let mut sums = self.sums.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sums = lock(self.sums);
         sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
         self.rays
     }
