@@ -152,6 +152,10 @@ pub(crate) struct ExperimentArguments {
     /// Runs of each setup, where the experiment has such [default: the experiment's own]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) seeds: Option<u32>,
+    /// Time for one setup at the most, like 60s or 5m, where errors are shown against time [default: the
+    /// experiment's own]
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) seconds_per_point: Option<Duration>,
     /// Seed of all randomisations; the first one where there are several
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,

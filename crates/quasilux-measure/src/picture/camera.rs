@@ -26,7 +26,7 @@ pub fn camera_false_colour_png(camera: &CameraReport, report: &Report) -> Vec<u8
         canvas.fill(corner, [zoom; 2], scale.colour(f64::from(pixel.luminance_cd_m2)));
     }
     frame::draw_legend(&mut canvas, &layout, &scale.legend());
-    frame::draw_footer(&mut canvas, &layout, report, camera.samples);
+    frame::draw_footer(&mut canvas, &layout, report, camera.samples..=camera.samples);
     canvas.to_png()
 }
 

@@ -8,6 +8,7 @@ use super::{CAUTION_INK, INK, SOFT_INK};
 use crate::Report;
 use crate::number::{brief, count};
 use glam::DVec2;
+use std::ops::RangeInclusive;
 
 /// The labels of a colour scale; places on it are shares of its length.
 pub(crate) struct Legend {
@@ -62,8 +63,13 @@ pub(crate) fn draw_legend(canvas: &mut Canvas, layout: &Layout, legend: &Legend)
     text::draw(canvas, legend.unit, DVec2::new((x + w) as f64 + 10.0, base), unit);
 }
 
-/// How the numbers were made, from `samples` indices a replicate: they never go without.
-pub(crate) fn draw_footer(canvas: &mut Canvas, layout: &Layout, report: &Report, samples: u64) {
+/// How the numbers were made, from so many indices a replicate: they never go without.
+pub(crate) fn draw_footer(
+    canvas: &mut Canvas,
+    layout: &Layout,
+    report: &Report,
+    samples: RangeInclusive<u64>,
+) {
     let run = &report.run;
     let made = format!(
         "quasilux {}: {}, {}, {}, {} x {} samples, {} % intervals",
@@ -72,7 +78,7 @@ pub(crate) fn draw_footer(canvas: &mut Canvas, layout: &Layout, report: &Report,
         run.settings.sequence.name(),
         run.settings.randomization.name(),
         run.replicates,
-        count(samples),
+        span(&samples),
         brief(100.0 * run.confidence, 4),
     );
     let caution = if report.biased {
@@ -87,5 +93,22 @@ pub(crate) fn draw_footer(canvas: &mut Canvas, layout: &Layout, report: &Report,
         let line = text::fitted(line, layout::SMALL_PX, layout.content_width());
         let style = TextStyle::new(layout::SMALL_PX, colour, Align::Left);
         text::draw(canvas, &line, DVec2::new(layout.content_left(), layout.footer_base(k)), style);
+    }
+}
+
+/// From the fewest to the most, or the one number that both are.
+fn span(samples: &RangeInclusive<u64>) -> String {
+    let [fewest, most] = [samples.start(), samples.end()].map(|n| count(*n));
+    if fewest == most { most } else { format!("{fewest} to {most}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_told_from_the_fewest_to_the_most() {
+        assert_eq!(span(&(512..=512)), "512");
+        assert_eq!(span(&(128..=2048)), "128 to 2 048");
     }
 }

@@ -32,6 +32,7 @@ use frame::Legend;
 use glam::DVec2;
 use layout::Layout;
 use scale::LuxScale;
+use std::ops::RangeInclusive;
 use text::{Align, TextStyle};
 
 /// Colour of titles.
@@ -54,8 +55,14 @@ pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8
     plot::draw(&mut canvas, &layout, sensor, &scale);
     draw_axes(&mut canvas, &layout, &grid);
     frame::draw_legend(&mut canvas, &layout, &legend(&scale));
-    frame::draw_footer(&mut canvas, &layout, report, report.run.samples);
+    frame::draw_footer(&mut canvas, &layout, report, samples(sensor));
     Some(canvas.to_png())
+}
+
+/// The fewest and the most indices a replicate behind a point: points that are done get no more.
+fn samples(sensor: &SensorReport) -> RangeInclusive<u64> {
+    let samples = || sensor.points.iter().map(|point| point.samples);
+    samples().min().unwrap_or(0)..=samples().max().unwrap_or(0)
 }
 
 /// The scale as a legend, with the levels of the contour lines.

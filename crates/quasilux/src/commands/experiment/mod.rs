@@ -1,6 +1,8 @@
 //! `quasilux experiment NAME`: the experiments of the paper and our own, each a folder of its own once
 //! built.
 
+mod building;
+mod claim;
 mod coverage;
 mod rejection;
 
@@ -50,6 +52,8 @@ struct Outcome {
     markdown: String,
     /// The plot.
     svg: String,
+    /// Pictures beside it: what comes between the name of the experiment and the ending, and a PNG file.
+    pictures: Vec<(String, Vec<u8>)>,
     /// Whether what it checks holds.
     passed: bool,
 }
@@ -67,6 +71,9 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     results::write_whole(&file("csv"), outcome.csv.as_bytes())?;
     results::write_whole(&file("md"), outcome.markdown.as_bytes())?;
     results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
+    for (what, png) in &outcome.pictures {
+        results::write_whole(&folder.join(format!("{name}-{what}.png")), png)?;
+    }
     print(&format!("{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display()))?;
     Ok(if outcome.passed { Exit::Done } else { Exit::CheckFailed })
 }

@@ -36,6 +36,7 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
         csv: report::csv(&counts, &verdict),
         markdown: report::markdown(&counts, &verdict, seeds),
         svg: picture::svg(&counts),
+        pictures: Vec::new(),
         passed: verdict.failed() == 0,
     }
 }

@@ -2,12 +2,12 @@
 //!
 //! In each of them every point has noise: what is computed without sampling has no interval to test.
 
+use crate::commands::experiment::building::{
+    add_material, add_quad, grey, lamp, points, room, shine,
+};
 use glam::DVec3;
 use quasilux_scene::bsdf::{Diffuse, Mirror};
-use quasilux_scene::light::{AreaLight, PointLight};
-use quasilux_scene::{
-    Bsdf, Grid, Light, Material, Mesh, Quantity, Rgb, Scene, Sensor, SensorPoint, SensorShape,
-};
+use quasilux_scene::{Bsdf, Grid, Quantity, Rgb, Scene, Sensor, SensorShape};
 use quasilux_transport::Estimator;
 use std::f64::consts::PI;
 
@@ -52,8 +52,8 @@ fn coloured_furnace() -> Known {
 }
 
 fn furnace_of(reflectance: Rgb) -> (Scene, Vec<f64>) {
-    let mut scene = room(2.0, Bsdf::Diffuse(Diffuse { reflectance }));
-    shine(&mut scene, 0, 0);
+    let mut scene = room(DVec3::splat(2.0), Bsdf::Diffuse(Diffuse { reflectance }));
+    shine(&mut scene, 0, 0, LUMINANCE_CD_M2);
     let places = [
         (DVec3::new(0.7, 0.9, 0.4), DVec3::Z),
         (DVec3::new(1.6, 0.3, 1.1), DVec3::X),
@@ -99,8 +99,8 @@ fn mirror() -> Known {
 /// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose luminance is
 /// known to 1e-5 from the solution of its integral equation.
 fn cube() -> Known {
-    let mut scene = room(10.0, Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(2.0 / 3.0) }));
-    lamp(&mut scene, 5.0, 50_000.0);
+    let mut scene = room(DVec3::splat(10.0), grey(2.0 / 3.0));
+    lamp(&mut scene, DVec3::splat(5.0), 50_000.0);
     let known = [((5.0, 5.0), 892.80), ((7.5, 5.0), 768.69), ((7.5, 7.5), 686.70)];
     let place = |((y, z), _): ((f64, f64), f64)| (DVec3::new(0.0, y, z), DVec3::X);
     scene.sensors.push(points(&known.map(place)));
@@ -111,8 +111,8 @@ fn cube() -> Known {
 
 /// A cube with a lamp in its middle: a quarter of a wall gets 1/24 of the light, the reflected too.
 fn walls() -> Known {
-    let mut scene = room(2.0, Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(WALLS) }));
-    lamp(&mut scene, 1.0, 100.0);
+    let mut scene = room(DVec3::splat(2.0), grey(WALLS));
+    lamp(&mut scene, DVec3::ONE, 100.0);
     let (u, v) = (DVec3::Y * 2.0, DVec3::Z * 2.0);
     let quantity = Quantity::Mean;
     let grid = Grid { origin: DVec3::ZERO, u, v, counts: [2, 2], normal: DVec3::X, quantity };
@@ -139,11 +139,10 @@ fn polygon_lx(at: DVec3, n: DVec3, corners: &[DVec3]) -> f64 {
 fn add_panel(scene: &mut Scene) -> [DVec3; 4] {
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
     let corners = corners.map(|[x, y]| DVec3::new(x, y, 1.5));
-    let black = Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(0.0) });
-    let material = add_material(scene, black);
+    let material = add_material(scene, grey(0.0));
     let first = scene.mesh.triangles.len() as u32;
     add_quad(scene, corners, material);
-    shine(scene, material, first);
+    shine(scene, material, first, LUMINANCE_CD_M2);
     corners
 }
 
@@ -152,60 +151,6 @@ fn add_places(scene: &mut Scene, at: [[f64; 2]; 4]) -> Vec<(DVec3, DVec3)> {
     let places: Vec<_> = at.iter().map(|&[x, y]| (DVec3::new(x, y, 0.0), DVec3::Z)).collect();
     scene.sensors.push(points(&places));
     places
-}
-
-/// A closed cube from the origin on, its normals inward.
-fn room(side_m: f64, bsdf: Bsdf) -> Scene {
-    let mut scene = Scene::default();
-    let material = add_material(&mut scene, bsdf);
-    let quads =
-        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
-    for quad in quads {
-        let corner = |i: i32| {
-            let axis = |bit: i32| f64::from(i >> bit & 1);
-            DVec3::new(axis(0), axis(1), axis(2)) * side_m
-        };
-        add_quad(&mut scene, quad.map(corner), material);
-    }
-    scene
-}
-
-fn add_material(scene: &mut Scene, bsdf: Bsdf) -> u32 {
-    let number = scene.materials.len() as u32;
-    scene.materials.push(Material { name: format!("material {number}"), bsdf });
-    number
-}
-
-fn add_quad(scene: &mut Scene, corners: [DVec3; 4], material: u32) {
-    let mesh: &mut Mesh = &mut scene.mesh;
-    let first = mesh.positions.len() as u32;
-    mesh.positions.extend(corners);
-    for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
-        mesh.triangles.push([first + a, first + b, first + c]);
-        mesh.material_of.push(material);
-        mesh.object_of.push(0);
-    }
-    if mesh.objects.is_empty() {
-        mesh.objects.push("scene".to_owned());
-    }
-}
-
-/// Makes all triangles from `first` on shine.
-fn shine(scene: &mut Scene, material: u32, first: u32) {
-    let triangles: Vec<u32> = (first..scene.mesh.triangles.len() as u32).collect();
-    let area_m2 = triangles.iter().map(|&triangle| scene.mesh.area_m2(triangle)).sum();
-    let luminance_cd_m2 = LUMINANCE_CD_M2;
-    scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
-}
-
-/// A point light on the diagonal.
-fn lamp(scene: &mut Scene, at_m: f64, intensity_cd: f64) {
-    scene.lights.push(Light::Point(PointLight { position: DVec3::splat(at_m), intensity_cd }));
-}
-
-fn points(places: &[(DVec3, DVec3)]) -> Sensor {
-    let points = places.iter().map(|&(position, normal)| SensorPoint { position, normal });
-    Sensor { name: "places".to_owned(), shape: SensorShape::Points(points.collect()) }
 }
 
 #[cfg(test)]
