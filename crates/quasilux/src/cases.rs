@@ -23,7 +23,12 @@ pub(crate) struct Case {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Expectation {
-    pub(crate) sensor: String,
+    /// All but a flux.
+    #[serde(default)]
+    sensor: Option<String>,
+    /// Grids that a flux lands on.
+    #[serde(default)]
+    sensors: Vec<String>,
     figure: FigureName,
     /// Every point where not given.
     point: Option<usize>,
@@ -38,10 +43,12 @@ pub(crate) struct Expectation {
 enum FigureName {
     IlluminanceLx,
     DirectLx,
+    IndirectLx,
     AverageLx,
     MinimumLx,
     MaximumLx,
     Uniformity,
+    FluxLm,
 }
 
 /// What came of one expectation.
@@ -80,37 +87,55 @@ impl Case {
 impl Expectation {
     /// Judges a report; one verdict a point.
     pub(crate) fn judge(&self, report: &Report) -> Result<Vec<Verdict>, Refusal> {
-        let sensor =
-            report.sensors.iter().find(|sensor| sensor.name == self.sensor).ok_or_else(|| {
-                Refusal::new(format!("no sensor \"{}\" in the project", self.sensor))
-            })?;
+        match (&self.sensor, self.sensors.as_slice(), self.figure) {
+            (None, [_, ..], FigureName::FluxLm) => {
+                let grids = self.sensors.iter().map(|name| sensor(report, name));
+                let flux_lm = flux_lm(&grids.collect::<Result<Vec<_>, _>>()?)?;
+                Ok(vec![self.verdict(self.sensors.join(" + "), flux_lm)])
+            }
+            (Some(name), [], figure) if figure != FigureName::FluxLm => {
+                self.judge_sensor(sensor(report, name)?)
+            }
+            _ => Err(Refusal::new(
+                "an expectation has one `sensor`; one of `flux_lm` has `sensors`, a list of grids",
+            )),
+        }
+    }
+
+    fn judge_sensor(&self, sensor: &SensorReport) -> Result<Vec<Verdict>, Refusal> {
         let points = match (self.figure.is_of_points(), self.point) {
-            (false, None) => return Ok(vec![self.verdict(None, self.summary_figure(sensor))]),
+            (false, None) => {
+                return Ok(vec![self.verdict(sensor.name.clone(), self.summary_figure(sensor))]);
+            }
             (false, Some(_)) => {
                 return Err(Refusal::new("a summary figure has no point"));
             }
             (true, None) => 0..sensor.points.len(),
             (true, Some(point)) if point < sensor.points.len() => point..point + 1,
             (true, Some(point)) => {
-                let message = format!("sensor \"{}\" has no point {point}", self.sensor);
+                let message = format!("sensor \"{}\" has no point {point}", sensor.name);
                 return Err(Refusal::new(message));
             }
         };
-        Ok(points.map(|p| self.verdict(Some(p), self.point_figure(sensor, p))).collect())
+        let verdict = |point| {
+            self.verdict(format!("{}[{point}]", sensor.name), self.point_figure(sensor, point))
+        };
+        Ok(points.map(verdict).collect())
     }
 
-    fn verdict(&self, point: Option<usize>, got: Figure) -> Verdict {
-        let needs_interval = self.figure != FigureName::DirectLx;
-        let half_width = if needs_interval { got.half_width } else { Some(0.0) };
-        let holds = match (got.value, half_width) {
+    /// Of a figure at `place`.
+    fn verdict(&self, place: String, got: Figure) -> Verdict {
+        let is_exact = self.figure == FigureName::DirectLx;
+        let holds = match (got.value, if is_exact { Some(0.0) } else { got.half_width }) {
             (Some(value), Some(half_width)) => {
                 (value - self.value).abs() <= half_width + self.tolerance_rel * self.value.abs()
             }
-            _ => false,
+            // Where no light was found there is no interval, and none was expected.
+            (Some(value), None) => value == 0.0 && self.value == 0.0,
+            (None, _) => false,
         };
-        let place = point.map_or_else(String::new, |point| format!("[{point}]"));
         Verdict {
-            what: format!("{}{place} {}", self.sensor, self.figure.name()),
+            what: format!("{place} {}", self.figure.name()),
             expected: self.value,
             got,
             holds,
@@ -122,6 +147,12 @@ impl Expectation {
         let point = &sensor.points[point];
         match self.figure {
             FigureName::DirectLx => Figure { value: point.direct_lx, half_width: None },
+            FigureName::IndirectLx => {
+                let Figure { value, half_width } = point.illuminance_lx;
+                let indirect_lx =
+                    value.zip(point.direct_lx).map(|(all_lx, direct_lx)| all_lx - direct_lx);
+                Figure { value: indirect_lx, half_width }
+            }
             _ => point.illuminance_lx,
         }
     }
@@ -138,17 +169,42 @@ impl Expectation {
 
 impl FigureName {
     fn is_of_points(self) -> bool {
-        matches!(self, Self::IlluminanceLx | Self::DirectLx)
+        matches!(self, Self::IlluminanceLx | Self::DirectLx | Self::IndirectLx)
     }
 
     fn name(self) -> &'static str {
         match self {
             Self::IlluminanceLx => "illuminance_lx",
             Self::DirectLx => "direct_lx",
+            Self::IndirectLx => "indirect_lx",
             Self::AverageLx => "average_lx",
             Self::MinimumLx => "minimum_lx",
             Self::MaximumLx => "maximum_lx",
             Self::Uniformity => "uniformity",
+            Self::FluxLm => "flux_lm",
         }
     }
+}
+
+fn sensor<'a>(report: &'a Report, name: &str) -> Result<&'a SensorReport, Refusal> {
+    let sensor = report.sensors.iter().find(|sensor| sensor.name == name);
+    sensor.ok_or_else(|| Refusal::new(format!("no sensor \"{name}\" in the project")))
+}
+
+/// The flux that lands on grids: average times area. Half-widths are added, as if all errors came together.
+fn flux_lm(sensors: &[&SensorReport]) -> Result<Figure, Refusal> {
+    let mut flux_lm = Figure { value: Some(0.0), half_width: Some(0.0) };
+    for sensor in sensors {
+        let grid = sensor.grid.ok_or_else(|| {
+            Refusal::new(format!("a flux lands on grids, and sensor \"{}\" is none", sensor.name))
+        })?;
+        let area_m2 = grid.u.cross(grid.v).length();
+        let add = |sum: Option<f64>, lx: Option<f64>| Some(sum? + lx? * area_m2);
+        let average_lx = sensor.summary.average_lx;
+        flux_lm = Figure {
+            value: add(flux_lm.value, average_lx.value),
+            half_width: add(flux_lm.half_width, average_lx.half_width),
+        };
+    }
+    Ok(flux_lm)
 }

@@ -38,6 +38,7 @@
 //! How many photons of each kind come on a path, and whether any, is found out by a [`pilot`].
 
 mod coarse;
+mod cost;
 mod joined;
 mod leaving;
 mod outlook;

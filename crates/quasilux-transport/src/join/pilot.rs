@@ -1,13 +1,14 @@
 //! How many photons are joined for each path, by what a pilot measures.
 //!
-//! Paths with variance V and joined photons with variance U a photon, all of one sample, and costs c
-//! and d in rays: n photons a path make the error `(V + U / n) (c + n d)`, squared and times the cost; it
-//! is least for `n^2 = U c / (V d)`. Where a survey would have photons steered, they are tried steered and
-//! left alone. The best is compared with paths that go alone. Variances are relative to the value, mean over
-//! the sensor points. What paths hardly ever find does not show in their spread: what they are short of
+//! A trial of each shows variances V of paths and U of a photon, at each sensor point and for one sample, and what
+//! both cost in rays: n photons a path leave `V + U / n`. Of all powers of two for n the cheapest is taken
+//! ([`Cost`]). Where a survey would have photons steered, they are tried steered and
+//! left alone. The best is compared with paths that go alone. Variances are relative to the tolerance, or else to the
+//! value. What paths hardly ever find does not show in their spread: what they are short of
 //! counts as an error of theirs. Paths alone stand for those that end on a corrected map, which are about as good
 //! or better: the map is made only where it is used.
 
+use super::cost::Cost;
 use super::{Joined, Joining};
 use crate::gathering::Exact;
 use crate::path_end::Rest;
@@ -33,10 +34,10 @@ const PHOTONS: u64 = 8;
 /// Targets that are looked at, spread over all.
 const TARGETS: usize = 64;
 /// Most photons for a path.
-const MOST_PHOTONS: f64 = 64.0;
+const MOST_PHOTONS: u64 = 64;
 /// The same for photons that are only counted.
 const COARSE_PHOTONS: u64 = 64;
-const MOST_COARSE_PHOTONS: f64 = 1024.0;
+const MOST_COARSE_PHOTONS: u64 = 1024;
 /// In a longer run, the error of the paths falls to about this part of what photons leave by then: they ask for
 /// fewer coordinates. Measured on the office and the cube, where it makes the error least for the rays.
 const LATER: f64 = 0.125;
@@ -110,17 +111,18 @@ pub(crate) fn decide<S: Spectrum>(
         rays += counts.iter().map(|counts| counts.rays).sum::<u64>();
         ways.push(Way { joining: pilot.joining, expected_lx, joined, coarse, beside });
     }
-    let means_lx = sample.means_lx(&ways, &alone);
-    let noise =
-        alone.variance(&means_lx) + ways.iter().map(|way| way.variance(&means_lx)).sum::<f64>();
-    let noise = noise / REPLICATES.len() as f64;
+    let wanted = Wanted::new(settings, sample.means_lx(&ways, &alone));
+    let noise = wanted.variances(&alone).iter().sum::<f64>()
+        + ways.iter().flat_map(|way| way.variances(&wanted)).sum::<f64>();
+    let noise = noise / (REPLICATES.len() * sample.targets.len()) as f64;
     let best = ways
         .into_iter()
-        .map(|way| (way.best(&sample.exact_lx, &means_lx, noise), way))
-        .min_by(|(a, _), (b, _)| a.error.total_cmp(&b.error));
+        .map(|way| (way.best(&sample.exact_lx, &wanted, noise), way))
+        .min_by(|(a, _), (b, _)| a.cost.total_cmp(&b.cost));
     let found_alone_lx = |target: usize| sample.exact_lx[target] + alone.moments(target).mean;
-    let of_alone = alone.variance(&means_lx) + shortfall(&means_lx, found_alone_lx, noise);
-    let pays = |best: &Best| best.error < of_alone * alone.rays;
+    let missed = wanted.shortfall(found_alone_lx, noise);
+    let of_alone: Vec<f64> = wanted.variances(&alone).iter().map(|v| v + missed).collect();
+    let pays = |best: &Best| best.cost < wanted.cost.rays(&of_alone, alone.rays, 0.0);
     let best = best.filter(|(best, _)| settings.joining == Switch::On || pays(best));
     let joined = best.map(|(Best { photons, coarse_photons, .. }, way)| {
         let joining = Joining { photons, coarse_photons, ..way.joining };
@@ -148,15 +150,48 @@ struct Sample {
     exact_lx: Vec<f64>,
 }
 
-/// How much a trial is short of the means, squared and relative, mean over the targets: as far as it cannot
-/// be by chance, where means have this variance.
-fn shortfall(means_lx: &[f64], found_lx: impl Fn(usize) -> f64, noise: f64) -> f64 {
-    let seen = means_lx.iter().enumerate().filter(|(_, mean_lx)| **mean_lx > 0.0);
-    let (sum, count) = seen.fold((0.0, 0.0), |(sum, count), (target, mean_lx)| {
-        let missing = 1.0 - found_lx(target) / mean_lx;
-        (sum + missing * missing, count + 1.0)
-    });
-    if count > 0.0 { (sum / count - BY_CHANCE * noise).max(0.0) } else { 0.0 }
+/// What is to be known, and how well.
+struct Wanted {
+    cost: Cost,
+    /// The illuminance at each target, as far as known.
+    means_lx: Vec<f64>,
+    /// What an error is compared with there: the tolerance, or the value where there is none.
+    scales_lx: Vec<f64>,
+}
+
+impl Wanted {
+    fn new(settings: &Settings, means_lx: Vec<f64>) -> Self {
+        let scale_lx = |mean_lx: &f64| match settings.has_tolerance() {
+            true => settings.tolerance_lx(*mean_lx),
+            false => *mean_lx,
+        };
+        let scales_lx = means_lx.iter().map(scale_lx).collect();
+        Self { cost: Cost::of(settings), means_lx, scales_lx }
+    }
+
+    /// Targets where there is light.
+    fn seen(&self) -> impl Iterator<Item = usize> {
+        (0..self.means_lx.len()).filter(|target| self.means_lx[*target] > 0.0)
+    }
+
+    /// Of what a trial finds, over the scales squared; one for each target that is seen.
+    fn variances(&self, trial: &Trial) -> Vec<f64> {
+        let relative = |target: usize| {
+            let scale_lx = self.scales_lx[target];
+            trial.moments(target).variance / (scale_lx * scale_lx)
+        };
+        self.seen().map(relative).collect()
+    }
+
+    /// How much a trial is short of the means, over the scales and squared, mean over the targets: as far as it
+    /// cannot be by chance, where means have this variance.
+    fn shortfall(&self, found_lx: impl Fn(usize) -> f64, noise: f64) -> f64 {
+        let (sum, count) = self.seen().fold((0.0, 0.0), |(sum, count), target| {
+            let missing = (self.means_lx[target] - found_lx(target)) / self.scales_lx[target];
+            (sum + missing * missing, count + 1.0)
+        });
+        if count > 0.0 { (sum / count - BY_CHANCE * noise).max(0.0) } else { 0.0 }
+    }
 }
 
 /// A way to join photons, tried.
@@ -174,8 +209,8 @@ struct Best {
     photons: u64,
     /// For each path, only counted.
     coarse_photons: u64,
-    /// Squared relative error times rays.
-    error: f64,
+    /// In units that all ways share.
+    cost: f64,
 }
 
 impl Sample {
@@ -209,46 +244,47 @@ impl Way {
     }
 
     /// Of one sample with the photons that were tried.
-    fn variance(&self, means_lx: &[f64]) -> f64 {
-        [&self.joined, &self.coarse, &self.beside]
-            .map(|trial| trial.variance(means_lx))
-            .iter()
-            .sum()
+    fn variances(&self, wanted: &Wanted) -> Vec<f64> {
+        let [mut sums, joined, coarse] =
+            [&self.beside, &self.joined, &self.coarse].map(|trial| wanted.variances(trial));
+        sums.iter_mut().zip(joined.iter().zip(&coarse)).for_each(|(sum, (a, b))| *sum += a + b);
+        sums
     }
 
-    fn best(&self, exact_lx: &[f64], means_lx: &[f64], noise: f64) -> Best {
+    fn best(&self, exact_lx: &[f64], wanted: &Wanted, noise: f64) -> Best {
         let found_lx = |target: usize| exact_lx[target] + self.found_lx(target);
-        let shortfall = shortfall(means_lx, found_lx, noise);
-        let of_beside = self.beside.variance(means_lx);
-        let part = |trial: &Trial, variance: f64, tried: u64, most: f64| {
-            if trial.rays == 0.0 {
-                return Part { photons: 0.0, error: 0.0, rays: 0.0 };
-            }
-            let ratio = variance * self.beside.rays / (of_beside * LATER * trial.rays);
-            let best = if ratio.is_nan() { 1.0 } else { ratio.sqrt() } * tried as f64;
-            let photons = libm::exp2(libm::round(libm::log2(best.clamp(1.0, most))));
-            let more = photons / tried as f64;
-            Part { photons, error: variance / more, rays: trial.rays * more }
-        };
         // What is seldom found, joined photons would have found.
-        let of_joined = self.joined.variance(means_lx) + shortfall;
-        let joined = part(&self.joined, of_joined, PHOTONS, MOST_PHOTONS);
-        let of_coarse = self.coarse.variance(means_lx);
-        let coarse = part(&self.coarse, of_coarse, COARSE_PHOTONS, MOST_COARSE_PHOTONS);
-        let error = of_beside + joined.error + coarse.error;
-        Best {
-            photons: joined.photons as u64,
-            coarse_photons: coarse.photons as u64,
-            error: error * (self.beside.rays + joined.rays + coarse.rays),
-        }
+        let shortfall = wanted.shortfall(found_lx, noise);
+        let beside = wanted.variances(&self.beside);
+        let joined: Vec<f64> =
+            wanted.variances(&self.joined).iter().map(|v| v + shortfall).collect();
+        let coarse = wanted.variances(&self.coarse);
+        let cost = |of_paths: f64, photons: u64, coarse_photons: u64| {
+            let of_joined = photons as f64 / PHOTONS as f64;
+            let of_coarse = coarse_photons as f64 / COARSE_PHOTONS as f64;
+            let variances: Vec<f64> = beside
+                .iter()
+                .zip(joined.iter().zip(&coarse))
+                .map(|(v, (joined, coarse))| v * of_paths + joined / of_joined + coarse / of_coarse)
+                .collect();
+            let rays = self.joined.rays * of_joined + self.coarse.rays * of_coarse;
+            wanted.cost.rays(&variances, self.beside.rays, rays)
+        };
+        let is_coarse = self.coarse.rays > 0.0;
+        let most_coarse = if is_coarse { MOST_COARSE_PHOTONS } else { 1 };
+        let pairs = powers_up_to(MOST_PHOTONS)
+            .flat_map(|photons| powers_up_to(most_coarse).map(move |coarse| (photons, coarse)));
+        let later = |&(photons, coarse): &(u64, u64)| cost(LATER, photons, coarse);
+        let best = pairs.min_by(|a, b| later(a).total_cmp(&later(b)));
+        let (photons, coarse_photons) = best.unwrap_or((1, 1));
+        let cost = cost(1.0, photons, coarse_photons);
+        Best { photons, coarse_photons: if is_coarse { coarse_photons } else { 0 }, cost }
     }
 }
 
-/// So many photons of one kind for a path, and what they bring and cost.
-struct Part {
-    photons: f64,
-    error: f64,
-    rays: f64,
+/// 1, 2, 4 and so on.
+fn powers_up_to(most: u64) -> impl Iterator<Item = u64> {
+    std::iter::successors(Some(1), |power| Some(2 * power)).take_while(move |power| *power <= most)
 }
 
 /// Of what the replicates found at one target.
@@ -299,14 +335,6 @@ impl Trial {
         };
         let rays: u64 = pieces.iter().map(|piece| piece.work.rays).sum();
         Self { lx: pieces.iter().map(value_lx).collect(), rays: rays as f64 }
-    }
-
-    /// Relative variance, mean over the targets.
-    fn variance(&self, means_lx: &[f64]) -> f64 {
-        let seen = || means_lx.iter().enumerate().filter(|(_, mean_lx)| **mean_lx > 0.0);
-        let relative =
-            seen().map(|(target, mean_lx)| self.moments(target).variance / (mean_lx * mean_lx));
-        relative.sum::<f64>() / seen().count().max(1) as f64
     }
 
     fn moments(&self, target: usize) -> Moments {

@@ -1,4 +1,4 @@
-//! `quasilux validate`: every case of a folder against its known answer, in one table.
+//! `quasilux validate`: every case of a folder against its known answer, in one table, a case after the other.
 
 use super::run::simulate;
 use crate::arguments::{SimulationArguments, ValidateArguments};
@@ -19,10 +19,11 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
     if cases.is_empty() {
         return Err(Refusal::new(format!("{}: no cases, expected *.toml", folder.display())));
     }
-    print_row(["case", "estimator", "figure", "expected", "got", "verdict"])?;
+    print_row(["estimator", "figure", "expected", "got", "verdict"])?;
     let (mut held, mut failed) = (0, 0);
     for path in cases {
         let case = Case::read(&path)?;
+        print(&format!("{} ({})\n", case.name, case.source))?;
         let project = project::open(&case.project)?;
         for estimator in case.estimators() {
             let arguments = SimulationArguments { estimator, ..SimulationArguments::default() };
@@ -31,7 +32,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
                 return Ok(Exit::Interrupted);
             }
             for verdict in judge(&case, &finished.report)? {
-                print_verdict(&case, &finished.report, &verdict)?;
+                print_verdict(&finished.report, &verdict)?;
                 *(if verdict.holds { &mut held } else { &mut failed }) += 1;
             }
         }
@@ -63,11 +64,10 @@ fn judge(case: &Case, report: &Report) -> Result<Vec<Verdict>, Refusal> {
     Ok(verdicts)
 }
 
-fn print_verdict(case: &Case, report: &Report, verdict: &Verdict) -> Result<(), Refusal> {
+fn print_verdict(report: &Report, verdict: &Verdict) -> Result<(), Refusal> {
     let Verdict { what, expected, got, holds, why } = verdict;
     let judged = if *holds { "holds".to_owned() } else { format!("FAILS: {why}") };
     print_row([
-        &case.name,
         report.run.settings.estimator.name(),
         what,
         &exact(*expected),
@@ -76,8 +76,6 @@ fn print_verdict(case: &Case, report: &Report, verdict: &Verdict) -> Result<(), 
     ])
 }
 
-fn print_row([case, estimator, figure, expected, got, verdict]: [&str; 6]) -> Result<(), Refusal> {
-    print(&format!(
-        "{case:<20}  {estimator:<17}  {figure:<26}  {expected:>18}  {got:<20}  {verdict}\n"
-    ))
+fn print_row([estimator, figure, expected, got, verdict]: [&str; 5]) -> Result<(), Refusal> {
+    print(&format!("  {estimator:<13}  {figure:<26}  {expected:>18}  {got:<20}  {verdict}\n"))
 }
