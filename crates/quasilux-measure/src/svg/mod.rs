@@ -1,6 +1,6 @@
 //! Drawings and plots as SVG 1.1 files (W3C 2011), for print and the web.
 //!
-//! [`scatter`] draws points of the unit square, [`figure`] a grid of line plots with a common legend,
+//! [`scatter`] and [`scatters`] draw points of the unit square, [`figure`] a grid of line plots with a common legend,
 //! [`intensities`] what a luminaire sends where. All stand on [`Drawing`], which writes the elements. Text is text, so that it can be searched and
 //! read aloud. Colours are [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
 
@@ -18,7 +18,7 @@ pub use drawing::{Drawing, Frame};
 pub use figure::{Figure, LegendEntry, figure};
 pub use intensities::{Diagram, Intensities, IntensityCurve, intensities};
 pub use panel::{Line, Panel};
-pub use scatter::{Scatter, scatter};
+pub use scatter::{Scatter, scatter, scatters};
 pub use style::{Anchor, Dash, PALETTE, Stroke, TextStyle};
 
 #[cfg(test)]

@@ -29,16 +29,28 @@ const MOST_LINES: u32 = 128;
 /// The points as an SVG file.
 #[must_use]
 pub fn scatter(scatter: &Scatter<'_>) -> String {
-    let frame = Frame { corner_px: [LEFT_PX, TOP_PX], size_px: [SIDE_PX, SIDE_PX] };
-    let mut drawing = Drawing::new([LEFT_PX + SIDE_PX + RIGHT_PX, TOP_PX + SIDE_PX + BOTTOM_PX]);
-    draw_text(&mut drawing, frame, scatter);
-    draw_cells(&mut drawing, frame, scatter.cells);
-    drawing.outline(frame, Stroke::solid(INK, 1.2));
-    let radius_px = radius_px(scatter.points.len());
-    for point in scatter.points {
-        drawing.disk(frame.at(*point), radius_px, PALETTE[0]);
+    scatters(std::slice::from_ref(scatter))
+}
+
+/// Several squares of points side by side, as an SVG file.
+#[must_use]
+pub fn scatters(scatters: &[Scatter<'_>]) -> String {
+    let width_px = LEFT_PX + SIDE_PX + RIGHT_PX;
+    let all_px = width_px * scatters.len() as f64;
+    let mut drawing = Drawing::new([all_px, TOP_PX + SIDE_PX + BOTTOM_PX]);
+    for (place, scatter) in scatters.iter().enumerate() {
+        let corner_px = [LEFT_PX + width_px * place as f64, TOP_PX];
+        let frame = Frame { corner_px, size_px: [SIDE_PX, SIDE_PX] };
+        draw_text(&mut drawing, frame, scatter);
+        draw_cells(&mut drawing, frame, scatter.cells);
+        drawing.outline(frame, Stroke::solid(INK, 1.2));
+        let radius_px = radius_px(scatter.points.len());
+        for point in scatter.points {
+            drawing.disk(frame.at(*point), radius_px, PALETTE[0]);
+        }
     }
-    drawing.finish(&format!("{}, {}", scatter.title, scatter.subtitle))
+    let titles = scatters.iter().map(|s| format!("{}, {}", s.title, s.subtitle));
+    drawing.finish(&titles.collect::<Vec<_>>().join("; "))
 }
 
 /// Few points can be large; of many each covers a tenth of its share of the square.

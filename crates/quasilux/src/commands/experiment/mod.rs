@@ -4,6 +4,8 @@
 mod building;
 mod claim;
 mod coverage;
+mod periodicity;
+mod points;
 mod rejection;
 
 use crate::arguments::ExperimentArguments;
@@ -13,7 +15,9 @@ use crate::results;
 use std::path::{Path, PathBuf};
 
 /// Experiments that can be run, with what they show.
-const BUILT: [Experiment; 2] = [
+const BUILT: [Experiment; 4] = [
+    Experiment { name: "points", shows: "figures 5 and 6", run: points::run },
+    Experiment { name: "periodicity", shows: "coherent groups, table 2", run: periodicity::run },
     Experiment {
         name: "rejection",
         shows: "inverse transform against rejection",
@@ -27,12 +31,10 @@ const BUILT: [Experiment; 2] = [
 ];
 
 /// Experiments that are planned, with what they show.
-const PLANNED: [(&str, &str); 7] = [
+const PLANNED: [(&str, &str); 5] = [
     ("cube", "the diffuse cube, tables 4 and 5 of the paper"),
     ("octant", "the mirror octant, table 3"),
     ("neumann", "pictures of the Neumann terms, table 1"),
-    ("points", "figures 5 and 6"),
-    ("periodicity", "coherent groups, table 2"),
     ("dimension", "what superposition and inverse transform save"),
     ("first-shot", "direct light taken out of the integral"),
 ];
