@@ -424,7 +424,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let lights = &stage.lights.pointlikes;
         if !lights.is_empty() {
             let choice = Purpose::PointLike { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
+            // A single light is no choice, and takes no coordinate.
+            let draw = || stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
+            let u = (lights.len() > 1).then(draw).unwrap_or_default();
             self.ask(lights.offer(vertex, u, &mut work.offers), vertex, work);
         }
     }

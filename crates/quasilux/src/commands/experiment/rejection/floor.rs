@@ -117,8 +117,8 @@ fn illuminance_lx(luminaire: &Photometry, x_m: f64, y_m: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::batwing::Luminaire;
     use super::*;
+    use crate::commands::experiment::batwing::Luminaire;
 
     #[test]
     fn exact_means_are_exact_enough() {

@@ -6,18 +6,16 @@
 //! one batwing luminaire lights a floor and nothing is reflected, so that the error is all of the
 //! photons' directions.
 
-mod batwing;
 mod floor;
-mod method;
 mod picture;
 mod report;
 
 use super::Outcome;
+use super::batwing::Luminaire;
 use super::claim::Claim;
+use super::emission::Method;
 use crate::arguments::ExperimentArguments;
-use batwing::Luminaire;
 use floor::Floor;
-use method::Method;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_sampling::{
     DimensionHistogram, PointSet, Randomization, SampleCursor, Sequence, stream_key,

@@ -1,7 +1,7 @@
 //! The four curves, logarithmic both ways.
 
-use super::method::Method;
 use super::{Curve, REPLICATES};
+use crate::commands::experiment::emission::Method;
 use quasilux_measure::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };

@@ -1,8 +1,8 @@
 //! The figures as a table for programs and as one for people, with what is seen in them.
 
-use super::batwing::Luminaire;
 use super::floor::Floor;
 use super::{Curve, FIT_FROM, REPLICATES};
+use crate::commands::experiment::batwing::Luminaire;
 use crate::commands::experiment::claim::Claim;
 use quasilux_measure::number::exact;
 use std::fmt::Write;

@@ -1,0 +1,78 @@
+//! Coordinates and errors, as tables.
+
+use super::cube::Cube;
+use super::{Claim, Setup};
+use quasilux_measure::number::exact;
+use quasilux_sampling::Sequence;
+use std::fmt::Write;
+
+/// One line for each setup and number of photons; the cube's coordinates behind them, without errors.
+pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
+    let mut text =
+        "scene,setup,sequence,mean_coordinates,n,rms_error,mean_square,standard_error\n".to_owned();
+    for setup in setups {
+        for error in &setup.errors {
+            writeln!(
+                text,
+                "room,{},{},{},{},{},{},{}",
+                setup.name,
+                setup.sequence.name(),
+                exact(setup.dimensions.mean()),
+                error.photons,
+                exact(error.rms()),
+                exact(error.mean_square()),
+                exact(error.standard_error()),
+            )
+            .expect("strings grow");
+        }
+    }
+    for (name, coordinates) in named(cube) {
+        writeln!(text, "cube,{name},sobol,{},{},,,", exact(coordinates), cube.count)
+            .expect("strings grow");
+    }
+    text
+}
+
+/// Both tables, and what is claimed.
+pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &[Claim]) -> String {
+    let mut text = "# What superposition and inverse transform save\n\n\
+                    Coordinates a photon or path in the diffuse cube (the paper has 6 and 2):\n\n\
+                    | what | coordinates |\n|---|---:|\n"
+        .to_owned();
+    for (name, coordinates) in named(cube) {
+        writeln!(text, "| {name} | {coordinates:.3} |").expect("strings grow");
+    }
+    write!(
+        text,
+        "\nA cube of the same reflectance with four batwing luminaires below its ceiling: coordinates a photon, and the error of the\n\
+         illuminance of a cell (16 on each wall), root mean square over cells and {replicates} randomisations, over the mean.\n\n| setup | coordinates |"
+    )
+    .expect("strings grow");
+    let counts = || setups[0].errors.iter().map(|error| error.photons);
+    for n in counts() {
+        write!(text, " N = {n} |").expect("strings grow");
+    }
+    writeln!(text, "\n|---|---:|{}", "---:|".repeat(counts().count())).expect("strings grow");
+    for setup in setups {
+        let points = match setup.sequence {
+            Sequence::Random => "random",
+            _ => "Sobol'",
+        };
+        write!(text, "| {points}, {} | {:.2} |", setup.name, setup.dimensions.mean())
+            .expect("strings grow");
+        for error in &setup.errors {
+            write!(text, " {:.3} % |", 100.0 * error.rms()).expect("strings grow");
+        }
+        text.push('\n');
+    }
+    text + &Claim::markdown(claims)
+}
+
+fn named(cube: &Cube) -> [(&'static str, f64); 4] {
+    [
+        ("photons, absorbing event uncounted", cube.uncounted),
+        ("photons", cube.photons),
+        ("photons without superposition", cube.separate),
+        ("backward paths of the paper's form", cube.paths),
+    ]
+}
