@@ -8,7 +8,9 @@ fn run(name: &str, arguments: &[&str]) -> Folder {
     let run = folder.quasilux(&[&["experiment", name, "--out", "."], arguments].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let table = folder.read(&format!("{name}.md"));
-    assert!(run.stdout.starts_with(&table), "the table is printed as it is written");
+    let (table, digest) = table.split_once("\n<!-- SHA-256 of ").expect("a digest behind it");
+    assert!(run.stdout.starts_with(table), "the table is printed as it is written");
+    assert!(digest.starts_with(&format!("{name}.csv: ")));
     folder
 }
 

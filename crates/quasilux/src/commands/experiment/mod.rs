@@ -14,7 +14,7 @@ mod rejection;
 use crate::arguments::ExperimentArguments;
 use crate::exit::{Exit, Refusal};
 use crate::print::print;
-use crate::results;
+use crate::{digest, results};
 use std::path::{Path, PathBuf};
 
 /// Experiments that can be run, with what they show.
@@ -78,7 +78,10 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     let outcome = (experiment.run)(arguments);
     let file = |ending: &str| -> PathBuf { folder.join(format!("{name}.{ending}")) };
     results::write_whole(&file("csv"), outcome.csv.as_bytes())?;
-    results::write_whole(&file("md"), outcome.markdown.as_bytes())?;
+    // So that tables and figures are known to belong together.
+    let csv_sha256 = digest::sha256_hex(outcome.csv.as_bytes());
+    let tables = format!("{}\n<!-- SHA-256 of {name}.csv: {csv_sha256} -->\n", outcome.markdown);
+    results::write_whole(&file("md"), tables.as_bytes())?;
     results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
     for (what, png) in &outcome.pictures {
         results::write_whole(&folder.join(format!("{name}-{what}.png")), png)?;
