@@ -16,6 +16,7 @@ use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::Interaction;
 use quasilux_sampling::SampleCursor;
+use std::ops::Range;
 
 /// Surfaces that paths pass before they end on a map that is corrected: the light that comes from the
 /// first two is most of the light, and maps are too coarse for it.
@@ -44,6 +45,8 @@ pub(crate) enum PathEnd<S> {
         tallies: Vec<MapTally<S>>,
         /// Photons of each so far.
         photons: u64,
+        /// Photons for every path of a sensor point.
+        photons_per_path: u64,
         /// Where photons leave from instead of the point-like lights.
         lit_cells: Option<LitCells>,
         /// What steers their photons.
@@ -153,7 +156,10 @@ impl<S: Spectrum> PathEnd<S> {
             let replicates = 0..settings.effective_replicates();
             let tallies =
                 replicates.map(|_| MapTally::new(&layout, lightest, layers(stage, 0))).collect();
-            return (Self::Own { layout, tallies, photons: 0, lit_cells, windows }, counts);
+            let photons_per_path = u64::from(settings.map_photons.max(1));
+            let own =
+                Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
+            return (own, counts);
         }
         // Of wanted bounces, the first are found by the paths.
         let most_bounces = match stage.max_bounces {
@@ -170,11 +176,14 @@ impl<S: Spectrum> PathEnd<S> {
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }
 
-    /// Photons of each map that grows, so far; `None` where none does.
-    pub(crate) fn photons(&self) -> Option<u64> {
+    /// Photons of each map that grows, from those so far to those that so many paths of a sensor point ask for;
+    /// `None` where no map grows.
+    pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
         match self {
             Self::Nothing | Self::Plan { .. } => None,
-            Self::Own { photons, .. } => Some(*photons),
+            Self::Own { photons, photons_per_path, .. } => {
+                Some(*photons..samples.saturating_mul(*photons_per_path))
+            }
         }
     }
 
@@ -219,7 +228,7 @@ impl<S: Spectrum> PathEnd<S> {
         look: impl Fn(&GrowingMaps<'_, S>) -> Option<Snapshot>,
         watch: &mut Watch<'_>,
     ) -> Option<PhotonCounts> {
-        let Self::Own { layout, tallies, photons, lit_cells, windows } = self else {
+        let Self::Own { layout, tallies, photons, lit_cells, windows, .. } = self else {
             return Some(PhotonCounts::default());
         };
         let indices = *photons..end;

@@ -142,6 +142,9 @@ pub struct Settings {
     pub map_adaptive: bool,
     /// What the photons in an element say about its illuminance.
     pub map_reconstruction: Reconstruction,
+    /// Photons of each map that grows for every path of a sensor point, at least 1: with many sensor points,
+    /// one each is few beside the paths.
+    pub map_photons: u32,
     /// How many plane mirrors, one after the other, images of point-like lights are followed through;
     /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
@@ -197,6 +200,7 @@ impl Default for Settings {
             map_elements: 1 << 22,
             map_adaptive: true,
             map_reconstruction: Reconstruction::Linear,
+            map_photons: 1,
             image_depth: None,
             steering: Switch::Auto,
             joining: Switch::Auto,

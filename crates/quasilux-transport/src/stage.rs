@@ -2,7 +2,7 @@
 
 use crate::lights::Lights;
 use crate::purpose::{Ledger, Purpose};
-use crate::settings::Settings;
+use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::specular::SpecularImages;
 use crate::trial::Stopwatch;
@@ -126,6 +126,11 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         {
             // A plan has its own number of photons.
             sequence = Sequence::Halton;
+        }
+        if let (Sequence::Hammersley { points }, Stream::Photons, Estimator::BidirectionalMap) =
+            (&mut sequence, stream, self.settings.estimator)
+        {
+            *points = points.saturating_mul(u64::from(self.settings.map_photons.max(1)));
         }
         if let Stream::JoinedPlaces(_) = stream {
             // Their dimensions are high ones, where other sequences are no good.

@@ -28,6 +28,7 @@ pub(crate) struct SettingsRecord {
     map_elements: u64,
     map_adaptive: bool,
     map_reconstruction: String,
+    map_photons: u32,
     image_depth: Option<u32>,
     steering: String,
     joining: String,
@@ -54,6 +55,7 @@ impl SettingsRecord {
             map_elements,
             map_adaptive,
             map_reconstruction,
+            map_photons,
             image_depth,
             steering,
             joining,
@@ -77,6 +79,7 @@ impl SettingsRecord {
             map_elements,
             map_adaptive,
             map_reconstruction: map_reconstruction.name().to_owned(),
+            map_photons,
             image_depth,
             steering: steering.name().to_owned(),
             joining: joining.name().to_owned(),
@@ -96,6 +99,7 @@ impl SettingsRecord {
             && self.abs_tol_lx.is_finite()
             && self.replicates > 0
             && self.map_elements > 0
+            && self.map_photons > 0
             && self.samples.is_none_or(|samples| samples > 0)
             && self.rays.is_none_or(|rays| rays > 0)
             && self.map_element_m.is_none_or(is_length);
@@ -121,6 +125,7 @@ impl SettingsRecord {
             map_elements: self.map_elements,
             map_adaptive: self.map_adaptive,
             map_reconstruction: named(file, &self.map_reconstruction, &Reconstruction::NAMES)?,
+            map_photons: self.map_photons,
             image_depth: self.image_depth,
             steering: named(file, &self.steering, &Switch::NAMES)?,
             joining: named(file, &self.joining, &Switch::NAMES)?,
@@ -145,6 +150,7 @@ mod tests {
             confidence: 0.99,
             max_rays: Some(1 << 60),
             map_element_m: Some(1.0 / 3.0),
+            map_photons: 7,
             joining: Switch::Off,
             ..Settings::default()
         };

@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 19] = [
+const KEYS: [&str; 20] = [
     "estimator",
     "sequence",
     "randomization",
@@ -23,6 +23,7 @@ const KEYS: [&str; 19] = [
     "map_elements",
     "map_adaptive",
     "map_reconstruction",
+    "map_photons",
     "image_depth",
     "steering",
     "joining",
@@ -32,6 +33,8 @@ const KEYS: [&str; 19] = [
 const MAX_REPLICATES: u64 = 65_536;
 /// Most terms that can be listed.
 const MAX_TERMS: u64 = 16;
+/// Most photons of a map for every path of a sensor point.
+const MAX_MAP_PHOTONS: u64 = 1 << 20;
 /// Most elements that an illumination map can have.
 const MAX_MAP_ELEMENTS: u64 = (1 << 31) - 1;
 
@@ -75,6 +78,8 @@ pub struct SimulationSection {
     pub map_adaptive: Option<Placed<bool>>,
     /// Name of what is made of the photons in an element.
     pub map_reconstruction: Option<Placed<String>>,
+    /// Photons of a map that grows for every path of a sensor point, at least 1.
+    pub map_photons: Option<Placed<u32>>,
     /// Mirrors, one after the other, that images of point-like lights are followed through.
     pub image_depth: Option<Placed<u32>>,
     /// Whether photons are steered, by name.
@@ -143,6 +148,10 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         })?,
         map_adaptive: placed(&section, "map_adaptive", |value| value.boolean())?,
         map_reconstruction: name("map_reconstruction")?,
+        map_photons: placed(&section, "map_photons", |value| {
+            let expected = format!("an integer from 1 to {MAX_MAP_PHOTONS}");
+            value.integer(&expected, 1..=MAX_MAP_PHOTONS).map(|n| n as u32)
+        })?,
         image_depth: placed(&section, "image_depth", |value| {
             let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");
             value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)

@@ -22,8 +22,7 @@ impl<S: Spectrum> Gathering<'_, S> {
     /// stopped it, as below.
     pub(super) fn serve(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         let replicates = u64::from(self.replicates);
-        let photons = self.end.photons().unwrap_or(samples);
-        for piece in watch.pieces(photons..samples, replicates) {
+        for piece in watch.pieces(self.end.photons(samples).unwrap_or(0..0), replicates) {
             let mut end = std::mem::replace(&mut self.end, PathEnd::Nothing);
             let before = self.before();
             let look = |maps: &GrowingMaps<'_, S>| Some(before.snapshot(maps));
@@ -66,7 +65,7 @@ impl<S: Spectrum> Gathering<'_, S> {
             }
         }
         let mut indices = self.samples..samples;
-        if self.end.photons().is_some() {
+        if self.end.photons(samples).is_some() {
             // The maps have changed, and what was read from them with them.
             indices.start = self.first;
             if self.done == 0 {

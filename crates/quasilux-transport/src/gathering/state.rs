@@ -55,8 +55,8 @@ impl<S: Spectrum> Gathering<'_, S> {
         self.end.take_in(from)?;
         self.hidden.iter_mut().try_for_each(|hidden| hidden.take_in(from))?;
         self.take_in_own(from)?;
-        let photons = self.end.photons().unwrap_or(0);
-        let is_fine = self.samples.max(joined).max(photons) <= coming
+        let is_fine = self.samples.max(joined) <= coming
+            && self.end.photons(coming).is_none_or(|left| left.start <= left.end)
             && self.ends.iter().flatten().all(|end| *end <= self.samples)
             && self.hidden.as_ref().is_none_or(|h| h.photons() <= h.photons_for(coming));
         if !is_fine {

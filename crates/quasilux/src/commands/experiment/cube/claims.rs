@@ -1,0 +1,161 @@
+//! What the figures bear out.
+
+use super::Findings;
+use super::compare::{Column, SIGNIFICANCE, Table};
+use super::course::Course;
+use super::floor::Floor;
+use super::paper;
+use super::scene::{CLASSES, inset, luminance_cd_m2};
+use super::truth::Truth;
+use crate::commands::experiment::claim::Claim;
+use quasilux_transport::interval::t_quantile_for;
+
+/// The truth is known to this, in cd/m^2.
+const AGREEMENT_CD_M2: f64 = 0.01;
+/// What our own form is to get below.
+const BELOW: f64 = 0.0005;
+/// The confidence of all intervals of the six luminances together.
+const CONFIDENCE: f64 = 0.99;
+
+/// A luminance with its interval.
+pub(super) struct Luminance {
+    pub(super) value_cd_m2: f64,
+    pub(super) half_width_cd_m2: f64,
+    /// At the very place of the sensor.
+    pub(super) truth_cd_m2: f64,
+}
+
+/// All of them.
+pub(super) fn all(findings: &Findings) -> Vec<Claim> {
+    let Findings { replicates, truth: solved, floors: all_floors, deep, table, .. } = findings;
+    vec![
+        truth(solved),
+        duel(table, Column::Pseudo2, Column::Quasi2),
+        duel(table, Column::Pseudo, Column::Quasi),
+        duel(table, Column::Pseudo, Column::Quasi2),
+        floors(all_floors, *replicates),
+        own_is_below(deep, BELOW),
+        places(deep, solved),
+    ]
+}
+
+/// The luminances at the six classes of places, right at the edges.
+pub(super) fn solved_cd_m2(truth: &Truth) -> [f64; 6] {
+    CLASSES.map(|at| luminance_cd_m2(truth.illuminance_lx(at.map(|x| x.min(1.0 - 1e-9)))))
+}
+
+pub(super) fn truth(truth: &Truth) -> Claim {
+    let differences = solved_cd_m2(truth);
+    let differences = differences.iter().zip(paper::SOLVED_CD_M2).map(|(a, b)| (a - b).abs());
+    let largest = differences.fold(0.0, f64::max);
+    Claim {
+        text: format!(
+            "The solution by collocation agrees with one by radiosity and one by a spectral method to {largest:.3} cd/m2 at \
+             all six places, which is within {AGREEMENT_CD_M2} cd/m2"
+        ),
+        holds: largest < AGREEMENT_CD_M2,
+    }
+}
+
+pub(super) fn duel(table: &Table, worse: Column, better: Column) -> Claim {
+    let duel = table.duel(worse, better);
+    let [low, high] = duel.ratios();
+    let (rounds, won) = (duel.rounds.len(), duel.won());
+    Claim {
+        text: format!(
+            "At equal {}, {} beats {} at {won} of {rounds} costs, from the first on: its error is {low:.2} to {high:.2} \
+             times smaller, mean logarithms being {:.1} standard errors apart or more ({:.1} are significant: Welch, all costs \
+             together at {} %)",
+            table.currency.name(),
+            better.name(),
+            worse.name(),
+            duel.least_t(),
+            duel.critical,
+            100.0 * SIGNIFICANCE,
+        ),
+        holds: duel.is_won_throughout(),
+    }
+}
+
+/// That each smaller element has a lower floor, in both forms.
+pub(super) fn floors(floors: &[Floor], replicates: u32) -> Claim {
+    let list = |of: &dyn Fn(&Floor) -> f64| {
+        let all: Vec<String> =
+            floors.iter().map(|floor| format!("{:.2}", 100.0 * of(floor))).collect();
+        all.join(", ")
+    };
+    let elements: Vec<String> = floors.iter().map(|floor| floor.element_m.to_string()).collect();
+    let of_photons = Floor::least_step(floors, |floor| &floor.photons);
+    let least = of_photons.min(Floor::least_step(floors, |floor| &floor.map));
+    // One-sided, all steps of both forms together (Bonferroni).
+    let steps = 2 * floors.len().saturating_sub(1).max(1);
+    let critical = t_quantile_for(replicates as usize, 2.0 * SIGNIFICANCE / steps as f64);
+    let critical = critical.unwrap_or(f64::INFINITY);
+    Claim {
+        text: format!(
+            "The floor moves with the elements: with legs of {} m it is at {} % for quasi and {} % for quasi2, each below the \
+             one before by {least:.1} standard errors of the square or more ({critical:.1} are significant: all together at \
+             {} %)",
+            elements.join(", "),
+            list(&|floor| floor.photons.bias.norm()),
+            list(&|floor| floor.map.bias.norm()),
+            100.0 * SIGNIFICANCE,
+        ),
+        holds: least > critical,
+    }
+}
+
+/// That a replicate's error is below this at the end, beyond chance.
+pub(super) fn own_is_below(own: &Course, below: f64) -> Claim {
+    let end = own.end();
+    let squares: Vec<f64> = end.errors.iter().map(|error| error * error).collect();
+    let n = squares.len() as f64;
+    let mean = squares.iter().sum::<f64>() / n;
+    let spread: f64 = squares.iter().map(|square| (square - mean) * (square - mean)).sum();
+    let t = t_quantile_for(squares.len(), 2.0 * SIGNIFICANCE).unwrap_or(f64::INFINITY);
+    let highest = (mean + t * (spread / (n * (n - 1.0))).sqrt()).sqrt();
+    Claim {
+        text: format!(
+            "Our own form goes through the floor: with {} paths from each place its error is {:.4} %, at most {:.4} % at {} %, \
+             and below {} %",
+            end.paths,
+            100.0 * mean.sqrt(),
+            100.0 * highest,
+            100.0 * (1.0 - SIGNIFICANCE),
+            100.0 * below,
+        ),
+        holds: highest < below,
+    }
+}
+
+/// That the intervals hold the truth.
+pub(super) fn places(own: &Course, truth: &Truth) -> Claim {
+    let all = luminances(own, truth);
+    let held = |place: &&Luminance| {
+        (place.value_cd_m2 - place.truth_cd_m2).abs() <= place.half_width_cd_m2
+    };
+    let held = all.iter().filter(held).count();
+    let widest = all.iter().map(|place| place.half_width_cd_m2).fold(0.0, f64::max);
+    Claim {
+        text: format!(
+            "The intervals of our own form, {} % for all six together and {widest:.2} cd/m2 or less to each side, hold {held} \
+             of the 6 luminances",
+            100.0 * CONFIDENCE,
+        ),
+        holds: held == all.len(),
+    }
+}
+
+/// The six luminances by our own form, from one place of each class.
+pub(super) fn luminances(own: &Course, truth: &Truth) -> Vec<Luminance> {
+    let mut last = own.last.clone();
+    // Sidak (1967); no interval of this run ended it.
+    last.miss_probability = 1.0 - libm::pow(CONFIDENCE, 1.0 / CLASSES.len() as f64);
+    let intervals = last.point_intervals(0);
+    let luminance = |(class, interval): (usize, &quasilux_transport::Interval)| Luminance {
+        value_cd_m2: luminance_cd_m2(interval.value),
+        half_width_cd_m2: luminance_cd_m2(interval.half_width.unwrap_or(0.0)),
+        truth_cd_m2: luminance_cd_m2(truth.illuminance_lx(inset(class))),
+    };
+    intervals.iter().enumerate().map(luminance).collect()
+}

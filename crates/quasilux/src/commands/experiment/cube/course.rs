@@ -1,0 +1,204 @@
+//! One way, run: its errors in all replicates at each checkpoint, and what they took.
+
+use super::bias::Bias;
+use super::scene::Places;
+use super::setup::{Points, Setup};
+use super::truth::Truth;
+use quasilux_sampling::quality::fit_power_law;
+use quasilux_transport::{Control, Estimates, Observer, simulate};
+use std::time::{Duration, Instant};
+
+/// What is measured, and how long.
+#[derive(Clone)]
+pub(super) struct Task {
+    pub(super) places: Places,
+    /// Of each of them, in lx.
+    pub(super) truth_lx: Vec<f64>,
+    pub(super) replicates: u32,
+    pub(super) seed: u64,
+    /// The largest N.
+    pub(super) most: u64,
+    /// A run ends at the last checkpoint that can be expected within this.
+    pub(super) limit: Duration,
+}
+
+/// What one way did.
+pub(super) struct Course {
+    pub(super) setup: Setup,
+    pub(super) looks: Vec<Look>,
+    /// At the last checkpoint.
+    pub(super) last: Estimates,
+}
+
+/// One checkpoint.
+pub(super) struct Look {
+    /// See [`super::setup::Form::n`].
+    pub(super) n: u64,
+    /// Paths from each place in a replicate.
+    pub(super) paths: u64,
+    /// Of a replicate, so far.
+    pub(super) cost: Cost,
+    /// Of each replicate: the L2 norm of the error over all places, over that of the truth.
+    pub(super) errors: Vec<f64>,
+    /// What would be left of them after very many replicates.
+    pub(super) bias: Bias,
+}
+
+/// What a replicate took: a share of what all took together.
+#[derive(Clone, Copy)]
+pub(super) struct Cost {
+    pub(super) rays: f64,
+    pub(super) seconds: f64,
+}
+
+/// In what cost is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Currency {
+    /// For tests, whose outcome may not depend on the machine.
+    #[cfg_attr(not(test), expect(dead_code, reason = "for tests alone"))]
+    Rays,
+    Seconds,
+}
+
+impl Task {
+    /// The task at all places or some, with the truth there.
+    pub(super) fn at(places: Places, truth: &Truth) -> Self {
+        let of_class: Vec<f64> =
+            (0..6).map(|class| truth.illuminance_lx(super::scene::inset(class))).collect();
+        let truth_lx = places.iter().map(|place| of_class[place.class]).collect();
+        let limit = Duration::MAX;
+        Self { places, truth_lx, replicates: 32, seed: 0, most: u64::MAX, limit }
+    }
+}
+
+impl Course {
+    /// Runs a way up to the largest N or the limit of time, whichever comes first.
+    pub(super) fn run(setup: Setup, task: &Task) -> Self {
+        let scene = task.places.scene();
+        let mut watch = Stopwatch { setup, task, start: Instant::now(), looks: Vec::new() };
+        let most = setup.form.samples(task.most);
+        let run = |samples: u64, watch: &mut Stopwatch<'_>| {
+            let settings = setup.settings(samples, task.replicates, task.seed);
+            simulate(&scene, &settings, watch)
+        };
+        if setup.points != Points::Hammersley {
+            let last = run(most, &mut watch);
+            return Self { setup, looks: watch.looks, last };
+        }
+        // These need their number ahead: each N is a run of its own, of which only the end counts.
+        let (mut looks, mut samples) = (Vec::new(), most.min(16));
+        loop {
+            watch.start = Instant::now();
+            watch.looks.clear();
+            let last = run(samples, &mut watch);
+            let seconds = watch.start.elapsed();
+            looks.extend(watch.looks.pop());
+            if samples == most || 4 * seconds > task.limit {
+                return Self { setup, looks, last };
+            }
+            samples = (4 * samples).min(most);
+        }
+    }
+
+    /// (N, root mean square of the errors over the replicates).
+    pub(super) fn by_n(&self) -> Vec<[f64; 2]> {
+        self.looks.iter().map(|look| [look.n as f64, look.rms()]).collect()
+    }
+
+    /// The same by cost.
+    pub(super) fn by_cost(&self, currency: Currency) -> Vec<[f64; 2]> {
+        self.looks.iter().map(|look| [look.cost.of(currency), look.rms()]).collect()
+    }
+
+    /// The order of convergence.
+    pub(super) fn slope(&self) -> Option<f64> {
+        let first = self.setup.form.fit_from() as f64;
+        let points: Vec<[f64; 2]> = self.by_n().into_iter().filter(|[n, _]| *n >= first).collect();
+        fit_power_law(&points).map(|law| law.exponent)
+    }
+
+    /// Errors of all replicates at a cost, on straight lines in logarithms between checkpoints; `None` before the
+    /// first and after the last.
+    pub(super) fn errors_at(&self, cost: f64, currency: Currency) -> Option<Vec<f64>> {
+        let of = |look: &Look| libm::log(look.cost.of(currency));
+        let cost = libm::log(cost);
+        let pair =
+            self.looks.windows(2).find(|pair| of(&pair[0]) <= cost && cost <= of(&pair[1]))?;
+        let share = (cost - of(&pair[0])) / (of(&pair[1]) - of(&pair[0]));
+        let between =
+            |(a, b): (&f64, &f64)| libm::exp((1.0 - share) * libm::log(*a) + share * libm::log(*b));
+        Some(pair[0].errors.iter().zip(&pair[1].errors).map(between).collect())
+    }
+
+    pub(super) fn end(&self) -> &Look {
+        self.looks.last().expect("a run has a checkpoint at least")
+    }
+}
+
+impl Look {
+    pub(super) fn rms(&self) -> f64 {
+        root_mean_square(&self.errors)
+    }
+}
+
+impl Currency {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Rays => "rays",
+            Self::Seconds => "time",
+        }
+    }
+}
+
+impl Cost {
+    pub(super) fn of(self, currency: Currency) -> f64 {
+        match currency {
+            Currency::Rays => self.rays,
+            Currency::Seconds => self.seconds,
+        }
+    }
+}
+
+pub(super) fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Takes down each checkpoint.
+struct Stopwatch<'t> {
+    setup: Setup,
+    task: &'t Task,
+    start: Instant,
+    looks: Vec<Look>,
+}
+
+impl Observer for Stopwatch<'_> {
+    fn checkpoint(&mut self, estimates: &Estimates) -> Control {
+        let elapsed = self.start.elapsed();
+        let rows = &estimates.sensors[0].replicate_lx;
+        let replicates = rows.len() as f64;
+        let cost = Cost {
+            rays: estimates.rays as f64 / replicates,
+            seconds: elapsed.as_secs_f64() / replicates,
+        };
+        let samples = estimates.samples;
+        self.looks.push(Look {
+            n: self.setup.form.n(samples),
+            paths: self.setup.form.paths(samples),
+            cost,
+            errors: rows.iter().map(|row| relative_error(row, self.task)).collect(),
+            bias: Bias::of(rows, self.task),
+        });
+        let is_last = self.setup.points != Points::Hammersley && 2 * elapsed > self.task.limit;
+        if is_last { Control::Stop } else { Control::Continue }
+    }
+}
+
+/// The L2 norm of the error over that of the truth.
+fn relative_error(row: &[f64], task: &Task) -> f64 {
+    let mut sums = [0.0; 2];
+    for ((value, truth), place) in row.iter().zip(&task.truth_lx).zip(task.places.iter()) {
+        sums[0] += place.weight * (value - truth) * (value - truth);
+        sums[1] += place.weight * truth * truth;
+    }
+    (sums[0] / sums[1]).sqrt()
+}

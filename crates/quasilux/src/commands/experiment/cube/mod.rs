@@ -1,0 +1,162 @@
+//! `quasilux experiment cube`: the diffuse cube of Voloboy, Dmitriev and Kopylov (2003), tables 4 and 5.
+//!
+//! A closed cube of 10 m, reflectance 2/3, one isotropic point light of 50 000 cd in the middle. The error is
+//! the L2 norm over 25 places on each of the six walls, over that of the truth, which is computed here (`truth`).
+//! The paper's four columns are photons that are counted on a map and paths that end on one, each with random points
+//! and with Halton's; ours are paths that correct the map, with Owen's scrambling of Sobol' points. The paper
+//! shows one run of each; here errors are root mean squares over independent randomisations, against N and against time.
+//! The floor under the paper's errors is looked for in the size of the map's elements (`floor`).
+//!
+//! Deviation: the paper does not tell the size of its elements, nor how many photons come with a path. Direct light
+//! is computed, not read from the map, where paths end on it.
+
+mod bias;
+mod claims;
+mod compare;
+mod course;
+mod floor;
+mod paper;
+mod picture;
+mod report;
+mod scene;
+mod setup;
+mod tables;
+mod truth;
+
+use super::Outcome;
+use super::claim::Claim;
+use crate::arguments::ExperimentArguments;
+use compare::Table;
+use course::{Course, Currency, Task};
+use floor::Floor;
+use scene::Places;
+use setup::{Form, Points, Setup};
+use std::time::Duration;
+use truth::Truth;
+
+/// Randomisations of each setup, unless the command line says otherwise.
+const REPLICATES: u32 = 32;
+/// The largest N, unless the command line says otherwise.
+const MOST: u64 = 1 << 22;
+/// For all replicates of a column, unless the command line says otherwise. What is beside the columns gets a part.
+const SECONDS: Duration = Duration::from_secs(60);
+const PART: u32 = 3;
+/// Legs of the map's elements: 32 on a side, 12 288 elements in all.
+const ELEMENT_M: f64 = 0.3125;
+/// Photons of a map for each path from a place: about as many as make the error of pseudo2 least for its rays.
+const PHOTONS_PER_PATH: u32 = 1024;
+/// Paths from each place where the floor of our own form is looked for, unless the command line asks for less.
+const DEEP: u64 = 1 << 16;
+
+/// All that is measured.
+struct Findings {
+    replicates: u32,
+    truth: Truth,
+    /// In the order of [`compare::Column::ALL`].
+    columns: [Course; 5],
+    /// The paper's forms with other points than the paper's, and our own with joined photons.
+    others: Vec<Course>,
+    floors: Vec<Floor>,
+    /// Our own form, from one place of each class, with as many paths as take it below all floors.
+    deep: Course,
+    table: Table,
+}
+
+/// Measures the columns, the sequences and the floors.
+pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
+    let truth = Truth::solve();
+    let mut task = Task::at(Places::all(), &truth);
+    task.replicates = arguments.seeds.unwrap_or(REPLICATES).max(2);
+    task.seed = arguments.seed;
+    task.most = arguments.max_n.unwrap_or(MOST);
+    task.limit = arguments.seconds_per_point.unwrap_or(SECONDS);
+    let columns = columns(ELEMENT_M, PHOTONS_PER_PATH).map(|setup| Course::run(setup, &task));
+    let deep = deep(&task, &truth);
+    task.limit /= PART;
+    let others = other_setups().map(|setup| Course::run(setup, &task)).collect();
+    let floors = Floor::all(&floor::ELEMENTS_M, PHOTONS_PER_PATH, &task);
+    let table = Table::of(&columns, Currency::Seconds);
+    let replicates = task.replicates;
+    let findings = Findings { replicates, truth, columns, others, floors, deep, table };
+    let claims = claims::all(&findings);
+    Outcome {
+        csv: report::csv(&findings),
+        markdown: report::markdown(&findings, &claims),
+        svg: picture::svg(&findings),
+        pictures: Vec::new(),
+        passed: Claim::all_hold(&claims),
+    }
+}
+
+/// The paper's columns and our own.
+fn columns(element_m: f64, photons_per_path: u32) -> [Setup; 5] {
+    let photons = Form::Photons { element_m };
+    let map = Form::Map { element_m, photons_per_path };
+    [
+        Setup { form: photons, points: Points::Random },
+        Setup { form: photons, points: Points::Halton },
+        Setup { form: map, points: Points::Random },
+        Setup { form: map, points: Points::Halton },
+        Setup { form: Form::Own { joins: false }, points: Points::ScrambledSobol },
+    ]
+}
+
+/// The paper's forms with the sequences that its columns leave out, and our own with joined photons.
+fn other_setups() -> impl Iterator<Item = Setup> {
+    let forms = [
+        Form::Photons { element_m: ELEMENT_M },
+        Form::Map { element_m: ELEMENT_M, photons_per_path: PHOTONS_PER_PATH },
+    ];
+    let others = Points::SEQUENCES.into_iter().filter(|points| *points != Points::Halton);
+    let joined = Setup { form: Form::Own { joins: true }, points: Points::ScrambledSobol };
+    forms
+        .into_iter()
+        .flat_map(move |form| others.clone().map(move |points| Setup { form, points }))
+        .chain([joined])
+}
+
+/// Our own form at one place of each class.
+fn deep(task: &Task, truth: &Truth) -> Course {
+    let few = Task::at(Places::one_of_each_class(), truth);
+    let most = task.most.min(DEEP);
+    let task = Task { places: few.places, truth_lx: few.truth_lx, most, ..*task };
+    let form = Form::Own { joins: false };
+    Course::run(Setup { form, points: Points::ScrambledSobol }, &task)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compare::Column;
+    use super::*;
+
+    /// What the claims say, at equal rays instead of equal times, on elements of 1.25 m: seed 0, 32 randomisations, all
+    /// costs of a duel together at 1 %, and each of six intervals so that all hold the truth in 99 of 100 cases.
+    #[test]
+    fn the_claims_hold_in_small() {
+        let truth = Truth::solve();
+        assert!(claims::truth(&truth).holds);
+        let task = Task { most: 1 << 14, ..Task::at(Places::all(), &truth) };
+        let [pseudo, quasi, pseudo2, quasi2, own] = columns(1.25, 512);
+        let few = Task { most: 64, ..task.clone() };
+        let courses = [
+            Course::run(pseudo, &task),
+            Course::run(quasi, &task),
+            Course::run(pseudo2, &task),
+            Course::run(quasi2, &task),
+            Course::run(own, &few),
+        ];
+        let table = Table::of(&courses, Currency::Rays);
+        for (worse, better) in [(Column::Pseudo, Column::Quasi), (Column::Pseudo2, Column::Quasi2)]
+        {
+            let claim = claims::duel(&table, worse, better);
+            assert!(claim.holds, "{}", claim.text);
+        }
+        let floors = Floor::all(&[2.5, 1.25], 512, &task);
+        let deep = deep(&Task { most: 1 << 10, ..task }, &truth);
+        for claim in [claims::floors(&floors, 32), claims::places(&deep, &truth)] {
+            assert!(claim.holds, "{}", claim.text);
+        }
+        let below = claims::own_is_below(&deep, 0.004);
+        assert!(below.holds && !claims::own_is_below(&deep, 0.001).holds, "{}", below.text);
+    }
+}

@@ -1,0 +1,130 @@
+//! Errors against N and time, sequences, and floors against the size of elements.
+
+use super::Findings;
+use super::compare::Column;
+use super::course::Currency;
+use super::floor::{End, Floor};
+use super::paper;
+use super::setup::{Form, Points};
+use quasilux_measure::svg::{
+    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
+};
+
+const FLOOR: Stroke = Stroke { colour: "#767676", width_px: 1.0, dash: Dash::Dashed };
+
+/// The plot as an SVG file.
+pub(super) fn svg(findings: &Findings) -> String {
+    let panels =
+        vec![by_n(findings), by_time(findings), by_points(findings), by_elements(findings)];
+    figure(&Figure { title: "The diffuse cube".to_owned(), panels, columns: 2, legend: legend() })
+}
+
+fn by_n(findings: &Findings) -> Panel {
+    let lines = Column::ALL.iter().zip(&findings.columns);
+    let lines = lines.map(|(column, course)| line(percent(course.by_n()), stroke(*column)));
+    panel("error by N", "photons, or paths a place (own)", Scale::Log(2), lines.collect())
+}
+
+/// With the paper's seconds.
+fn by_time(findings: &Findings) -> Panel {
+    let own = Column::ALL
+        .iter()
+        .zip(&findings.columns)
+        .map(|(column, course)| line(percent(course.by_cost(Currency::Seconds)), stroke(*column)));
+    let of_paper = Column::OF_PAPER.iter().map(|column| {
+        let point = |row: &paper::Row| [row.seconds, row.errors_percent[*column as usize]];
+        let points = paper::rows().iter().map(point).collect();
+        line(points, Stroke { width_px: 2.5, dash: Dash::Dotted, ..stroke(*column) })
+    });
+    let lines = own.chain(of_paper).collect();
+    panel("error by time (paper\u{2019}s dotted)", "s a replicate", Scale::Log(10), lines)
+}
+
+fn by_points(findings: &Findings) -> Panel {
+    let courses = findings.columns.iter().chain(&findings.others);
+    let courses = courses.filter(|course| !matches!(course.setup.form, Form::Own { .. }));
+    let lines = courses.map(|course| {
+        let dash =
+            if matches!(course.setup.form, Form::Map { .. }) { Dash::Solid } else { Dash::Dashed };
+        let stroke = Stroke { colour: colour(course.setup.points), width_px: 1.5, dash };
+        line(percent(course.by_n()), stroke)
+    });
+    panel("sequences (photons dashed, with paths solid)", "photons", Scale::Log(2), lines.collect())
+}
+
+/// With the paper's last errors as levels.
+fn by_elements(findings: &Findings) -> Panel {
+    let floors = &findings.floors;
+    let own = |of: fn(&Floor) -> &End, column: Column| {
+        let point = |floor: &Floor| [floor.element_m, 100.0 * of(floor).bias.norm()];
+        line(floors.iter().map(point).collect(), stroke(column))
+    };
+    let ends = [floors.first(), floors.last()].map(|floor| floor.map_or(1.0, |f| f.element_m));
+    let level = |column: Column| {
+        let last = paper::rows().last().map_or(f64::NAN, |row| row.errors_percent[column as usize]);
+        line(
+            ends.map(|element_m| [element_m, last]).to_vec(),
+            Stroke { colour: stroke(column).colour, ..FLOOR },
+        )
+    };
+    let lines = vec![
+        own(|floor| &floor.photons, Column::Quasi),
+        own(|floor| &floor.map, Column::Quasi2),
+        level(Column::Quasi),
+        level(Column::Quasi2),
+    ];
+    panel(
+        "floors (paper\u{2019}s last errors dashed)",
+        "legs of the elements in m",
+        Scale::Log(10),
+        lines,
+    )
+}
+
+fn panel(title: &str, x: &str, scale: Scale, lines: Vec<Line>) -> Panel {
+    let values =
+        |axis: usize| lines.iter().flat_map(move |line| line.points.iter().map(move |p| p[axis]));
+    Panel {
+        title: title.to_owned(),
+        x: Axis::around(x, scale, values(0)),
+        y: Axis::around("relative L2 error in %", Scale::Log(10), values(1)),
+        lines,
+    }
+}
+
+fn line(points: Vec<[f64; 2]>, stroke: Stroke) -> Line {
+    Line { points, stroke }
+}
+
+fn percent(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.into_iter().map(|[x, share]| [x, 100.0 * share]).collect()
+}
+
+/// Colours are columns; random points are dashed.
+fn stroke(column: Column) -> Stroke {
+    let colour = PALETTE[match column {
+        Column::Pseudo | Column::Quasi => 0,
+        Column::Pseudo2 | Column::Quasi2 => 1,
+        Column::Own => 2,
+    }];
+    let dash = match column {
+        Column::Pseudo | Column::Pseudo2 => Dash::Dashed,
+        Column::Quasi | Column::Quasi2 | Column::Own => Dash::Solid,
+    };
+    Stroke { colour, width_px: 2.0, dash }
+}
+
+fn colour(points: Points) -> &'static str {
+    let all = [Points::Random].into_iter().chain(Points::SEQUENCES);
+    let number = all.into_iter().position(|other| other == points).unwrap_or(0);
+    ["#767676", PALETTE[0], PALETTE[4], PALETTE[3], PALETTE[2], PALETTE[6]][number]
+}
+
+fn legend() -> Vec<Vec<LegendEntry>> {
+    let entry =
+        |text: &str, stroke: Stroke| LegendEntry { text: text.to_owned(), stroke: Some(stroke) };
+    let columns = Column::ALL.map(|column| entry(column.name(), stroke(column)));
+    let all = [Points::Random].into_iter().chain(Points::SEQUENCES);
+    let points = all.map(|points| entry(points.name(), Stroke::solid(colour(points), 1.5)));
+    vec![columns.into(), points.collect()]
+}

@@ -1,0 +1,200 @@
+//! All figures for programs, and what they say for people.
+
+use super::Findings;
+use super::claims::{luminances, solved_cd_m2};
+use super::compare::{Column, Duel};
+use super::course::Course;
+use super::floor::{End, Floor};
+use super::paper;
+use super::scene::CLASSES;
+use super::setup::Setup;
+use super::tables;
+use crate::commands::experiment::claim::Claim;
+use quasilux_measure::number::exact;
+use std::fmt::Write;
+
+const COLUMNS: &str = "quantity,unit,column,form,points,randomization,element_m,place,replicates,n,paths_per_place,\
+                       rays_per_replicate,seconds_per_replicate,value,half_width,truth,paper";
+
+/// A measured thing; what does not belong to it stays empty.
+#[derive(Default)]
+struct Line {
+    quantity: &'static str,
+    unit: &'static str,
+    column: String,
+    setup: [String; 4],
+    place: String,
+    n: Option<u64>,
+    paths: Option<u64>,
+    rays: Option<f64>,
+    seconds: Option<f64>,
+    value: f64,
+    half_width: Option<f64>,
+    truth: Option<f64>,
+    paper: Option<f64>,
+}
+
+/// One line a measured thing.
+pub(super) fn csv(findings: &Findings) -> String {
+    let mut lines = Vec::new();
+    for (column, course) in Column::ALL.iter().zip(&findings.columns) {
+        lines.extend(of_course(column.name(), course));
+    }
+    lines.extend(findings.others.iter().flat_map(|course| of_course("", course)));
+    lines.extend(of_course("own at one place of each class", &findings.deep));
+    lines.extend(at_equal_time(findings));
+    for duel in tables::duels(&findings.table) {
+        lines.extend(of_duel(&duel));
+    }
+    lines.extend(findings.floors.iter().flat_map(of_floor));
+    lines.extend(of_places(findings));
+    let mut text = format!("{COLUMNS}\n");
+    for line in &lines {
+        writeln!(text, "{}", line.text(findings.replicates)).expect("strings grow");
+    }
+    text
+}
+
+impl Line {
+    fn text(&self, replicates: u32) -> String {
+        let number = |value: Option<f64>| value.map(exact).unwrap_or_default();
+        let count = |value: Option<u64>| value.map(|n| n.to_string()).unwrap_or_default();
+        let texts = [
+            self.quantity.to_owned(),
+            self.unit.to_owned(),
+            self.column.clone(),
+            self.setup.join(","),
+            self.place.clone(),
+            replicates.to_string(),
+            count(self.n),
+            count(self.paths),
+            number(self.rays),
+            number(self.seconds),
+            exact(self.value),
+            number(self.half_width),
+            number(self.truth),
+            number(self.paper),
+        ];
+        texts.join(",")
+    }
+}
+
+/// Form, points, randomization and size of elements.
+fn fields(setup: Setup) -> [String; 4] {
+    let element_m = setup.form.element_m().map(exact).unwrap_or_default();
+    let points = setup.points;
+    let names = [setup.form.name(), points.name(), points.randomization().name()];
+    let [form, points, randomization] = names.map(str::to_owned);
+    [form, points, randomization, element_m]
+}
+
+fn of_course(column: &str, course: &Course) -> Vec<Line> {
+    let own = |quantity, unit, value| Line {
+        quantity,
+        unit,
+        column: column.to_owned(),
+        setup: fields(course.setup),
+        value,
+        ..Line::default()
+    };
+    let look = |look: &super::course::Look| Line {
+        n: Some(look.n),
+        paths: Some(look.paths),
+        rays: Some(look.cost.rays),
+        seconds: Some(look.cost.seconds),
+        ..own("relative error", "%", 100.0 * look.rms())
+    };
+    let slope = course.slope().map(|slope| own("slope", "1", slope));
+    course.looks.iter().map(look).chain(slope).collect()
+}
+
+fn at_equal_time(findings: &Findings) -> Vec<Line> {
+    let paper = paper::rows();
+    let rows = findings.table.rows.iter().enumerate();
+    let line = |(k, row): (usize, &super::compare::Row), column: &Column| {
+        Some(Line {
+            quantity: "relative error at equal time",
+            unit: "%",
+            column: column.name().to_owned(),
+            seconds: Some(row.cost),
+            value: 100.0 * row.rms(*column)?,
+            paper: paper.get(k).and_then(|row| row.errors_percent.get(*column as usize).copied()),
+            ..Line::default()
+        })
+    };
+    rows.flat_map(|row| Column::ALL.iter().filter_map(move |column| line(row, column))).collect()
+}
+
+fn of_duel(duel: &Duel) -> Vec<Line> {
+    let column = format!("{} over {}", duel.worse.name(), duel.better.name());
+    let line = |round: &super::compare::Round| {
+        let own = |quantity, value| Line {
+            quantity,
+            unit: "1",
+            column: column.clone(),
+            seconds: Some(round.cost),
+            value,
+            ..Line::default()
+        };
+        [own("ratio of errors at equal time", round.ratio), own("standard errors apart", round.t)]
+    };
+    duel.rounds.iter().flat_map(line).collect()
+}
+
+fn of_floor(floor: &Floor) -> Vec<Line> {
+    let lines = |(column, end): (Column, &End)| {
+        let own = |quantity, value, half_width| Line {
+            quantity,
+            unit: "%",
+            column: column.name().to_owned(),
+            setup: [String::new(), String::new(), String::new(), exact(floor.element_m)],
+            n: Some(end.n),
+            value,
+            half_width,
+            ..Line::default()
+        };
+        let error = 100.0 * end.bias.error_of_norm();
+        [
+            own("error over a floor", 100.0 * end.rms, None),
+            own("floor and its standard error", 100.0 * end.bias.norm(), Some(error)),
+        ]
+    };
+    [(Column::Quasi, &floor.photons), (Column::Quasi2, &floor.map)]
+        .into_iter()
+        .flat_map(lines)
+        .collect()
+}
+
+fn of_places(findings: &Findings) -> Vec<Line> {
+    let solved = solved_cd_m2(&findings.truth);
+    let measured = luminances(&findings.deep, &findings.truth);
+    let line = |(class, own): (usize, super::claims::Luminance)| {
+        let [x, y] = CLASSES[class];
+        let line = |quantity, value, half_width, truth| Line {
+            quantity,
+            unit: "cd/m2",
+            place: format!("{x} {y}"),
+            value,
+            half_width,
+            truth: Some(truth),
+            paper: Some(paper::LUMINANCES_CD_M2[class]),
+            ..Line::default()
+        };
+        [
+            line("luminance", own.value_cd_m2, Some(own.half_width_cd_m2), own.truth_cd_m2),
+            line("luminance by collocation", solved[class], None, paper::SOLVED_CD_M2[class]),
+        ]
+    };
+    measured.into_iter().enumerate().flat_map(line).collect()
+}
+
+/// The tables, and what is claimed.
+pub(super) fn markdown(findings: &Findings, claims: &[Claim]) -> String {
+    let mut text = tables::heading(findings);
+    text.push_str(&tables::table_4(findings));
+    text.push_str(&tables::table_5(findings));
+    text.push_str(&tables::convergence(findings));
+    text.push_str(&tables::floors(findings));
+    text.push_str(&Claim::markdown(claims));
+    text
+}
