@@ -59,13 +59,19 @@ pub(super) fn truth(truth: &Truth) -> Claim {
 
 pub(super) fn duel(table: &Table, worse: Column, better: Column) -> Claim {
     let duel = table.duel(worse, better);
-    let [low, high] = duel.ratios();
+    let [low, high] = duel.range(|round| round.ratio);
+    let [least, most] = duel.range(|round| round.compared);
+    let compared = if duel.has_same_floor {
+        format!("; about the same floor it spreads {least:.2} to {most:.2} times less")
+    } else {
+        String::new()
+    };
     let (rounds, won) = (duel.rounds.len(), duel.won());
     Claim {
         text: format!(
             "At equal {}, {} beats {} at {won} of {rounds} costs, from the first on: its error is {low:.2} to {high:.2} \
-             times smaller, mean logarithms being {:.1} standard errors apart or more ({:.1} are significant: Welch, all costs \
-             together at {} %)",
+             times smaller{compared}; mean logarithms are {:.1} standard errors apart or more ({:.1} are significant: Welch, \
+             all costs together at {} %)",
             table.currency.name(),
             better.name(),
             worse.name(),

@@ -1,4 +1,8 @@
 //! Columns at equal cost, as in the paper's table 5, and whether one beats another.
+//!
+//! Columns that read maps of the same elements have the same bias, for each randomisation leaves every point uniform. Of
+//! two such columns the one errs less that spreads less about its mean, and that is told apart from chance even where
+//! both come near their floor. Other columns are compared by their errors.
 
 use super::course::{Course, Currency, root_mean_square};
 use quasilux_transport::interval::t_quantile_for;
@@ -24,13 +28,17 @@ pub(super) struct Row {
     pub(super) cost: f64,
     /// Of each column, the errors of all replicates; `None` where it has not begun or has ended.
     errors: [Option<Vec<f64>>; 5],
+    /// The same of their distances from the mean of all replicates.
+    spreads: [Option<Vec<f64>>; 5],
 }
 
 /// One column against another.
 pub(super) struct Duel {
     pub(super) worse: Column,
     pub(super) better: Column,
-    /// At each cost: the ratio of root mean squares, and how many standard errors the mean logarithms are apart.
+    /// Whether spreads are compared.
+    pub(super) has_same_floor: bool,
+    /// At each cost.
     pub(super) rounds: Vec<Round>,
     /// What they exceed by chance at any of the costs in one case of a hundred, were the columns alike.
     pub(super) critical: f64,
@@ -38,8 +46,11 @@ pub(super) struct Duel {
 
 pub(super) struct Round {
     pub(super) cost: f64,
+    /// Of the errors' root mean squares.
     pub(super) ratio: f64,
-    /// B. L. Welch's t (Biometrika 34, 1947).
+    /// Of those of what is compared: spreads or errors.
+    pub(super) compared: f64,
+    /// By how many standard errors their mean logarithms are apart (B. L. Welch, Biometrika 34, 1947).
     pub(super) t: f64,
 }
 
@@ -53,6 +64,13 @@ impl Column {
         [Self::Pseudo, Self::Quasi, Self::Pseudo2, Self::Quasi2, Self::Own];
     /// Those that the paper has.
     pub(super) const OF_PAPER: [Self; 4] = [Self::Pseudo, Self::Quasi, Self::Pseudo2, Self::Quasi2];
+
+    /// Whether both read the same map in the same way.
+    fn has_floor_of(self, other: Self) -> bool {
+        let is_of_paths = |column| matches!(column, Self::Pseudo2 | Self::Quasi2);
+        let is_of_paper = |column| column != Self::Own;
+        is_of_paper(self) && is_of_paper(other) && is_of_paths(self) == is_of_paths(other)
+    }
 
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -78,24 +96,31 @@ impl Table {
         let costs = std::iter::successors(Some(begins), |cost| Some(2.0 * cost));
         let row = |cost: f64| Row {
             cost,
-            errors: Column::ALL.map(|column| courses[column as usize].errors_at(cost, currency)),
+            errors: Column::ALL
+                .map(|column| courses[column as usize].at(cost, currency, |look| &look.errors)),
+            spreads: Column::ALL
+                .map(|column| courses[column as usize].at(cost, currency, |look| &look.spreads)),
         };
         Self { currency, rows: costs.take_while(|cost| *cost <= last).map(row).collect() }
     }
 
     /// Whether the second beats the first, as far as both go.
     pub(super) fn duel(&self, worse: Column, better: Column) -> Duel {
+        let has_same_floor = worse.has_floor_of(better);
         let both = |row: &Row| -> Option<Round> {
-            let [a, b] = [worse, better].map(|column| row.errors[column as usize].as_ref());
-            let (a, b) = (a?, b?);
-            let ratio = root_mean_square(a) / root_mean_square(b);
-            Some(Round { cost: row.cost, ratio, t: welch(a, b) })
+            let of = |rows: &[Option<Vec<f64>>; 5], column: Column| rows[column as usize].clone();
+            let [a, b] = [of(&row.errors, worse)?, of(&row.errors, better)?];
+            let ratio = root_mean_square(&a) / root_mean_square(&b);
+            let compared = if has_same_floor { &row.spreads } else { &row.errors };
+            let [a, b] = [of(compared, worse)?, of(compared, better)?];
+            let compared = root_mean_square(&a) / root_mean_square(&b);
+            Some(Round { cost: row.cost, ratio, compared, t: welch(&a, &b) })
         };
         let rounds: Vec<Round> = self.rows.iter().filter_map(both).collect();
         let replicates = self.rows.iter().flat_map(|row| row.errors.iter().flatten()).map(Vec::len);
         let miss = 2.0 * SIGNIFICANCE / rounds.len().max(1) as f64;
         let critical = t_quantile_for(replicates.min().unwrap_or(0), miss);
-        Duel { worse, better, rounds, critical: critical.unwrap_or(f64::INFINITY) }
+        Duel { worse, better, has_same_floor, rounds, critical: critical.unwrap_or(f64::INFINITY) }
     }
 }
 
@@ -116,9 +141,9 @@ impl Duel {
         !self.rounds.is_empty() && self.won() == self.rounds.len()
     }
 
-    /// Smallest and largest ratio.
-    pub(super) fn ratios(&self) -> [f64; 2] {
-        let ratios = || self.rounds.iter().map(|round| round.ratio);
+    /// Smallest and largest of the ratios.
+    pub(super) fn range(&self, of: fn(&Round) -> f64) -> [f64; 2] {
+        let ratios = || self.rounds.iter().map(of);
         [ratios().fold(f64::INFINITY, f64::min), ratios().fold(0.0, f64::max)]
     }
 

@@ -40,6 +40,8 @@ pub(super) struct Look {
     pub(super) cost: Cost,
     /// Of each replicate: the L2 norm of the error over all places, over that of the truth.
     pub(super) errors: Vec<f64>,
+    /// The same of the distance from the mean of all replicates: what is noise, and no floor.
+    pub(super) spreads: Vec<f64>,
     /// What would be left of them after very many replicates.
     pub(super) bias: Bias,
 }
@@ -117,9 +119,14 @@ impl Course {
         fit_power_law(&points).map(|law| law.exponent)
     }
 
-    /// Errors of all replicates at a cost, on straight lines in logarithms between checkpoints; `None` before the
-    /// first and after the last.
-    pub(super) fn errors_at(&self, cost: f64, currency: Currency) -> Option<Vec<f64>> {
+    /// Errors or spreads of all replicates at a cost, on straight lines in logarithms between checkpoints; `None`
+    /// before the first and after the last.
+    pub(super) fn at(
+        &self,
+        cost: f64,
+        currency: Currency,
+        of_look: fn(&Look) -> &[f64],
+    ) -> Option<Vec<f64>> {
         let of = |look: &Look| libm::log(look.cost.of(currency));
         let cost = libm::log(cost);
         let pair =
@@ -127,7 +134,7 @@ impl Course {
         let share = (cost - of(&pair[0])) / (of(&pair[1]) - of(&pair[0]));
         let between =
             |(a, b): (&f64, &f64)| libm::exp((1.0 - share) * libm::log(*a) + share * libm::log(*b));
-        Some(pair[0].errors.iter().zip(&pair[1].errors).map(between).collect())
+        Some(of_look(&pair[0]).iter().zip(of_look(&pair[1])).map(between).collect())
     }
 
     pub(super) fn end(&self) -> &Look {
@@ -181,11 +188,15 @@ impl Observer for Stopwatch<'_> {
             seconds: elapsed.as_secs_f64() / replicates,
         };
         let samples = estimates.samples;
+        let mean_of = |place: usize| rows.iter().map(|row| row[place]).sum::<f64>() / replicates;
+        let mean: Vec<f64> = (0..rows[0].len()).map(mean_of).collect();
+        let scale = (replicates / (replicates - 1.0)).sqrt();
         self.looks.push(Look {
             n: self.setup.form.n(samples),
             paths: self.setup.form.paths(samples),
             cost,
-            errors: rows.iter().map(|row| relative_error(row, self.task)).collect(),
+            errors: rows.iter().map(|row| distance(row, &self.task.truth_lx, self.task)).collect(),
+            spreads: rows.iter().map(|row| scale * distance(row, &mean, self.task)).collect(),
             bias: Bias::of(rows, self.task),
         });
         let is_last = self.setup.points != Points::Hammersley && 2 * elapsed > self.task.limit;
@@ -193,12 +204,14 @@ impl Observer for Stopwatch<'_> {
     }
 }
 
-/// The L2 norm of the error over that of the truth.
-fn relative_error(row: &[f64], task: &Task) -> f64 {
-    let mut sums = [0.0; 2];
-    for ((value, truth), place) in row.iter().zip(&task.truth_lx).zip(task.places.iter()) {
-        sums[0] += place.weight * (value - truth) * (value - truth);
-        sums[1] += place.weight * truth * truth;
+/// The L2 norm of the distance over that of the truth.
+fn distance(row: &[f64], from: &[f64], task: &Task) -> f64 {
+    let (mut squares, mut truth_squares) = (0.0, 0.0);
+    for (((value, from), truth), place) in
+        row.iter().zip(from).zip(&task.truth_lx).zip(task.places.iter())
+    {
+        squares += place.weight * (value - from) * (value - from);
+        truth_squares += place.weight * truth * truth;
     }
-    (sums[0] / sums[1]).sqrt()
+    (squares / truth_squares).sqrt()
 }

@@ -7,8 +7,8 @@ use super::course::{Course, Task};
 use super::setup::{Form, Points, Setup};
 use quasilux_sampling::quality::{PowerLaw, fit_power_law};
 
-/// Legs of the elements: 8 to 64 on a side.
-pub(super) const ELEMENTS_M: [f64; 4] = [1.25, 0.625, 0.3125, 0.15625];
+/// Legs of the elements: 4 to 32 on a side.
+pub(super) const ELEMENTS_M: [f64; 4] = [2.5, 1.25, 0.625, 0.3125];
 
 /// What is left of both forms' errors with elements of one size.
 pub(super) struct Floor {

@@ -41,11 +41,12 @@ const MOST: u64 = 1 << 22;
 /// For all replicates of a column, unless the command line says otherwise. What is beside the columns gets a part.
 const SECONDS: Duration = Duration::from_secs(60);
 const PART: u32 = 3;
-/// Legs of the map's elements: 32 on a side, 12 288 elements in all.
-const ELEMENT_M: f64 = 0.3125;
+/// Legs of the map's elements: 16 on a side, 3072 elements in all.
+const ELEMENT_M: f64 = 0.625;
 /// Photons of a map for each path from a place: about as many as make the error of pseudo2 least for its rays.
-const PHOTONS_PER_PATH: u32 = 1024;
-/// Paths from each place where the floor of our own form is looked for, unless the command line asks for less.
+const PHOTONS_PER_PATH: u32 = 512;
+/// Paths from each place where the floor of our own form is looked for, unless the command line asks for less, however
+/// long it takes.
 const DEEP: u64 = 1 << 16;
 
 /// All that is measured.
@@ -119,7 +120,7 @@ fn other_setups() -> impl Iterator<Item = Setup> {
 fn deep(task: &Task, truth: &Truth) -> Course {
     let few = Task::at(Places::one_of_each_class(), truth);
     let most = task.most.min(DEEP);
-    let task = Task { places: few.places, truth_lx: few.truth_lx, most, ..*task };
+    let task = Task { most, replicates: task.replicates, seed: task.seed, ..few };
     let form = Form::Own { joins: false };
     Course::run(Setup { form, points: Points::ScrambledSobol }, &task)
 }

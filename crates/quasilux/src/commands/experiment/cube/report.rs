@@ -1,9 +1,9 @@
 //! All figures for programs, and what they say for people.
 
 use super::Findings;
-use super::claims::{luminances, solved_cd_m2};
-use super::compare::{Column, Duel};
-use super::course::Course;
+use super::claims::{Luminance, luminances, solved_cd_m2};
+use super::compare::{Column, Duel, Round, Row};
+use super::course::{Course, Look, root_mean_square};
 use super::floor::{End, Floor};
 use super::paper;
 use super::scene::CLASSES;
@@ -97,21 +97,27 @@ fn of_course(column: &str, course: &Course) -> Vec<Line> {
         value,
         ..Line::default()
     };
-    let look = |look: &super::course::Look| Line {
+    let look = |look: &Look| Line {
         n: Some(look.n),
         paths: Some(look.paths),
         rays: Some(look.cost.rays),
         seconds: Some(look.cost.seconds),
         ..own("relative error", "%", 100.0 * look.rms())
     };
+    let spread = |look: &Look| Line {
+        n: Some(look.n),
+        paths: Some(look.paths),
+        ..own("relative spread", "%", 100.0 * root_mean_square(&look.spreads))
+    };
     let slope = course.slope().map(|slope| own("slope", "1", slope));
-    course.looks.iter().map(look).chain(slope).collect()
+    let spreads = course.looks.iter().map(spread);
+    course.looks.iter().map(look).chain(spreads).chain(slope).collect()
 }
 
 fn at_equal_time(findings: &Findings) -> Vec<Line> {
     let paper = paper::rows();
     let rows = findings.table.rows.iter().enumerate();
-    let line = |(k, row): (usize, &super::compare::Row), column: &Column| {
+    let line = |(k, row): (usize, &Row), column: &Column| {
         Some(Line {
             quantity: "relative error at equal time",
             unit: "%",
@@ -127,7 +133,7 @@ fn at_equal_time(findings: &Findings) -> Vec<Line> {
 
 fn of_duel(duel: &Duel) -> Vec<Line> {
     let column = format!("{} over {}", duel.worse.name(), duel.better.name());
-    let line = |round: &super::compare::Round| {
+    let line = |round: &Round| {
         let own = |quantity, value| Line {
             quantity,
             unit: "1",
@@ -136,7 +142,13 @@ fn of_duel(duel: &Duel) -> Vec<Line> {
             value,
             ..Line::default()
         };
-        [own("ratio of errors at equal time", round.ratio), own("standard errors apart", round.t)]
+        let compared =
+            if duel.has_same_floor { "ratio of spreads at equal time" } else { "ratio compared" };
+        [
+            own("ratio of errors at equal time", round.ratio),
+            own(compared, round.compared),
+            own("standard errors apart", round.t),
+        ]
     };
     duel.rounds.iter().flat_map(line).collect()
 }
@@ -168,7 +180,7 @@ fn of_floor(floor: &Floor) -> Vec<Line> {
 fn of_places(findings: &Findings) -> Vec<Line> {
     let solved = solved_cd_m2(&findings.truth);
     let measured = luminances(&findings.deep, &findings.truth);
-    let line = |(class, own): (usize, super::claims::Luminance)| {
+    let line = |(class, own): (usize, Luminance)| {
         let [x, y] = CLASSES[class];
         let line = |quantity, value, half_width, truth| Line {
             quantity,
