@@ -2,8 +2,9 @@
 
 use crate::scenes::{diffuse_cube, points};
 use glam::DVec3;
+use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimator, Interval, Reconstruction, Settings, simulate};
+use quasilux_transport::{Estimator, Interval, Reconstruction, Settings, Switch, simulate};
 use std::f64::consts::PI;
 
 /// Luminance at the middle of a wall of the diffuse cube (see `cube.rs`), as illuminance in lx.
@@ -108,4 +109,24 @@ fn refined_maps_give_the_same_bits_on_any_number_of_threads() {
         pool.install(|| simulate(&scene, &settings, &mut ()).point_intervals(0))
     };
     assert_eq!(run(1), run(2));
+}
+
+/// Every path of the sensor point comes with 64 photons: 64 paths in 16 replicates with 2^16, which know the middle of
+/// the wall to about 1 %.
+#[test]
+fn maps_get_the_photons_that_are_asked_for() {
+    for sequence in [Sequence::Sobol, Sequence::Hammersley { points: 64 }] {
+        let settings = Settings {
+            sequence,
+            map_photons: 64,
+            first_shot: Switch::Off,
+            steering: Switch::Off,
+            max_samples: Some(64),
+            ..settings(Reconstruction::Constant, 3.55)
+        };
+        let estimates = simulate(&diffuse_cube(&[(0.0, 0.0)]), &settings, &mut ());
+        assert_eq!(estimates.dimensions.photon.samples(), 1 << 16);
+        let value_lx = estimates.point_intervals(0)[0].value;
+        assert!((value_lx / KNOWN_LX - 1.0).abs() < 0.04, "{value_lx}");
+    }
 }

@@ -109,6 +109,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     let grown = Settings {
         map_adaptive: false,
         map_element_m: Some(0.5),
+        map_photons: 3,
         steering: Switch::Off,
         ..settings(Estimator::BidirectionalMap)
     };

@@ -142,11 +142,9 @@ fn of_duel(duel: &Duel) -> Vec<Line> {
             value,
             ..Line::default()
         };
-        let compared =
-            if duel.has_same_floor { "ratio of spreads at equal time" } else { "ratio compared" };
         [
             own("ratio of errors at equal time", round.ratio),
-            own(compared, round.compared),
+            own("ratio of what is compared", round.compared),
             own("standard errors apart", round.t),
         ]
     };
