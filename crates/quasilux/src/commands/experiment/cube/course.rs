@@ -102,6 +102,15 @@ impl Course {
         }
     }
 
+    /// Runs it once more, to the same values: of both, the shorter time counts.
+    pub(super) fn time_again(&mut self, task: &Task) {
+        let task = Task { most: self.end().n, limit: Duration::MAX, ..task.clone() };
+        let again = Self::run(self.setup, &task);
+        for (look, again) in self.looks.iter_mut().zip(&again.looks) {
+            look.cost.seconds = look.cost.seconds.min(again.cost.seconds);
+        }
+    }
+
     /// (N, root mean square of the errors over the replicates).
     pub(super) fn by_n(&self) -> Vec<[f64; 2]> {
         self.looks.iter().map(|look| [look.n as f64, look.rms()]).collect()

@@ -22,7 +22,9 @@ pub(super) fn svg(findings: &Findings) -> String {
 fn by_n(findings: &Findings) -> Panel {
     let lines = Column::ALL.iter().zip(&findings.columns);
     let lines = lines.map(|(column, course)| line(percent(course.by_n()), stroke(*column)));
-    panel("error by N", "photons, or paths a place (own)", Scale::Log(2), lines.collect())
+    let deep = Stroke { dash: Dash::Dotted, ..stroke(Column::Own) };
+    let lines = lines.chain([line(percent(findings.deep.by_n()), deep)]).collect();
+    panel("error by N", "photons, or paths a place (own)", Scale::Log(2), lines)
 }
 
 /// With the paper's seconds.
@@ -126,5 +128,10 @@ fn legend() -> Vec<Vec<LegendEntry>> {
     let columns = Column::ALL.map(|column| entry(column.name(), stroke(column)));
     let all = [Points::Random].into_iter().chain(Points::SEQUENCES);
     let points = all.map(|points| entry(points.name(), Stroke::solid(colour(points), 1.5)));
-    vec![columns.into(), points.collect()]
+    let points: Vec<LegendEntry> = points.collect();
+    let deep =
+        entry("own, one place of each class", Stroke { dash: Dash::Dotted, ..stroke(Column::Own) });
+    let mut rows = vec![columns.into(), vec![deep]];
+    rows.extend(points.chunks(3).map(<[LegendEntry]>::to_vec));
+    rows
 }

@@ -31,7 +31,8 @@ pub(super) fn heading(findings: &Findings) -> String {
          micrometres inside its wall's edge, and a map is read in the own wall's element there. A place where elements meet is\n\
          read in one of them.\n\n\
          Seconds are the wall clock of all randomisations together over their number: what one takes on this machine when\n\
-         they share the start. Paths that end on a map that grows are traced anew at each power of two, and that counts.\n",
+         they share the start. Each column is timed twice, and the shorter time counts. Paths that end on a map that grows are\n\
+         traced anew at each power of two, which counts, too.\n",
         replicates = findings.replicates,
         inset = 1e6 * INSET * HALF_M,
     )
