@@ -40,11 +40,15 @@ use truth::Truth;
 
 /// Randomisations of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 32;
-/// The largest N, unless the command line says otherwise.
-const MOST: u64 = 1 << 22;
-/// For all replicates of a column, unless the command line says otherwise. What is beside the columns gets a part.
+/// The largest N, and the time for all replicates of a column, unless the command line says otherwise: whichever comes
+/// first.
+const MOST: u64 = 1 << 20;
 const SECONDS: Duration = Duration::from_secs(60);
-const PART: u32 = 2;
+/// N of what is beside the columns, unless the command line asks for less, however long it takes: photons with other
+/// sequences, paths with joined photons, photons of elements of other sizes.
+const OTHER_PHOTONS: u64 = 1 << 16;
+const JOINED_PATHS: u64 = 1 << 6;
+const FLOOR_PHOTONS: u64 = 1 << 17;
 /// Legs of the map's elements: 16 on a side, 3072 elements in all.
 const ELEMENT_M: f64 = 0.625;
 /// Photons of a map for each path from a place: about as many as make the error of pseudo2 least for its rays.
@@ -76,12 +80,13 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     task.most = arguments.max_n.unwrap_or(MOST);
     task.limit = arguments.seconds_per_point.unwrap_or(SECONDS);
     let mut columns = columns(ELEMENT_M, PHOTONS_PER_PATH).map(|setup| Course::run(setup, &task));
-    // The other way round, lest something else that the machine does slow down one of them alone.
-    columns.iter_mut().rev().for_each(|column| column.time_again(&task));
+    Course::time(&mut columns, &task);
     let deep = deep(&task, &truth);
-    task.limit /= PART;
-    let others = other_setups().map(|setup| Course::run(setup, &task)).collect();
-    let floors = Floor::all(&floor::ELEMENTS_M, PHOTONS_PER_PATH, &task);
+    let others = other_setups().map(|setup| Course::run(setup, &beside(&task, setup.form)));
+    let others = others.collect();
+    let to_floor =
+        Task { most: task.most.min(FLOOR_PHOTONS), limit: Duration::MAX, ..task.clone() };
+    let floors = Floor::all(&floor::ELEMENTS_M, PHOTONS_PER_PATH, &to_floor);
     let table = Table::of(&columns, Currency::Seconds);
     let replicates = task.replicates;
     let findings = Findings { replicates, truth, columns, others, floors, deep, table };
@@ -120,6 +125,12 @@ fn other_setups() -> impl Iterator<Item = Setup> {
         .into_iter()
         .flat_map(move |form| others.clone().map(move |points| Setup { form, points }))
         .chain([joined])
+}
+
+/// What is beside the columns ends at the same N, however long it takes.
+fn beside(task: &Task, form: Form) -> Task {
+    let most = if matches!(form, Form::Own { .. }) { JOINED_PATHS } else { OTHER_PHOTONS };
+    Task { most: task.most.min(most), limit: Duration::MAX, ..task.clone() }
 }
 
 /// Our own form at one place of each class.

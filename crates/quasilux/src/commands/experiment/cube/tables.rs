@@ -30,9 +30,9 @@ pub(super) fn heading(findings: &Findings) -> String {
          Places on an edge or in a corner belong to two or three walls, and are read once for each: a path starts {inset:.0}\n\
          micrometres inside its wall's edge, and a map is read in the own wall's element there. A place where elements meet is\n\
          read in one of them.\n\n\
-         Seconds are the wall clock of all randomisations together over their number: what one takes on this machine when\n\
-         they share the start. Each column is timed twice, and the shorter time counts. Paths that end on a map that grows are\n\
-         traced anew at each power of two, which counts, too.\n",
+         Seconds are wall clock for all randomisations together over their number: what one takes on this machine when they\n\
+         share the start. Columns are timed in short runs, in turn; the shortest of each says what a ray takes. Paths that end on\n\
+         a map that grows are traced anew at each power of two, which counts, too.\n",
         replicates = findings.replicates,
         inset = 1e6 * INSET * HALF_M,
     )
@@ -108,8 +108,8 @@ pub(super) fn table_5(findings: &Findings) -> String {
 /// Errors by N at the end, and slopes, for all sequences.
 pub(super) fn convergence(findings: &Findings) -> String {
     let mut text = "\n## Sequences\n\n\
-         At the last N that the time allows: photons of a replicate, for our own form paths from a place. Slopes of the error\n\
-         against N, its floor included.\n\n\
+         At the last N: photons of a replicate, for our own form paths from a place; for the columns the last that the time\n\
+         allows, too. Slopes of the error against N, its floor included.\n\n\
          | form | points | randomisation | N | paths a place | s | error in % | slope |\n|---|---|---|---:|---:|---:|---:|---:|\n"
         .to_owned();
     let courses = findings.columns.iter().chain(&findings.others);
