@@ -5,7 +5,7 @@ use super::compare::{Column, Duel, Table};
 use super::floor::{End, Floor};
 use super::paper;
 use super::scene::{CLASSES, HALF_M, INSET};
-use super::{DEEP, ELEMENT_M, Findings, PHOTONS_PER_PATH};
+use super::{ELEMENT_M, Findings, PHOTONS_PER_PATH};
 use std::fmt::Write;
 
 /// The comparisons of table 5; the last one against our own form.
@@ -43,8 +43,9 @@ pub(super) fn table_4(findings: &Findings) -> String {
     let mut text = format!(
         "\n## Luminances (table 4)\n\n\
          In cd/m2 at places in units of half a side: as the paper prints them; by two solves made before, radiosity and spectral;\n\
-         by collocation here, at the very edge; and by our own form with up to {DEEP} paths, its intervals for all six together at 99 %.\n\n\
-         | place | paper | radiosity, spectral | collocation | own |\n|---|---:|---:|---:|---:|\n"
+         by collocation here, at the very edge; and by our own form with {} paths, its intervals for all six together at 99 %.\n\n\
+         | place | paper | radiosity, spectral | collocation | own |\n|---|---:|---:|---:|---:|\n",
+        findings.deep.end().paths,
     );
     let measured = luminances(&findings.deep, &findings.truth);
     let solved = solved_cd_m2(&findings.truth);
@@ -170,8 +171,8 @@ fn of_paper(findings: &Findings) -> String {
     let map = law(|floor| &floor.map, quasi2);
     format!(
         "\nThe floors grow with the legs' power {:.2} for quasi and {:.2} for quasi2. The paper's last errors, {quasi:.2} % and \
-         {quasi2:.2} %,\nare floors for legs of {:.2} m and {:.2} m, and their ratio is {:.2}. At an edge half of the directions \
-         lead right onto\nthe next wall, in a corner three quarters: so quasi2 keeps about that part of the map's error there.\n",
+         {quasi2:.2} %,\nare floors for legs of {:.2} m and {:.2} m, and their ratio is {:.2}. At an edge half of the directions lead right onto\n\
+         the next wall, in a corner three quarters: with the reflectance 2/3 quasi2 keeps a third and a half of the map's error there.\n",
         photons[0],
         map[0],
         photons[1],
