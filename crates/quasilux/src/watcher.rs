@@ -1,6 +1,6 @@
 //! Watches a run: shows how far it is, and ends it when time is up or the user says so.
 
-#![allow(clippy::disallowed_methods, reason = "this is the one place that reads the clock")]
+#![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
 use crate::checkpoint::Keeping;
 use crate::interrupt;

@@ -1,4 +1,4 @@
-//! Pictures: false colours with a scale for grids and cameras, and what a camera sees.
+//! Pictures: false colours with a scale for grids and cameras, and what a camera sees, alone or side by side.
 //!
 //! The false-colour picture of a grid has flat cells in true proportion, contour lines at round
 //! illuminances, the number of each cell where it fits, axes in metres and a legend in lux.
@@ -17,10 +17,12 @@ mod layout;
 mod luminance_scale;
 mod plot;
 mod scale;
+mod series;
 mod text;
 mod tone_map;
 
 pub use camera::camera_false_colour_png;
+pub use series::{SeriesPicture, series_png};
 pub use tone_map::tone_mapped_png;
 
 use crate::number::figure_text;

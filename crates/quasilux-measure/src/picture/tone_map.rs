@@ -25,7 +25,8 @@ pub fn tone_mapped_png(camera: &CameraReport) -> Vec<u8> {
     srgb_png(camera.resolution, colours.as_flattened())
 }
 
-struct Operator {
+/// What turns luminances into colours of a screen.
+pub(super) struct Operator {
     /// From luminance in cd/m^2 to L.
     scale: f64,
     /// One over L_white squared.
@@ -33,7 +34,8 @@ struct Operator {
 }
 
 impl Operator {
-    fn of(pixels: &[Pixel]) -> Self {
+    /// That of a picture.
+    pub(super) fn of(pixels: &[Pixel]) -> Self {
         let (mut logarithms, mut lit, mut largest) = (0.0, 0_u64, 0.0_f64);
         for pixel in pixels {
             let luminance = f64::from(pixel.luminance_cd_m2);
@@ -52,7 +54,7 @@ impl Operator {
     }
 
     /// The sRGB colour of a pixel.
-    fn shown(&self, pixel: &Pixel) -> [u8; 3] {
+    pub(super) fn shown(&self, pixel: &Pixel) -> [u8; 3] {
         let l = self.scale * f64::from(pixel.luminance_cd_m2);
         let factor = self.scale * (1.0 + l * self.burn) / (1.0 + l);
         pixel.rgb_cd_m2.map(|channel| {

@@ -5,25 +5,35 @@ use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::light::{AreaLight, PointLight};
 use quasilux_scene::{Bsdf, Light, Material, Mesh, Rgb, Scene, Sensor, SensorPoint, SensorShape};
 
-/// A closed box from the origin to `size_m`, all of one material, its normals inward.
+/// Corners of a box's sides, low and high along z, x and y, as seen from within. A corner's bits say where
+/// along x, y and z it is.
+const BOX: [[u32; 4]; 6] =
+    [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
+
+/// A closed box from the origin to `size_m`, all of one material, its normals inward: floor, ceiling, then the
+/// walls at low and high x, at low and high y, two triangles each.
 pub(super) fn room(size_m: DVec3, bsdf: Bsdf) -> Scene {
     let mut scene = Scene::default();
     let material = add_material(&mut scene, bsdf);
-    let quads =
-        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
-    for quad in quads {
-        let corner = |i: i32| {
-            let axis = |bit: i32| f64::from(i >> bit & 1);
-            DVec3::new(axis(0), axis(1), axis(2)) * size_m
-        };
-        add_quad(&mut scene, quad.map(corner), material);
+    for quad in BOX {
+        add_quad(&mut scene, quad.map(|corner| corner_of_box(corner) * size_m), material);
     }
     scene
+}
+
+fn corner_of_box(number: u32) -> DVec3 {
+    let axis = |bit: u32| f64::from(number >> bit & 1);
+    DVec3::new(axis(0), axis(1), axis(2))
 }
 
 /// A surface that reflects the same share of all light, diffusely.
 pub(super) fn grey(reflectance: f64) -> Bsdf {
     Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(reflectance) })
+}
+
+/// A surface that reflects a share of each channel, diffusely.
+pub(super) fn coloured(reflectance: [f64; 3]) -> Bsdf {
+    Bsdf::Diffuse(Diffuse { reflectance: Rgb(reflectance) })
 }
 
 /// Adds a material, and returns its number.
@@ -45,6 +55,15 @@ pub(super) fn add_quad(scene: &mut Scene, corners: [DVec3; 4], material: u32) {
     }
     if mesh.objects.is_empty() {
         mesh.objects.push("scene".to_owned());
+    }
+}
+
+/// Adds a block with its edges along the axes, its normals outward.
+pub(super) fn add_block(scene: &mut Scene, low: DVec3, size_m: DVec3, material: u32) {
+    for quad in BOX {
+        let mut corners = quad.map(|corner| low + corner_of_box(corner) * size_m);
+        corners.reverse();
+        add_quad(scene, corners, material);
     }
 }
 

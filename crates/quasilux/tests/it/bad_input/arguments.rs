@@ -60,9 +60,6 @@ fn commands_and_paths() {
                 .with(&["--out", "results/of/today"])
                 .says(&["results/of/today: ", "cannot write"]),
             Case::new("a command to come").instead(&["bsdf", "x.xml"]).says(&["not built yet"]),
-            Case::new("an experiment to come")
-                .instead(&["experiment", "octant"])
-                .says(&["octant", "not built yet"]),
             Case::new("unknown experiment")
                 .instead(&["experiment", "octave"])
                 .says(&["octave", "octant"]),

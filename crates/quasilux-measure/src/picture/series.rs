@@ -1,0 +1,84 @@
+//! Several pictures of one view side by side, under one exposure, so that they can be compared.
+
+use super::INK;
+use super::canvas::Canvas;
+use super::text::{self, Align, TextStyle};
+use super::tone_map::Operator;
+use glam::DVec2;
+use quasilux_transport::Pixel;
+
+/// Height of a capital in a label, in pixels.
+const CAPITAL_PX: f64 = 11.0;
+/// Room above each picture for its label, and between pictures and around them.
+const LABEL_PX: usize = 26;
+const GAP_PX: usize = 8;
+
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesPicture<'a> {
+    /// What stands above it.
+    pub label: &'a str,
+    /// Row by row from the top left corner.
+    pub pixels: &'a [Pixel],
+}
+
+/// Pictures of one resolution in a row, each below its label, as a PNG file. All are shown as the operator of
+/// [`tone_mapped_png`](super::tone_mapped_png) shows the picture `exposure`; what is brighter than it is white.
+#[must_use]
+pub fn series_png(
+    [width, height]: [u32; 2],
+    pictures: &[SeriesPicture<'_>],
+    exposure: &[Pixel],
+) -> Vec<u8> {
+    let operator = Operator::of(exposure);
+    let [width, height] = [width, height].map(|n| n as usize);
+    let size = [GAP_PX + pictures.len() * (width + GAP_PX), height + LABEL_PX + GAP_PX];
+    let mut canvas = Canvas::new(size[0], size[1]);
+    let style = TextStyle::new(CAPITAL_PX, INK, Align::Left);
+    for (number, picture) in pictures.iter().enumerate() {
+        let left = GAP_PX + number * (width + GAP_PX);
+        let base = DVec2::new(left as f64, LABEL_PX as f64 - 7.5);
+        let label = text::fitted(picture.label, CAPITAL_PX, width as f64);
+        text::draw(&mut canvas, &label, base, style);
+        for (i, pixel) in picture.pixels.iter().take(width * height).enumerate() {
+            canvas.set(left + i % width, LABEL_PX + i / width, operator.shown(pixel));
+        }
+    }
+    canvas.to_png()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(luminance_cd_m2: f32) -> Pixel {
+        Pixel { rgb_cd_m2: [luminance_cd_m2; 3], luminance_cd_m2, half_width_cd_m2: None }
+    }
+
+    /// The same luminance has the same colour in each picture, and more light is lighter.
+    #[test]
+    fn pictures_share_one_exposure() {
+        let (dark, light) = ([grey(1.0), grey(0.0)], [grey(1.0), grey(9.0)]);
+        let pictures = [("dark", &dark), ("light", &light)]
+            .map(|(label, pixels)| SeriesPicture { label, pixels });
+        let png = series_png([2, 1], &pictures, &light);
+        let mut reader = png::Decoder::new(std::io::Cursor::new(&png)).read_info().expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        let info = reader.next_frame(&mut pixels).expect("a frame");
+        let size = [info.width as usize, info.height as usize];
+        assert_eq!(size, [GAP_PX + 2 * (2 + GAP_PX), 1 + LABEL_PX + GAP_PX]);
+        let at = |x: usize| pixels[3 * (LABEL_PX * size[0] + x)];
+        let second = GAP_PX + 2 + GAP_PX;
+        assert_eq!(at(GAP_PX), at(second));
+        assert_eq!([at(GAP_PX + 1), at(second + 1)], [0, 255]);
+        assert!((1..255).contains(&at(GAP_PX)));
+    }
+
+    #[test]
+    fn no_pictures_and_no_light_do_not_break() {
+        assert!(!series_png([3, 2], &[], &[]).is_empty());
+        let black = [grey(0.0); 6];
+        let picture = SeriesPicture { label: "a label that does not fit", pixels: &black };
+        assert!(!series_png([3, 2], &[picture], &black).is_empty());
+    }
+}

@@ -1,0 +1,177 @@
+//! One room with one kind of points, with and without first shot.
+
+use super::Effort;
+use super::rooms::Room;
+use crate::commands::experiment::course::{Course, Stage};
+use crate::commands::experiment::gain::Gain;
+use quasilux_sampling::Sequence;
+use quasilux_sampling::quality::fit_power_law;
+use quasilux_transport::interval::t_quantile_for;
+use quasilux_transport::{Estimator, Settings, Switch};
+
+/// The points that are compared.
+pub(super) const SEQUENCES: [Sequence; 2] = [Sequence::Random, Sequence::Sobol];
+/// Longest edge of an element of the map.
+const ELEMENT_M: f64 = 0.5;
+/// Light of no and of one bounce is found by paths alone; photons bring the rest, which is the third term then.
+const TERMS_OF_PATHS: u32 = 2;
+/// Slopes are fitted from here on.
+const FIT_FROM: u64 = 256;
+
+/// What is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The illuminance.
+    Whole,
+    /// Of it, what photons bring: light of two bounces and more.
+    OfPhotons,
+}
+
+/// Two runs.
+pub(super) struct Trial {
+    pub(super) room: &'static str,
+    pub(super) why: &'static str,
+    pub(super) sequence: Sequence,
+    pub(super) off: Course,
+    pub(super) on: Course,
+}
+
+/// Whether means of two runs agree.
+pub(super) struct Agreement {
+    /// The largest distance at a point, in standard errors of the difference.
+    pub(super) worst: f64,
+    /// What it may be, all points together at a significance of 1 %.
+    pub(super) allowed: f64,
+    /// The largest distance over the value.
+    pub(super) relative: f64,
+}
+
+impl Trial {
+    pub(super) fn new(room: &Room, sequence: Sequence, effort: &Effort) -> Self {
+        let run = |first_shot: Switch, seed: u64| {
+            let settings = Settings {
+                estimator: Estimator::BidirectionalMap,
+                first_shot,
+                sequence,
+                steering: Switch::Off,
+                map_adaptive: false,
+                map_element_m: Some(ELEMENT_M),
+                replicates: effort.replicates,
+                list_terms: TERMS_OF_PATHS,
+                max_samples: Some(effort.samples),
+                seed,
+                ..Settings::default()
+            };
+            Course::run(&room.scene, &settings, effort.limit)
+        };
+        // Other seeds: what the two have in common is light alone.
+        let (off, on) = (run(Switch::Off, 2 * effort.seed), run(Switch::On, 2 * effort.seed + 1));
+        Self { room: room.name, why: room.why, sequence, off, on }
+    }
+
+    /// Both runs with their names.
+    pub(super) fn runs(&self) -> [(&'static str, &Course); 2] {
+        [("off", &self.off), ("on", &self.on)]
+    }
+
+    /// The last checkpoint that both have.
+    pub(super) fn last(&self) -> [&Stage; 2] {
+        let last = self.off.stages.len().min(self.on.stages.len()) - 1;
+        [&self.off.stages[last], &self.on.stages[last]]
+    }
+
+    /// By how much first shot divides the error when N is largest.
+    pub(super) fn gain(&self, part: Part) -> Gain {
+        let [off, on] = self.last().map(|stage| squares(stage, part));
+        Gain::of_squares(&off, &on)
+    }
+
+    /// How many times as efficient it is by rays, for what photons bring.
+    pub(super) fn gain_by_rays(&self) -> Gain {
+        let [off, on] = self.last();
+        self.gain(Part::OfPhotons).efficiency(off.rays / on.rays)
+    }
+
+    /// The same by time.
+    pub(super) fn gain_by_time(&self) -> Gain {
+        let [off, on] = self.last();
+        self.gain(Part::OfPhotons).efficiency(off.seconds / on.seconds)
+    }
+
+    /// Welch's test of what photons bring at each point, by Student's t with the fewer degrees of freedom,
+    /// which is careful.
+    pub(super) fn agreement(&self) -> Agreement {
+        let [off, on] = self.last();
+        let columns = [off, on].map(|stage| columns(stage, Part::OfPhotons));
+        let (mut worst, mut relative) = (0.0_f64, 0.0_f64);
+        for (a, b) in columns[0].iter().zip(&columns[1]) {
+            let [a, b] = [a, b].map(|column| moments(column));
+            let distance = (a.mean - b.mean).abs();
+            worst = worst.max(distance / (a.squared_error + b.squared_error).sqrt());
+            relative = relative.max(distance / a.mean);
+        }
+        let points = columns[0].len();
+        let one = -libm::expm1(libm::log1p(-0.01) / points as f64);
+        let replicates = columns[0][0].len();
+        let allowed = t_quantile_for(replicates, one).unwrap_or(f64::NAN);
+        Agreement { worst, allowed, relative }
+    }
+}
+
+/// Root mean square over points and replicates of the distance from the mean, over the mean of all points.
+pub(super) fn error(stage: &Stage, part: Part) -> f64 {
+    let squares = squares(stage, part);
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+/// The mean of all points.
+pub(super) fn mean_lx(stage: &Stage, part: Part) -> f64 {
+    let columns = columns(stage, part);
+    columns.iter().map(|column| moments(column).mean).sum::<f64>() / columns.len() as f64
+}
+
+/// The order of convergence.
+pub(super) fn slope(course: &Course, part: Part) -> Option<f64> {
+    let fitted = course.stages.iter().filter(|stage| stage.samples >= FIT_FROM);
+    let errors: Vec<[f64; 2]> =
+        fitted.map(|stage| [stage.samples as f64, error(stage, part)]).collect();
+    fit_power_law(&errors).map(|law| law.exponent)
+}
+
+/// Of each replicate: mean over the points of its squared distance from the mean of all, freed from bias.
+fn squares(stage: &Stage, part: Part) -> Vec<f64> {
+    let columns = columns(stage, part);
+    let means: Vec<f64> = columns.iter().map(|column| moments(column).mean).collect();
+    let points = columns.len() as f64;
+    let level = means.iter().sum::<f64>() / points;
+    let n = columns[0].len() as f64;
+    let square = |r: usize| {
+        let distances = columns.iter().zip(&means).map(|(column, mean)| column[r] - mean);
+        let sum: f64 = distances.map(|distance| distance * distance).sum();
+        sum / points / (level * level) * n / (n - 1.0)
+    };
+    (0..columns[0].len()).map(square).collect()
+}
+
+/// The values of each point, one a replicate.
+fn columns(stage: &Stage, part: Part) -> Vec<Vec<f64>> {
+    let sensor = &stage.estimates.sensors[0];
+    let rows = match part {
+        Part::Whole => &sensor.replicate_lx,
+        Part::OfPhotons => &sensor.terms[TERMS_OF_PATHS as usize].replicate_lx,
+    };
+    (0..rows[0].len()).map(|point| rows.iter().map(|row| row[point]).collect()).collect()
+}
+
+struct Moments {
+    mean: f64,
+    /// Of the mean.
+    squared_error: f64,
+}
+
+fn moments(values: &[f64]) -> Moments {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+    Moments { mean, squared_error: squares / (n * (n - 1.0)) }
+}
