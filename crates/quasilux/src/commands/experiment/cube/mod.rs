@@ -39,11 +39,11 @@ use std::time::Duration;
 use truth::Truth;
 
 /// Randomisations of each setup, unless the command line says otherwise.
-const REPLICATES: u32 = 32;
+const REPLICATES: u32 = 64;
 /// The largest N, and the time for all replicates of a column, unless the command line says otherwise: whichever comes
 /// first.
 const MOST: u64 = 1 << 20;
-const SECONDS: Duration = Duration::from_secs(60);
+const SECONDS: Duration = Duration::from_secs(25);
 /// N of what is beside the columns, unless the command line asks for less, however long it takes: photons with other
 /// sequences, paths with joined photons, photons of elements of other sizes.
 const OTHER_PHOTONS: u64 = 1 << 16;

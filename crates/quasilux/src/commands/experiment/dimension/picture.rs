@@ -19,13 +19,13 @@ pub(super) fn svg(setups: &[Setup]) -> String {
         vec![LegendEntry { text, stroke: Some(stroke(setup)) }]
     };
     let panel = Panel {
-        title: "four measured luminaires in a diffuse cube".to_owned(),
+        title: "four luminaires in a diffuse cube".to_owned(),
         x: Axis::around("number of photons N", Scale::Log(2), values(0)),
         y: Axis::around("RMS error / mean illuminance", Scale::Log(10), values(1)),
         lines: setups.iter().map(line).collect(),
     };
     figure(&Figure {
-        title: "What superposition and inverse transform save".to_owned(),
+        title: "What coordinates cost".to_owned(),
         panels: vec![panel],
         columns: 1,
         legend: setups.iter().map(entry).collect(),

@@ -45,7 +45,8 @@ pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &
     write!(
         text,
         "\nA cube of the same reflectance with four batwing luminaires below its ceiling: coordinates a photon, and the error of the\n\
-         illuminance of a cell (16 on each wall), root mean square over cells and {replicates} randomisations, over the mean.\n\n| setup | coordinates |"
+         illuminance of a cell (16 on each wall), root mean square over cells and {replicates} randomisations, over the mean. Sharing is superposition: a choice leaves its\n\
+         coordinate to what hangs on it.\n\n| setup | coordinates |"
     )
     .expect("strings grow");
     let counts = || setups[0].errors.iter().map(|error| error.photons);
@@ -70,7 +71,7 @@ pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &
 
 fn named(cube: &Cube) -> [(&'static str, f64); 4] {
     [
-        ("photons, absorbing event uncounted", cube.uncounted),
+        ("photons but for the absorbing event", cube.uncounted),
         ("photons", cube.photons),
         ("photons without superposition", cube.separate),
         ("backward paths of the paper's form", cube.paths),

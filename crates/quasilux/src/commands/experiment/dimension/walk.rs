@@ -28,8 +28,8 @@ impl Features {
     /// All, without each, and without any.
     pub(super) const ALL: [(&'static str, Self); 5] = [
         ("all features", Self::FULL),
-        ("no superposition at the light", Self { light: false, ..Self::FULL }),
-        ("no superposition at walls", Self { event: false, ..Self::FULL }),
+        ("no sharing at the light", Self { light: false, ..Self::FULL }),
+        ("no sharing at walls", Self { event: false, ..Self::FULL }),
         ("rejection", Self { inverse: false, ..Self::FULL }),
         ("none", Self { light: false, event: false, inverse: false }),
     ];

@@ -30,17 +30,16 @@ pub(super) fn svg(widths: &[Width]) -> String {
         lines.push(Line { points: consecutive, stroke: dashed });
         lines.push(Line { points: own().map(|w| [groups(w), w.mean]).collect(), stroke: solid });
         let name = format!("{sequence}, {}", randomization.name());
-        legend.push(vec![
-            LegendEntry { text: format!("{name}: groups"), stroke: Some(solid) },
-            LegendEntry { text: "consecutive indices".to_owned(), stroke: Some(dashed) },
-        ]);
+        let consecutive = format!("{name}: consecutive");
+        legend.push(vec![LegendEntry { text: format!("{name}: groups"), stroke: Some(solid) }]);
+        legend.push(vec![LegendEntry { text: consecutive, stroke: Some(dashed) }]);
     }
     let values = |pick: fn(&Width) -> [f64; 2], k: usize| widths.iter().map(move |w| pick(w)[k]);
     let groups = |w: &Width| [w.groups as f64; 2];
     let both = |w: &Width| [w.mean, w.consecutive];
     let y = values(both, 0).chain(values(both, 1));
     let panel = Panel {
-        title: "how close together photons of a group start".to_owned(),
+        title: "photons of a group start close together".to_owned(),
         x: Axis::around("number of groups", Scale::Log(2), values(groups, 0)),
         y: Axis::around("mean width of a coordinate", Scale::Log(10), y),
         lines,
