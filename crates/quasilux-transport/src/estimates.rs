@@ -93,26 +93,44 @@ pub struct Dimensions {
 
 impl Estimates {
     /// The interval of an average or another figure that is linear in the values of one sensor, in lx:
-    /// `statistic` maps them to it.
+    /// `statistic` maps them to it. No half-width where nothing was found at a point, here and in the other figures of
+    /// all points: how much is missing there nobody knows.
     #[must_use]
     pub fn interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
+        self.where_resolved(sensor, self.found_interval_of(sensor, statistic))
+    }
+
+    /// The same of what was found.
+    fn found_interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
         let rows = &self.sensors[sensor].replicate_lx;
         let figures: Vec<f64> = rows.iter().map(|row| statistic(row)).collect();
         let t = t_quantile_for(rows.len(), self.miss_probability);
         Interval::of_mean(figures.into_iter(), t)
     }
 
+    /// Without its half-width where nothing was found at a point of the sensor.
+    fn where_resolved(&self, sensor: usize, interval: Interval) -> Interval {
+        let is_resolved = self.sensors[sensor].resolved.iter().all(|resolved| *resolved);
+        Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
+    }
+
     /// The interval of the mean of the points of one sensor, in lx.
     #[must_use]
     pub fn average(&self, sensor: usize) -> Interval {
-        self.interval_of(sensor, |lx| lx.iter().sum::<f64>() / lx.len() as f64)
+        self.interval_of(sensor, mean)
+    }
+
+    /// The same of what was found, whatever is missing: what decides whether a run goes on.
+    pub(crate) fn found_average(&self, sensor: usize) -> Interval {
+        self.found_interval_of(sensor, mean)
     }
 
     /// The interval of the smallest value of one sensor, in lx: that of the point where it truly is
     /// smallest, which need not be the one that seems to be.
     #[must_use]
     pub fn minimum(&self, sensor: usize) -> Interval {
-        lowest(&self.sensors[sensor].replicate_lx, self.miss_probability)
+        let lowest = lowest(&self.sensors[sensor].replicate_lx, self.miss_probability);
+        self.where_resolved(sensor, lowest)
     }
 
     /// The interval of the largest value of one sensor, in lx.
@@ -122,13 +140,14 @@ impl Estimates {
         let negative: Vec<Vec<f64>> =
             rows.iter().map(|row| row.iter().map(|lx| -lx).collect()).collect();
         let Interval { value, half_width } = lowest(&negative, self.miss_probability);
-        Interval { value: -value, half_width }
+        self.where_resolved(sensor, Interval { value: -value, half_width })
     }
 
     /// The interval of the smallest value over the mean of one sensor.
     #[must_use]
     pub fn uniformity(&self, sensor: usize) -> Interval {
-        lowest(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability)
+        let lowest = lowest(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability);
+        self.where_resolved(sensor, lowest)
     }
 
     /// The intervals of all points of one sensor, in lx; no half-width where nothing was found.
@@ -162,6 +181,10 @@ impl Estimates {
         let t_at = |point: usize| t.filter(|_| resolved[point]);
         (0..resolved.len()).map(|p| Interval::of_mean(values(p), t_at(p))).collect()
     }
+}
+
+fn mean(lx: &[f64]) -> f64 {
+    lx.iter().sum::<f64>() / lx.len() as f64
 }
 
 impl SensorEstimates {

@@ -63,7 +63,7 @@ impl Standing {
                     }
                 }
                 ToleranceOn::Summary => {
-                    let excess = excess_of(&estimates.average(sensor));
+                    let excess = excess_of(&estimates.found_average(sensor));
                     let done = excess.is_some_and(|excess| excess <= 1.0)
                         && (unresolved == 0 || had_a_chance);
                     points.iter().for_each(|_| standing.add(excess, done, false));

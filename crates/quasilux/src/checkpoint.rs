@@ -64,7 +64,8 @@ impl Keeping {
         project: &Project,
         settings: &Settings,
     ) -> Result<Self, Refusal> {
-        results::prepare_file(path)?;
+        results::prepare_file(path, &[file])?;
+        results::expect_text(file)?;
         let heading = Heading {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             project: file.to_owned(),
@@ -84,7 +85,7 @@ impl Keeping {
     /// Puts a state in the place of the one before.
     pub(crate) fn write(&mut self, state: &[u8]) -> io::Result<()> {
         let bytes = seal(FORMAT, &self.heading, state);
-        let fresh = beside(&self.path, "part");
+        let fresh = beside(&self.path, "unfinished");
         let mut file = File::create(&fresh)?;
         file.write_all(&bytes)?;
         // On disk before it takes the place of one that is.

@@ -34,15 +34,33 @@ pub(crate) fn write(folder: &Path, report: &Report) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Makes sure that `path` can become a file before anything is computed.
-pub(crate) fn prepare_file(path: &Path) -> Result<(), Refusal> {
+/// Makes sure that `path` can become a file before anything is computed, and none of those that are read.
+pub(crate) fn prepare_file(path: &Path, read: &[&Path]) -> Result<(), Refusal> {
     if path.is_dir() {
         return Err(Refusal::new(format!("{}: is a folder, expected a file", path.display())));
+    }
+    let same = |other: &&Path| match (path.canonicalize(), other.canonicalize()) {
+        (Ok(own), Ok(other)) => own == other,
+        _ => false,
+    };
+    if read.iter().any(same) {
+        let message = format!("{}: is read by this command, expected another file", path.display());
+        return Err(Refusal::new(message));
     }
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => prepare(folder),
         _ => Ok(()),
     }
+}
+
+/// Refuses a project whose name cannot stand in a text file that says where it is.
+pub(crate) fn expect_text(path: &Path) -> Result<(), Refusal> {
+    let absolute = std::path::absolute(path);
+    if path.to_str().is_some() && absolute.is_ok_and(|path| path.to_str().is_some()) {
+        return Ok(());
+    }
+    let message = format!("{}: what is kept names the project, expected UTF-8", path.display());
+    Err(Refusal::new(message))
 }
 
 /// Writes a file, whole or not at all.
@@ -56,7 +74,7 @@ pub(crate) fn stream_whole(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Refusal> {
     let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".part");
+    temporary.push(".unfinished");
     let written = File::create(&temporary).and_then(|file| {
         let mut file = BufWriter::new(file);
         write(&mut file).and_then(|()| file.flush())

@@ -114,7 +114,7 @@ pub(crate) fn decide<S: Spectrum>(
     let wanted = Wanted::new(settings, sample.means_lx(&ways, &alone));
     let noise = wanted.variances(&alone).iter().sum::<f64>()
         + ways.iter().flat_map(|way| way.variances(&wanted)).sum::<f64>();
-    let noise = noise / (REPLICATES.len() * sample.targets.len()) as f64;
+    let noise = noise / (REPLICATES.len() * wanted.seen().count().max(1)) as f64;
     let best = ways
         .into_iter()
         .map(|way| (way.best(&sample.exact_lx, &wanted, noise), way))

@@ -115,3 +115,31 @@ fn a_room_far_from_the_origin_is_the_same_room() {
         }
     }
 }
+
+/// Where no light was found nobody knows how much is missing: neither the point has an interval nor any figure of
+/// all points. The second place lies behind a closed wall.
+#[test]
+fn a_dark_point_leaves_no_figure_certain() {
+    let mut scene = room(DVec3::splat(2.0), diffuse(0.5));
+    let first = scene.mesh.positions.len() as u32;
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    scene.mesh.positions.extend(corners.map(|[x, y]| DVec3::new(x, y, 1.0)));
+    for triangle in [[0, 1, 2], [0, 2, 3]] {
+        scene.mesh.triangles.push(triangle.map(|k| first + k));
+        scene.mesh.material_of.push(0);
+        scene.mesh.object_of.push(0);
+    }
+    scene.lights.push(point_light(DVec3::new(1.0, 1.0, 1.5), 100.0));
+    let at = |z| (DVec3::new(0.7, 0.7, z), DVec3::NEG_Z);
+    scene.sensors.push(points("places", &[at(1.8), at(0.8)]));
+    let settings = Settings { max_samples: Some(64), ..Settings::default() };
+    let estimates = simulate(&scene, &settings, &mut ());
+    assert_eq!((estimates.unresolved_points, estimates.tolerance_reached), (1, false));
+    let [lit, dark] = estimates.point_intervals(0)[..] else { panic!("two points") };
+    assert!(lit.half_width.is_some() && (dark.value, dark.half_width) == (0.0, None));
+    for figure in
+        [estimates.average(0), estimates.minimum(0), estimates.maximum(0), estimates.uniformity(0)]
+    {
+        assert_eq!(figure.half_width, None, "{figure:?}");
+    }
+}

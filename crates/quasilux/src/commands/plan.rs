@@ -14,7 +14,7 @@ use std::path::Path;
 pub(crate) fn plan(arguments: &PlanArguments) -> Result<Exit, Refusal> {
     let project = project::open(&arguments.project)?;
     if let Some(path) = &arguments.out {
-        results::prepare_file(path)?;
+        results::prepare_file(path, &[&arguments.project])?;
     }
     let made = make(&arguments.project, &project, &arguments.planned, arguments.work.threads)?;
     match &arguments.out {
@@ -44,6 +44,7 @@ pub(crate) fn make(
         let name = &project.name;
         return Err(Refusal::new(format!("{name}: without sensors there is nothing to plan")));
     }
+    results::expect_text(path)?;
     let arguments = SimulationArguments {
         samples: Some(samples),
         estimator: planned.estimator.clone(),

@@ -8,7 +8,7 @@ use crate::plan::{Plan, part};
 use crate::watcher::Watcher;
 use crate::{interrupt, project, results};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Computes a range of the indices of a plan and writes it.
 pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
@@ -27,7 +27,9 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
     let stem = arguments.project.file_stem().unwrap_or_default().to_string_lossy();
     let by_range = || PathBuf::from(format!("{stem}-{}-{}.part", range.start, range.end));
     let path = arguments.out.clone().unwrap_or_else(by_range);
-    results::prepare_file(&path)?;
+    let read: Vec<&Path> =
+        std::iter::once(arguments.project.as_path()).chain(arguments.plan.as_deref()).collect();
+    results::prepare_file(&path, &read)?;
     let scene = &project.loaded.scene;
     if !arguments.quiet && !scene.cameras.is_empty() {
         eprintln!("warning: parts have no pictures; `merge` takes them");

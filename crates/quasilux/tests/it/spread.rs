@@ -186,6 +186,15 @@ fn arguments_of_shards_are_checked() {
         (&["run", "room.toml", "--plan", "p", "--samples", "8"], "--samples"),
         (&["run", "room.toml", "--plan", "p", "--checkpoint", "c"], "--checkpoint"),
         (&["run", "room.toml", "--plan", "none"], "none"),
+        (&["run", "room.toml", "--checkpoint", "room.toml"], "is read by this command"),
+        (
+            &["plan", "room.toml", "--samples", "8", "--out", "./room.toml"],
+            "is read by this command",
+        ),
+        (
+            &["shard", "room.toml", "--samples", "8", "--shard", "0/1", "--out", "room.toml"],
+            "is read by this command",
+        ),
         (&["run", "room.toml", "--plan", "room.toml"], "is no plan"),
         (&["merge"], "PART"),
     ] {
@@ -210,4 +219,33 @@ fn a_damaged_part_is_refused() {
         assert!(said.starts_with("error: damaged.part: "), "{number}: {said}");
     }
     assert!(!folder.path("merged").exists());
+}
+
+/// A part that waits for its merge is none of what another command leaves on its way.
+#[test]
+fn other_commands_leave_parts_alone() {
+    let folder = room("spread_beside");
+    folder.write("m.part", "a part of another run");
+    must(&folder, &["plan", "room.toml", "--samples", "8", "--out", "m"], 0);
+    must(&folder, &["run", "room.toml", "--samples", "8", "--checkpoint", "m", "--quiet"], 3);
+    assert_eq!(folder.read("m.part"), "a part of another run");
+}
+
+/// Plans and checkpoints name their project in text.
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_no_text_is_refused() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = room("spread_name");
+    let name = std::ffi::OsStr::from_bytes(b"r\xffm.toml");
+    let copied = std::fs::copy(folder.path("room.toml"), folder.path("").join(name));
+    // Some file systems have no such names.
+    if copied.is_err() {
+        return;
+    }
+    for arguments in [&["plan", "--samples", "8"][..], &["run", "--checkpoint", "c"]] {
+        let output = folder.command(arguments).arg(name).output().expect("the program starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains("expected UTF-8"), "{said}");
+    }
 }

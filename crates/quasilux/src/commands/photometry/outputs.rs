@@ -32,7 +32,7 @@ impl Outputs {
             None => Vec::new(),
         };
         for (i, path) in drawings.iter().enumerate() {
-            results::prepare_file(path)?;
+            results::prepare_file(path, &[])?;
             if let Some(first) = drawings[..i].iter().position(|other| other == path) {
                 return Err(Refusal::new(format!(
                     "{}: the drawing of {} and of {}; give them folders of their own",
@@ -95,7 +95,7 @@ fn conversion(path: &Path, files: &[PathBuf]) -> Result<Conversion, Refusal> {
     if files.len() > 1 {
         return refuse(format!("one name for {} files; convert them one by one", files.len()));
     }
-    results::prepare_file(path)?;
+    results::prepare_file(path, &[])?;
     refuse_input(path, files)?;
     Ok(Conversion { path: path.to_owned(), format })
 }

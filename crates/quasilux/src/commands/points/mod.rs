@@ -24,7 +24,7 @@ const MOST_MEASURED: usize = 1 << 12;
 /// Lists, draws or compares points.
 pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, Refusal> {
     for path in [&arguments.svg, &arguments.csv].into_iter().flatten() {
-        results::prepare_file(path)?;
+        results::prepare_file(path, &[])?;
     }
     match &arguments.name {
         Some(name) if !arguments.compare => list_or_draw(name, arguments)?,
