@@ -1,7 +1,7 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
 //! [`steps`] is the test command, [`examples`] and [`cluster`] its last step, [`office`] the generator behind
-//! `examples/office/`, [`cie171`] that of the standard's cases in `validation/`,
+//! `examples/office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
 //! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in `tests/architecture/`.
 
 mod cie171;
@@ -9,6 +9,7 @@ mod cluster;
 mod examples;
 mod expectation;
 mod experiments;
+mod octant;
 mod office;
 mod prediction;
 mod steps;
@@ -29,6 +30,7 @@ cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test examples  every example runs and gives the numbers it promises
+cargo xtask octant         write the mirror octant in validation/ from its generator
 cargo xtask office         write examples/office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
 cargo xtask experiments    write docs/experiments.md from what the experiments wrote
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         ["test", name] => steps::run_one(name),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
+        ["octant"] => octant::write(&workspace_root()),
         ["office"] => office::write(&workspace_root()),
         _ => Err(format!("no such command: {:?}\n\n{HELP}", words.join(" "))),
     };
