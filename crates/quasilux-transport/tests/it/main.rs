@@ -4,6 +4,7 @@ mod adaptivity;
 mod agreement;
 mod area_luminaires;
 mod balance;
+mod bits;
 mod cameras;
 mod corridor;
 mod coverage;

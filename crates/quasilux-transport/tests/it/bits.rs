@@ -1,0 +1,71 @@
+//! The same bits from every build: debug and release, this machine and another.
+//!
+//! Digests of all replicates' values are written down here. They are no statement about light: where a change is
+//! meant to move values, they change with it; where only the compiler, its options or the processor differ,
+//! they must not.
+
+use crate::scenes::{diffuse, level_grid, mirror, point_light, points, room};
+use glam::DVec3;
+use quasilux_sampling::{Randomization, Sequence};
+use quasilux_scene::{Material, Scene};
+use quasilux_transport::{Estimator, Settings, simulate};
+
+/// A room with a mirror wall, a lamp, two places and a grid.
+fn scene() -> Scene {
+    let mut scene = room(DVec3::new(3.0, 4.0, 2.5), diffuse(0.6));
+    scene.materials.push(Material { name: "mirror".to_owned(), bsdf: mirror(0.9) });
+    scene.mesh.material_of[..2].fill(1);
+    scene.lights.push(point_light(DVec3::new(1.1, 1.7, 2.2), 150.0));
+    let places = [(DVec3::new(0.4, 3.1, 0.8), DVec3::Z), (DVec3::new(2.9, 0.3, 1.2), DVec3::NEG_X)];
+    scene.sensors.push(points("places", &places));
+    scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 0.7), [2.0, 3.0], [2, 3]));
+    scene
+}
+
+/// FNV-1a (Fowler, Noll and Vo) over the bits of all values.
+fn digest(settings: &Settings) -> u64 {
+    let mut scene = scene();
+    if settings.estimator == Estimator::Photon {
+        scene.sensors.remove(0);
+    }
+    let estimates = simulate(&scene, settings, &mut ());
+    let sensors = estimates.sensors.iter().flat_map(|sensor| &sensor.replicate_lx);
+    let bytes = sensors.flatten().flat_map(|lx| lx.to_bits().to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+#[test]
+fn all_builds_give_the_same_bits() {
+    let sobol = (Sequence::Sobol, Randomization::Owen);
+    let halton = (Sequence::Halton, Randomization::Rotation);
+    let random = (Sequence::Random, Randomization::None);
+    let found = [
+        (Estimator::Path, sobol),
+        (Estimator::Path, random),
+        (Estimator::Photon, halton),
+        (Estimator::Bidirectional, sobol),
+        (Estimator::BidirectionalMap, halton),
+    ]
+    .map(|(estimator, (sequence, randomization))| {
+        digest(&Settings {
+            estimator,
+            sequence,
+            randomization,
+            rel_tol: 0.0,
+            max_samples: Some(64),
+            ..Settings::default()
+        })
+    });
+    assert_eq!(found.map(|digest| format!("{digest:016x}")), KNOWN);
+}
+
+/// In the order of the runs.
+const KNOWN: [&str; 5] = [
+    "dc4c605233854f3e",
+    "6e836aed5ae7bb54",
+    "0fa5f8e77f24593d",
+    "5772445605f0b94a",
+    "4755db5b5da21624",
+];
