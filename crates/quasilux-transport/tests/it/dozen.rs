@@ -22,10 +22,10 @@ const SIGNIFICANCE: f64 = 0.05;
 const FINE: f64 = 0.003;
 const COARSE: f64 = 0.004;
 /// Standard errors that lead there.
-const STANDARD_ERROR: f64 = 0.0006;
-const STANDARD_ERROR_OF_MAP: f64 = 0.00095;
+const STANDARD_ERROR: f64 = 0.00057;
+const STANDARD_ERROR_OF_MAP: f64 = 0.0009;
 /// Of joined photons, which two cells hardly pay for: they are known to half a percent here.
-const STANDARD_ERROR_OF_JOINED: f64 = 0.0012;
+const STANDARD_ERROR_OF_JOINED: f64 = 0.00115;
 const JOINED: f64 = 0.005;
 const FEWEST_SAMPLES: u64 = 1 << 9;
 const MOST_SAMPLES: u64 = 1 << 17;
