@@ -83,7 +83,7 @@ fn estimators_agree_term_by_term() {
                 list_terms,
                 image_depth,
                 seed,
-                rel_tol: 0.007,
+                rel_tol: 0.0045,
                 ..Settings::default()
             };
             run(scene, &settings)
