@@ -9,6 +9,7 @@ mod cluster;
 mod examples;
 mod expectation;
 mod experiments;
+mod generated;
 mod octant;
 mod office;
 mod prediction;

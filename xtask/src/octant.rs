@@ -2,6 +2,7 @@
 //! diffuse sphere in flat facets, between three mirrors, with the source as it is reconstructed from the paper's values.
 
 use crate::Failure;
+use crate::generated::{self, File};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -19,22 +20,17 @@ const SENSOR_RADIUS_M: f64 = 0.999;
 const DIRECTIONS: [Point; 3] = [[1.0, 1.0, 1.0], [3.0, 2.0, 1.0], [1.0, 5.0, 4.0]];
 
 /// Name below `validation/` and content of each generated file.
-fn files() -> [(&'static str, String); 3] {
+fn files() -> [File; 3] {
     [
-        ("scenes/octant.obj", geometry()),
-        ("scenes/octant.toml", project()),
-        ("cases/octant.toml", case()),
+        ("scenes/octant.obj".to_owned(), geometry()),
+        ("scenes/octant.toml".to_owned(), project()),
+        ("cases/octant.toml".to_owned(), case()),
     ]
 }
 
 /// Writes the generated files.
 pub(crate) fn write(root: &Path) -> Result<(), Failure> {
-    for (name, content) in files() {
-        let path = root.join("validation").join(name);
-        std::fs::write(&path, content).map_err(|error| format!("{}: {error}", path.display()))?;
-        println!("xtask: wrote {}", path.display());
-    }
-    Ok(())
+    generated::write(&root.join("validation"), &files())
 }
 
 /// A triangle's grid drawn onto the sphere, and three fans to its middle.
@@ -129,13 +125,8 @@ mod tests {
 
     #[test]
     fn the_committed_files_are_what_the_generator_writes() {
-        for (name, content) in files() {
-            let committed = std::fs::read_to_string(workspace_root().join("validation").join(name));
-            assert!(
-                committed.is_ok_and(|committed| committed == content),
-                "validation/{name} differs from its generator: run `cargo xtask octant`"
-            );
-        }
+        let folder = workspace_root().join("validation");
+        generated::assert_committed(&folder, &files(), "octant");
     }
 
     /// The paper's 1353.247 lx, of which 666.649 lx are indirect, on the sphere itself.

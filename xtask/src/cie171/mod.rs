@@ -11,10 +11,11 @@ mod luminaire;
 mod project;
 
 use crate::Failure;
+use crate::generated::{self, File};
 use std::path::Path;
 
 /// Name below `validation/` and content of each generated file.
-fn files() -> Vec<(String, String)> {
+fn files() -> Vec<File> {
     let mut files = vec![
         ("scenes/cie171_room.obj".to_owned(), geometry::room_file(geometry::ROOM_M)),
         ("scenes/cie171_cube.obj".to_owned(), geometry::room_file(geometry::CUBE_M)),
@@ -35,12 +36,7 @@ fn files() -> Vec<(String, String)> {
 
 /// Writes the generated files.
 pub(crate) fn write(root: &Path) -> Result<(), Failure> {
-    for (name, content) in files() {
-        let path = root.join("validation").join(name);
-        std::fs::write(&path, content).map_err(|error| format!("{}: {error}", path.display()))?;
-        println!("xtask: wrote {}", path.display());
-    }
-    Ok(())
+    generated::write(&root.join("validation"), &files())
 }
 
 #[cfg(test)]
@@ -50,12 +46,7 @@ mod tests {
 
     #[test]
     fn the_committed_files_are_what_the_generator_writes() {
-        for (name, content) in files() {
-            let committed = std::fs::read(workspace_root().join("validation").join(&name));
-            assert!(
-                committed.is_ok_and(|committed| committed == content.as_bytes()),
-                "validation/{name} differs from its generator: run `cargo xtask cie171`"
-            );
-        }
+        let folder = workspace_root().join("validation");
+        generated::assert_committed(&folder, &files(), "cie171");
     }
 }

@@ -10,6 +10,7 @@ mod room;
 mod solids;
 
 use crate::Failure;
+use crate::generated::{self, File};
 use solids::Wavefront;
 use std::path::Path;
 
@@ -34,27 +35,22 @@ const MATERIALS: [(&str, f64); 16] = [
 ];
 
 /// Name below `examples/office/` and content of each generated file.
-fn files() -> Result<[(&'static str, String); 3], Failure> {
+fn files() -> Result<[File; 3], Failure> {
     let mut wavefront = Wavefront::new("office.mtl");
     room::write(&mut wavefront);
     for object in furniture::objects() {
         wavefront.object(&object);
     }
     Ok([
-        ("office.obj", wavefront.finish()),
-        ("office.mtl", material_file()),
-        ("batwing.ies", batwing::file()?),
+        ("office.obj".to_owned(), wavefront.finish()),
+        ("office.mtl".to_owned(), material_file()),
+        ("batwing.ies".to_owned(), batwing::file()?),
     ])
 }
 
 /// Writes the generated files.
 pub(crate) fn write(root: &Path) -> Result<(), Failure> {
-    for (name, content) in files()? {
-        let path = root.join("examples/office").join(name);
-        std::fs::write(&path, content).map_err(|error| format!("{}: {error}", path.display()))?;
-        println!("xtask: wrote {}", path.display());
-    }
-    Ok(())
+    generated::write(&root.join("examples/office"), &files()?)
 }
 
 /// The diffuse colour of each material is its reflectance.
@@ -91,13 +87,8 @@ mod tests {
 
     #[test]
     fn the_committed_files_are_what_the_generator_writes() {
-        for (name, content) in files().unwrap() {
-            let committed = std::fs::read(workspace_root().join("examples/office").join(name));
-            assert!(
-                committed.unwrap() == content.as_bytes(),
-                "{name} differs from its generator: run `cargo xtask office`"
-            );
-        }
+        let folder = workspace_root().join("examples/office");
+        generated::assert_committed(&folder, &files().unwrap(), "office");
     }
 
     #[test]
