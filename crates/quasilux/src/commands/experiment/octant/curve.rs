@@ -1,7 +1,7 @@
 //! Errors against the number of samples and time.
 
 use super::Effort;
-use super::limit::{Ladder, Part};
+use super::limit::{LEVELS, Ladder, Part};
 use super::paper::TOTAL_LX;
 use super::sphere::Octant;
 use crate::commands::experiment::building::points;
@@ -10,8 +10,8 @@ use quasilux_sampling::quality::fit_power_law;
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_transport::{Estimator, Settings, Switch};
 
-/// The mesh whose facets are the elements of the illumination map: 16 facets along an edge.
-const MAP_LEVEL: u32 = 1;
+/// Photons fly on the finest mesh of the ladder.
+const MAP_LEVEL: u32 = LEVELS as u32 - 1;
 /// Slopes of photons are fitted from here on, where the element has some ten; those of ours where its pilots
 /// are over.
 const FITTED_PHOTONS: u64 = 1 << 8;
@@ -131,7 +131,7 @@ impl Stop {
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     }
 
-    /// Error of the mean over the value: what remains of the element and the mesh, and some noise.
+    /// Error of the mean over the value: what element and mesh leave, and some noise.
     pub(super) fn bias(&self) -> f64 {
         self.lx.iter().sum::<f64>() / self.lx.len() as f64 / TOTAL_LX - 1.0
     }

@@ -35,10 +35,20 @@ pub(super) struct Octant {
 
 /// A facet of the mesh.
 pub(super) struct Facet {
+    corners: [DVec3; 3],
     /// Its centre.
     pub(super) place: DVec3,
     pub(super) normal: DVec3,
     pub(super) area_m2: f64,
+}
+
+impl Facet {
+    /// Mean of what the light and its images give: by the middles of the edges, exact to third order.
+    fn direct_lx(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        let middles = [(a, b), (b, c), (c, a)].map(|(a, b)| 0.5 * (a + b));
+        middles.iter().map(|&place| direct_to_lx(place, self.normal)).sum::<f64>() / 3.0
+    }
 }
 
 /// Corners of a facet, in steps of the mesh: numbers that sum to `n`.
@@ -83,6 +93,7 @@ impl Octant {
             facet.as_flattened().iter().all(|step| 8 * step <= 3 * self.n)
         };
         let described = |(triangle, _): (u32, Steps)| Facet {
+            corners: mesh.corners(triangle),
             place: mesh.corners(triangle).iter().sum::<DVec3>() / 3.0,
             normal: mesh.front_normal(triangle),
             area_m2: mesh.area_m2(triangle),
@@ -90,15 +101,26 @@ impl Octant {
         // The mesh has them in this order, before all else.
         (0..).zip(facets(self.n)).filter(inner).map(described).collect()
     }
+
+    /// Mean of what the light and its images give to the element.
+    pub(super) fn direct_on_the_element_lx(&self) -> f64 {
+        let element = self.element();
+        let area_m2: f64 = element.iter().map(|facet| facet.area_m2).sum();
+        element.iter().map(|facet| facet.area_m2 * facet.direct_lx()).sum::<f64>() / area_m2
+    }
 }
 
 /// Illuminance that the light and its seven images give to a place that looks at the centre.
 pub(super) fn direct_lx(place: DVec3) -> f64 {
+    direct_to_lx(place, -place.normalize())
+}
+
+fn direct_to_lx(place: DVec3, normal: DVec3) -> f64 {
     let side = |image: u32, bit: u32| if image >> bit & 1 == 0 { LIGHT_M } else { -LIGHT_M };
     let images = (0..8).map(|i| DVec3::new(side(i, 0), side(i, 1), side(i, 2)));
     let lx = |image: DVec3| {
         let toward = image - place;
-        let cos = toward.normalize().dot(-place.normalize());
+        let cos = toward.normalize().dot(normal);
         INTENSITY_CD * cos / toward.length_squared()
     };
     images.map(lx).sum()
