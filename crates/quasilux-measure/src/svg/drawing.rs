@@ -164,7 +164,7 @@ fn with_powers(text: &str) -> String {
     for piece in pieces {
         let (power, rest) = piece.split_once('}').unwrap_or((piece, ""));
         let (power, rest) = (escaped(power), escaped(rest));
-        write!(marked, "<tspan dy=\"-0.5em\" font-size=\"72%\">{power}</tspan>")
+        write!(marked, "<tspan dy=\"-0.5em\" font-size=\"0.72em\">{power}</tspan>")
             .expect("strings grow");
         if !rest.is_empty() {
             write!(marked, "<tspan dy=\"0.36em\">{rest}</tspan>").expect("strings grow");

@@ -4,7 +4,7 @@
 //! of squares; so the squared error of the mean less v / R estimates b^2 without bias, summed over the places. How sure it is, is
 //! found by leaving out one replicate after the other (the jackknife, J. W. Tukey 1958).
 
-use super::course::Task;
+use super::curve::Task;
 
 /// The squared relative L2 norm of the bias.
 #[derive(Clone, Copy, Debug)]

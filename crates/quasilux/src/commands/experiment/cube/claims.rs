@@ -2,7 +2,7 @@
 
 use super::Findings;
 use super::compare::{Column, SIGNIFICANCE, Table};
-use super::course::Course;
+use super::curve::Curve;
 use super::floor::Floor;
 use super::paper;
 use super::scene::{CLASSES, inset, luminance_cd_m2};
@@ -112,7 +112,7 @@ pub(super) fn floors(floors: &[Floor], replicates: u32) -> Claim {
 }
 
 /// That a replicate's error is below this at the end, beyond chance.
-pub(super) fn own_is_below(own: &Course, below: f64) -> Claim {
+pub(super) fn own_is_below(own: &Curve, below: f64) -> Claim {
     let end = own.end();
     let squares: Vec<f64> = end.errors.iter().map(|error| error * error).collect();
     let n = squares.len() as f64;
@@ -135,7 +135,7 @@ pub(super) fn own_is_below(own: &Course, below: f64) -> Claim {
 }
 
 /// That the intervals hold the truth.
-pub(super) fn places(own: &Course, truth: &Truth) -> Claim {
+pub(super) fn places(own: &Curve, truth: &Truth) -> Claim {
     let all = luminances(own, truth);
     let held = |place: &&Luminance| {
         (place.value_cd_m2 - place.truth_cd_m2).abs() <= place.half_width_cd_m2
@@ -153,7 +153,7 @@ pub(super) fn places(own: &Course, truth: &Truth) -> Claim {
 }
 
 /// The six luminances by our own form, from one place of each class.
-pub(super) fn luminances(own: &Course, truth: &Truth) -> Vec<Luminance> {
+pub(super) fn luminances(own: &Curve, truth: &Truth) -> Vec<Luminance> {
     let mut last = own.last.clone();
     // Sidak (1967); no interval of this run ended it.
     last.miss_probability = 1.0 - libm::pow(CONFIDENCE, 1.0 / CLASSES.len() as f64);

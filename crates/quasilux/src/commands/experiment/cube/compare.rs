@@ -4,7 +4,7 @@
 //! two such columns the one errs less that spreads less about its mean, and that is told apart from chance even where
 //! both come near their floor. Other columns are compared by their errors.
 
-use super::course::{Course, Currency, root_mean_square};
+use super::curve::{Currency, Curve, root_mean_square};
 use quasilux_transport::interval::t_quantile_for;
 
 /// A column of table 5, or our own.
@@ -84,11 +84,11 @@ impl Column {
 }
 
 impl Table {
-    /// The courses in the order of [`Column::ALL`].
-    pub(super) fn of(courses: &[Course; 5], currency: Currency) -> Self {
-        let of_paper = Column::OF_PAPER.map(|column| courses[column as usize].by_cost(currency));
-        let first = of_paper.iter().map(|course| course[0][0]).fold(0.0, f64::max);
-        let last = of_paper.iter().map(|course| course[course.len() - 1][0]);
+    /// The curves in the order of [`Column::ALL`].
+    pub(super) fn of(curves: &[Curve; 5], currency: Currency) -> Self {
+        let of_paper = Column::OF_PAPER.map(|column| curves[column as usize].by_cost(currency));
+        let first = of_paper.iter().map(|curve| curve[0][0]).fold(0.0, f64::max);
+        let last = of_paper.iter().map(|curve| curve[curve.len() - 1][0]);
         let last = last.fold(f64::INFINITY, f64::min);
         let [pseudo, ..] = of_paper;
         let begins = pseudo.iter().find(|[_, error]| *error <= FIRST_ERROR);
@@ -97,9 +97,9 @@ impl Table {
         let row = |cost: f64| Row {
             cost,
             errors: Column::ALL
-                .map(|column| courses[column as usize].at(cost, currency, |look| &look.errors)),
+                .map(|column| curves[column as usize].at(cost, currency, |look| &look.errors)),
             spreads: Column::ALL
-                .map(|column| courses[column as usize].at(cost, currency, |look| &look.spreads)),
+                .map(|column| curves[column as usize].at(cost, currency, |look| &look.spreads)),
         };
         Self { currency, rows: costs.take_while(|cost| *cost <= last).map(row).collect() }
     }

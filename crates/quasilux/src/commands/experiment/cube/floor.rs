@@ -3,7 +3,7 @@
 //! Were it noise, it would not know the elements; as the bias of a map of finite elements it grows with them.
 
 use super::bias::Bias;
-use super::course::{Course, Task};
+use super::curve::{Curve, Task};
 use super::setup::{Form, Points, Setup};
 use quasilux_sampling::quality::{PowerLaw, fit_power_law};
 
@@ -57,8 +57,8 @@ impl Floor {
 
 impl End {
     fn of(form: Form, task: &Task) -> Self {
-        let course = Course::run(Setup { form, points: Points::Halton }, task);
-        let end = course.end();
+        let curve = Curve::run(Setup { form, points: Points::Halton }, task);
+        let end = curve.end();
         Self { n: end.n, rms: end.rms(), bias: end.bias }
     }
 }

@@ -17,7 +17,7 @@
 mod bias;
 mod claims;
 mod compare;
-mod course;
+mod curve;
 mod floor;
 mod paper;
 mod picture;
@@ -28,10 +28,9 @@ mod tables;
 mod truth;
 
 use super::Outcome;
-use super::claim::Claim;
 use crate::arguments::ExperimentArguments;
 use compare::Table;
-use course::{Course, Currency, Task};
+use curve::{Currency, Curve, Task};
 use floor::Floor;
 use scene::Places;
 use setup::{Form, Points, Setup};
@@ -63,12 +62,12 @@ struct Findings {
     replicates: u32,
     truth: Truth,
     /// In the order of [`compare::Column::ALL`].
-    columns: [Course; 5],
+    columns: [Curve; 5],
     /// The paper's forms with other points than the paper's, and our own with joined photons.
-    others: Vec<Course>,
+    others: Vec<Curve>,
     floors: Vec<Floor>,
     /// Our own form, from one place of each class, with as many paths as take it below all floors.
-    deep: Course,
+    deep: Curve,
     table: Table,
 }
 
@@ -79,26 +78,20 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     task.replicates = arguments.seeds.unwrap_or(REPLICATES).max(2);
     task.seed = arguments.seed;
     task.most = arguments.max_n.unwrap_or(MOST);
-    task.limit = arguments.seconds_per_point.unwrap_or(SECONDS);
-    let mut columns = columns(ELEMENT_M, PHOTONS_PER_PATH).map(|setup| Course::run(setup, &task));
-    Course::time(&mut columns, &task);
+    task.limit = Some(arguments.seconds_per_point.unwrap_or(SECONDS));
+    let mut columns = columns(ELEMENT_M, PHOTONS_PER_PATH).map(|setup| Curve::run(setup, &task));
+    Curve::time(&mut columns, &task);
     let deep = deep(&task, &truth);
-    let others = other_setups().map(|setup| Course::run(setup, &beside(&task, setup.form)));
+    let others = other_setups().map(|setup| Curve::run(setup, &beside(&task, setup.form)));
     let others = others.collect();
-    let to_floor =
-        Task { most: task.most.min(FLOOR_PHOTONS), limit: Duration::MAX, ..task.clone() };
+    let to_floor = Task { most: task.most.min(FLOOR_PHOTONS), limit: None, ..task.clone() };
     let floors = Floor::all(&floor::ELEMENTS_M, PHOTONS_PER_PATH, &to_floor);
     let table = Table::of(&columns, Currency::Seconds);
     let replicates = task.replicates;
     let findings = Findings { replicates, truth, columns, others, floors, deep, table };
     let claims = claims::all(&findings);
-    Outcome {
-        csv: report::csv(&findings),
-        markdown: report::markdown(&findings, &claims),
-        svg: picture::svg(&findings),
-        pictures: Vec::new(),
-        passed: Claim::all_hold(&claims),
-    }
+    let tables = report::markdown(&findings, &claims);
+    Outcome::new(report::csv(&findings), tables, picture::svg(&findings), &claims)
 }
 
 /// The paper's columns and our own.
@@ -131,16 +124,16 @@ fn other_setups() -> impl Iterator<Item = Setup> {
 /// What is beside the columns ends at the same N, however long it takes.
 fn beside(task: &Task, form: Form) -> Task {
     let most = if matches!(form, Form::Own { .. }) { JOINED_PATHS } else { OTHER_PHOTONS };
-    Task { most: task.most.min(most), limit: Duration::MAX, ..task.clone() }
+    Task { most: task.most.min(most), limit: None, ..task.clone() }
 }
 
 /// Our own form at one place of each class.
-fn deep(task: &Task, truth: &Truth) -> Course {
+fn deep(task: &Task, truth: &Truth) -> Curve {
     let few = Task::at(Places::one_of_each_class(), truth);
     let most = task.most.min(DEEP);
     let task = Task { most, replicates: task.replicates, seed: task.seed, ..few };
     let form = Form::Own { joins: false };
-    Course::run(Setup { form, points: Points::ScrambledSobol }, &task)
+    Curve::run(Setup { form, points: Points::ScrambledSobol }, &task)
 }
 
 #[cfg(test)]
@@ -158,14 +151,14 @@ mod tests {
         let photons = Task { most: 1 << 14, ..task.clone() };
         let few = Task { most: 16, ..task.clone() };
         let [pseudo, quasi, pseudo2, quasi2, own] = columns(1.25, 256);
-        let courses = [
-            Course::run(pseudo, &photons),
-            Course::run(quasi, &photons),
-            Course::run(pseudo2, &task),
-            Course::run(quasi2, &task),
-            Course::run(own, &few),
+        let curves = [
+            Curve::run(pseudo, &photons),
+            Curve::run(quasi, &photons),
+            Curve::run(pseudo2, &task),
+            Curve::run(quasi2, &task),
+            Curve::run(own, &few),
         ];
-        let table = Table::of(&courses, Currency::Rays);
+        let table = Table::of(&curves, Currency::Rays);
         for (worse, better) in [(Column::Pseudo, Column::Quasi), (Column::Pseudo2, Column::Quasi2)]
         {
             let claim = claims::duel(&table, worse, better);

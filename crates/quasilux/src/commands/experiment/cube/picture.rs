@@ -2,7 +2,7 @@
 
 use super::Findings;
 use super::compare::Column;
-use super::course::Currency;
+use super::curve::Currency;
 use super::floor::{End, Floor};
 use super::paper;
 use super::setup::{Form, Points};
@@ -21,7 +21,7 @@ pub(super) fn svg(findings: &Findings) -> String {
 
 fn by_n(findings: &Findings) -> Panel {
     let lines = Column::ALL.iter().zip(&findings.columns);
-    let lines = lines.map(|(column, course)| line(percent(course.by_n()), stroke(*column)));
+    let lines = lines.map(|(column, curve)| line(percent(curve.by_n()), stroke(*column)));
     let deep = Stroke { dash: Dash::Dotted, ..stroke(Column::Own) };
     let lines = lines.chain([line(percent(findings.deep.by_n()), deep)]).collect();
     panel("error by N", "photons, or paths a place (own)", Scale::Log(2), lines)
@@ -32,7 +32,7 @@ fn by_time(findings: &Findings) -> Panel {
     let own = Column::ALL
         .iter()
         .zip(&findings.columns)
-        .map(|(column, course)| line(percent(course.by_cost(Currency::Seconds)), stroke(*column)));
+        .map(|(column, curve)| line(percent(curve.by_cost(Currency::Seconds)), stroke(*column)));
     let of_paper = Column::OF_PAPER.iter().map(|column| {
         let point = |row: &paper::Row| [row.seconds, row.errors_percent[*column as usize]];
         let points = paper::rows().iter().map(point).collect();
@@ -43,13 +43,13 @@ fn by_time(findings: &Findings) -> Panel {
 }
 
 fn by_points(findings: &Findings) -> Panel {
-    let courses = findings.columns.iter().chain(&findings.others);
-    let courses = courses.filter(|course| !matches!(course.setup.form, Form::Own { .. }));
-    let lines = courses.map(|course| {
+    let curves = findings.columns.iter().chain(&findings.others);
+    let curves = curves.filter(|curve| !matches!(curve.setup.form, Form::Own { .. }));
+    let lines = curves.map(|curve| {
         let dash =
-            if matches!(course.setup.form, Form::Map { .. }) { Dash::Solid } else { Dash::Dashed };
-        let stroke = Stroke { colour: colour(course.setup.points), width_px: 1.5, dash };
-        line(percent(course.by_n()), stroke)
+            if matches!(curve.setup.form, Form::Map { .. }) { Dash::Solid } else { Dash::Dashed };
+        let stroke = Stroke { colour: colour(curve.setup.points), width_px: 1.5, dash };
+        line(percent(curve.by_n()), stroke)
     });
     panel("sequences (photons dashed, with paths solid)", "photons", Scale::Log(2), lines.collect())
 }

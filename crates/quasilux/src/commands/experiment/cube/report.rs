@@ -3,7 +3,7 @@
 use super::Findings;
 use super::claims::{Luminance, luminances, solved_cd_m2};
 use super::compare::{Column, Duel, Round, Row};
-use super::course::{Course, Look, root_mean_square};
+use super::curve::{Curve, Look, root_mean_square};
 use super::floor::{End, Floor};
 use super::paper;
 use super::scene::CLASSES;
@@ -37,11 +37,11 @@ struct Line {
 /// One line a measured thing.
 pub(super) fn csv(findings: &Findings) -> String {
     let mut lines = Vec::new();
-    for (column, course) in Column::ALL.iter().zip(&findings.columns) {
-        lines.extend(of_course(column.name(), course));
+    for (column, curve) in Column::ALL.iter().zip(&findings.columns) {
+        lines.extend(of_curve(column.name(), curve));
     }
-    lines.extend(findings.others.iter().flat_map(|course| of_course("", course)));
-    lines.extend(of_course("own at one place of each class", &findings.deep));
+    lines.extend(findings.others.iter().flat_map(|curve| of_curve("", curve)));
+    lines.extend(of_curve("own at one place of each class", &findings.deep));
     lines.extend(at_equal_time(findings));
     for duel in tables::duels(&findings.table) {
         lines.extend(of_duel(&duel));
@@ -88,12 +88,12 @@ fn fields(setup: Setup) -> [String; 4] {
     [form, points, randomization, element_m]
 }
 
-fn of_course(column: &str, course: &Course) -> Vec<Line> {
+fn of_curve(column: &str, curve: &Curve) -> Vec<Line> {
     let own = |quantity, unit, value| Line {
         quantity,
         unit,
         column: column.to_owned(),
-        setup: fields(course.setup),
+        setup: fields(curve.setup),
         value,
         ..Line::default()
     };
@@ -109,9 +109,9 @@ fn of_course(column: &str, course: &Course) -> Vec<Line> {
         paths: Some(look.paths),
         ..own("relative spread", "%", 100.0 * root_mean_square(&look.spreads))
     };
-    let slope = course.slope().map(|slope| own("slope", "1", slope));
-    let spreads = course.looks.iter().map(spread);
-    course.looks.iter().map(look).chain(spreads).chain(slope).collect()
+    let slope = curve.slope().map(|slope| own("slope", "1", slope));
+    let spreads = curve.looks.iter().map(spread);
+    curve.looks.iter().map(look).chain(spreads).chain(slope).collect()
 }
 
 fn at_equal_time(findings: &Findings) -> Vec<Line> {

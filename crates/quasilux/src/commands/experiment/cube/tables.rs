@@ -113,10 +113,10 @@ pub(super) fn convergence(findings: &Findings) -> String {
          allows, too. Slopes of the error against N, its floor included.\n\n\
          | form | points | randomisation | N | paths a place | s | error in % | slope |\n|---|---|---|---:|---:|---:|---:|---:|\n"
         .to_owned();
-    let courses = findings.columns.iter().chain(&findings.others);
-    for course in courses {
-        let (setup, end) = (course.setup, course.end());
-        let slope = course.slope().map_or("-".to_owned(), |slope| format!("{slope:.2}"));
+    let curves = findings.columns.iter().chain(&findings.others);
+    for curve in curves {
+        let (setup, end) = (curve.setup, curve.end());
+        let slope = curve.slope().map_or("-".to_owned(), |slope| format!("{slope:.2}"));
         writeln!(
             text,
             "| {} | {} | {} | {} | {} | {} | {} | {slope} |",

@@ -14,8 +14,10 @@ mod walk;
 
 use super::Outcome;
 use super::claim::Claim;
+use super::gain::Gain;
 use crate::arguments::ExperimentArguments;
 use cube::Cube;
+use quasilux_measure::number::count;
 use quasilux_sampling::{
     DimensionHistogram, PointSet, Randomization, SampleCursor, Sequence, stream_key,
 };
@@ -31,8 +33,8 @@ const LEAST: u64 = 1 << 8;
 const MOST: u64 = 1 << 16;
 /// The sequences that are compared, random points last.
 const SEQUENCES: [Sequence; 2] = [Sequence::Sobol, Sequence::Random];
-/// z above which errors differ: chance does that once in 740 comparisons.
-const DIFFERENT: f64 = 3.0;
+/// Standard errors that chance exceeds once in 16 000 comparisons.
+const ALIKE: f64 = 4.0;
 
 /// Photons with some features and points of one kind.
 struct Setup {
@@ -68,24 +70,12 @@ impl Error {
 
     /// Root mean square.
     fn rms(&self) -> f64 {
-        libm::sqrt(self.mean_square())
+        libm::sqrt(self.squares.iter().sum::<f64>() / self.squares.len() as f64)
     }
 
-    fn mean_square(&self) -> f64 {
-        self.squares.iter().sum::<f64>() / self.squares.len() as f64
-    }
-
-    /// Of the mean square.
-    fn standard_error(&self) -> f64 {
-        let (mean, count) = (self.mean_square(), self.squares.len() as f64);
-        let squares: f64 = self.squares.iter().map(|x| (x - mean) * (x - mean)).sum();
-        libm::sqrt(squares / (count * (count - 1.0)))
-    }
-
-    /// How many standard errors this mean square is above another one.
-    fn above(&self, other: &Self) -> f64 {
-        let [a, b] = [self, other].map(Self::standard_error);
-        (self.mean_square() - other.mean_square()) / libm::sqrt(a * a + b * b)
+    /// How many times this error is another one.
+    fn over(&self, other: &Self) -> Gain {
+        Gain::of_squares(&self.squares, &other.squares)
     }
 }
 
@@ -96,13 +86,8 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let setups = setups(most, replicates, arguments.seed);
     let cube = Cube::count(most, arguments.seed);
     let claims: Vec<Claim> = cube.claims().into_iter().chain(claims(&setups)).collect();
-    Outcome {
-        csv: report::csv(&setups, &cube),
-        markdown: report::markdown(&setups, &cube, replicates, &claims),
-        svg: picture::svg(&setups),
-        pictures: Vec::new(),
-        passed: Claim::all_hold(&claims),
-    }
+    let tables = report::markdown(&setups, &cube, replicates, &claims);
+    Outcome::new(report::csv(&setups, &cube), tables, picture::svg(&setups), &claims)
 }
 
 fn setups(most: u64, replicates: u32, seed: u64) -> Vec<Setup> {
@@ -147,8 +132,8 @@ fn trace(
     let mut dimensions = DimensionHistogram::new();
     let mut hits = vec![0; CELLS];
     let mut index = 0;
-    let all = counts(most).map(|count| {
-        while index < count {
+    let all = counts(most).map(|photons| {
+        while index < photons {
             let mut cursor = SampleCursor::new(&points, index);
             walk.photon(&mut cursor, |cell| hits[cell] += 1);
             dimensions.record(cursor.used());
@@ -171,36 +156,44 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
     let best = &full.errors[last(full)];
     for setup in others {
         let error = &setup.errors[last(setup)];
-        let (above, more) = (error.above(best), error.rms() / best.rms());
+        let gain = error.over(best);
         let coordinates = setup.dimensions.mean() - full.dimensions.mean();
-        let asked = if setup.features.must_show() { "above 3 asked for" } else { "none asked for" };
+        let asked = if setup.features.must_show() {
+            ", which is more than 1 at a significance of 1 %"
+        } else {
+            ", of which nothing is asked"
+        };
         claims.push(Claim {
             text: format!(
-                "With Sobol' points {} costs {coordinates:.1} coordinates a photon and {more:.2} times the error at N = {} \
-                 ({above:.1} standard errors, {asked})",
-                setup.name, error.photons
+                "With Sobol' points {} costs {coordinates:.1} coordinates a photon and {} times the error at N = \
+                 {} (95 %){asked}",
+                setup.name,
+                gain.text(),
+                count(error.photons),
             ),
-            holds: coordinates > 0.0 && (above > DIFFERENT || !setup.features.must_show()),
+            holds: coordinates > 0.0 && (gain.is_sure() || !setup.features.must_show()),
         });
     }
     let random = of(Sequence::Random);
     let plain = &random[0].errors[last(random[0])];
-    let most = random.iter().map(|setup| setup.errors[last(setup)].above(plain).abs());
-    let most = most.fold(0.0, f64::max);
+    let off = |setup: &&Setup| setup.errors[last(setup)].over(plain).standard_errors().abs();
+    let most = random[1..].iter().map(off).fold(0.0, f64::max);
     claims.push(Claim {
         text: format!(
-            "Random points do not care: no setup is further than {most:.1} standard errors from the one with all features \
-             (4 allowed)"
+            "Random points do not care: no setup is further than {most:.1} standard errors from the one with all \
+             features (4 allowed)"
         ),
-        holds: most < 4.0,
+        holds: most < ALIKE,
     });
-    let gain = plain.rms() / best.rms();
+    let gain = plain.over(best);
     claims.push(Claim {
         text: format!(
-            "With all features Sobol' points divide the error of random ones by {gain:.2} at N = {}",
-            best.photons
+            "With all features Sobol' points divide the error of random ones by {} (95 %) at N = {}, by more than \
+             1 at a significance of 1 %",
+            gain.text(),
+            count(best.photons),
         ),
-        holds: gain > 1.0 && plain.above(best) > DIFFERENT,
+        holds: gain.is_sure(),
     });
     claims
 }

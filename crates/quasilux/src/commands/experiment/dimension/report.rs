@@ -8,26 +8,23 @@ use std::fmt::Write;
 
 /// One line for each setup and number of photons; the cube's coordinates behind them, without errors.
 pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
-    let mut text =
-        "scene,setup,sequence,mean_coordinates,n,rms_error,mean_square,standard_error\n".to_owned();
+    let mut text = "scene,setup,sequence,mean_coordinates,n,rms_error\n".to_owned();
     for setup in setups {
         for error in &setup.errors {
             writeln!(
                 text,
-                "room,{},{},{},{},{},{},{}",
+                "room,{},{},{},{},{}",
                 setup.name,
                 setup.sequence.name(),
                 exact(setup.dimensions.mean()),
                 error.photons,
                 exact(error.rms()),
-                exact(error.mean_square()),
-                exact(error.standard_error()),
             )
             .expect("strings grow");
         }
     }
     for (name, coordinates) in named(cube) {
-        writeln!(text, "cube,{name},sobol,{},{},,,", exact(coordinates), cube.count)
+        writeln!(text, "cube,{name},sobol,{},{},", exact(coordinates), cube.count)
             .expect("strings grow");
     }
     text

@@ -11,7 +11,6 @@ mod room;
 mod terms;
 
 use super::Outcome;
-use super::claim::Claim;
 use crate::arguments::ExperimentArguments;
 use pictures::Picture;
 use terms::Terms;
@@ -58,12 +57,10 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let terms = Terms::measure(&effort);
     let pictures = CUTS.map(|cut| Picture::take(cut, &effort));
     let claims = report::claims(&terms, &pictures);
+    let tables = report::markdown(&terms, &pictures, &claims);
     Outcome {
-        csv: report::csv(&terms, &pictures),
-        markdown: report::markdown(&terms, &pictures, &claims),
-        svg: plot::svg(&terms),
         pictures: vec![("terms".to_owned(), pictures::side_by_side(&pictures))],
-        passed: Claim::all_hold(&claims),
+        ..Outcome::new(report::csv(&terms, &pictures), tables, plot::svg(&terms), &claims)
     }
 }
 

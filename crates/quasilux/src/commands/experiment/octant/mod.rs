@@ -19,7 +19,6 @@ mod report;
 mod sphere;
 
 use super::Outcome;
-use super::claim::Claim;
 use crate::arguments::ExperimentArguments;
 use curve::{Curve, Way};
 use limit::Ladder;
@@ -60,13 +59,8 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
         limit: arguments.seconds_per_point,
     });
     let claims = claims::all(&findings);
-    Outcome {
-        csv: report::csv(&findings),
-        markdown: report::markdown(&findings, &claims),
-        svg: picture::svg(&findings),
-        pictures: Vec::new(),
-        passed: Claim::all_hold(&claims),
-    }
+    let tables = report::markdown(&findings, &claims);
+    Outcome::new(report::csv(&findings), tables, picture::svg(&findings), &claims)
 }
 
 impl Findings {

@@ -12,7 +12,6 @@ mod report;
 
 use super::Outcome;
 use super::batwing::Luminaire;
-use super::claim::Claim;
 use super::emission::Method;
 use crate::arguments::ExperimentArguments;
 use floor::Floor;
@@ -80,13 +79,9 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let luminaire = Luminaire::batwing();
     let floor = Floor::under(&luminaire.photometry);
     let curves = Setup::ALL.map(|setup| curve(setup, &luminaire, &floor, &counts, arguments.seed));
-    Outcome {
-        csv: report::csv(&curves),
-        markdown: report::markdown(&curves, &luminaire, &floor),
-        svg: picture::svg(&curves),
-        pictures: Vec::new(),
-        passed: Claim::all_hold(&report::claims(&curves)),
-    }
+    let claims = report::claims(&curves);
+    let tables = report::markdown(&curves, &luminaire, &floor);
+    Outcome::new(report::csv(&curves), tables, picture::svg(&curves), &claims)
 }
 
 /// Powers of two.

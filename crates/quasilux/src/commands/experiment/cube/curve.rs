@@ -4,11 +4,12 @@ use super::bias::Bias;
 use super::scene::Places;
 use super::setup::{Points, Setup};
 use super::truth::Truth;
+use crate::commands::experiment::course::{Course, Stage};
 use quasilux_sampling::quality::fit_power_law;
-use quasilux_transport::{Control, Estimates, Observer, simulate};
+use quasilux_transport::Estimates;
 use std::time::{Duration, Instant};
 
-/// Times that each course is timed, and the rays of all replicates that it then takes about.
+/// Times that each curve is timed, and the rays of all replicates that it then takes about.
 const ROUNDS: u32 = 7;
 const SHORT_RAYS: f64 = 2e6;
 
@@ -23,11 +24,11 @@ pub(super) struct Task {
     /// The largest N.
     pub(super) most: u64,
     /// A run ends at the last checkpoint that can be expected within this.
-    pub(super) limit: Duration,
+    pub(super) limit: Option<Duration>,
 }
 
 /// What one way did.
-pub(super) struct Course {
+pub(super) struct Curve {
     pub(super) setup: Setup,
     pub(super) looks: Vec<Look>,
     /// At the last checkpoint.
@@ -72,56 +73,57 @@ impl Task {
         let of_class: Vec<f64> =
             (0..6).map(|class| truth.illuminance_lx(super::scene::inset(class))).collect();
         let truth_lx = places.iter().map(|place| of_class[place.class]).collect();
-        let limit = Duration::MAX;
-        Self { places, truth_lx, replicates: 32, seed: 0, most: u64::MAX, limit }
+        Self { places, truth_lx, replicates: 32, seed: 0, most: u64::MAX, limit: None }
     }
 }
 
-impl Course {
+impl Curve {
     /// Runs a way up to the largest N or the limit of time, whichever comes first.
     pub(super) fn run(setup: Setup, task: &Task) -> Self {
         let scene = task.places.scene();
-        let mut watch = Stopwatch { setup, task, start: now(), looks: Vec::new() };
         let most = setup.form.samples(task.most);
-        let run = |samples: u64, watch: &mut Stopwatch<'_>| {
+        let stages = |samples: u64, limit: Option<Duration>| {
             let settings = setup.settings(samples, task.replicates, task.seed);
-            simulate(&scene, &settings, watch)
+            Course::run(&scene, &settings, limit).stages
         };
         if setup.points != Points::Hammersley {
-            let last = run(most, &mut watch);
-            return Self { setup, looks: watch.looks, last };
+            return Self::new(setup, stages(most, task.limit), task);
         }
         // These need their number ahead: each N is a run of its own, of which only the end counts.
-        let (mut looks, mut samples) = (Vec::new(), most.min(16));
+        let (mut ends, mut samples) = (Vec::new(), most.min(16));
         loop {
-            watch.start = now();
-            watch.looks.clear();
-            let last = run(samples, &mut watch);
-            let seconds = watch.start.elapsed();
-            looks.extend(watch.looks.pop());
-            if samples == most || 4 * seconds > task.limit {
-                return Self { setup, looks, last };
+            let start = now();
+            ends.extend(stages(samples, None).pop());
+            let is_over = task.limit.is_some_and(|limit| 4 * start.elapsed() > limit);
+            if samples == most || is_over {
+                return Self::new(setup, ends, task);
             }
             samples = (4 * samples).min(most);
         }
     }
 
-    /// Times the courses by short runs in turn, so that what else the machine does hits all of them alike: of each,
+    fn new(setup: Setup, mut stages: Vec<Stage>, task: &Task) -> Self {
+        let looks = stages.iter().map(|stage| Look::new(setup, stage, task)).collect();
+        let last = stages.pop().expect("a run has a checkpoint").estimates;
+        Self { setup, looks, last }
+    }
+
+    /// Times the curves by short runs in turn, so that what else the machine does hits all of them alike: of each,
     /// the shortest says what a ray takes, and so what all checkpoints take.
-    pub(super) fn time(courses: &mut [Self], task: &Task) {
-        let mut seconds = vec![f64::INFINITY; courses.len()];
+    pub(super) fn time(curves: &mut [Self], task: &Task) {
+        let mut seconds = vec![f64::INFINITY; curves.len()];
         for _ in 0..ROUNDS {
-            for (shortest, course) in seconds.iter_mut().zip(&*courses) {
+            for (shortest, curve) in seconds.iter_mut().zip(&*curves) {
                 let is_short =
                     |look: &&Look| look.cost.rays * f64::from(task.replicates) <= SHORT_RAYS;
-                let look = course.looks.iter().rfind(is_short).unwrap_or(&course.looks[0]);
-                let task = Task { most: look.n, limit: Duration::MAX, ..task.clone() };
-                let Cost { rays, seconds } = Self::run(course.setup, &task).end().cost;
+                let look = curve.looks.iter().rfind(is_short).unwrap_or(&curve.looks[0]);
+                let task = Task { most: look.n, limit: None, ..task.clone() };
+                let Cost { rays, seconds } = Self::run(curve.setup, &task).end().cost;
                 *shortest = shortest.min(seconds / rays);
             }
         }
-        for (seconds, course) in seconds.iter().zip(courses) {
-            for look in &mut course.looks {
+        for (seconds, curve) in seconds.iter().zip(curves) {
+            for look in &mut curve.looks {
                 look.cost.seconds = seconds * look.cost.rays;
             }
         }
@@ -168,6 +170,22 @@ impl Course {
 }
 
 impl Look {
+    fn new(setup: Setup, stage: &Stage, task: &Task) -> Self {
+        let rows = &stage.estimates.sensors[0].replicate_lx;
+        let replicates = rows.len() as f64;
+        let mean_of = |place: usize| rows.iter().map(|row| row[place]).sum::<f64>() / replicates;
+        let mean: Vec<f64> = (0..rows[0].len()).map(mean_of).collect();
+        let scale = (replicates / (replicates - 1.0)).sqrt();
+        Self {
+            n: setup.form.n(stage.samples),
+            paths: setup.form.paths(stage.samples),
+            cost: Cost { rays: stage.rays, seconds: stage.seconds },
+            errors: rows.iter().map(|row| distance(row, &task.truth_lx, task)).collect(),
+            spreads: rows.iter().map(|row| scale * distance(row, &mean, task)).collect(),
+            bias: Bias::of(rows, task),
+        }
+    }
+
     pub(super) fn rms(&self) -> f64 {
         root_mean_square(&self.errors)
     }
@@ -193,40 +211,6 @@ impl Cost {
 
 pub(super) fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
-}
-
-/// Takes down each checkpoint.
-struct Stopwatch<'t> {
-    setup: Setup,
-    task: &'t Task,
-    start: Instant,
-    looks: Vec<Look>,
-}
-
-impl Observer for Stopwatch<'_> {
-    fn checkpoint(&mut self, estimates: &Estimates) -> Control {
-        let elapsed = self.start.elapsed();
-        let rows = &estimates.sensors[0].replicate_lx;
-        let replicates = rows.len() as f64;
-        let cost = Cost {
-            rays: estimates.rays as f64 / replicates,
-            seconds: elapsed.as_secs_f64() / replicates,
-        };
-        let samples = estimates.samples;
-        let mean_of = |place: usize| rows.iter().map(|row| row[place]).sum::<f64>() / replicates;
-        let mean: Vec<f64> = (0..rows[0].len()).map(mean_of).collect();
-        let scale = (replicates / (replicates - 1.0)).sqrt();
-        self.looks.push(Look {
-            n: self.setup.form.n(samples),
-            paths: self.setup.form.paths(samples),
-            cost,
-            errors: rows.iter().map(|row| distance(row, &self.task.truth_lx, self.task)).collect(),
-            spreads: rows.iter().map(|row| scale * distance(row, &mean, self.task)).collect(),
-            bias: Bias::of(rows, self.task),
-        });
-        let is_last = self.setup.points != Points::Hammersley && 2 * elapsed > self.task.limit;
-        if is_last { Control::Stop } else { Control::Continue }
-    }
 }
 
 #[expect(clippy::disallowed_methods, reason = "errors are shown against time")]
