@@ -44,3 +44,13 @@ fn rejection_spoils_what_sobol_points_gain() {
     let svg = folder.read("rejection.svg");
     assert!(svg.contains("rejection, sobol") && svg.ends_with("</svg>\n"));
 }
+
+#[test]
+fn an_option_that_changes_nothing_is_named() {
+    let folder = Folder::new("experiment-unheeded");
+    let points = ["experiment", "points", "--out", ".", "--seeds", "4"];
+    assert_eq!(folder.quasilux(&points).stderr, "");
+    let warned = folder.quasilux(&[&points[..], &["--seconds-per-point", "1s"]].concat());
+    let warning = "warning: the experiment \"points\" takes no heed of --seconds-per-point\n";
+    assert_eq!((warned.code, warned.stderr.as_str()), (Some(0), warning));
+}

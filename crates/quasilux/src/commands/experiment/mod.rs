@@ -29,42 +29,67 @@ const BUILT: [Experiment; 9] = [
     Experiment {
         name: "cube",
         shows: "the diffuse cube, tables 4 and 5 of the paper",
+        takes: ALL,
         run: cube::run,
     },
     Experiment {
         name: "dimension",
         shows: "what superposition and inverse transform save",
+        takes: COUNTED,
         run: dimension::run,
     },
-    Experiment { name: "points", shows: "figures 5 and 6", run: points::run },
-    Experiment { name: "periodicity", shows: "coherent groups, table 2", run: periodicity::run },
+    Experiment { name: "points", shows: "figures 5 and 6", takes: &[SEEDS], run: points::run },
+    Experiment {
+        name: "periodicity",
+        shows: "coherent groups, table 2",
+        takes: &[MAX_N],
+        run: periodicity::run,
+    },
     Experiment {
         name: "rejection",
         shows: "inverse transform against rejection",
+        takes: &[MAX_N],
         run: rejection::run,
     },
     Experiment {
         name: "coverage",
         shows: "how often the intervals hold the truth",
+        takes: &[SEEDS],
         run: coverage::run,
     },
-    Experiment { name: "octant", shows: "the mirror octant, table 3", run: octant::run },
+    Experiment {
+        name: "octant",
+        shows: "the mirror octant, table 3",
+        takes: ALL,
+        run: octant::run,
+    },
     Experiment {
         name: "first-shot",
         shows: "direct light taken out of the integral",
+        takes: ALL,
         run: first_shot::run,
     },
     Experiment {
         name: "neumann",
         shows: "pictures of the Neumann terms, table 1",
+        takes: COUNTED,
         run: neumann::run,
     },
 ];
+
+/// Options that not all experiments have a use for.
+const MAX_N: &str = "--max-n";
+const SEEDS: &str = "--seeds";
+const SECONDS_PER_POINT: &str = "--seconds-per-point";
+const COUNTED: &[&str] = &[MAX_N, SEEDS];
+const ALL: &[&str] = &[MAX_N, SEEDS, SECONDS_PER_POINT];
 
 /// An experiment.
 struct Experiment {
     name: &'static str,
     shows: &'static str,
+    /// Which of the options it heeds.
+    takes: &'static [&'static str],
     run: fn(&ExperimentArguments) -> Outcome,
 }
 
@@ -82,6 +107,20 @@ struct Outcome {
     passed: bool,
 }
 
+impl Experiment {
+    /// The first of the options given that changes nothing here.
+    fn unheeded(&self, arguments: &ExperimentArguments) -> Option<&'static str> {
+        let given = [
+            (MAX_N, arguments.max_n.is_some()),
+            (SEEDS, arguments.seeds.is_some()),
+            (SECONDS_PER_POINT, arguments.seconds_per_point.is_some()),
+        ];
+        let unheeded =
+            |(option, is_given): &(&str, bool)| *is_given && !self.takes.contains(option);
+        given.into_iter().find(unheeded).map(|(option, _)| option)
+    }
+}
+
 impl Outcome {
     /// Passed if all claims hold; without pictures.
     fn new(csv: String, markdown: String, svg: String, claims: &[Claim]) -> Self {
@@ -95,6 +134,9 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     let Some(experiment) = BUILT.iter().find(|experiment| experiment.name == name) else {
         return Err(refused(name));
     };
+    if let Some(option) = experiment.unheeded(arguments) {
+        eprintln!("warning: the experiment \"{name}\" takes no heed of {option}");
+    }
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(name));
     results::prepare(&folder)?;
     let outcome = (experiment.run)(arguments);
