@@ -10,7 +10,7 @@ use quasilux_transport::Estimates;
 use std::time::{Duration, Instant};
 
 /// Times that each curve is timed, and the rays of all replicates that it then takes about.
-const ROUNDS: u32 = 7;
+const ROUNDS: u32 = 25;
 const SHORT_RAYS: f64 = 2e6;
 
 /// What is measured, and how long.
@@ -108,25 +108,29 @@ impl Curve {
         Self { setup, looks, last }
     }
 
-    /// Times the curves by short runs in turn, so that what else the machine does hits all of them alike: of each,
-    /// the shortest says what a ray takes, and so what all checkpoints take.
+    /// Times the curves by short runs in turn, so that what else the machine does hits all of them alike: what a ray of each
+    /// takes over the mean of its round, and the means of the rounds, are the medians over the rounds. From what a ray takes
+    /// follows what all checkpoints take.
     pub(super) fn time(curves: &mut [Self], task: &Task) {
-        let mut seconds = vec![f64::INFINITY; curves.len()];
-        for _ in 0..ROUNDS {
-            for (shortest, curve) in seconds.iter_mut().zip(&*curves) {
-                let is_short =
-                    |look: &&Look| look.cost.rays * f64::from(task.replicates) <= SHORT_RAYS;
-                let look = curve.looks.iter().rfind(is_short).unwrap_or(&curve.looks[0]);
-                let task = Task { most: look.n, limit: None, ..task.clone() };
-                let Cost { rays, seconds } = Self::run(curve.setup, &task).end().cost;
-                *shortest = shortest.min(seconds / rays);
-            }
-        }
-        for (seconds, curve) in seconds.iter().zip(curves) {
+        let round = |_| curves.iter().map(|curve| curve.seconds_of_a_ray(task)).collect();
+        let rounds: Vec<Vec<f64>> = (0..ROUNDS).map(round).collect();
+        let mean = |round: &Vec<f64>| round.iter().sum::<f64>() / round.len() as f64;
+        let usual = median(rounds.iter().map(mean).collect());
+        for (k, curve) in curves.iter_mut().enumerate() {
+            let share = median(rounds.iter().map(|round| round[k] / mean(round)).collect());
             for look in &mut curve.looks {
-                look.cost.seconds = seconds * look.cost.rays;
+                look.cost.seconds = share * usual * look.cost.rays;
             }
         }
+    }
+
+    /// By one short run.
+    fn seconds_of_a_ray(&self, task: &Task) -> f64 {
+        let is_short = |look: &&Look| look.cost.rays * f64::from(task.replicates) <= SHORT_RAYS;
+        let look = self.looks.iter().rfind(is_short).unwrap_or(&self.looks[0]);
+        let task = Task { most: look.n, limit: None, ..task.clone() };
+        let Cost { rays, seconds } = Self::run(self.setup, &task).end().cost;
+        seconds / rays
     }
 
     /// (N, root mean square of the errors over the replicates).
@@ -216,6 +220,11 @@ pub(super) fn root_mean_square(values: &[f64]) -> f64 {
 #[expect(clippy::disallowed_methods, reason = "errors are shown against time")]
 fn now() -> Instant {
     Instant::now()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 /// The L2 norm of the distance over that of the truth.

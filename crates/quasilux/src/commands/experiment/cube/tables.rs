@@ -31,7 +31,7 @@ pub(super) fn heading(findings: &Findings) -> String {
          micrometres inside its wall's edge, and a map is read in the own wall's element there. A place where elements meet is\n\
          read in one of them.\n\n\
          Seconds are wall clock for all randomisations together over their number: what one takes on this machine when they\n\
-         share the start. Columns are timed in short runs, in turn; the shortest of each says what a ray takes. Paths that end on\n\
+         share the start. Columns are timed in short runs, in turn; medians say what a ray of each takes. Paths that end on\n\
          a map that grows are traced anew at each power of two, which counts, too.\n",
         replicates = findings.replicates,
         inset = 1e6 * INSET * HALF_M,
