@@ -2,13 +2,13 @@
 //!
 //! Memory for ten million triangles: a closed room over a rough ground, read from a Wavefront file that
 //! is made on the spot, with an illumination map of as many elements. Each line is a process of its
-//! own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all.
+//! own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all; and what was foretold for data alone.
 
 use glam::DVec3;
 use quasilux_benches::meshes::Numbers;
 use quasilux_benches::scenes::lamp_and_probe;
 use quasilux_scene::{Files, Scene, load};
-use quasilux_transport::{Estimator, Reconstruction, Settings, simulate};
+use quasilux_transport::{Estimator, MemoryNeed, Reconstruction, Settings, simulate};
 use std::fmt::Write;
 use std::io;
 use std::process::Command;
@@ -30,14 +30,15 @@ fn main() {
         return run(estimator, reconstruction, replicates, samples);
     }
     println!(
-        "{:<20}{:<12}{:>11}{:>10}{:>14}{:>14}{:>18}",
+        "{:<20}{:<12}{:>11}{:>10}{:>14}{:>14}{:>18}{:>15}",
         "estimator",
         "elements",
         "replicates",
         "samples",
         "loaded, GiB",
         "peak, GiB",
-        "B / triangle"
+        "B / triangle",
+        "foretold, GiB"
     );
     for arguments in RUNS {
         let program = std::env::current_exe().expect("this program has a path");
@@ -58,14 +59,16 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
         map_reconstruction: named(&Reconstruction::NAMES, reconstruction),
         ..Settings::default()
     };
+    let foretold = MemoryNeed::of(&scene, &settings).total_bytes(settings.max_samples) as f64;
     let estimates = simulate(&scene, &settings, &mut ());
     let peak = peak_bytes();
     println!(
-        "{estimator:<20}{reconstruction:<12}{replicates:>11}{:>10}{:>14.2}{:>14.2}{:>18.0}",
+        "{estimator:<20}{reconstruction:<12}{replicates:>11}{:>10}{:>14.2}{:>14.2}{:>18.0}{:>15.2}",
         estimates.samples,
         loaded / GIB,
         peak / GIB,
-        peak / TRIANGLES
+        peak / TRIANGLES,
+        foretold / GIB
     );
 }
 

@@ -154,6 +154,7 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
         seconds: 9.8125,
         earlier_rays: 0,
         threads: 2,
+        expected_bytes: Some(96 << 20),
         warnings: vec![WARNING.into()],
     };
     Report::new(&scene, settings, &estimates, facts)

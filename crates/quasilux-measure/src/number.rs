@@ -94,6 +94,13 @@ pub fn count(n: u64) -> String {
     text
 }
 
+/// Memory of so many bytes: `1.5 GiB`, `96 MiB`.
+#[must_use]
+pub fn memory(bytes: u64) -> String {
+    let mib = bytes as f64 / f64::from(1 << 20);
+    if mib < 1000.0 { format!("{mib:.0} MiB") } else { format!("{:.1} GiB", mib / 1024.0) }
+}
+
 /// The place of the last digit to write of a half-width, as a power of ten; `None` for zero.
 fn last_place(half_width: f64) -> Option<i32> {
     let exponent = decimal_exponent(half_width)?;
@@ -177,6 +184,7 @@ mod tests {
         assert_eq!(brief(123_456.0, 3), "123456");
         assert_eq!(count(1_048_576), "1 048 576");
         assert_eq!(count(999), "999");
+        assert_eq!((memory(96 << 20), memory(3 << 29)), ("96 MiB".into(), "1.5 GiB".into()));
         assert_eq!(exact(0.1), "0.1");
         assert_eq!(decimal_exponent(9.999_999_999e5), Some(5));
     }

@@ -25,6 +25,8 @@ pub struct RunFacts {
     pub earlier_rays: u64,
     /// Threads that worked on it.
     pub threads: usize,
+    /// Memory in bytes that the whole program should take up to the tolerance, as far as anybody can say.
+    pub expected_bytes: Option<u64>,
     /// Warnings of the loaders.
     pub warnings: Vec<String>,
 }
@@ -130,6 +132,8 @@ pub struct Run {
     pub earlier_rays: u64,
     /// Threads that worked on it.
     pub threads: usize,
+    /// Memory in bytes that the whole program should take up to the tolerance.
+    pub expected_bytes: Option<u64>,
     /// Confidence level of all intervals.
     pub confidence: f64,
     /// Whether every sensor point, or every average, reached the wanted tolerance.
@@ -179,6 +183,7 @@ impl Report {
                 seconds: facts.seconds,
                 earlier_rays: facts.earlier_rays,
                 threads: facts.threads,
+                expected_bytes: facts.expected_bytes,
                 confidence: estimates.confidence,
                 tolerance_reached: estimates.tolerance_reached,
                 convergence: estimates.convergence,
@@ -190,6 +195,17 @@ impl Report {
             biased: estimates.biased,
             warnings,
         }
+    }
+}
+
+impl Run {
+    /// Duration in s of the whole run up to the tolerance, at the pace of this one. A run that was gone on with knows its
+    /// pace from its own rays, if it had any.
+    #[must_use]
+    pub fn expected_seconds(&self) -> Option<f64> {
+        let own_rays = self.rays.saturating_sub(self.earlier_rays);
+        let rays = self.convergence.rays.filter(|_| own_rays > 0)?;
+        Some(self.seconds * rays as f64 / own_rays as f64).filter(|seconds| seconds.is_finite())
     }
 }
 

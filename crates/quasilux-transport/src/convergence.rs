@@ -103,15 +103,16 @@ impl History {
             .collect();
         let grown = now.iter().filter(|(_, samples)| *samples == estimates.samples).count();
         let end = ends.iter().copied().try_fold(0, |end: u64, own| Some(end.max(own?)));
-        let rays = end.and_then(|end| {
-            let before = self.checkpoints.iter().rev().nth(1)?;
-            let step = estimates.samples.saturating_sub(before.samples).max(1) as f64;
+        let rays = end.map(|end| {
+            // At the first checkpoint surveys and pilots count as if they came again.
+            let before = self.checkpoints.iter().rev().nth(1).map_or(0, |before| before.samples);
+            let step = estimates.samples.saturating_sub(before).max(1) as f64;
             let rays = estimates.rays.saturating_sub(self.rays) as f64;
             let rays_per_index = rays / (step * grown.max(1) as f64);
             let own_end = |own: &Option<u64>| own.filter(|_| is_adaptive).unwrap_or(end);
             let left = |own| own_end(own).saturating_sub(estimates.samples) as f64;
             let indices: f64 = ends.iter().map(left).sum();
-            Some(estimates.rays.saturating_add((indices * rays_per_index) as u64))
+            estimates.rays.saturating_add((indices * rays_per_index) as u64)
         });
         self.widths = now;
         self.rays = estimates.rays;
@@ -280,6 +281,16 @@ mod tests {
             let ratio = samples.unwrap() as f64 / wanted;
             assert!((0.5..=2.01).contains(&ratio), "{samples:?} {wanted}");
         }
+    }
+
+    /// The first checkpoint already says how many rays it takes, as if half-widths shrank like those of random points.
+    #[test]
+    fn the_first_checkpoint_foretells() {
+        let scale = 0.08 * 4.0;
+        let first = known(-0.5, [scale, scale], 1 << 20, 16);
+        assert_eq!(first.slope, None);
+        assert_eq!(first.samples, Some(1024));
+        assert_eq!(first.rays, Some(1024));
     }
 
     /// With slope -1/2 the targets end at 64 and 4096 indices; each index of each target takes a ray.

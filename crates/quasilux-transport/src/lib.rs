@@ -8,7 +8,7 @@
 //! [`merge`]), to the same bits.
 //!
 //! Read on at `simulate` for the loop over checkpoints, at `looks` and `lowest` for why its intervals are
-//! true, at `convergence` for what is foreseen, at `photon` and `path` for the two ways
+//! true, at `convergence` and `memory` for what is foreseen, at `photon` and `path` for the two ways
 //! light is followed, at `order` and `photon_wave` for how photons travel together, at
 //! `steering` for how they are split on their way, at `first_shot` for when
 //! they need not leave a light, at `path_wave` and `shadow` for how paths do, at `map` and `join` for where
@@ -30,6 +30,7 @@ mod lights;
 mod looks;
 mod lowest;
 mod map;
+mod memory;
 pub mod observer;
 mod order;
 mod panes;
@@ -66,6 +67,7 @@ pub use convergence::Convergence;
 pub use estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates};
 pub use explain::{Explanation, explain};
 pub use interval::Interval;
+pub use memory::MemoryNeed;
 pub use observer::{Control, Observer, Progress, Snapshot};
 pub use parts::{MergeError, decide, merge, trace_part};
 pub use picture::{CameraEstimates, Pixel};

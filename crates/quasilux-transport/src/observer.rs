@@ -30,6 +30,8 @@ pub struct Progress {
     pub slope: Option<f64>,
     /// Indices per replicate at which the tolerance should be reached.
     pub expected_samples: Option<u64>,
+    /// Rays of the whole run up to there.
+    pub expected_rays: Option<u64>,
     /// Share in [0, 1] of the expected work that is done, `None` while nothing is known.
     pub done: Option<f64>,
 }

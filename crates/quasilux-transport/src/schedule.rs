@@ -9,7 +9,7 @@ pub(crate) const MOST_SAMPLES: u64 = 1 << 48;
 
 /// Before so many indices nothing is called done. Light that few paths find, such as that of a lamp in a mirror,
 /// makes means of fewer so skew that Student's t is worth nothing, and a lucky spread would end them.
-const LEAST_SAMPLES: u64 = 128;
+pub(crate) const LEAST_SAMPLES: u64 = 128;
 
 /// The checkpoints of one run: a function of counts alone.
 #[derive(Clone, Copy, Debug, PartialEq)]

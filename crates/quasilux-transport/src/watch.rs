@@ -9,8 +9,8 @@ use std::ops::Range;
 pub(crate) struct Watch<'o> {
     observer: &'o mut dyn Observer,
     progress: Progress,
-    /// Rays expected in all.
-    expected_rays: Option<u64>,
+    /// Rays up to the tolerance or to the limit that comes first.
+    rays_to_end: Option<u64>,
     /// Rays allowed after the first checkpoint.
     max_rays: u64,
     /// Photons or paths between states that the observer may want.
@@ -34,12 +34,13 @@ impl<'o> Watch<'o> {
             largest_relative_half_width: None,
             slope: None,
             expected_samples: None,
+            expected_rays: None,
             done: None,
         };
         let (piece, preface) = (observer.piece(), Vec::new());
-        let (expected_rays, max_rays) = (None, u64::MAX);
+        let (rays_to_end, max_rays) = (None, u64::MAX);
         let (obeys, stopped) = (false, false);
-        Self { observer, progress, expected_rays, max_rays, piece, preface, obeys, stopped }
+        Self { observer, progress, rays_to_end, max_rays, piece, preface, obeys, stopped }
     }
 
     /// A range of indices, each of so many photons or paths, in pieces between which states are kept; in
@@ -105,6 +106,7 @@ impl<'o> Watch<'o> {
         self.progress.rays = self.progress.rays.max(estimates.rays);
         self.progress.slope = estimates.convergence.slope;
         self.progress.expected_samples = estimates.convergence.samples;
+        self.progress.expected_rays = estimates.convergence.rays;
         self.progress.largest_relative_half_width = largest;
     }
 
@@ -118,9 +120,9 @@ impl<'o> Watch<'o> {
         self.max_rays = max_rays.unwrap_or(u64::MAX);
     }
 
-    /// Says how many rays the whole run is expected to take.
+    /// Says how many rays the whole run is expected to take, limits included.
     pub(crate) fn expect(&mut self, rays: Option<u64>) {
-        self.expected_rays = rays;
+        self.rays_to_end = rays;
     }
 
     /// Shows a moment of the run, if the observer wants to see it and there is something to see.
@@ -142,7 +144,7 @@ impl<'o> Watch<'o> {
         so_far.paths = so_far.paths.saturating_add(paths);
         so_far.rays = so_far.rays.saturating_add(rays);
         let share = |rays: u64| (self.progress.rays as f64 / rays.max(1) as f64).clamp(0.0, 1.0);
-        self.progress.done = self.expected_rays.map(share);
+        self.progress.done = self.rays_to_end.map(share);
         let control = self.observer.progress(&self.progress);
         self.stopped = control == Control::Stop && self.obeys;
         let is_within_limit = self.progress.rays <= self.max_rays || self.progress.samples == 0;

@@ -9,6 +9,7 @@ mod checkpoint;
 mod commands;
 mod digest;
 mod exit;
+mod forecast;
 mod interrupt;
 mod names;
 mod plan;

@@ -3,10 +3,10 @@
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
 use crate::checkpoint::Keeping;
+use crate::forecast::Forecast;
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use quasilux_measure::number::{brief, count};
-use quasilux_scene::Scene;
+use quasilux_measure::number::{brief, count, memory};
 use quasilux_transport::{Control, Estimates, Observer, Progress, Snapshot};
 use std::time::{Duration, Instant};
 
@@ -24,7 +24,9 @@ const LOOK_SHARE: u32 = 50;
 const KEEPING_SHARE: u32 = 30;
 
 /// The observer of the command line.
-pub(crate) struct Watcher {
+pub(crate) struct Watcher<'a> {
+    /// What it will take.
+    pub(crate) forecast: Forecast<'a>,
     bar: ProgressBar,
     /// Names of the sensors that are shown.
     sensors: Vec<String>,
@@ -60,9 +62,9 @@ pub(crate) enum Stopped {
     Interrupt,
 }
 
-impl Watcher {
+impl<'a> Watcher<'a> {
     /// Starts the clock. The bar goes to stderr, and only where that is a terminal.
-    pub(crate) fn new(scene: &Scene, time: Option<Duration>, quiet: bool) -> Self {
+    pub(crate) fn new(forecast: Forecast<'a>, time: Option<Duration>, quiet: bool) -> Self {
         let start = Instant::now();
         let target = if quiet {
             ProgressDrawTarget::hidden()
@@ -75,8 +77,12 @@ impl Watcher {
         let bar = ProgressBar::with_draw_target(Some(STEPS), target).with_style(style);
         // A deadline too far away to be told is none.
         let deadline = time.and_then(|time| start.checked_add(time));
-        let sensors = scene.sensors.iter().take(SHOWN_SENSORS);
+        let sensors = forecast.scene.sensors.iter().take(SHOWN_SENSORS);
+        // Before the first sample, and so of as many as there may be.
+        let most = memory(forecast.bytes(forecast.settings.max_samples));
+        bar.set_message(format!("up to {most} of memory"));
         Self {
+            forecast,
             bar,
             sensors: sensors.map(|sensor| sensor.name.clone()).collect(),
             values: String::new(),
@@ -113,7 +119,7 @@ impl Watcher {
     }
 }
 
-impl Observer for Watcher {
+impl Observer for Watcher<'_> {
     fn piece(&self) -> Option<u64> {
         self.kept.is_some().then_some(PIECE)
     }
@@ -156,7 +162,10 @@ impl Observer for Watcher {
             Some(progress.done.unwrap_or(0.0).max((elapsed_s / whole_s).min(1.0)))
         });
         self.bar.set_position((done.unwrap_or(0.0) * STEPS as f64) as u64);
-        self.bar.set_message(message(progress, done, elapsed_s) + &self.values);
+        let course = message(progress, done, elapsed_s);
+        let bytes =
+            self.forecast.bytes(progress.expected_samples.or(self.forecast.settings.max_samples));
+        self.bar.set_message(course + ", " + &memory(bytes) + &self.values);
         self.control()
     }
 
@@ -165,7 +174,8 @@ impl Observer for Watcher {
     }
 }
 
-/// Photons, paths, rays a second, the largest relative half-width and how it shrinks, and the time left.
+/// Photons, paths, rays a second, the largest relative half-width and how it shrinks, the time left to the
+/// end, and that of the whole run to the tolerance.
 fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     let rays = progress.rays as f64;
     let own_rays = progress.rays.saturating_sub(progress.earlier_rays).max(1) as f64;
@@ -174,14 +184,20 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
         .largest_relative_half_width
         .map_or_else(|| "±?".to_owned(), |width| format!("±{:.2} %", 100.0 * width));
     let slope = progress.slope.map_or_else(String::new, |slope| format!(" ~ N^{slope:.2}"));
+    // What a run that was gone on with took before is told at the pace of now.
+    let pace_s = elapsed_s * rays.max(1.0) / own_rays;
     let left = match done {
-        Some(done) if done > 0.01 => {
-            format!("{:.0} s left", elapsed_s * (1.0 - done) / done * rays.max(1.0) / own_rays)
-        }
+        Some(done) if done > 0.0 => format!("{:.0} s left", pace_s * (1.0 - done) / done),
         _ => "? s left".to_owned(),
     };
+    let whole = progress.expected_rays.map_or_else(String::new, |expected| {
+        format!(
+            ", the tolerance after about {} s",
+            brief(pace_s * expected as f64 / rays.max(1.0), 2)
+        )
+    });
     format!(
-        "{} photons, {} paths, {:.2} M rays/s, {width}{slope}, {left}",
+        "{} photons, {} paths, {:.2} M rays/s, {width}{slope}, {left}{whole}",
         count(progress.photons),
         count(progress.paths),
         rays_per_s * 1e-6,
@@ -207,6 +223,30 @@ fn value(name: &str, illuminance_lx: &[Option<f64>]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// From the first checkpoint on: a thousandth is done after 2 s.
+    #[test]
+    fn time_left_and_time_to_the_tolerance_are_told_apart() {
+        let progress = Progress {
+            photons: 0,
+            paths: 1000,
+            rays: 1000,
+            earlier_rays: 0,
+            samples: 16,
+            largest_relative_half_width: Some(0.1),
+            slope: None,
+            expected_samples: Some(1 << 16),
+            expected_rays: Some(2_000_000),
+            done: Some(0.001),
+        };
+        let text = message(&progress, progress.done, 2.0);
+        assert!(
+            text.ends_with("±10.00 %, 1998 s left, the tolerance after about 4000 s"),
+            "{text}"
+        );
+        let text = message(&Progress { expected_rays: None, ..progress }, None, 2.0);
+        assert!(text.ends_with("±10.00 %, ? s left"), "{text}");
+    }
 
     #[test]
     fn sensors_are_shown_as_far_as_they_are_known() {

@@ -1,7 +1,7 @@
 //! The result document, format "quasilux-result/1": the form that other programs rely on.
 //!
 //! The order of keys is fixed and numbers are the shortest that read back exactly, so two runs of
-//! one project write the same bytes but for `seconds` and `threads`. Unknown figures are `null`.
+//! one project write the same bytes but for what is called `seconds`, `threads` or `bytes`. Unknown figures are `null`.
 //! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
 //! sensor its `counts` along u and v; where terms of the Neumann series are listed, `terms_lx` in
 //! each point and `average_terms_lx` in each summary, the last of them with `"bounces": "rest"`; in
@@ -243,7 +243,7 @@ impl<'a> RunEntry<'a> {
             abs_tol_lx: run.settings.abs_tol_lx,
             tolerance_on: run.settings.tolerance_on.name(),
             tolerance_reached: run.tolerance_reached,
-            prediction: PredictionEntry::of(run.convergence),
+            prediction: PredictionEntry::of(run),
             max_bounces: run.settings.max_bounces,
             list_terms: run.settings.list_terms,
             first_shot: run.settings.first_shot.name(),

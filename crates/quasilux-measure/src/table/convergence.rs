@@ -2,7 +2,7 @@
 
 use super::plural;
 use crate::Report;
-use crate::number::brief;
+use crate::number::{brief, memory};
 
 /// Above this slope, the points do little more than random ones do.
 const LIKE_RANDOM: f64 = -0.6;
@@ -25,11 +25,11 @@ pub(super) fn convergence(report: &Report) -> Option<String> {
     {
         let all = [plural(samples, "sample"), plural(rays, "ray")];
         text += &format!("; the tolerance would take {}", all.join(", "));
-        // A run that was gone on with knows its speed from its own rays, if it had any.
-        let own_rays = run.rays.saturating_sub(run.earlier_rays);
-        if own_rays > 0 {
-            let seconds = run.seconds * rays as f64 / own_rays as f64;
+        if let Some(seconds) = run.expected_seconds() {
             text += &format!(", about {} s in all", brief(seconds, 2));
+        }
+        if let Some(bytes) = run.expected_bytes {
+            text += &format!(" and {}", memory(bytes));
         }
     }
     Some(text)
@@ -50,11 +50,12 @@ mod tests {
         report.run.convergence.rays = Some(750_617_284);
         report.run.seconds = 10.0;
         let wanted = "half-widths shrink like N^-0.50, as with random points (--explain says why); the \
-                      tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all";
+                      tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all and 96 MiB";
         assert_eq!(convergence(&report).unwrap(), wanted);
         report.run.earlier_rays = report.run.rays / 2;
-        assert!(convergence(&report).unwrap().ends_with(" rays, about 80 s in all"));
+        assert!(convergence(&report).unwrap().ends_with(" rays, about 80 s in all and 96 MiB"));
         report.run.earlier_rays = report.run.rays;
+        report.run.expected_bytes = None;
         assert!(convergence(&report).unwrap().ends_with(" rays"));
         report.run.convergence.slope = None;
         assert_eq!(convergence(&report), None);

@@ -10,9 +10,9 @@ use glam::DVec3;
 use quasilux_sampling::warp::sample_triangle;
 
 /// Elements a metre of scene size get where nothing is asked for.
-const ELEMENTS_ACROSS: f64 = 64.0;
+pub(crate) const ELEMENTS_ACROSS: f64 = 64.0;
 /// The same where pilot photons decide which of them are split.
-const COARSE_ELEMENTS_ACROSS: f64 = 16.0;
+pub(crate) const COARSE_ELEMENTS_ACROSS: f64 = 16.0;
 /// The same where light is to be smooth, and finer would be noise.
 const COARSEST_ELEMENTS_ACROSS: f64 = 5.0;
 /// Marks what is split in a tree.

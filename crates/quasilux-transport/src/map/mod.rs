@@ -19,7 +19,7 @@ mod refine;
 mod subdivision;
 mod tally;
 
-pub(crate) use layout::MapLayout;
+pub(crate) use layout::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout};
 pub use reconstruction::Reconstruction;
-pub(crate) use refine::refined;
+pub(crate) use refine::{MOST_NEW_ELEMENTS, refined};
 pub(crate) use tally::{IlluminationMap, MapReceiver, MapTally, QUANTA_PER_PHOTON};

@@ -30,6 +30,8 @@ const ROUNDS: u32 = 5;
 const PARTS: usize = 16;
 /// Fewer photons in an element say nothing about its parts.
 const LEAST_PHOTONS: u64 = 4 * PARTS as u64;
+/// Elements that splits add, three each, where every pilot photon lands eight times.
+pub(crate) const MOST_NEW_ELEMENTS: u64 = 3 * 8 * (FIRST_PHOTONS << (ROUNDS - 1)) / LEAST_PHOTONS;
 
 /// The layout that the settings ask for, refined by pilot photons if they ask for that, and what
 /// these cost.

@@ -1,8 +1,9 @@
 //! `quasilux merge`: the parts of a run become its result.
 
-use super::run::{Folder, work};
+use super::run::{Folder, count, work};
 use crate::arguments::MergeArguments;
 use crate::exit::{Exit, Refusal};
+use crate::forecast::Forecast;
 use crate::plan::{Part, in_order};
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
@@ -24,14 +25,16 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Refusal> {
     }
     let folder = Folder::prepare(&arguments.output, file, &project)?;
     let scene = &project.loaded.scene;
-    let watcher = Watcher::new(scene, None, arguments.output.quiet);
-    let put_together = |watcher: &mut Watcher| {
+    let threads = count(arguments.work.threads);
+    let forecast = Forecast::new(scene, &settings, threads);
+    let watcher = Watcher::new(forecast, None, arguments.output.quiet);
+    let put_together = |watcher: &mut Watcher<'_>| {
         let sums: Vec<&[u8]> = parts.iter().map(|part| part.sums.as_slice()).collect();
         quasilux_transport::merge(scene, &settings, plan.samples, &sums, watcher)
             .map(Some)
             .map_err(|error| Refusal::new(format!("{}: {}", parts[error.part].name, error.error)))
     };
-    match work(&project, &settings, arguments.work.threads, watcher, put_together)? {
+    match work(&project, watcher, put_together)? {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
     }

@@ -1,6 +1,6 @@
 //! `quasilux plan`: all about a run of a fixed number of samples, before it runs.
 
-use super::run::pool;
+use super::run::{count, pool};
 use crate::arguments::{PlanArguments, PlannedArguments, SimulationArguments};
 use crate::exit::{Exit, Refusal};
 use crate::plan::Plan;
@@ -16,7 +16,8 @@ pub(crate) fn plan(arguments: &PlanArguments) -> Result<Exit, Refusal> {
     if let Some(path) = &arguments.out {
         results::prepare_file(path, &[&arguments.project])?;
     }
-    let made = make(&arguments.project, &project, &arguments.planned, arguments.work.threads)?;
+    let made =
+        make(&arguments.project, &project, &arguments.planned, count(arguments.work.threads))?;
     match &arguments.out {
         Some(path) => results::write_whole(path, made.plan.text().as_bytes())?,
         None => print(&made.plan.text())?,
@@ -35,7 +36,7 @@ pub(crate) fn make(
     path: &Path,
     project: &Project,
     planned: &PlannedArguments,
-    threads: Option<u16>,
+    threads: usize,
 ) -> Result<Made, Refusal> {
     let Some(samples) = planned.samples else {
         return Err(Refusal::new("a plan needs --samples: it says where the run ends"));

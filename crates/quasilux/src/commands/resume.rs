@@ -1,9 +1,10 @@
 //! `quasilux resume`: a run goes on from its checkpoint.
 
-use super::run::{Folder, work};
+use super::run::{Folder, count, work};
 use crate::arguments::ResumeArguments;
 use crate::checkpoint::{self, Checkpoint, Heading, Keeping};
 use crate::exit::{Exit, Refusal};
+use crate::forecast::Forecast;
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
 use std::path::PathBuf;
@@ -40,13 +41,15 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, Refusal> {
     let folder = Folder::prepare(&arguments.output, &file, &project)?;
     let keeping = Keeping::new(&arguments.checkpoint, &file, &project, &settings)?
         .going_on(warning.is_some());
-    let watcher = Watcher::new(scene, arguments.time, arguments.output.quiet)
+    let threads = count(arguments.work.threads);
+    let forecast = Forecast::new(scene, &settings, threads);
+    let watcher = Watcher::new(forecast, arguments.time, arguments.output.quiet)
         .keeping(keeping, arguments.checkpoint_every);
-    let go_on = |watcher: &mut Watcher| {
+    let go_on = |watcher: &mut Watcher<'_>| {
         let estimates = quasilux_transport::resume(scene, &settings, &state, watcher);
         estimates.map(Some).map_err(|error| Refusal::new(format!("{name}: {error}")))
     };
-    match work(&project, &settings, arguments.work.threads, watcher, go_on)? {
+    match work(&project, watcher, go_on)? {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
     }

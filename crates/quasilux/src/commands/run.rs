@@ -3,13 +3,14 @@
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
 use crate::checkpoint::Keeping;
 use crate::exit::{Exit, Refusal};
+use crate::forecast::Forecast;
 use crate::plan::Plan;
 use crate::print::print;
 use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
 use quasilux_measure::{Report, RunFacts, Style, json, table};
-use quasilux_transport::{Estimates, Settings};
+use quasilux_transport::Estimates;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -37,18 +38,20 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
     let SimulationArguments { time, threads, .. } = arguments.simulation;
     let (scene, settings) =
         (&project.loaded.scene, project::settings(&project, &arguments.simulation)?);
-    let mut watcher = Watcher::new(scene, time, arguments.output.quiet);
+    let forecast = Forecast::new(scene, &settings, count(threads));
+    let mut watcher = Watcher::new(forecast, time, arguments.output.quiet);
     if let Some(path) = &arguments.keeping.checkpoint {
         let keeping = Keeping::new(path, &arguments.project, &project, &settings)?;
         watcher = watcher.keeping(keeping, arguments.keeping.checkpoint_every);
     }
-    let simulate =
-        |watcher: &mut Watcher| Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)));
-    let Some(mut finished) = work(&project, &settings, threads, watcher, simulate)? else {
+    let simulate = |watcher: &mut Watcher<'_>| {
+        Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)))
+    };
+    let Some(mut finished) = work(&project, watcher, simulate)? else {
         return Ok(Exit::Interrupted);
     };
     if arguments.explain && finished.exit != Exit::Interrupted {
-        let pool = pool(threads)?;
+        let pool = pool(count(threads))?;
         finished.report.explanation =
             Some(pool.install(|| quasilux_transport::explain(scene, &settings)));
     }
@@ -65,8 +68,10 @@ fn run_plan(
     let plan = Plan::read(path)?;
     let settings = plan.settings(&path.display().to_string(), project)?;
     let scene = &project.loaded.scene;
-    let watcher = Watcher::new(scene, None, arguments.output.quiet);
-    let run = |watcher: &mut Watcher| {
+    let threads = count(arguments.simulation.threads);
+    let forecast = Forecast::new(scene, &settings, threads);
+    let watcher = Watcher::new(forecast, None, arguments.output.quiet);
+    let run = |watcher: &mut Watcher<'_>| {
         let samples = plan.samples;
         let part = quasilux_transport::trace_part(scene, &settings, samples, 0..samples, watcher);
         let merge = |part: Vec<u8>| {
@@ -76,7 +81,7 @@ fn run_plan(
         };
         part.map(merge).transpose()
     };
-    match work(project, &settings, arguments.simulation.threads, watcher, run)? {
+    match work(project, watcher, run)? {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
     }
@@ -90,32 +95,35 @@ pub(crate) fn simulate(
 ) -> Result<Finished, Refusal> {
     let settings = project::settings(project, arguments)?;
     let scene = &project.loaded.scene;
-    let watcher = Watcher::new(scene, arguments.time, quiet);
-    let simulate =
-        |watcher: &mut Watcher| Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)));
-    let finished = work(project, &settings, arguments.threads, watcher, simulate)?;
+    let forecast = Forecast::new(scene, &settings, count(arguments.threads));
+    let watcher = Watcher::new(forecast, arguments.time, quiet);
+    let simulate = |watcher: &mut Watcher<'_>| {
+        Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)))
+    };
+    let finished = work(project, watcher, simulate)?;
     Ok(finished.expect("a run has results once it has begun"))
 }
 
-/// Does a job on the wanted number of threads, watched; `None` when the user interrupted it before it had
+/// Does a job on the threads that its watcher knows of; `None` when the user interrupted it before it had
 /// results.
 pub(crate) fn work(
     project: &Project,
-    settings: &Settings,
-    threads: Option<u16>,
-    mut watcher: Watcher,
-    job: impl FnOnce(&mut Watcher) -> Result<Option<Estimates>, Refusal> + Send,
+    mut watcher: Watcher<'_>,
+    job: impl FnOnce(&mut Watcher<'_>) -> Result<Option<Estimates>, Refusal> + Send,
 ) -> Result<Option<Finished>, Refusal> {
-    let pool = pool(threads)?;
-    let outcome = pool.install(|| job(&mut watcher));
+    let forecast = watcher.forecast;
+    let Forecast { scene, settings, threads, .. } = forecast;
+    let outcome = pool(threads)?.install(|| job(&mut watcher));
     let seconds: Duration = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
+    let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_sha256: project.identity.sha256.clone(),
         seconds: seconds.as_secs_f64(),
         earlier_rays: watcher.earlier_rays,
-        threads: pool.current_num_threads(),
+        threads,
+        expected_bytes: Some(forecast.bytes(Some(samples))),
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
     };
     let exit = match watcher.stopped {
@@ -123,16 +131,20 @@ pub(crate) fn work(
         _ if estimates.tolerance_reached => Exit::Done,
         _ => Exit::Limited,
     };
-    let report = Report::new(&project.loaded.scene, settings, &estimates, facts);
+    let report = Report::new(scene, settings, &estimates, facts);
     Ok(Some(Finished { report, exit }))
 }
 
 /// The wanted number of threads.
-pub(crate) fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Refusal> {
-    let threads = match threads {
+pub(crate) fn count(threads: Option<u16>) -> usize {
+    match threads {
         Some(threads) => usize::from(threads),
         None => std::thread::available_parallelism().map_or(1, usize::from),
-    };
+    }
+}
+
+/// So many threads.
+pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

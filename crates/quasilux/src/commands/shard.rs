@@ -1,9 +1,10 @@
 //! `quasilux shard`: a part of a run.
 
 use super::plan::{Made, make};
-use super::run::pool;
+use super::run::{count, pool};
 use crate::arguments::ShardArguments;
 use crate::exit::{Exit, Refusal};
+use crate::forecast::Forecast;
 use crate::plan::{Plan, part};
 use crate::watcher::Watcher;
 use crate::{interrupt, project, results};
@@ -14,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
     interrupt::listen()?;
     let project = project::open(&arguments.project)?;
-    let threads = arguments.work.threads;
+    let threads = count(arguments.work.threads);
     let Made { plan, settings } = match &arguments.plan {
         None => make(&arguments.project, &project, &arguments.planned, threads)?,
         Some(path) => {
@@ -34,7 +35,8 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
     if !arguments.quiet && !scene.cameras.is_empty() {
         eprintln!("warning: parts have no pictures; `merge` takes them");
     }
-    let mut watcher = Watcher::new(scene, None, arguments.quiet);
+    let forecast = Forecast::new(scene, &settings, threads);
+    let mut watcher = Watcher::new(forecast, None, arguments.quiet);
     let trace = || {
         let (samples, range) = (plan.samples, range.clone());
         quasilux_transport::trace_part(scene, &settings, samples, range, &mut watcher)

@@ -8,6 +8,8 @@ mod experiment;
 mod explain;
 mod kept;
 mod limits;
+#[cfg(target_os = "linux")]
+mod memory;
 mod photometry;
 mod points;
 mod results;

@@ -79,13 +79,19 @@ pub(crate) fn interrupt(child: &std::process::Child) {
     assert!(kill.is_ok_and(|status| status.success()), "the program is gone");
 }
 
-/// A document without the two values that may differ between runs of one project.
+/// A document without what may differ between runs of one project: how long it took and on how many threads,
+/// the time that was foretold, and the memory of those threads.
 pub(crate) fn without_seconds_and_threads(document: &str) -> String {
     let mut text = document.to_owned();
-    for key in ["\"seconds\": ", "\"threads\": "] {
-        let start = text.find(key).unwrap_or_else(|| panic!("no {key}in {text}")) + key.len();
-        let length = text[start..].find([',', '\n', '}']).expect("a value ends");
-        text.replace_range(start..start + length, "_");
+    for (key, times) in [("\"seconds\": ", 2), ("\"threads\": ", 1), ("\"bytes\": ", 1)] {
+        let mut from = 0;
+        for _ in 0..times {
+            let found = text[from..].find(key).unwrap_or_else(|| panic!("no {key}in {text}"));
+            let start = from + found + key.len();
+            let length = text[start..].find([',', '\n', '}']).expect("a value ends");
+            text.replace_range(start..start + length, "_");
+            from = start;
+        }
     }
     text
 }
