@@ -32,7 +32,7 @@ pub struct Estimates {
     /// `1 - confidence`: less where the run may stop at a good look.
     pub miss_probability: f64,
     /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and every
-    /// picture got all its paths.
+    /// picture got all its paths; never with fewer than 128 samples.
     pub tolerance_reached: bool,
     /// How half-widths shrank so far, and what follows from that.
     pub convergence: Convergence,

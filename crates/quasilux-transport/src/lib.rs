@@ -73,5 +73,5 @@ pub use parts::{MergeError, decide, merge, trace_part};
 pub use picture::{CameraEstimates, Pixel};
 pub use quasilux_sampling::DimensionHistogram;
 pub use settings::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
-pub use simulate::{resume, simulate};
+pub use simulate::{is_over, resume, simulate};
 pub use state::{Decisions, StateError};

@@ -107,13 +107,14 @@ fn elements(scene: &Scene, settings: &Settings) -> u64 {
     let mesh = &scene.mesh;
     let size_m = mesh.bounds().map_or(0.0, |[low, high]| (high - low).length());
     let element_m = settings.map_element_m.unwrap_or(size_m / across);
-    let parts = |triangle: u32| {
+    let elements = |triangle: u32| {
         let [a, b, c] = mesh.corners(triangle);
         let longest_m = (a - b).length().max((b - c).length()).max((c - a).length());
-        (longest_m / element_m).ceil().max(1.0)
+        let parts = (longest_m / element_m).ceil().max(1.0);
+        parts * parts
     };
     let triangles = mesh.triangles.len() as u64;
-    let cut: f64 = (0..triangles as u32).map(|triangle| parts(triangle).powi(2)).sum();
+    let cut: f64 = (0..triangles as u32).map(elements).sum();
     let split = if settings.map_adaptive { MOST_NEW_ELEMENTS } else { 0 };
     (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
 }
@@ -162,7 +163,7 @@ mod tests {
         };
         let few = grown(1 << 10, 0);
         // 2^11 sides of 3 counters of 4 bytes in 16 replicates.
-        assert_eq!((few.maps_bytes, few.cells_bytes), (16 * 12 << 11, CELLS * GUIDE_BYTES));
+        assert_eq!((few.maps_bytes, few.cells_bytes), ((16 * 12) << 11, CELLS * GUIDE_BYTES));
         assert_eq!(grown(1 << 10, 5).maps_bytes, 5 * few.maps_bytes);
         assert!(grown(1 << 12, 0).maps_bytes > few.maps_bytes);
         assert!(few.total_bytes(Some(1)) < few.total_bytes(Some(1 << 10)));

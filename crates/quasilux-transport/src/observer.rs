@@ -60,7 +60,8 @@ pub trait Observer {
         false
     }
 
-    /// Gets the state that it wanted, for [`crate::resume`].
+    /// Gets the state that it wanted, for [`crate::resume`]; and the last one of a run whose checkpoints are over
+    /// ([`crate::is_over`]).
     fn state(&mut self, _state: &[u8]) {}
 
     /// Whether it wants a snapshot now: asked many times a second, before [`Self::progress`].

@@ -7,13 +7,14 @@ use crate::gathering::Gathering;
 use crate::looks::miss_probability_of_a_look;
 use crate::observer::{Control, Observer};
 use crate::pixels::add_pictures;
-use crate::schedule::Schedule;
+use crate::schedule::{LEAST_SAMPLES, Schedule};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::state::{Course, Decisions, Reader, StateError, Writer};
 use crate::tolerance::Standing;
 use crate::watch::Watch;
+use quasilux_bvh::Kernel;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
 
@@ -28,10 +29,20 @@ use std::ops::Range;
 /// sense for the scene.
 #[must_use]
 pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
+    simulate_on(Kernel::fastest(), scene, settings, observer)
+}
+
+/// The same with a ray kernel of choice.
+pub(crate) fn simulate_on(
+    kernel: Kernel,
+    scene: &Scene,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Estimates {
     let estimates = if is_grey(scene) {
-        run::<f64>(scene, settings, None, observer)
+        run(&Stage::<f64>::on(kernel, scene, settings), scene, settings, None, observer)
     } else {
-        run::<Rgb>(scene, settings, None, observer)
+        run(&Stage::<Rgb>::on(kernel, scene, settings), scene, settings, None, observer)
     };
     estimates.expect("a run from the start needs no state")
 }
@@ -48,10 +59,18 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Estimates, StateError> {
     if is_grey(scene) {
-        run::<f64>(scene, settings, Some(state), observer)
+        run(&Stage::<f64>::new(scene, settings), scene, settings, Some(state), observer)
     } else {
-        run::<Rgb>(scene, settings, Some(state), observer)
+        run(&Stage::<Rgb>::new(scene, settings), scene, settings, Some(state), observer)
     }
+}
+
+/// Whether a state that an observer got is that of a run whose checkpoints are over. Bytes that are no state are of none.
+#[must_use]
+pub fn is_over(state: &[u8]) -> bool {
+    let mut from = Reader::new(state);
+    let digest = Decisions::default().digest;
+    from.bytes(digest.len()).is_ok() && Course::is_over(&mut from).is_ok_and(|over| over)
 }
 
 /// Whether one channel is enough.
@@ -125,15 +144,15 @@ pub(crate) fn estimation<'a, S: Spectrum>(
 }
 
 fn run<S: Spectrum>(
+    stage: &Stage<'_, S>,
     scene: &Scene,
     settings: &Settings,
     state: Option<&[u8]>,
     observer: &mut dyn Observer,
 ) -> Result<Estimates, StateError> {
-    let stage = Stage::<S>::new(scene, settings);
     let mut watch = Watch::new(observer);
     watch.limit_rays(settings.max_rays);
-    let mut estimation = estimation(&stage, scene, settings, &mut watch);
+    let mut estimation = estimation(stage, scene, settings, &mut watch);
     let first = estimation.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
@@ -174,7 +193,7 @@ fn run<S: Spectrum>(
             break;
         }
         let (mut estimates, standing) =
-            look(&stage, scene, settings, estimation.as_ref(), miss_probability);
+            look(stage, scene, settings, estimation.as_ref(), miss_probability);
         let is_look = may_end && course.schedule.is_look();
         let is_enough = is_look && standing.may_end;
         if is_look && !is_enough {
@@ -187,14 +206,15 @@ fn run<S: Spectrum>(
         course.last = Some(estimates);
         course.over = is_enough || !course.schedule.advance();
         preface(&course, &mut watch);
-        let goes_on = watch.keep(|out| estimation.put(out));
-        if control == Control::Stop || !goes_on {
+        if course.over {
+            watch.keep_last(|out| estimation.put(out));
+        } else if !watch.keep(|out| estimation.put(out)) || control == Control::Stop {
             break;
         }
     }
     drop(estimation);
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
-    add_pictures(&stage, scene, settings, &mut estimates, &mut watch);
+    add_pictures(stage, scene, settings, &mut estimates, &mut watch);
     Ok(estimates)
 }
 
@@ -229,7 +249,16 @@ pub(crate) fn look<S: Spectrum>(
     let standing = Standing::of(&estimates, settings);
     estimates.unresolved_points = standing.unresolved;
     estimates.warnings.extend(warnings_of_values(&estimates));
-    estimates.tolerance_reached = standing.is_reached;
+    // Without sensors there is nothing to be wrong about.
+    let may_be_done = scene.sensors.is_empty() || estimates.samples >= LEAST_SAMPLES;
+    estimates.tolerance_reached = standing.is_reached && may_be_done;
+    if standing.is_reached && !may_be_done {
+        estimates.warnings.push(format!(
+            "half-widths are within the tolerance, but {} samples are too few to rely on them: nothing is \
+             called done before {LEAST_SAMPLES}",
+            estimates.samples
+        ));
+    }
     (estimates, standing)
 }
 

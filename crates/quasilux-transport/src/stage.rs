@@ -7,6 +7,7 @@ use crate::spectrum::Spectrum;
 use crate::specular::SpecularImages;
 use crate::trial::Stopwatch;
 use crate::world::World;
+use quasilux_bvh::Kernel;
 use quasilux_sampling::{PointSet, SampleCursor, Sequence, stream_key};
 use quasilux_scene::Scene;
 
@@ -84,7 +85,12 @@ impl Stream {
 
 impl<'a, S: Spectrum> Stage<'a, S> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
-        let world = World::new(scene);
+        Self::on(Kernel::fastest(), scene, settings)
+    }
+
+    /// The same for a ray kernel of choice: no result depends on it.
+    pub(crate) fn on(kernel: Kernel, scene: &'a Scene, settings: &'a Settings) -> Self {
+        let world = World::new(scene, kernel);
         let lights = Lights::new(scene, &world);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
         let hides = images.hides(&world, &lights);

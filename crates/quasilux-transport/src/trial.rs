@@ -1,11 +1,15 @@
-//! The photon trace by itself, for benchmarks and for the test that all ways give the same tallies.
+//! What must change nothing but the time, to be chosen: the ray kernel of a run, and, for the photon trace by itself,
+//! how photons are taken.
 //!
-//! Public because both stand outside the crate. It has no checkpoints and no intervals: figures come
-//! from [`crate::simulate`].
+//! Public because benchmarks and the tests that compare stand outside the crate. The photon trace has no checkpoints and no
+//! intervals: figures come from [`crate::simulate`].
 
+pub use quasilux_bvh::Kernel;
+
+use crate::Estimates;
 use crate::counting::Counting;
 use crate::settings::Settings;
-use crate::simulate::is_grey;
+use crate::simulate::{is_grey, simulate_on};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::watch::Watch;
@@ -61,6 +65,12 @@ pub trait PhotonTrial: Send {
 
     /// Everything that the sensors counted so far.
     fn counters(&self) -> Vec<u64>;
+}
+
+/// What [`crate::simulate`] finds with a ray kernel of choice, one of [`Kernel::all`].
+#[must_use]
+pub fn simulate_with(kernel: Kernel, scene: &Scene, settings: &Settings) -> Estimates {
+    simulate_on(kernel, scene, settings, &mut ())
 }
 
 /// Sets a scene up as the estimator `photon` does, and hands it to `measure`.

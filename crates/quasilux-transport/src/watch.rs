@@ -78,13 +78,25 @@ impl<'o> Watch<'o> {
     #[must_use]
     pub(crate) fn keep(&mut self, put: impl FnOnce(&mut Writer)) -> bool {
         if self.piece.is_some() && self.observer.wants_state() {
-            let mut out = Writer::behind(&self.preface);
-            let Progress { photons, paths, rays, .. } = self.progress;
-            [photons, paths, rays].into_iter().for_each(|count| out.u64(count));
-            put(&mut out);
-            self.observer.state(&out.finish());
+            self.give_state(put);
         }
         !self.stopped
+    }
+
+    /// After the last piece: gives the observer the state, whether it wants it or not, so that it knows that the run is
+    /// over.
+    pub(crate) fn keep_last(&mut self, put: impl FnOnce(&mut Writer)) {
+        if self.piece.is_some() {
+            self.give_state(put);
+        }
+    }
+
+    fn give_state(&mut self, put: impl FnOnce(&mut Writer)) {
+        let mut out = Writer::behind(&self.preface);
+        let Progress { photons, paths, rays, .. } = self.progress;
+        [photons, paths, rays].into_iter().for_each(|count| out.u64(count));
+        put(&mut out);
+        self.observer.state(&out.finish());
     }
 
     /// Begins with the work that another run had done.

@@ -4,7 +4,7 @@ use crate::bsdf::Bsdf;
 use crate::frame::Frame;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_bvh::{Hit, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Hit, Kernel, Ray, Shot, TriangleBvh};
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::{Light, Scene};
 
@@ -84,7 +84,7 @@ struct FlushEmitters {
 }
 
 impl<S: Spectrum> World<S> {
-    pub(crate) fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene, kernel: Kernel) -> Self {
         let mesh = &scene.mesh;
         let mut facets: Vec<Facet> = (0..mesh.triangles.len() as u32)
             .map(|triangle| Facet {
@@ -101,7 +101,8 @@ impl<S: Spectrum> World<S> {
                 }
             }
         }
-        let bvh = TriangleBvh::build(facets.iter().map(|facet| facet.corners).collect());
+        let corners = facets.iter().map(|facet| facet.corners).collect();
+        let bvh = TriangleBvh::build_for(corners, kernel);
         let bounds = mesh.bounds();
         let [low, high] = bounds.unwrap_or([DVec3::ZERO, DVec3::ONE]);
         let size_m = (high - low).length();
@@ -117,7 +118,7 @@ impl<S: Spectrum> World<S> {
             offset_m: (OFFSET * size_m).max(least_m),
             hair_m: (HAIR * size_m).max(4.0 * least_m),
         };
-        world.flush_emitters = FlushEmitters::of(&world);
+        world.flush_emitters = FlushEmitters::of(&world, kernel);
         let is_pane = |facet: &Facet| world.bsdf_of(facet).straight_transmittance(1.0).is_some();
         world.has_panes = world.facets.iter().any(is_pane);
         world
@@ -301,7 +302,7 @@ impl<S: Spectrum> World<S> {
 
 impl FlushEmitters {
     /// Looks a hair in front of and behind each emitting facet, at 16 places spread over it.
-    fn of<S: Spectrum>(world: &World<S>) -> Option<Self> {
+    fn of<S: Spectrum>(world: &World<S>, kernel: Kernel) -> Option<Self> {
         let emits = |&facet: &u32| world.facets[facet as usize].emitted_cd_m2 > 0.0;
         let facets: Vec<u32> = (0..world.facets.len() as u32).filter(emits).collect();
         let corners = facets.iter().map(|&facet| world.facets[facet as usize].corners).collect();
@@ -315,7 +316,7 @@ impl FlushEmitters {
             })
         };
         let found = facets.iter().any(is_flush);
-        found.then(|| Self { bvh: TriangleBvh::build(corners), facets })
+        found.then(|| Self { bvh: TriangleBvh::build_for(corners, kernel), facets })
     }
 
     /// The emitting facet that a ray meets together with `hit`, or just behind it.

@@ -2,6 +2,7 @@
 
 use crate::world::{Interaction, World};
 use glam::DVec3;
+use quasilux_bvh::Kernel;
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::{Bsdf, Material, Mesh, Rgb, Scene};
@@ -9,7 +10,7 @@ use quasilux_scene::{Bsdf, Material, Mesh, Rgb, Scene};
 /// A horizontal rectangle of 2 m by 1 m from the origin, of two triangles.
 pub(super) fn square() -> World<f64> {
     let bsdf = Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(0.5) });
-    World::new(&Scene {
+    let scene = Scene {
         mesh: Mesh {
             positions: vec![DVec3::ZERO, DVec3::X * 2.0, DVec3::new(2.0, 1.0, 0.0), DVec3::Y],
             triangles: vec![[0, 1, 2], [0, 2, 3]],
@@ -21,7 +22,8 @@ pub(super) fn square() -> World<f64> {
         lights: Vec::new(),
         cameras: Vec::new(),
         sensors: Vec::new(),
-    })
+    };
+    World::new(&scene, Kernel::fastest())
 }
 
 /// A place anywhere on the rectangle, on either side; even in each triangle, which have the same area.

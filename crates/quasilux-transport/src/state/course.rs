@@ -38,6 +38,12 @@ impl Course {
         }
     }
 
+    /// Whether a course of any run is over, of which only the beginning is read.
+    pub(crate) fn is_over(from: &mut Reader<'_>) -> Result<bool, StateError> {
+        let _next = from.u64()?;
+        from.bool()
+    }
+
     /// Goes on where another course of the same run was.
     pub(crate) fn read(
         &mut self,
@@ -48,7 +54,7 @@ impl Course {
         self.schedule.read(from)?;
         self.over = from.bool()?;
         self.is_adaptive = from.bool()?;
-        self.last = from.bool()?.then(|| read_estimates(scene, from)).transpose()?;
+        self.last = from.bool()?.then(|| read_estimates(scene, settings, from)).transpose()?;
         if let Some(last) = &self.last {
             self.history = History::read(last, settings, from)?;
         }
@@ -96,9 +102,18 @@ fn put_estimates(estimates: &Estimates, out: &mut Writer) {
     warnings.iter().for_each(|warning| out.text(warning));
 }
 
-fn read_estimates(scene: &Scene, from: &mut Reader<'_>) -> Result<Estimates, StateError> {
+fn read_estimates(
+    scene: &Scene,
+    settings: &Settings,
+    from: &mut Reader<'_>,
+) -> Result<Estimates, StateError> {
     let points = scene.sensors.iter().map(|sensor| sensor.points().len());
-    let sensors = points.map(|points| read_sensor(points, from)).collect::<Result<_, _>>()?;
+    let replicates = settings.effective_replicates() as usize;
+    let terms = settings.list_terms as usize;
+    let terms = if terms == 0 { 0 } else { terms + 1 };
+    let shape = |points| Shape { points, replicates, terms };
+    let sensors =
+        points.map(|points| read_sensor(&shape(points), from)).collect::<Result<_, _>>()?;
     let mut estimates = Estimates { sensors, ..Estimates::default() };
     let Estimates { samples, rays, invalid_contributions, unresolved_points, .. } = &mut estimates;
     for count in [samples, rays, invalid_contributions, unresolved_points] {
@@ -125,6 +140,13 @@ fn read_estimates(scene: &Scene, from: &mut Reader<'_>) -> Result<Estimates, Sta
     Ok(estimates)
 }
 
+/// What estimates of one sensor have to have.
+struct Shape {
+    points: usize,
+    replicates: usize,
+    terms: usize,
+}
+
 fn put_sensor(sensor: &SensorEstimates, out: &mut Writer) {
     let SensorEstimates { replicate_lx, direct_lx, resolved, samples, terms } = sensor;
     put_rows(replicate_lx, out);
@@ -138,18 +160,19 @@ fn put_sensor(sensor: &SensorEstimates, out: &mut Writer) {
     }
 }
 
-fn read_sensor(points: usize, from: &mut Reader<'_>) -> Result<SensorEstimates, StateError> {
+fn read_sensor(shape: &Shape, from: &mut Reader<'_>) -> Result<SensorEstimates, StateError> {
+    let Shape { points, replicates: _, terms } = *shape;
     let flags = |from: &mut Reader<'_>| (0..points).map(|_| from.bool()).collect();
-    let replicate_lx = read_rows(points, from)?;
+    let replicate_lx = read_rows(shape, from)?;
     let direct_lx = read_row(points, from)?;
     let resolved: Result<Vec<bool>, StateError> = flags(from);
     let resolved = resolved?;
     let samples = (0..points).map(|_| from.u64()).collect::<Result<_, _>>()?;
-    let terms = 0..from.length(points)?;
+    from.expect_length(terms)?;
     let term = |from: &mut Reader<'_>| {
-        Ok(TermEstimates { replicate_lx: read_rows(points, from)?, resolved: flags(from)? })
+        Ok(TermEstimates { replicate_lx: read_rows(shape, from)?, resolved: flags(from)? })
     };
-    let terms = terms.map(|_| term(from)).collect::<Result<_, _>>()?;
+    let terms = (0..terms).map(|_| term(from)).collect::<Result<_, _>>()?;
     Ok(SensorEstimates { replicate_lx, direct_lx, resolved, samples, terms })
 }
 
@@ -158,12 +181,47 @@ fn put_rows(rows: &[Vec<f64>], out: &mut Writer) {
     rows.iter().for_each(|row| out.f64s(row));
 }
 
-fn read_rows(points: usize, from: &mut Reader<'_>) -> Result<Vec<Vec<f64>>, StateError> {
-    let rows = from.length(size_of::<u64>())?;
-    (0..rows).map(|_| read_row(points, from)).collect()
+fn read_rows(shape: &Shape, from: &mut Reader<'_>) -> Result<Vec<Vec<f64>>, StateError> {
+    from.expect_length(shape.replicates)?;
+    (0..shape.replicates).map(|_| read_row(shape.points, from)).collect()
 }
 
 fn read_row(points: usize, from: &mut Reader<'_>) -> Result<Vec<f64>, StateError> {
     let row = from.f64s()?;
     if row.len() == points { Ok(row) } else { Err(StateError::Unfit("a row of estimates")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quasilux_scene::{Sensor, SensorPoint, SensorShape};
+
+    /// Bytes that a resealed file may hold: all is well with them but the number of rows or of terms.
+    #[test]
+    fn rows_and_terms_are_those_of_the_settings() {
+        let point = SensorPoint { position: glam::DVec3::ZERO, normal: glam::DVec3::Z };
+        let shape = SensorShape::Points(vec![point; 2]);
+        let scene =
+            Scene { sensors: vec![Sensor { name: "two".to_owned(), shape }], ..Scene::default() };
+        let state = |rows: usize, terms: usize| {
+            let term =
+                TermEstimates { replicate_lx: vec![vec![0.5; 2]; rows], resolved: vec![true; 2] };
+            let sensor = SensorEstimates {
+                replicate_lx: vec![vec![1.0; 2]; rows],
+                direct_lx: vec![0.5; 2],
+                resolved: vec![true; 2],
+                samples: vec![16; 2],
+                terms: vec![term; terms],
+            };
+            let mut out = Writer::default();
+            put_estimates(&Estimates { sensors: vec![sensor], ..Estimates::default() }, &mut out);
+            out.finish()
+        };
+        let settings = Settings { replicates: 3, list_terms: 1, ..Settings::default() };
+        let read = |bytes: &[u8]| read_estimates(&scene, &settings, &mut Reader::new(bytes));
+        assert!(read(&state(3, 2)).is_ok());
+        for (rows, terms) in [(0, 2), (2, 2), (4, 2), (3, 0), (3, 1), (3, 3)] {
+            assert!(read(&state(rows, terms)).is_err(), "{rows} rows, {terms} terms");
+        }
+    }
 }

@@ -1,4 +1,5 @@
-//! The same bits from every build: debug and release, this machine and another.
+//! The same bits from every build and every ray kernel: debug and release, this machine and another, scalar and
+//! vector.
 //!
 //! Digests of all replicates' values are written down here. They are no statement about light: where a change is
 //! meant to move values, they change with it; where only the compiler, its options or the processor differ,
@@ -8,7 +9,8 @@ use crate::scenes::{diffuse, level_grid, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::{Material, Scene};
-use quasilux_transport::{Estimator, Settings, simulate};
+use quasilux_transport::trial::{Kernel, simulate_with};
+use quasilux_transport::{Estimator, Settings};
 
 /// A room with a mirror wall, a lamp, two places and a grid.
 fn scene() -> Scene {
@@ -23,12 +25,12 @@ fn scene() -> Scene {
 }
 
 /// FNV-1a (Fowler, Noll and Vo) over the bits of all values.
-fn digest(settings: &Settings) -> u64 {
+fn digest(kernel: Kernel, settings: &Settings) -> u64 {
     let mut scene = scene();
     if settings.estimator == Estimator::Photon {
         scene.sensors.remove(0);
     }
-    let estimates = simulate(&scene, settings, &mut ());
+    let estimates = simulate_with(kernel, &scene, settings);
     let sensors = estimates.sensors.iter().flat_map(|sensor| &sensor.replicate_lx);
     let bytes = sensors.flatten().flat_map(|lx| lx.to_bits().to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
@@ -36,12 +38,12 @@ fn digest(settings: &Settings) -> u64 {
     })
 }
 
-#[test]
-fn all_builds_give_the_same_bits() {
+/// Of all runs, in the order of [`KNOWN`].
+fn digests(kernel: Kernel) -> [String; 5] {
     let sobol = (Sequence::Sobol, Randomization::Owen);
     let halton = (Sequence::Halton, Randomization::Rotation);
     let random = (Sequence::Random, Randomization::None);
-    let found = [
+    [
         (Estimator::Path, sobol),
         (Estimator::Path, random),
         (Estimator::Photon, halton),
@@ -49,16 +51,26 @@ fn all_builds_give_the_same_bits() {
         (Estimator::BidirectionalMap, halton),
     ]
     .map(|(estimator, (sequence, randomization))| {
-        digest(&Settings {
+        let settings = Settings {
             estimator,
             sequence,
             randomization,
             rel_tol: 0.0,
             max_samples: Some(64),
             ..Settings::default()
-        })
-    });
-    assert_eq!(found.map(|digest| format!("{digest:016x}")), KNOWN);
+        };
+        format!("{:016x}", digest(kernel, &settings))
+    })
+}
+
+#[test]
+fn all_builds_and_ray_kernels_give_the_same_bits() {
+    let kernels = Kernel::all();
+    assert!(kernels.contains(&Kernel::Portable) && kernels.contains(&Kernel::fastest()));
+    for kernel in kernels {
+        println!("{kernel:?}");
+        assert_eq!(digests(kernel), KNOWN, "{kernel:?}");
+    }
 }
 
 /// In the order of the runs.

@@ -13,6 +13,7 @@ mod dozen;
 mod dozen_scenes;
 mod element_size;
 mod explain;
+mod few;
 mod first_shot;
 mod furnace;
 mod hall;

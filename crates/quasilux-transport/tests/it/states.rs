@@ -311,6 +311,27 @@ fn parts_and_states_of_other_runs_are_refused() {
     }
 }
 
+/// What a resealed file may say: the right decisions, and rows for another number of replicates or of terms.
+#[test]
+fn states_whose_rows_do_not_fit_are_refused() {
+    let (scene, settings) = runs()
+        .into_iter()
+        .find_map(|(name, scene, settings)| (name == "path").then_some((scene, settings)))
+        .expect("a run of paths");
+    let mut keeper = Keeper::new(1000);
+    let whole = simulate(&scene, &settings, &mut keeper);
+    let state = keeper.states.last().expect("a state after a checkpoint");
+    assert_eq!(resume(&scene, &settings, state, &mut ()).as_ref(), Ok(&whole));
+    for replicates in [1, 3, 5, 400] {
+        let other = Settings { replicates, ..settings.clone() };
+        assert!(resume(&scene, &other, state, &mut ()).is_err(), "{replicates} replicates");
+    }
+    for list_terms in [0, 1, 3, 4].into_iter().filter(|terms| *terms != settings.list_terms) {
+        let other = Settings { list_terms, ..settings.clone() };
+        assert!(resume(&scene, &other, state, &mut ()).is_err(), "{list_terms} terms");
+    }
+}
+
 /// Truncations and changed bits, without the digest over all bytes that files have: errors or other numbers,
 /// never a panic, and no more memory than the bytes say.
 #[test]

@@ -1,0 +1,77 @@
+//! Few samples: half-widths that look good by chance, and what is not said of them.
+
+use crate::images::{add_panel, empty};
+use crate::scenes::{diffuse, mirror, points};
+use glam::DVec3;
+use quasilux_scene::light::AreaLight;
+use quasilux_scene::{Light, Scene};
+use quasilux_transport::{Settings, simulate};
+
+const LUMINANCE_CD_M2: f64 = 100.0;
+const REFLECTANCE: f64 = 0.8;
+/// Where a mirror beside the panel is so far away that hardly a path meets it.
+const PLACE: DVec3 = DVec3::new(6.0, 0.5, 0.0);
+
+/// A panel of 1 m by 1 m that shines down from 1.5 m, and a mirror at x = -0.5 that shows all of it.
+fn scene() -> Scene {
+    let mut scene = empty();
+    add_panel(&mut scene, DVec3::new(0.0, 0.0, 1.5), DVec3::Y, DVec3::X, diffuse(0.0));
+    let (luminance_cd_m2, triangles) = (LUMINANCE_CD_M2, vec![0, 1]);
+    scene.lights.push(Light::Area(AreaLight {
+        material: 0,
+        triangles,
+        area_m2: 1.0,
+        luminance_cd_m2,
+    }));
+    let corner = DVec3::new(-0.5, -2.0, -0.5);
+    add_panel(&mut scene, corner, DVec3::Y * 5.0, DVec3::Z * 3.0, mirror(REFLECTANCE));
+    scene.sensors.push(points("place", &[(PLACE, DVec3::Z)]));
+    scene
+}
+
+/// The integral of L cos cos / d^2 over the panel and its image, by midpoints.
+fn truth_lx() -> f64 {
+    const CELLS: u32 = 64;
+    let middle = |cell: u32| (f64::from(cell) + 0.5) / f64::from(CELLS);
+    let at = |x: f64, y: f64| {
+        let way = DVec3::new(x, y, 1.5) - PLACE;
+        let cosine = way.z / way.length();
+        cosine * cosine / way.length_squared()
+    };
+    let cells = (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| [middle(i), middle(j)]));
+    let sum: f64 = cells.map(|[x, y]| at(x, y) + REFLECTANCE * at(-1.0 - x, y)).sum();
+    LUMINANCE_CD_M2 * sum / f64::from(CELLS * CELLS)
+}
+
+/// Four samples in each replicate: about a third of the intervals are within a tolerance of 20 % and wrong, for no path met the
+/// mirror. Nothing of that is called done.
+#[test]
+fn a_tolerance_is_not_reached_by_a_handful_of_samples() {
+    let (scene, truth_lx) = (scene(), truth_lx());
+    let mut wrong = 0;
+    for seed in 0..100 {
+        let max_samples = Some(4);
+        let settings = Settings { seed, max_samples, rel_tol: 0.2, ..Settings::default() };
+        let estimates = simulate(&scene, &settings, &mut ());
+        let interval = estimates.point_intervals(0)[0];
+        let is_narrow = interval.half_width.is_some_and(|width| width <= 0.2 * interval.value);
+        let misses = |width: f64| (interval.value - truth_lx).abs() > width;
+        wrong += u32::from(is_narrow && interval.half_width.is_some_and(misses));
+        assert!(!estimates.tolerance_reached, "{seed}");
+        let is_told = estimates.warnings.iter().any(|warning| warning.contains("too few"));
+        assert_eq!(is_told, is_narrow, "{seed}: {:?}", estimates.warnings);
+    }
+    println!("{wrong} of 100 are wrong");
+    assert!(wrong > 20, "the test has lost its power: {wrong}");
+}
+
+/// As many as may be relied on, at the only checkpoint of a run: a limit does not stand in the way of a tolerance.
+#[test]
+fn a_tolerance_is_reached_where_a_limit_leaves_enough_samples() {
+    let mut scene = scene();
+    scene.sensors = vec![points("below", &[(DVec3::new(0.5, 0.5, 0.0), DVec3::Z)])];
+    for (samples, is_reached) in [(127, false), (128, true)] {
+        let settings = Settings { max_samples: Some(samples), rel_tol: 0.2, ..Settings::default() };
+        assert_eq!(simulate(&scene, &settings, &mut ()).tolerance_reached, is_reached, "{samples}");
+    }
+}
