@@ -150,6 +150,7 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
     let (scene, estimates) = scene_and_estimates(sensors);
     let facts = RunFacts {
         version: "0.1.0".into(),
+        build: "0123456789abcdef".into(),
         scene_sha256: "c0ffee".into(),
         seconds: 9.8125,
         earlier_rays: 0,

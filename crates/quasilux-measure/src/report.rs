@@ -17,6 +17,8 @@ use quasilux_transport::{
 pub struct RunFacts {
     /// Version of the program.
     pub version: String,
+    /// What it was built of, where builds of one version are told apart.
+    pub build: String,
     /// SHA-256 of the files that the scene was read from; empty where nobody knows.
     pub scene_sha256: String,
     /// Duration of the run in s, since it was gone on with if it was.
@@ -116,6 +118,8 @@ pub struct Summary {
 pub struct Run {
     /// Version of the program.
     pub version: String,
+    /// What it was built of; empty where nobody knows.
+    pub build: String,
     /// SHA-256 of the files that the scene was read from; empty where nobody knows.
     pub scene_sha256: String,
     /// What was asked for.
@@ -175,6 +179,7 @@ impl Report {
             cameras,
             run: Run {
                 version: facts.version,
+                build: facts.build,
                 scene_sha256: facts.scene_sha256,
                 settings: settings.clone(),
                 replicates: settings.effective_replicates(),

@@ -3,17 +3,19 @@
 //! A checkpoint is written beside its place and renamed into it, so that it is there whole or not at all; the
 //! one before of the same run stays as `FILE.previous`.
 
+use crate::build::{self, BUILD, VERSION};
 use crate::digest::SceneIdentity;
 use crate::exit::Refusal;
 use crate::project::{Project, read_bounded};
 use crate::record::SettingsRecord;
 use crate::results;
 use crate::sealed::{seal, unseal};
+use crate::whole::{self, beside};
 use quasilux_measure::json;
 use quasilux_transport::Settings;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Name and version of the format.
@@ -24,6 +26,7 @@ pub(crate) const FORMAT: &str = "quasilux-checkpoint/1";
 #[serde(deny_unknown_fields)]
 pub(crate) struct Heading {
     pub(crate) version: String,
+    pub(crate) build: String,
     /// The project file as it was given, and from the root.
     pub(crate) project: PathBuf,
     pub(crate) project_absolute: PathBuf,
@@ -56,7 +59,26 @@ enum Before {
     Foreign,
 }
 
+impl Heading {
+    /// Refuses what another build of the program left.
+    pub(crate) fn expect_build(&self) -> Result<(), String> {
+        build::expect(&self.version, &self.build)
+    }
+}
+
 impl Keeping {
+    /// Of a run from the start: refuses to take the place of one that is not over.
+    pub(crate) fn fresh(
+        path: &Path,
+        file: &Path,
+        project: &Project,
+        settings: &Settings,
+    ) -> Result<Self, Refusal> {
+        let keeping = Self::new(path, file, project, settings)?;
+        expect_nothing_to_lose(path)?;
+        Ok(keeping)
+    }
+
     /// Makes sure that it can be.
     pub(crate) fn new(
         path: &Path,
@@ -66,8 +88,12 @@ impl Keeping {
     ) -> Result<Self, Refusal> {
         results::prepare_file(path, &[file])?;
         results::expect_text(file)?;
+        whole::try_beside(path).map_err(|error| {
+            Refusal::new(format!("{}: cannot keep the run: {error}", path.display()))
+        })?;
         let heading = Heading {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: VERSION.to_owned(),
+            build: BUILD.to_owned(),
             project: file.to_owned(),
             project_absolute: std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
             scene: project.identity.clone(),
@@ -85,12 +111,8 @@ impl Keeping {
     /// Puts a state in the place of the one before.
     pub(crate) fn write(&mut self, state: &[u8]) -> io::Result<()> {
         let bytes = seal(FORMAT, &self.heading, state);
-        let fresh = beside(&self.path, "unfinished");
-        let mut file = File::create(&fresh)?;
-        file.write_all(&bytes)?;
         // On disk before it takes the place of one that is.
-        file.sync_all()?;
-        drop(file);
+        let fresh = whole::write_beside(&self.path, |file| file.write_all(&bytes))?;
         let previous = beside(&self.path, "previous");
         let made_way = match self.before {
             Before::Own => fs::rename(&self.path, previous),
@@ -102,7 +124,7 @@ impl Keeping {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => {}
         }
-        fs::rename(&fresh, &self.path)?;
+        fresh.publish()?;
         self.before = Before::Own;
         Ok(())
     }
@@ -128,6 +150,25 @@ pub(crate) fn read(path: &Path) -> Result<(Checkpoint, Option<String>), Refusal>
     }
 }
 
+/// Refuses where a run from the start would take the place of one that is not over, or of something that nobody can
+/// tell.
+fn expect_nothing_to_lose(path: &Path) -> Result<(), Refusal> {
+    if !path.exists() && !beside(path, "previous").exists() {
+        return Ok(());
+    }
+    let name = path.display();
+    let (Checkpoint { heading, state }, _) = read(path)
+        .map_err(|refusal| Refusal::new(format!("{refusal}; remove it to begin a run there")))?;
+    if quasilux_transport::is_over(&state) {
+        return Ok(());
+    }
+    let project = heading.project.display();
+    Err(Refusal::new(format!(
+        "{name}: keeps a run of {project} that is not over: go on with `quasilux resume {name}`, or remove it to \
+         begin anew"
+    )))
+}
+
 fn read_one(path: &Path) -> Result<Checkpoint, Refusal> {
     let name = path.display();
     let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
@@ -139,11 +180,4 @@ fn parse(bytes: &[u8]) -> Result<Checkpoint, String> {
     let (heading, state) = unseal(FORMAT, bytes)?;
     let heading = serde_json::from_str(heading).map_err(|error| format!("its header: {error}"))?;
     Ok(Checkpoint { heading, state: state.to_vec() })
-}
-
-fn beside(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".");
-    name.push(ending);
-    name.into()
 }

@@ -4,6 +4,7 @@
 //! exit codes. Read on at [`commands::run`] for the main job.
 
 mod arguments;
+mod build;
 mod cases;
 mod checkpoint;
 mod commands;
@@ -19,6 +20,7 @@ mod record;
 mod results;
 mod sealed;
 mod watcher;
+mod whole;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

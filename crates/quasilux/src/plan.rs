@@ -3,6 +3,7 @@
 //! A plan is a readable file that says all about a run of a fixed number of samples: scene, settings, and what
 //! surveys and pilots decided. A part has the plan within it, and the sums of a range of indices.
 
+use crate::build::{self, BUILD, VERSION};
 use crate::digest::{BYTES, SceneIdentity, hex, sha256_hex};
 use crate::exit::Refusal;
 use crate::project::{Project, read_bounded};
@@ -25,6 +26,7 @@ pub(crate) const PART_FORMAT: &str = "quasilux-part/1";
 pub(crate) struct Plan {
     format: String,
     version: String,
+    build: String,
     /// As it was given where the plan was made.
     pub(crate) project: PathBuf,
     scene: SceneIdentity,
@@ -93,7 +95,8 @@ impl Plan {
         };
         let plan = Self {
             format: PLAN_FORMAT.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: VERSION.to_owned(),
+            build: BUILD.to_owned(),
             project: path.to_owned(),
             scene: project.identity.clone(),
             samples,
@@ -148,10 +151,7 @@ impl Plan {
         if self.format != PLAN_FORMAT {
             return Err(format!("has the format {}, expected {PLAN_FORMAT}", self.format));
         }
-        if self.version != env!("CARGO_PKG_VERSION") {
-            let own = env!("CARGO_PKG_VERSION");
-            return Err(format!("was made by version {}, and this is {own}", self.version));
-        }
+        build::expect(&self.version, &self.build)?;
         if self.digest() != self.sha256 {
             return Err("was changed after it was made: its sha256 is another".to_owned());
         }
@@ -159,9 +159,18 @@ impl Plan {
     }
 
     fn digest(&self) -> String {
-        let Self { format, version, project: _, scene, samples, settings, decisions, sha256: _ } =
-            self;
-        let content = (format, version, &scene.sha256, samples, settings, decisions);
+        let Self {
+            format,
+            version,
+            build,
+            project: _,
+            scene,
+            samples,
+            settings,
+            decisions,
+            sha256: _,
+        } = self;
+        let content = (format, version, build, &scene.sha256, samples, settings, decisions);
         sha256_hex(json::text(&content).as_bytes())
     }
 }
@@ -244,6 +253,8 @@ impl Plan {
     fn differs_in(&self, other: &Self) -> &'static str {
         if self.version != other.version {
             "the version of the program"
+        } else if self.build != other.build {
+            "the build of the program"
         } else if self.scene.sha256 != other.scene.sha256 {
             "the scene"
         } else if self.samples != other.samples {

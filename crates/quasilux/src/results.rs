@@ -2,11 +2,11 @@
 //! camera.
 
 use crate::exit::Refusal;
+use crate::whole;
 use quasilux_measure::{
     Report, camera_false_colour_png, csv, exr, false_colour_png, json, tone_mapped_png,
 };
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Makes sure that results can be written to `folder` before anything is computed.
@@ -68,19 +68,13 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
     stream_whole(path, |file| file.write_all(bytes))
 }
 
-/// Writes a file piece by piece; it appears when it is whole.
+/// Writes a file piece by piece; it appears when it is whole, and is on disk then.
 pub(crate) fn stream_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Refusal> {
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".unfinished");
-    let written = File::create(&temporary).and_then(|file| {
-        let mut file = BufWriter::new(file);
-        write(&mut file).and_then(|()| file.flush())
-    });
-    written
-        .and_then(|()| std::fs::rename(&temporary, path))
+    whole::write_beside(path, write)
+        .and_then(whole::Finished::publish)
         .map_err(|error| cannot_write(path, &error))
 }
 

@@ -7,7 +7,7 @@
 //! each point and `average_terms_lx` in each summary, the last of them with `"bounces": "rest"`; in
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
-//! run repeatable (`scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
+//! run repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
 //! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `image_depth`, `steering`, `joining`, `first_shot`),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end. A point that reached its
@@ -106,6 +106,8 @@ struct FigureEntry {
 #[derive(Serialize)]
 struct RunEntry<'a> {
     version: &'a str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    build: &'a str,
     #[serde(skip_serializing_if = "str::is_empty")]
     scene_sha256: &'a str,
     estimator: &'static str,
@@ -228,6 +230,7 @@ impl<'a> RunEntry<'a> {
     fn of(run: &'a Run) -> Self {
         Self {
             version: &run.version,
+            build: &run.build,
             scene_sha256: &run.scene_sha256,
             estimator: run.settings.estimator.name(),
             sequence: run.settings.sequence.name(),

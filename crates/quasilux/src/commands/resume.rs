@@ -17,11 +17,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, Refusal> {
         eprintln!("warning: {warning}");
     }
     let name = arguments.checkpoint.display().to_string();
-    let own = env!("CARGO_PKG_VERSION");
-    if heading.version != own {
-        let version = &heading.version;
-        return Err(Refusal::new(format!("{name}: is of version {version}, and this is {own}")));
-    }
+    heading.expect_build().map_err(|what| Refusal::new(format!("{name}: {what}")))?;
     let file = project_file(arguments, &heading);
     let project = project::open(&file)?;
     if let Some(change) = project.identity.difference(&heading.scene) {

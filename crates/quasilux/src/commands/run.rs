@@ -1,6 +1,7 @@
 //! `quasilux run`: from a project file to results.
 
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
+use crate::build::{BUILD, VERSION};
 use crate::checkpoint::Keeping;
 use crate::exit::{Exit, Refusal};
 use crate::forecast::Forecast;
@@ -41,7 +42,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
     let forecast = Forecast::new(scene, &settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, arguments.output.quiet);
     if let Some(path) = &arguments.keeping.checkpoint {
-        let keeping = Keeping::new(path, &arguments.project, &project, &settings)?;
+        let keeping = Keeping::fresh(path, &arguments.project, &project, &settings)?;
         watcher = watcher.keeping(keeping, arguments.keeping.checkpoint_every);
     }
     let simulate = |watcher: &mut Watcher<'_>| {
@@ -118,7 +119,8 @@ pub(crate) fn work(
     let Some(estimates) = outcome? else { return Ok(None) };
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
+        version: VERSION.to_owned(),
+        build: BUILD.to_owned(),
         scene_sha256: project.identity.sha256.clone(),
         seconds: seconds.as_secs_f64(),
         earlier_rays: watcher.earlier_rays,

@@ -6,10 +6,8 @@ use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// A run that takes a second or two.
-const LONG: [&str; 4] = ["--rel-tol", "1e-9", "--samples", "8192"];
 const KEEPING: [&str; 4] = ["--checkpoint", "run.ck", "--checkpoint-every", "0.02s"];
-/// At its beginning, and when it is stopped.
+/// At its beginning, and when it is stopped or over.
 const ONCE: [&str; 4] = ["--checkpoint", "run.ck", "--checkpoint-every", "1h"];
 
 fn room(name: &str) -> Folder {
@@ -22,11 +20,6 @@ fn start(folder: &Folder, arguments: &[&str]) -> Child {
     folder.command(arguments).spawn().expect("the program starts")
 }
 
-/// What an uninterrupted run that keeps nothing writes.
-fn whole(folder: &Folder, more: &[&str]) -> String {
-    without_seconds_and_threads(&folder.document("room.toml", "whole", &[&LONG, more].concat(), 3))
-}
-
 fn result(folder: &Folder, out: &str) -> String {
     without_seconds_and_threads(&folder.read(&format!("{out}/result.json")))
 }
@@ -35,27 +28,39 @@ fn go_on(folder: &Folder, more: &[&str]) -> Run {
     folder.quasilux(&[&["resume", "run.ck", "--out", "kept"][..], more].concat())
 }
 
-/// Kill -9 at 20 random moments of one run, some of them while it is starting or writing.
+/// Kill -9 at 20 random moments of three runs in turn, some of them while they are starting or writing.
 #[test]
-fn a_run_that_is_killed_again_and_again_ends_with_the_same_bits() {
-    let folder = room("kept_killed");
-    let begin = [&["run", "room.toml", "--out", "kept", "--quiet"][..], &LONG, &KEEPING].concat();
+fn runs_that_are_killed_again_and_again_end_with_the_same_bits() {
+    let runs = [("path", "8192"), ("bidirectional", "2048"), ("photon", "131072")];
+    let setups = runs.map(|(estimator, samples)| {
+        let folder = room(&format!("kept_killed_{estimator}"));
+        if estimator == "photon" {
+            crate::scenes::remove_probes(&folder, "room");
+        }
+        (folder, ["--estimator", estimator, "--rel-tol", "1e-9", "--samples", samples])
+    });
     let on = ["resume", "run.ck", "--out", "kept", "--quiet", "--checkpoint-every", "0.02s"];
     let mut numbers = Numbers(3);
     for moment in 0..20 {
-        let mut child = start(&folder, if moment == 0 { &begin } else { &on });
+        let (folder, settings) = &setups[moment % setups.len()];
+        let begin = [&["run", "room.toml", "--out", "kept", "--quiet"][..], settings, &KEEPING];
+        let is_first = moment < setups.len();
+        let mut child = if is_first { start(folder, &begin.concat()) } else { start(folder, &on) };
         // The first kill waits for a checkpoint.
-        while moment == 0 && !folder.path("run.ck").exists() {
+        while is_first && !folder.path("run.ck").exists() {
             sleep(Duration::from_millis(2));
         }
-        sleep(Duration::from_millis(4 * moment + numbers.below(120) as u64));
+        sleep(Duration::from_millis((4 * moment + numbers.below(120)) as u64));
         // SIGKILL, wherever that is.
         child.kill().expect("the program can be killed");
         child.wait().expect("the program is gone");
     }
-    let run = go_on(&folder, &["--threads", "7"]);
-    assert_eq!(run.code, Some(3), "{}", run.stderr);
-    assert_eq!(result(&folder, "kept"), whole(&folder, &[]));
+    for (folder, settings) in &setups {
+        let run = go_on(folder, &["--threads", "7"]);
+        assert_eq!(run.code, Some(3), "{settings:?}: {}", run.stderr);
+        let whole = folder.document("room.toml", "whole", settings, 3);
+        assert_eq!(result(folder, "kept"), without_seconds_and_threads(&whole), "{settings:?}");
+    }
 }
 
 #[cfg(unix)]
@@ -127,9 +132,13 @@ fn checkpoints_of_other_scenes_and_versions_are_refused_by_name() {
     refused(&["room.toml"]);
     folder.write("room.toml", project);
     let bytes = std::fs::read(folder.path("run.ck")).expect("a checkpoint");
-    assert!(!folder.path("run.ck.previous").exists(), "it was kept once");
+    std::fs::remove_file(folder.path("run.ck.previous")).expect("it was kept at its beginning");
     folder.write("run.ck", forged(&bytes, "\"version\": \"0.", "\"version\": \"9."));
     refused(&["run.ck", "version 9."]);
+    folder.write("run.ck", forged(&bytes, &build(&bytes), "\"build\": \"0123456789abcdef\""));
+    refused(&["run.ck", "another build", "0123456789abcdef"]);
+    folder.write("run.ck", forged(&bytes, "\"replicates\": 8,", "\"replicates\": 7,"));
+    refused(&["run.ck"]);
     folder.write("run.ck", forged(&bytes, "quasilux-checkpoint/1", "quasilux-checkpoint/2"));
     refused(&["quasilux-checkpoint/2", "reads quasilux-checkpoint/1"]);
     folder.write("run.ck", forged(&bytes, "\"estimator\": \"path\"", "\"estimator\": \"pith\""));
@@ -138,6 +147,57 @@ fn checkpoints_of_other_scenes_and_versions_are_refused_by_name() {
     refused(&["run.ck", "decide otherwise"]);
     std::fs::remove_file(folder.path("run.ck")).expect("it was written");
     refused(&["run.ck"]);
+}
+
+/// What a header says of the build.
+fn build(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    let start = text.find("\"build\": ").expect("a build");
+    text[start..start + "\"build\": \"0123456789abcdef\"".len()].to_owned()
+}
+
+/// Hours of work are not lost by giving the same command again.
+#[test]
+fn a_run_that_is_not_over_is_not_begun_again_in_its_place() {
+    let folder = room("kept_again");
+    let run = |more: &[&str]| {
+        let arguments = ["run", "room.toml", "--out", "kept", "--rel-tol", "1e-9", "--quiet"];
+        let run = folder.quasilux(&[&arguments[..], &ONCE, more].concat());
+        (run.code, run.stderr)
+    };
+    let (code, said) = run(&["--time", "0.05s"]);
+    assert_eq!(code, Some(3), "{said}");
+    let before = std::fs::read(folder.path("run.ck")).expect("a checkpoint");
+    for more in [&["--time", "0.05s"][..], &["--samples", "64"], &["--seed", "2"]] {
+        let (code, said) = run(more);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains("`quasilux resume run.ck`") && said.contains("room.toml"), "{said}");
+    }
+    assert!(std::fs::read(folder.path("run.ck")).expect("a checkpoint") == before);
+    assert_eq!(go_on(&folder, &["--time", "0.001s"]).code, Some(3));
+    for name in ["run.ck", "run.ck.previous"] {
+        std::fs::remove_file(folder.path(name)).expect("it was written");
+    }
+    // What is over may make way for another.
+    for _ in 0..2 {
+        let (code, said) = run(&["--samples", "64"]);
+        assert_eq!(code, Some(3), "{said}");
+    }
+    folder.write("run.ck", "notes of mine");
+    let (code, said) = run(&["--samples", "64"]);
+    assert!(code == Some(2) && said.contains("remove it"), "{said}");
+    assert_eq!(folder.read("run.ck"), "notes of mine");
+}
+
+#[test]
+fn a_run_that_cannot_be_kept_is_not_begun() {
+    let folder = room("kept_nowhere");
+    folder.write("run.ck.unfinished/file", "in the way");
+    let begin = ["run", "room.toml", "--samples", "64", "--out", "kept", "--quiet"];
+    let run = folder.quasilux(&[&begin[..], &ONCE].concat());
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("run.ck: cannot keep the run"), "{}", run.stderr);
+    assert!(!folder.path("kept/result.json").exists());
 }
 
 /// Any cut and any changed bit is refused; then the checkpoint before is used, with a warning.

@@ -26,6 +26,19 @@ fn a_reached_tolerance_gives_exit_code_0() {
     assert!(number(&document, "/run/samples") < 100_000.0);
 }
 
+/// Half-widths of a handful of samples say nothing, however small.
+#[test]
+fn a_handful_of_samples_reaches_no_tolerance() {
+    let folder = room("limits_handful");
+    for (samples, code) in [("2", 3), ("64", 3), ("128", 0)] {
+        let more = ["--rel-tol", "100%", "--samples", samples];
+        let document = parsed(&folder.document("room.toml", samples, &more, code));
+        assert_eq!(document["run"]["tolerance_reached"], code == 0);
+        let warned = document["warnings"].to_string().contains("too few");
+        assert_eq!(warned, code == 3, "{samples}: {}", document["warnings"]);
+    }
+}
+
 #[test]
 fn rays_end_a_run_with_exit_code_3() {
     let folder = room("limits_rays");

@@ -148,6 +148,11 @@ fn what_is_no_run_is_refused_by_name() {
     };
     let version = forge("version.part", "\"version\": \"0.", "\"version\": \"9.");
     refused(&[a, b, c, &version], &["version.part", "version 9."]);
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let start = text.find("\"build\": ").expect("a build");
+    let own = &text[start..start + "\"build\": \"0123456789abcdef\"".len()];
+    let build = forge("build.part", own, "\"build\": \"0123456789abcdef\"");
+    refused(&[a, b, c, &build], &["build.part", "another build", "0123456789abcdef"]);
     let edited = forge("edited.part", "\"seed\": 1,", "\"seed\": 2,");
     refused(&[a, b, c, &edited], &["edited.part", "changed after it was made"]);
     let format = forge("format.part", "quasilux-part/1", "quasilux-part/7");
@@ -226,9 +231,12 @@ fn a_damaged_part_is_refused() {
 fn other_commands_leave_parts_alone() {
     let folder = room("spread_beside");
     folder.write("m.part", "a part of another run");
+    folder.write("c.part", "a part of another run");
     must(&folder, &["plan", "room.toml", "--samples", "8", "--out", "m"], 0);
-    must(&folder, &["run", "room.toml", "--samples", "8", "--checkpoint", "m", "--quiet"], 3);
-    assert_eq!(folder.read("m.part"), "a part of another run");
+    must(&folder, &["run", "room.toml", "--samples", "8", "--checkpoint", "c", "--quiet"], 3);
+    for part in ["m.part", "c.part"] {
+        assert_eq!(folder.read(part), "a part of another run");
+    }
 }
 
 /// Plans and checkpoints name their project in text.

@@ -1,0 +1,33 @@
+//! Which program this is: no run is finished by other code than began it.
+
+/// Its version.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// What it was made of: the first 16 digits of a digest of all sources and of the versions of all dependencies.
+pub(crate) const BUILD: &str = env!("QUASILUX_BUILD");
+
+/// Refuses another version, and another build of the same.
+pub(crate) fn expect(version: &str, build: &str) -> Result<(), String> {
+    if version != VERSION {
+        return Err(format!("was made by version {version}, and this is {VERSION}"));
+    }
+    if build != BUILD {
+        return Err(format!(
+            "was made by another build of version {VERSION}, {build}, and this is {BUILD}: what is computed may \
+             differ"
+        ));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn others_are_refused() {
+        assert_eq!(expect(VERSION, BUILD), Ok(()));
+        assert!(BUILD.len() == 16 && BUILD.bytes().all(|digit| digit.is_ascii_hexdigit()));
+        assert!(expect("9.0.0", BUILD).unwrap_err().contains("version 9.0.0"));
+        assert!(expect(VERSION, "0123456789abcdef").unwrap_err().contains("build"));
+    }
+}
