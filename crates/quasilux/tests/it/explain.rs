@@ -50,6 +50,8 @@ fn the_explanation_stands_beside_the_results() {
     for document in [&mut plain, &mut explained] {
         document["run"]["seconds"] = Value::Null;
         document["run"]["threads"] = Value::Null;
+        document["run"]["prediction"]["seconds"] = Value::Null;
+        document["run"]["prediction"]["bytes"] = Value::Null;
     }
     assert_eq!(plain, explained);
     let explanation = explanation.expect("an explanation");
