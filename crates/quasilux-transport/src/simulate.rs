@@ -18,6 +18,9 @@ use quasilux_bvh::Kernel;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
 
+/// Relative half-widths of what does not differ between replicates.
+const ROUNDING: f64 = 1e-12;
+
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
 /// first, or the observer stops it; at least up to the first checkpoint. A point that is done before the
 /// others gets no more samples: what it has then is what it would have, were this the end. Then takes the pictures of the
@@ -249,8 +252,10 @@ pub(crate) fn look<S: Spectrum>(
     let standing = Standing::of(&estimates, settings);
     estimates.unresolved_points = standing.unresolved;
     estimates.warnings.extend(warnings_of_values(&estimates));
-    // Without sensors there is nothing to be wrong about.
-    let may_be_done = scene.sensors.is_empty() || estimates.samples >= LEAST_SAMPLES;
+    // Without sensors there is nothing to be wrong about, and what is not sampled is exact.
+    let is_exact =
+        settings.max_bounces == Some(0) && standing.largest().is_some_and(|w| w < ROUNDING);
+    let may_be_done = scene.sensors.is_empty() || is_exact || estimates.samples >= LEAST_SAMPLES;
     estimates.tolerance_reached = standing.is_reached && may_be_done;
     if standing.is_reached && !may_be_done {
         estimates.warnings.push(format!(

@@ -1,7 +1,7 @@
 //! Few samples: half-widths that look good by chance, and what is not said of them.
 
 use crate::images::{add_panel, empty};
-use crate::scenes::{diffuse, mirror, points};
+use crate::scenes::{diffuse, mirror, point_light, points};
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Scene};
@@ -73,5 +73,18 @@ fn a_tolerance_is_reached_where_a_limit_leaves_enough_samples() {
     for (samples, is_reached) in [(127, false), (128, true)] {
         let settings = Settings { max_samples: Some(samples), rel_tol: 0.2, ..Settings::default() };
         assert_eq!(simulate(&scene, &settings, &mut ()).tolerance_reached, is_reached, "{samples}");
+    }
+}
+
+/// The light of points that is not reflected is computed, and takes no samples.
+#[test]
+fn what_is_not_sampled_is_exact_at_once() {
+    let mut scene = scene();
+    scene.lights = vec![point_light(DVec3::new(0.5, 0.5, 1.0), 100.0)];
+    scene.sensors = vec![points("below", &[(DVec3::new(0.5, 0.5, 0.0), DVec3::Z)])];
+    for (max_bounces, is_reached) in [(Some(0), true), (None, false)] {
+        let settings = Settings { max_samples: Some(2), max_bounces, ..Settings::default() };
+        let estimates = simulate(&scene, &settings, &mut ());
+        assert_eq!(estimates.tolerance_reached, is_reached, "{max_bounces:?}");
     }
 }
