@@ -1,4 +1,4 @@
-//! Measured photometry: luminaire files, spherical tables, exact sampling.
+//! Measured photometry: luminaire files, measured surfaces, spherical tables, exact sampling.
 //!
 //! A file is read ([`read_ies`], [`read_ldt`], [`read_tm33`]) into a [`Photometry`]: intensities over directions, with the facts
 //! of the header. Behind it stands a [`SphericalTable`], bilinear on a grid of spherical angles,
@@ -21,6 +21,9 @@
 //! # Ok::<(), quasilux_photometry::ReadError>(())
 //! ```
 //!
+//! Measured surfaces are read by [`bsdf::read_bsdf`] into a [`bsdf::MeasuredBsdf`], whose tables are
+//! sampled in the same way.
+//!
 //! What a reader tolerates beyond the standard is listed in [`Deviation`]; each case is reported as
 //! a [`Warning`]. Any bytes may be given: readers do not panic, and take no more memory than
 //! [`most_read_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
@@ -28,6 +31,7 @@
 
 pub mod analysis;
 mod angles;
+pub mod bsdf;
 mod candela;
 mod facts;
 mod file_format;

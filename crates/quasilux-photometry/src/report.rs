@@ -161,6 +161,33 @@ pub enum Deviation {
     /// TM-33: the luminous opening is an element `LuminousOpening` of the luminaire, which the
     /// standard has not. It is read in millimetres, as its writers mean it.
     OpeningInMillimetres,
+    /// WINDOW: there are several optical layers. The first is read.
+    SeveralLayers,
+    /// WINDOW: the thickness has no known unit, or is no number. It is left out: nothing depends on it.
+    UnknownThickness,
+    /// WINDOW: there are data of the solar spectrum alone. They are read as if they were visible.
+    SolarOnly,
+    /// WINDOW: there are data of the colour besides the luminance. They are left out.
+    ColourLeftOut,
+    /// WINDOW: a block is for none of the four directions. It is left out.
+    UnknownDirection,
+    /// WINDOW: a direction is given twice. The last one is read.
+    RepeatedBlock,
+    /// Surfaces: values follow after the last one. They are left out.
+    TrailingValues,
+    /// Surfaces: values are negative. They count as zero.
+    NegativeScattering,
+    /// Surfaces: transmission is given from one side only. That from the other side is taken from it by
+    /// reciprocity.
+    ByReciprocity,
+    /// Surfaces: transmission is given from one side only, in a table that cannot be turned round.
+    /// Nothing passes from the other side.
+    OneWayTransmission,
+    /// Surfaces: more light is scattered than arrives. The table is used as it is.
+    EnergyNotConserved,
+    /// Surfaces: exchanging both directions changes the value by more than 1 % in the mean. The table is used
+    /// as it is.
+    NotReciprocal,
 }
 
 /// A place in a text, line and column counted from 1, columns in characters.

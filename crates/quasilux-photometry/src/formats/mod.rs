@@ -3,6 +3,7 @@
 //! - [`lm63`], ANSI/IES LM-63 (`.ies`)
 //! - [`eulumdat`], EULUMDAT (`.ldt`)
 //! - [`tm33`], ANSI/IES TM-33 (`.xml`)
+//! - [`window_xml`], surfaces of LBNL WINDOW (`.xml`)
 //!
 //! Each page lists what stands on which line, with its clause where one is known, and then every
 //! deviation that the reader tolerates: the rule, what is made of it, and the warning that it
@@ -11,3 +12,4 @@
 pub mod eulumdat;
 pub mod lm63;
 pub mod tm33;
+pub mod window_xml;

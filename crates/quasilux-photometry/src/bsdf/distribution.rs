@@ -1,0 +1,116 @@
+//! How one side of a surface scatters light one way: a closed set of tables, one file each.
+
+use super::KlemsTable;
+use glam::DVec3;
+
+/// Luminance of linear RGB (ITU-R BT.709).
+pub(crate) const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// A scattering distribution function f(wi, wo) in sr^-1, as a table.
+///
+/// All directions are in the frame of the [module](super): unit, away from the surface, with a positive `z` on their
+/// own side. f does not contain the cosine of `wo`.
+#[derive(Clone, Debug)]
+pub enum Distribution {
+    /// Constant in pairs of angular patches.
+    Klems(KlemsTable),
+}
+
+/// A scattered direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScatterSample {
+    /// Away from the surface, `z` positive on its own side.
+    pub wo: DVec3,
+    /// Density with respect to solid angle, in sr^-1. Positive.
+    pub pdf_sr: f64,
+}
+
+impl Distribution {
+    /// f(wi, wo) in sr^-1, without the cosine, in linear RGB; three equal channels where the table is grey. Zero
+    /// where a direction is below its side.
+    #[must_use]
+    pub fn evaluate(&self, wi: DVec3, wo: DVec3) -> [f64; 3] {
+        if wi.z < 0.0 || wo.z < 0.0 {
+            return [0.0; 3];
+        }
+        match self {
+            Self::Klems(table) => [table.value(wi, wo); 3],
+        }
+    }
+
+    /// The share of light from `wi` that is scattered: the integral of f times the cosine of `wo`, exact for what
+    /// [`Self::evaluate`] returns.
+    #[must_use]
+    pub fn albedo(&self, wi: DVec3) -> [f64; 3] {
+        match self {
+            Self::Klems(table) => [table.albedo(wi); 3],
+        }
+    }
+
+    /// Solid angle, sr^-1: a direction with density proportional to the luminance of f times the cosine of `wo`; `None`
+    /// where the albedo is zero.
+    ///
+    /// `u` is in [0, 1]^2. An inverse transform: no rejection, and continuous in `u` within a cell of the table.
+    #[must_use]
+    pub fn sample(&self, wi: DVec3, u: [f64; 2]) -> Option<ScatterSample> {
+        match self {
+            Self::Klems(table) => table.sample(wi, u),
+        }
+    }
+
+    /// Solid angle, sr^-1: the density of [`Self::sample`]; zero where the albedo is zero.
+    #[must_use]
+    pub fn pdf_sr(&self, wi: DVec3, wo: DVec3) -> f64 {
+        if wi.z < 0.0 || wo.z < 0.0 {
+            return 0.0;
+        }
+        match self {
+            Self::Klems(table) => table.pdf_sr(wi, wo),
+        }
+    }
+
+    /// Coordinates that [`Self::sample`] turns into `wo`; `None` where it has density zero.
+    #[must_use]
+    pub fn invert(&self, wi: DVec3, wo: DVec3) -> Option<[f64; 2]> {
+        if self.pdf_sr(wi, wo) <= 0.0 {
+            return None;
+        }
+        match self {
+            Self::Klems(table) => table.invert(wi, wo),
+        }
+    }
+
+    /// The incident directions that the table is stored for: centres of cells or knots of a grid, along the
+    /// half-plane of positive `x` where the table is isotropic. Trees finer than 32 cells a side are shown at that
+    /// resolution.
+    #[must_use]
+    pub fn incidences(&self) -> Vec<DVec3> {
+        match self {
+            Self::Klems(table) => table.incidences(),
+        }
+    }
+
+    /// Whether the table stays the same when both directions turn together about the normal.
+    #[must_use]
+    pub fn is_isotropic(&self) -> bool {
+        match self {
+            Self::Klems(_) => false,
+        }
+    }
+
+    /// Whether colour channels differ.
+    #[must_use]
+    pub fn is_coloured(&self) -> bool {
+        match self {
+            Self::Klems(_) => false,
+        }
+    }
+
+    /// What people call the kind of table.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Klems(_) => "Klems",
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! A scattering matrix over angular patches (Klems 1994; LBNL WINDOW).
+//!
+//! f is constant for each pair of an incident and an exit patch. With the projected solid angle W of a patch,
+//! the albedo of an incident patch is the sum of f W over exit patches. Sampling takes the two coordinates apart:
+//! `u[0]` picks a band by its share and, renormalised, the squared sine in it; `u[1]` picks a patch of
+//! that band and, renormalised, the azimuth in it. The density in projected solid angle is f over the albedo.
+
+mod basis;
+
+use super::distribution::ScatterSample;
+use basis::Cell;
+pub use basis::{AngleBasis, ThetaBand};
+use glam::DVec3;
+
+/// A scattering matrix.
+#[derive(Clone, Debug)]
+pub struct KlemsTable {
+    incident: AngleBasis,
+    exit: AngleBasis,
+    /// f in sr^-1, all exit patches for the first incident patch, then for the next.
+    values: Vec<f64>,
+    /// The sums of f W before each exit patch, and of all, for each incident patch.
+    share_before: Vec<f64>,
+}
+
+impl KlemsTable {
+    /// A table from values for all exit patches of the first incident patch, then of the next; `None` unless
+    /// there is one value, non-negative and finite, for each pair.
+    #[must_use]
+    pub fn new(incident: AngleBasis, exit: AngleBasis, values: Vec<f64>) -> Option<Self> {
+        let pairs = incident.patches().checked_mul(exit.patches())?;
+        let is_right = |value: &f64| value.is_finite() && *value >= 0.0;
+        if values.len() != pairs || !values.iter().all(is_right) {
+            return None;
+        }
+        let mut share_before = Vec::with_capacity(pairs + incident.patches());
+        for row in values.chunks_exact(exit.patches()) {
+            let mut sum = 0.0;
+            share_before.push(sum);
+            for band in exit.bands() {
+                let projected_sr = band.patch_projected_sr();
+                for value in &row[band.first..band.first + band.patches] {
+                    sum += value * projected_sr;
+                    share_before.push(sum);
+                }
+            }
+        }
+        Some(Self { incident, exit, values, share_before })
+    }
+
+    /// The patches of incident directions.
+    #[must_use]
+    pub fn incident_basis(&self) -> &AngleBasis {
+        &self.incident
+    }
+
+    /// The patches of exit directions.
+    #[must_use]
+    pub fn exit_basis(&self) -> &AngleBasis {
+        &self.exit
+    }
+
+    /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi). `None` where a patch has no
+    /// counterpart at the opposite azimuth.
+    pub(super) fn reversed(&self) -> Option<Self> {
+        let (opposite_in, opposite_out) = (self.incident.opposites()?, self.exit.opposites()?);
+        let columns = self.exit.patches();
+        let from_exit = |&out: &usize| {
+            opposite_in.iter().map(move |&incident| self.values[incident * columns + out])
+        };
+        let values = opposite_out.iter().flat_map(from_exit).collect();
+        Self::new(self.exit.clone(), self.incident.clone(), values)
+    }
+
+    pub(super) fn value(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let (Some(row), Some(cell)) = (self.row(wi), self.exit.cell([wo.x, wo.y])) else {
+            return 0.0;
+        };
+        self.values[row * self.exit.patches() + self.exit.index(cell)]
+    }
+
+    pub(super) fn albedo(&self, wi: DVec3) -> f64 {
+        self.row(wi).map_or(0.0, |row| self.shares(row)[self.exit.patches()])
+    }
+
+    pub(super) fn sample(&self, wi: DVec3, u: [f64; 2]) -> Option<ScatterSample> {
+        let row = self.row(wi)?;
+        let shares = self.shares(row);
+        let albedo = shares[self.exit.patches()];
+        if albedo <= 0.0 {
+            return None;
+        }
+        let bands = self.exit.bands();
+        let before_band = |band: usize| match bands.get(band) {
+            Some(found) => shares[found.first],
+            None => albedo,
+        };
+        let (band, along_sin2) = pick(bands.len(), u[0], before_band);
+        let first = bands[band].first;
+        let (patch, along_phi) = pick(bands[band].patches, u[1], |patch| shares[first + patch]);
+        let cell = Cell { band, patch, fraction: [along_sin2, along_phi] };
+        let wo = DVec3::from_array(self.exit.place(cell));
+        let value = self.values[row * self.exit.patches() + self.exit.index(cell)];
+        Some(ScatterSample { wo, pdf_sr: value * wo.z / albedo })
+    }
+
+    pub(super) fn pdf_sr(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let albedo = self.albedo(wi);
+        if albedo > 0.0 { self.value(wi, wo) * wo.z / albedo } else { 0.0 }
+    }
+
+    pub(super) fn invert(&self, wi: DVec3, wo: DVec3) -> Option<[f64; 2]> {
+        let shares = self.shares(self.row(wi)?);
+        let cell = self.exit.cell([wo.x, wo.y])?;
+        let band = &self.exit.bands()[cell.band];
+        let [first, end] = [band.first, band.first + band.patches];
+        let before =
+            |share: f64, [low, high]: [f64; 2], fraction: f64| share + fraction * (high - low);
+        let within_all = before(shares[first], [shares[first], shares[end]], cell.fraction[0]);
+        let [low, high] = [first + cell.patch, first + cell.patch + 1].map(|i| shares[i]);
+        let within_band = before(low, [low, high], cell.fraction[1]) - shares[first];
+        let u =
+            [within_all / shares[self.exit.patches()], within_band / (shares[end] - shares[first])];
+        Some(u.map(|u| u.clamp(0.0, 1.0)))
+    }
+
+    pub(super) fn incidences(&self) -> Vec<DVec3> {
+        let centre = |cell: Cell| {
+            let [x, y, z] = self.incident.place(cell);
+            DVec3::new(-x, -y, z)
+        };
+        let normal = self.incident.bands()[0].patches == 1;
+        let cells = self.incident.cells();
+        cells.map(|cell| if normal && cell.band == 0 { DVec3::Z } else { centre(cell) }).collect()
+    }
+
+    /// The incident patch: by where light goes to.
+    fn row(&self, wi: DVec3) -> Option<usize> {
+        self.incident.cell([-wi.x, -wi.y]).map(|cell| self.incident.index(cell))
+    }
+
+    fn shares(&self, row: usize) -> &[f64] {
+        let columns = self.exit.patches() + 1;
+        &self.share_before[row * columns..(row + 1) * columns]
+    }
+}
+
+/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the renormalised rest.
+/// Never a step of height zero.
+fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usize, f64) {
+    let (start, end) = (before(0), before(count));
+    let target = start + u * (end - start);
+    let (mut low, mut high) = (0, count);
+    while low < high {
+        let middle = low.midpoint(high);
+        if before(middle + 1) > target {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    // Rounding, or u = 1: the last step that rises.
+    while low == count || before(low + 1) <= before(low) {
+        low -= 1;
+    }
+    let rest = (target - before(low)) / (before(low + 1) - before(low));
+    (low, rest.clamp(0.0, 1.0))
+}

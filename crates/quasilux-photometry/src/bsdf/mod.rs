@@ -1,0 +1,145 @@
+//! Measured surfaces: files of scattering distributions, read into tables that are sampled exactly.
+//!
+//! A file is read ([`read_bsdf`]) into a [`MeasuredBsdf`]: for each side of a thin sheet, what is reflected
+//! and what passes, as a [`Distribution`]. Each kind of table keeps the cells that it was stored with; none is
+//! turned into another.
+//!
+//! # Frame
+//! One frame for the whole sheet. `x` and `y` lie in it, the same two for both sides: seen from the back, with `y` up,
+//! `x` points to the right. A direction has unit length and points away from the sheet, and its `z` is the cosine of the
+//! angle to the normal *of the side that it is on*: positive for the incident and the scattered direction
+//! alike, in reflection and in transmission. Light that goes straight through the sheet has
+//! `wo = (-wi.x, -wi.y, wi.z)`, and so has light that a mirror reflects.
+//!
+//! The front is the side that a file calls so. In WINDOW files it faces outdoors and Radiance takes the back for the
+//! side that the normal points to (`doc/notes/BSDFdirections.txt`).
+
+mod analysis;
+mod distribution;
+mod klems;
+mod read;
+mod window_xml;
+
+pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity};
+pub use distribution::{Distribution, ScatterSample};
+pub use klems::{AngleBasis, KlemsTable, ThetaBand};
+pub use read::{BsdfFormat, ReadBsdf, read_bsdf};
+pub use window_xml::read_bsdf_xml;
+
+/// One measured surface: how both sides of a thin sheet scatter light.
+#[derive(Clone, Debug)]
+pub struct MeasuredBsdf {
+    facts: BsdfFacts,
+    /// By [`Side`] that light arrives on, then by [`Way`].
+    scattering: [[Option<Distribution>; 2]; 2],
+}
+
+/// What a file says about its surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BsdfFacts {
+    /// The format that the file has.
+    pub format: BsdfFormat,
+    /// Empty where the file gives none.
+    pub name: String,
+    /// Empty where the file gives none.
+    pub manufacturer: String,
+    /// Thickness of the sheet; light is scattered as if it had none.
+    pub thickness_m: Option<f64>,
+}
+
+/// A side of a sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// The side that a file calls the front; the measured side of a reflection without sides.
+    Front,
+    /// The other side.
+    Back,
+}
+
+/// Where scattered light goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Way {
+    /// Back to the side that it came from.
+    Reflection,
+    /// To the other side.
+    Transmission,
+}
+
+impl Side {
+    /// Both sides.
+    pub const ALL: [Self; 2] = [Self::Front, Self::Back];
+
+    /// The other side.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Front => Self::Back,
+            Self::Back => Self::Front,
+        }
+    }
+
+    /// `front` or `back`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+}
+
+impl Way {
+    /// Both ways.
+    pub const ALL: [Self; 2] = [Self::Reflection, Self::Transmission];
+
+    /// `reflection` or `transmission`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Reflection => "reflection",
+            Self::Transmission => "transmission",
+        }
+    }
+}
+
+impl MeasuredBsdf {
+    /// A surface that scatters nothing yet.
+    pub(crate) fn new(facts: BsdfFacts) -> Self {
+        Self { facts, scattering: [[None, None], [None, None]] }
+    }
+
+    pub(crate) fn set(&mut self, side: Side, way: Way, distribution: Distribution) {
+        self.scattering[side as usize][way as usize] = Some(distribution);
+    }
+
+    /// How light that arrives on `side` is scattered that way; `None` where nothing is.
+    #[must_use]
+    pub fn scattering(&self, side: Side, way: Way) -> Option<&Distribution> {
+        self.scattering[side as usize][way as usize].as_ref()
+    }
+
+    /// What the file says besides.
+    #[must_use]
+    pub fn facts(&self) -> &BsdfFacts {
+        &self.facts
+    }
+
+    /// All distributions, each with the side that light arrives on and the way it goes.
+    pub fn distributions(&self) -> impl Iterator<Item = (Side, Way, &Distribution)> {
+        let pairs = Side::ALL.into_iter().flat_map(|side| Way::ALL.map(|way| (side, way)));
+        pairs.filter_map(|(side, way)| Some((side, way, self.scattering(side, way)?)))
+    }
+
+    /// Whether each distribution stays the same when incident and scattered direction turn together
+    /// about the normal.
+    #[must_use]
+    pub fn is_isotropic(&self) -> bool {
+        self.distributions().all(|(_, _, distribution)| distribution.is_isotropic())
+    }
+
+    /// Whether a distribution has colour channels that differ.
+    #[must_use]
+    pub fn is_coloured(&self) -> bool {
+        self.distributions().any(|(_, _, distribution)| distribution.is_coloured())
+    }
+}

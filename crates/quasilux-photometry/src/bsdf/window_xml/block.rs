@@ -1,0 +1,106 @@
+//! The blocks of scattering data that are read: one spectrum, each side and way once.
+
+use super::super::{Side, Way};
+use crate::report::{Warnings, quoted};
+use crate::xml::Element;
+use crate::{Deviation, ReadError};
+
+/// One element `WavelengthDataBlock`.
+pub(super) struct Block<'e, 't> {
+    pub(super) side: Side,
+    pub(super) way: Way,
+    pub(super) element: &'e Element<'t>,
+}
+
+/// A spectrum that a block is measured over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Spectrum {
+    Visible,
+    Solar,
+    /// CIE X and Z beside a visible Y.
+    Colour,
+    Other,
+}
+
+impl Spectrum {
+    fn of(element: &Element<'_>) -> Self {
+        let word = element.child("Wavelength").map_or("", |wavelength| wavelength.text());
+        let words = [
+            ("Visible", Self::Visible),
+            ("Solar", Self::Solar),
+            ("CIE-X", Self::Colour),
+            ("CIE-Z", Self::Colour),
+        ];
+        let known = words.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(word));
+        known.map_or(Self::Other, |(_, spectrum)| spectrum)
+    }
+}
+
+/// The blocks of the visible spectrum, or else of the solar one; at least one.
+pub(super) fn select<'e, 't>(
+    layer: &'e Element<'t>,
+    warnings: &mut Warnings,
+) -> Result<Vec<Block<'e, 't>>, ReadError> {
+    let data: Vec<(Spectrum, &Element<'_>)> =
+        layer.all("WavelengthData").map(|data| (Spectrum::of(data), data)).collect();
+    let of_spectrum = |wanted: Spectrum| data.iter().find(|(spectrum, _)| *spectrum == wanted);
+    if let Some((_, colour)) = of_spectrum(Spectrum::Colour) {
+        let expected = "Visible alone (the colour is left out)";
+        warnings.push(Deviation::ColourLeftOut, colour.at, "CIE-X or CIE-Z", expected);
+    }
+    let spectrum = match (of_spectrum(Spectrum::Visible), of_spectrum(Spectrum::Solar)) {
+        (Some(_), _) => Spectrum::Visible,
+        (None, Some((_, solar))) => {
+            let expected = "Visible (read as if it were)";
+            warnings.push(Deviation::SolarOnly, solar.at, "Solar data alone", expected);
+            Spectrum::Solar
+        }
+        (None, None) => return Err(no_data(layer, &data)),
+    };
+    let mut blocks: Vec<Block<'e, 't>> = Vec::new();
+    for (_, data) in data.iter().filter(|(found, _)| *found == spectrum) {
+        for element in data.all("WavelengthDataBlock") {
+            let Some((side, way)) = side_and_way(element, warnings) else {
+                continue;
+            };
+            let block = Block { side, way, element };
+            match blocks.iter_mut().find(|known| (known.side, known.way) == (side, way)) {
+                Some(known) => {
+                    let found = format!("another {} {}", way.name(), side.name());
+                    let expected = "each direction once (the last one is read)";
+                    warnings.push(Deviation::RepeatedBlock, element.at, found, expected);
+                    *known = block;
+                }
+                None => blocks.push(block),
+            }
+        }
+    }
+    if blocks.is_empty() { Err(no_data(layer, &data)) } else { Ok(blocks) }
+}
+
+/// `Transmission Front` and the like; others are left out.
+fn side_and_way(element: &Element<'_>, warnings: &mut Warnings) -> Option<(Side, Way)> {
+    let direction = element.child("WavelengthDataDirection");
+    let text = direction.map_or("", |direction| direction.text());
+    let mut words = text.split_whitespace();
+    let way = words.next().and_then(Way::of_word);
+    let side = words.next().and_then(Side::of_word);
+    let known = side.zip(way).filter(|_| words.next().is_none());
+    if known.is_none() {
+        let expected = "Transmission or Reflection, Front or Back (left out)";
+        warnings.push(Deviation::UnknownDirection, element.at, quoted(text), expected);
+    }
+    known
+}
+
+fn no_data(layer: &Element<'_>, data: &[(Spectrum, &Element<'_>)]) -> ReadError {
+    let expected = "WavelengthData with Wavelength Visible and a WavelengthDataBlock";
+    match data.first() {
+        Some((_, first)) => {
+            let word = first.child("Wavelength").map_or("", |wavelength| wavelength.text());
+            let found = format!("data for {} without a usable block", quoted(word));
+            ReadError::new(first.at, found, expected)
+        }
+        None => ReadError::new(layer.at, "no element WavelengthData", expected),
+    }
+}

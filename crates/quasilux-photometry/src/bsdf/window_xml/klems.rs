@@ -1,0 +1,111 @@
+//! Matrices over angular patches: bases and values.
+
+use super::block::Block;
+use super::numbers::{self, Pieces};
+use crate::bsdf::{AngleBasis, KlemsTable};
+use crate::report::{Warnings, quoted};
+use crate::xml::Element;
+use crate::{Deviation, ReadError};
+
+/// Bands of one basis, and bases of one file: far above what any file has.
+const MOST_BANDS: usize = 256;
+
+/// The bases that the file defines.
+pub(super) fn bases(layer: &Element<'_>) -> Result<Vec<AngleBasis>, ReadError> {
+    let definitions = layer.all("DataDefinition").flat_map(|data| data.all("AngleBasis"));
+    definitions.take(MOST_BANDS).map(basis).collect()
+}
+
+fn basis(element: &Element<'_>) -> Result<AngleBasis, ReadError> {
+    let name = element.child("AngleBasisName").map_or("", |name| name.text());
+    let mut bands = Vec::new();
+    let mut lower_deg = 0.0;
+    for block in element.all("AngleBasisBlock").take(MOST_BANDS) {
+        let missing = |what: &str| {
+            ReadError::new(block.at, format_args!("no {what}"), "bounds and count of a band")
+        };
+        let bounds = block.child("ThetaBounds").ok_or_else(|| missing("ThetaBounds"))?;
+        let upper = bounds.child("UpperTheta").ok_or_else(|| missing("UpperTheta"))?;
+        let lower = bounds.child("LowerTheta").map(numbers::of_element).transpose()?;
+        let upper = numbers::of_element(upper)?;
+        if let Some(lower) = lower.filter(|lower| (lower.value - lower_deg).abs() > 1e-6) {
+            let found = format!("a band from {} degrees", lower.value);
+            let expected = format!("{lower_deg}, where the one before it ends");
+            return Err(ReadError::new(lower.at, found, expected));
+        }
+        let count = block.child("nPhis").ok_or_else(|| missing("nPhis"))?;
+        let patches = numbers::of_element(count)?;
+        let is_count = patches.value.fract() == 0.0 && (1.0..=1e6).contains(&patches.value);
+        if !is_count {
+            let expected = "a number of patches from 1 to 1000000";
+            return Err(ReadError::new(patches.at, quoted(count.text()), expected));
+        }
+        bands.push((upper.value, patches.value as usize));
+        lower_deg = upper.value;
+    }
+    AngleBasis::new(name, &bands).ok_or_else(|| {
+        let found = format!("{} bands in {}", bands.len(), quoted(name));
+        ReadError::new(element.at, found, "bands with angles that ascend to 90 degrees at most")
+    })
+}
+
+/// The matrix of one block.
+///
+/// `Columns`: a row of the text holds one exit patch, a column one incident patch. `ColumnAngleBasis` is
+/// the incident basis and `RowAngleBasis` the exit basis in both structures, as Radiance reads them.
+pub(super) fn read(
+    block: &Block<'_, '_>,
+    bases: &[AngleBasis],
+    incident_rows: bool,
+    warnings: &mut Warnings,
+) -> Result<KlemsTable, ReadError> {
+    let incident = basis_of(block, "ColumnAngleBasis", bases)?;
+    let exit = basis_of(block, "RowAngleBasis", bases)?;
+    let Some(data) = block.element.child("ScatteringData") else {
+        let found = "no element ScatteringData";
+        return Err(ReadError::new(block.element.at, found, "the values of the block"));
+    };
+    let expected = incident.patches().saturating_mul(exit.patches());
+    let mut pieces = Pieces::new(data, false);
+    let mut values = Vec::new();
+    for piece in pieces.by_ref().take(expected) {
+        values.push(numbers::value(piece, warnings)?);
+    }
+    if values.len() < expected {
+        let (rows, columns) = (exit.patches(), incident.patches());
+        let expected = format!("{expected}: {columns} incident by {rows} exit patches");
+        let found = format!("{} values", values.len());
+        return Err(ReadError::new(pieces.at(), found, expected));
+    }
+    if let Some(further) = pieces.next() {
+        let expected = format!("the end of the data after {expected} values (left out)");
+        warnings.push(Deviation::TrailingValues, further.at, quoted(further.text), expected);
+    }
+    let values = if incident_rows { values } else { transposed(&values, incident.patches()) };
+    let at = block.element.at;
+    KlemsTable::new(incident, exit, values)
+        .ok_or_else(|| ReadError::new(at, "an unusable matrix", "finite values"))
+}
+
+fn basis_of(
+    block: &Block<'_, '_>,
+    role: &str,
+    bases: &[AngleBasis],
+) -> Result<AngleBasis, ReadError> {
+    let Some(element) = block.element.child(role) else {
+        let found = format!("no element {role}");
+        return Err(ReadError::new(block.element.at, found, "the name of an angular basis"));
+    };
+    let name = element.text();
+    let defined = bases.iter().find(|basis| basis.name().eq_ignore_ascii_case(name));
+    defined.cloned().or_else(|| AngleBasis::known(name)).ok_or_else(|| {
+        let expected = "a basis that the file defines, or LBNL/Klems Full, Half or Quarter";
+        ReadError::new(element.text_at, quoted(name), expected)
+    })
+}
+
+/// Columns become rows.
+fn transposed(values: &[f64], columns: usize) -> Vec<f64> {
+    let column = |start: usize| values[start..].iter().step_by(columns);
+    (0..columns).flat_map(column).copied().collect()
+}

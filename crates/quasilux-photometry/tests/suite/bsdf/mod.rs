@@ -1,0 +1,3 @@
+//! Measured surfaces: files, tables, sampling.
+
+mod corpus;
