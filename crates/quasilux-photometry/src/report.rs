@@ -161,6 +161,8 @@ pub enum Deviation {
     /// TM-33: the luminous opening is an element `LuminousOpening` of the luminaire, which the
     /// standard has not. It is read in millimetres, as its writers mean it.
     OpeningInMillimetres,
+    /// WINDOW: text stands before the XML, such as the messages of a program. It is left out.
+    Foreword,
     /// WINDOW: there are several optical layers. The first is read.
     SeveralLayers,
     /// WINDOW: the thickness has no known unit, or is no number. It is left out: nothing depends on it.

@@ -41,9 +41,9 @@ pub struct Reciprocity {
     pub side: Side,
     /// Whether `b` is on the same side.
     pub way: Way,
-    /// The mean of |f(a, b) - f(b, a)| over the mean of f.
+    /// The mean of |f(a, b) - f(b, a)| over the mean of the greater of both.
     pub mean: f64,
-    /// The greatest |f(a, b) - f(b, a)| over the sum of both, between 0 and 1.
+    /// The largest |f(a, b) - f(b, a)| over the greater of both, between 0 and 1.
     pub worst: f64,
     /// The pair where that is, in the frames of their sides.
     pub worst_pair: [DVec3; 2],
@@ -112,15 +112,16 @@ impl Reciprocity {
             let first = if way == Way::Reflection { index + 1 } else { 0 };
             for &b in &directions[first.min(directions.len())..] {
                 let values = [forth.evaluate(a, b), back.evaluate(b, a)].map(luminance);
-                let (off, both) = ((values[0] - values[1]).abs(), values[0] + values[1]);
+                let greater = values[0].max(values[1]);
+                let off = greater - values[0].min(values[1]);
                 difference += off;
-                sum += both;
-                if off > worst.0 * both {
-                    worst = (off / both, [a, b]);
+                sum += greater;
+                if off > worst.0 * greater {
+                    worst = (off / greater, [a, b]);
                 }
             }
         }
-        let mean = 2.0 * difference / sum;
+        let mean = difference / sum;
         (sum > 0.0).then_some(Self { side, way, mean, worst: worst.0, worst_pair: worst.1 })
     }
 }

@@ -1,10 +1,14 @@
 //! How one side of a surface scatters light one way: a closed set of tables, one file each.
 
-use super::KlemsTable;
+use super::{KlemsTable, TensorTree};
 use glam::DVec3;
 
 /// Luminance of linear RGB (ITU-R BT.709).
 pub(crate) const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Samples nearer to the edge of a cell, in parts of it, are moved inside: rounding must not carry a direction
+/// into the next cell.
+pub(super) const INSIDE: f64 = 1e-9;
 
 /// A scattering distribution function f(wi, wo) in sr^-1, as a table.
 ///
@@ -14,6 +18,8 @@ pub(crate) const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 pub enum Distribution {
     /// Constant in pairs of angular patches.
     Klems(KlemsTable),
+    /// Constant in boxes of varied size.
+    TensorTree(TensorTree),
 }
 
 /// A scattered direction.
@@ -35,6 +41,7 @@ impl Distribution {
         }
         match self {
             Self::Klems(table) => [table.value(wi, wo); 3],
+            Self::TensorTree(tree) => [tree.value(wi, wo); 3],
         }
     }
 
@@ -44,6 +51,7 @@ impl Distribution {
     pub fn albedo(&self, wi: DVec3) -> [f64; 3] {
         match self {
             Self::Klems(table) => [table.albedo(wi); 3],
+            Self::TensorTree(tree) => [tree.albedo(wi); 3],
         }
     }
 
@@ -55,6 +63,7 @@ impl Distribution {
     pub fn sample(&self, wi: DVec3, u: [f64; 2]) -> Option<ScatterSample> {
         match self {
             Self::Klems(table) => table.sample(wi, u),
+            Self::TensorTree(tree) => tree.sample(wi, u),
         }
     }
 
@@ -66,6 +75,7 @@ impl Distribution {
         }
         match self {
             Self::Klems(table) => table.pdf_sr(wi, wo),
+            Self::TensorTree(tree) => tree.pdf_sr(wi, wo),
         }
     }
 
@@ -77,6 +87,7 @@ impl Distribution {
         }
         match self {
             Self::Klems(table) => table.invert(wi, wo),
+            Self::TensorTree(tree) => Some(tree.invert(wi, wo)),
         }
     }
 
@@ -87,6 +98,7 @@ impl Distribution {
     pub fn incidences(&self) -> Vec<DVec3> {
         match self {
             Self::Klems(table) => table.incidences(),
+            Self::TensorTree(tree) => tree.incidences(),
         }
     }
 
@@ -95,6 +107,7 @@ impl Distribution {
     pub fn is_isotropic(&self) -> bool {
         match self {
             Self::Klems(_) => false,
+            Self::TensorTree(tree) => tree.is_isotropic(),
         }
     }
 
@@ -102,7 +115,7 @@ impl Distribution {
     #[must_use]
     pub fn is_coloured(&self) -> bool {
         match self {
-            Self::Klems(_) => false,
+            Self::Klems(_) | Self::TensorTree(_) => false,
         }
     }
 
@@ -111,6 +124,7 @@ impl Distribution {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Klems(_) => "Klems",
+            Self::TensorTree(_) => "tensor tree",
         }
     }
 }

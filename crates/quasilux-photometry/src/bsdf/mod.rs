@@ -18,12 +18,14 @@ mod analysis;
 mod distribution;
 mod klems;
 mod read;
+mod tree;
 mod window_xml;
 
 pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity};
 pub use distribution::{Distribution, ScatterSample};
 pub use klems::{AngleBasis, KlemsTable, ThetaBand};
 pub use read::{BsdfFormat, ReadBsdf, read_bsdf};
+pub use tree::TensorTree;
 pub use window_xml::read_bsdf_xml;
 
 /// One measured surface: how both sides of a thin sheet scatter light.

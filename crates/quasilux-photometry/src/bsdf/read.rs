@@ -39,7 +39,7 @@ impl BsdfFormat {
 pub fn read_bsdf(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
     let start = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
     let is_wide = matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]);
-    if start.starts_with(b"<") || is_wide {
+    if start.starts_with(b"<") || is_wide || contains(bytes, b"<WindowElement") {
         return read_bsdf_xml(bytes);
     }
     Err(unknown(bytes))
@@ -48,10 +48,9 @@ pub fn read_bsdf(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
 /// Why a file of no known format is refused: what it seems to be.
 fn unknown(bytes: &[u8]) -> ReadError {
     let at = Position { line: 1, column: 1 };
-    let contains = |mark: &[u8]| bytes.windows(mark.len()).take(4096).any(|window| window == mark);
     let found = if bytes.starts_with(b"tensor_file\0") {
         "a container of tensors (RGL, .bsdf or .pbsdf)"
-    } else if contains(b"{ Units, Wavelength Units }") {
+    } else if contains(bytes, b"{ Units, Wavelength Units }") {
         "spectra of a glazing (Optics, .dat)"
     } else if bytes.is_empty() {
         "an empty file"
@@ -59,4 +58,9 @@ fn unknown(bytes: &[u8]) -> ReadError {
         "none of their marks"
     };
     ReadError::new(at, found, "a measured surface: WINDOW XML")
+}
+
+/// Whether the mark stands near the beginning.
+fn contains(bytes: &[u8], mark: &[u8]) -> bool {
+    bytes.windows(mark.len()).take(4096).any(|window| window == mark)
 }

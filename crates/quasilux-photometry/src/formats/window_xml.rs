@@ -38,6 +38,7 @@
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |
 //! |---|---|---|
+//! | [`Foreword`] | left out | `1:1: found "Recover using: genBSDF"; expected XML from the first line on (left out)` |
 //! | [`SeveralLayers`] | the first is read | `90:3: found another Layer; expected one layer (the first is read)` |
 //! | [`UnknownThickness`] | left out: nothing depends on it | `9:5: found a thickness of "1" "mil"; expected a number in meter, ... (left out)` |
 //! | [`SolarOnly`] | read as if it were visible | `40:2: found Solar data alone; expected Visible (read as if it were)` |
@@ -51,6 +52,7 @@
 //! | [`EnergyNotConserved`] | used as it is | `50:3: found 101.3 % of the light scattered at 82.5 degrees on the front; expected no more than 100 % (used as it is)` |
 //! | [`NotReciprocal`] | used as it is | `50:3: found reflection front that differs from that of exchanged directions by 7.0 % in the mean; expected the same both ways round (used as it is)` |
 //!
+//! [`Foreword`]: crate::Deviation::Foreword
 //! [`SeveralLayers`]: crate::Deviation::SeveralLayers
 //! [`UnknownThickness`]: crate::Deviation::UnknownThickness
 //! [`SolarOnly`]: crate::Deviation::SolarOnly

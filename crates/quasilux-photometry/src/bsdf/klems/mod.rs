@@ -7,7 +7,7 @@
 
 mod basis;
 
-use super::distribution::ScatterSample;
+use super::distribution::{INSIDE, ScatterSample};
 use basis::Cell;
 pub use basis::{AngleBasis, ThetaBand};
 use glam::DVec3;
@@ -98,7 +98,7 @@ impl KlemsTable {
         let (band, along_sin2) = pick(bands.len(), u[0], before_band);
         let first = bands[band].first;
         let (patch, along_phi) = pick(bands[band].patches, u[1], |patch| shares[first + patch]);
-        let cell = Cell { band, patch, fraction: [along_sin2, along_phi] };
+        let cell = Cell { band, patch, fraction: [along_sin2, along_phi].map(inside) };
         let wo = DVec3::from_array(self.exit.place(cell));
         let value = self.values[row * self.exit.patches() + self.exit.index(cell)];
         Some(ScatterSample { wo, pdf_sr: value * wo.z / albedo })
@@ -143,6 +143,11 @@ impl KlemsTable {
         let columns = self.exit.patches() + 1;
         &self.share_before[row * columns..(row + 1) * columns]
     }
+}
+
+/// Not too near to the edges of a patch.
+fn inside(fraction: f64) -> f64 {
+    fraction.clamp(INSIDE, 1.0 - INSIDE)
 }
 
 /// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the renormalised rest.

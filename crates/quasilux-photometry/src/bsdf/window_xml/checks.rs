@@ -28,7 +28,8 @@ pub(super) fn fill_transmission(
         };
         let reversed = match bsdf.scattering(side.other(), Way::Transmission) {
             Some(Distribution::Klems(table)) => table.reversed().map(Distribution::Klems),
-            None => None,
+            Some(Distribution::TensorTree(tree)) => tree.reversed().map(Distribution::TensorTree),
+            _ => None,
         };
         let found = format!("no Transmission {}", side.name());
         match reversed {

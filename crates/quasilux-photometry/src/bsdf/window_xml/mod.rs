@@ -6,26 +6,30 @@ mod block;
 mod checks;
 mod klems;
 mod numbers;
+mod tree;
 
 use super::read::{BsdfFormat, ReadBsdf};
-use super::{BsdfFacts, MeasuredBsdf, Side, Way};
-use crate::report::{Warnings, quoted};
+use super::{BsdfFacts, Distribution, MeasuredBsdf, Side, Way};
+use crate::report::{Position, Warnings, quoted};
 use crate::xml::{self, Element};
 use crate::{Deviation, ReadError, text};
+use std::borrow::Cow;
 
 /// How `IncidentDataStructure` orders the data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Structure {
     /// A matrix; whether a row holds the values of one incident patch.
     Matrix { incident_rows: bool },
+    /// A tree of 3 or 4 axes.
+    Tree { rank: usize },
 }
 
 /// Reads a WINDOW file. Total: any bytes give a surface or an error with its place, and memory is bounded by a multiple
 /// of the file's length.
 pub fn read_bsdf_xml(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
     let mut warnings = Warnings::default();
-    let mut of_encoding = Warnings::default();
-    let text = text::decode(bytes, &mut of_encoding);
+    let text = text::decode(bytes, &mut Warnings::default());
+    let text = without_foreword(text, &mut warnings);
     let root = xml::parse(text.trim_start_matches('\u{FEFF}'))?;
     if root.name != "WindowElement" {
         let found = format!("{} as the root element", quoted(root.name));
@@ -37,15 +41,41 @@ pub fn read_bsdf_xml(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
     let blocks = block::select(layer, &mut warnings)?;
 
     let mut bsdf = MeasuredBsdf::new(facts);
-    let Structure::Matrix { incident_rows } = structure;
     let bases = klems::bases(layer)?;
     for block in &blocks {
-        let table = klems::read(block, &bases, incident_rows, &mut warnings)?;
-        bsdf.set(block.side, block.way, super::Distribution::Klems(table));
+        let distribution = match structure {
+            Structure::Matrix { incident_rows } => {
+                Distribution::Klems(klems::read(block, &bases, incident_rows, &mut warnings)?)
+            }
+            Structure::Tree { rank } => {
+                Distribution::TensorTree(tree::read(block, rank, &mut warnings)?)
+            }
+        };
+        bsdf.set(block.side, block.way, distribution);
     }
     checks::fill_transmission(&mut bsdf, &blocks, &mut warnings);
     checks::warn_of_defects(&bsdf, blocks[0].element.at, &mut warnings);
     Ok(ReadBsdf { bsdf, warnings: warnings.into_vec() })
+}
+
+/// The text with blanks in the place of what stands before the XML: messages that a program wrote to its output.
+fn without_foreword<'t>(text: Cow<'t, str>, warnings: &mut Warnings) -> Cow<'t, str> {
+    let bare = text.trim_start_matches('\u{FEFF}').trim_start();
+    let Some(start) = text.find('<').filter(|_| !bare.starts_with('<')) else {
+        return text;
+    };
+    let (foreword, xml) = text.split_at(start);
+    let expected = "XML from the first line on (left out)";
+    let at = Position { line: 1, column: 1 };
+    warnings.push(
+        Deviation::Foreword,
+        at,
+        quoted(bare.lines().next().unwrap_or_default()),
+        expected,
+    );
+    let is_end = |character: char| matches!(character, '\n' | '\r');
+    let blank = |character: char| if is_end(character) { character } else { ' ' };
+    Cow::Owned(foreword.chars().map(blank).chain(xml.chars()).collect())
 }
 
 fn layer<'e, 't>(
@@ -74,6 +104,8 @@ fn structure(layer: &Element<'_>) -> Result<Structure, ReadError> {
     let words = [
         ("Columns", Structure::Matrix { incident_rows: false }),
         ("Rows", Structure::Matrix { incident_rows: true }),
+        ("TensorTree3", Structure::Tree { rank: 3 }),
+        ("TensorTree4", Structure::Tree { rank: 4 }),
     ];
     let known = words.into_iter().find(|(word, _)| word.eq_ignore_ascii_case(element.text()));
     known
@@ -88,6 +120,7 @@ fn facts(
 ) -> Result<BsdfFacts, ReadError> {
     let format = match structure {
         Structure::Matrix { .. } => BsdfFormat::WindowKlems,
+        Structure::Tree { .. } => BsdfFormat::WindowTensorTree,
     };
     let material = layer.child("Material");
     let text = |name: &str| {

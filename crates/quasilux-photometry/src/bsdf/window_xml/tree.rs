@@ -1,0 +1,107 @@
+//! Tensor trees: nodes in braces.
+
+use super::block::Block;
+use super::numbers::{self, Pieces};
+use crate::Deviation;
+use crate::ReadError;
+use crate::bsdf::{TensorTree, tree::TreeBuilder};
+use crate::number::Written;
+use crate::report::{Position, Warnings, quoted};
+
+/// The tree of one block.
+pub(super) fn read(
+    block: &Block<'_, '_>,
+    rank: usize,
+    warnings: &mut Warnings,
+) -> Result<TensorTree, ReadError> {
+    let basis = block.element.child("AngleBasis");
+    let is_known = |text: &str| text.eq_ignore_ascii_case("LBNL/Shirley-Chiu");
+    if !basis.is_some_and(|basis| is_known(basis.text())) {
+        let at = basis.map_or(block.element.at, |basis| basis.text_at);
+        let found = quoted(basis.map_or("", |basis| basis.text()));
+        return Err(ReadError::new(at, found, "AngleBasis: LBNL/Shirley-Chiu"));
+    }
+    let Some(data) = block.element.child("ScatteringData") else {
+        let found = "no element ScatteringData";
+        return Err(ReadError::new(block.element.at, found, "the tree of the block"));
+    };
+    let mut parser =
+        Parser { pieces: Pieces::new(data, true), builder: TreeBuilder::new(rank - 2), warnings };
+    let root = parser.expect("{")?;
+    parser.node(0, 0, root)?;
+    if let Some(further) = parser.pieces.next() {
+        let expected = "the end of the data after the tree (left out)";
+        parser.warnings.push(Deviation::TrailingValues, further.at, quoted(further.text), expected);
+    }
+    parser.builder.finish().ok_or_else(|| too_large(data.text_at))
+}
+
+struct Parser<'t, 'w> {
+    pieces: Pieces<'t>,
+    builder: TreeBuilder,
+    warnings: &'w mut Warnings,
+}
+
+impl<'t> Parser<'t, '_> {
+    /// A node whose opening brace is read: branches, or a grid of values.
+    fn node(&mut self, node: usize, level: usize, opened: Position) -> Result<(), ReadError> {
+        let first = self.next("a node or a value")?;
+        if first.text != "{" {
+            return self.grid(node, level, opened, first);
+        }
+        let too_deep = || too_large(opened);
+        let first_child = self.builder.branch(node, level).ok_or_else(too_deep)?;
+        let children = 1 << self.builder.axes();
+        for child in 0..children {
+            let opened = if child == 0 { first.at } else { self.expect("{")? };
+            self.node(first_child + child, level + 1, opened)?;
+        }
+        self.expect("}").map(|_| ())
+    }
+
+    /// A grid whose first value is read.
+    fn grid(
+        &mut self,
+        node: usize,
+        level: usize,
+        opened: Position,
+        first: Written<'t>,
+    ) -> Result<(), ReadError> {
+        let mut values = Vec::new();
+        let mut piece = first;
+        while piece.text != "}" {
+            values.push(numbers::value(piece, self.warnings)?);
+            piece = self.next("a value or }")?;
+        }
+        let axes = self.builder.axes();
+        let log_side =
+            (0..super::super::tree::DEEPEST).find(|log| 1 << (log * axes) == values.len());
+        let Some(log_side) = log_side else {
+            let expected = format!("1, {}, {} .. values", 1 << axes, 1 << (2 * axes));
+            return Err(ReadError::new(opened, format!("a grid of {}", values.len()), expected));
+        };
+        let grid = self.builder.grid(node, level, &values, log_side);
+        grid.ok_or_else(|| too_large(opened))
+    }
+
+    fn expect(&mut self, brace: &str) -> Result<Position, ReadError> {
+        let expected = match brace {
+            "{" => format!("{{, for each of {} nodes", 1 << self.builder.axes()),
+            _ => format!("}}, after {} nodes", 1 << self.builder.axes()),
+        };
+        let piece = self.next(&expected)?;
+        if piece.text != brace {
+            return Err(ReadError::new(piece.at, quoted(piece.text), expected));
+        }
+        Ok(piece.at)
+    }
+
+    fn next(&mut self, expected: &str) -> Result<Written<'t>, ReadError> {
+        let end = self.pieces.at();
+        self.pieces.next().ok_or_else(|| ReadError::new(end, "the end of the data", expected))
+    }
+}
+
+fn too_large(at: Position) -> ReadError {
+    ReadError::new(at, "a deeper node", "a tree of no more than 12 levels and 4e9 nodes")
+}
