@@ -26,23 +26,32 @@ pub(super) fn fill_transmission(
         let (None, Some(source)) = (given(side), given(side.other())) else {
             continue;
         };
+        let found = format!("no Transmission {}", side.name());
         let reversed = match bsdf.scattering(side.other(), Way::Transmission) {
             Some(Distribution::Klems(table)) => table.reversed().map(Distribution::Klems),
             Some(Distribution::TensorTree(tree)) => tree.reversed().map(Distribution::TensorTree),
             _ => None,
         };
-        let found = format!("no Transmission {}", side.name());
-        match reversed {
-            Some(reversed) => {
+        let (deviation, expected) = match &reversed {
+            Some(Distribution::TensorTree(tree)) if tree.is_isotropic() => {
+                let side = tree.resolution();
+                let expected =
+                    format!("both directions (resampled by reciprocity, {side} boxes a side)");
+                (Deviation::ByReciprocity, expected)
+            }
+            Some(_) => {
                 let expected = "both directions (taken from the other one by reciprocity)";
-                warnings.push(Deviation::ByReciprocity, source.element.at, found, expected);
-                bsdf.set(side, Way::Transmission, reversed);
+                (Deviation::ByReciprocity, expected.to_owned())
             }
             None => {
                 let expected =
                     "both directions (this table cannot be turned round: nothing passes)";
-                warnings.push(Deviation::OneWayTransmission, source.element.at, found, expected);
+                (Deviation::OneWayTransmission, expected.to_owned())
             }
+        };
+        warnings.push(deviation, source.element.at, found, expected);
+        if let Some(reversed) = reversed {
+            bsdf.set(side, Way::Transmission, reversed);
         }
     }
 }

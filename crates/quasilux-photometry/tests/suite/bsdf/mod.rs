@@ -1,3 +1,31 @@
 //! Measured surfaces: files, tables, sampling.
 
 mod corpus;
+mod radiance;
+mod sampling;
+
+use glam::DVec3;
+use quasilux_photometry::Angles;
+use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf};
+use std::path::{Path, PathBuf};
+
+/// The folder of published files, or `None`, with a line that says so.
+fn folder() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
+    if !folder.is_dir() {
+        println!("no published surfaces at {}: nothing compared", folder.display());
+        return None;
+    }
+    Some(folder)
+}
+
+/// One published surface; `None` where there are no published files at all.
+fn surface(file: &str) -> Option<MeasuredBsdf> {
+    let bytes = std::fs::read(folder()?.join(file)).unwrap();
+    Some(read_bsdf(&bytes).unwrap_or_else(|error| panic!("{file}:{error}")).bsdf)
+}
+
+/// The direction of a polar angle and an azimuth in degrees.
+fn direction(theta_deg: f64, phi_deg: f64) -> DVec3 {
+    Angles { theta_rad: theta_deg.to_radians(), phi_rad: phi_deg.to_radians() }.direction()
+}
