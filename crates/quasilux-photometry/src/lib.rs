@@ -59,7 +59,7 @@ pub use facts::{
 pub use file_format::Format;
 pub use ies::{ReadTilt, read_ies, read_tilt, write_ies};
 pub use ldt::{read_ldt, write_ldt};
-pub use memory::most_read_memory_bytes;
+pub use memory::{most_bsdf_memory_bytes, most_read_memory_bytes};
 pub use photometry::Photometry;
 pub use report::{Deviation, Read, ReadError, Warning};
 pub use shape::{Axis, LuminousShape, Solid, SurfacePoint};

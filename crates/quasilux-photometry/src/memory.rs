@@ -16,3 +16,12 @@ const BYTES_BESIDES: usize = 32 * 1024;
 pub const fn most_read_memory_bytes(file_bytes: usize) -> usize {
     BYTES_PER_BYTE.saturating_mul(file_bytes).saturating_add(BYTES_BESIDES)
 }
+
+/// Bytes for the grids that values of a surface are resampled to, however few those are.
+const BYTES_OF_GRIDS: usize = 128 << 20;
+
+/// The same for readers of measured surfaces: they may resample values to finer grids.
+#[must_use]
+pub const fn most_bsdf_memory_bytes(file_bytes: usize) -> usize {
+    most_read_memory_bytes(file_bytes).saturating_add(BYTES_OF_GRIDS)
+}

@@ -185,6 +185,13 @@ pub enum Deviation {
     /// Surfaces: transmission is given from one side only, in a table that cannot be turned round.
     /// Nothing passes from the other side.
     OneWayTransmission,
+    /// Surfaces: values are given in angles that samples cannot be drawn in. They are resampled; the warning says how
+    /// far that is off.
+    Resampled,
+    /// MERL: values are negative, which means that nothing was measured. Their neighbours stand for them.
+    MissingValues,
+    /// ASTM E1392: polar angles are too large for radians. All angles are read as degrees.
+    AnglesInDegrees,
     /// Surfaces: more light is scattered than arrives. The table is used as it is.
     EnergyNotConserved,
     /// Surfaces: exchanging both directions changes the value by more than 1 % in the mean. The table is used

@@ -2,7 +2,7 @@
 //!
 //! Tables are used as they are: these figures say by how much they are wrong.
 
-use super::distribution::LUMINANCE_WEIGHTS;
+use super::distribution::{LUMINANCE_WEIGHTS, upwards};
 use super::{Distribution, MeasuredBsdf, Side, Way};
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
@@ -137,10 +137,7 @@ fn reciprocities(bsdf: &MeasuredBsdf) -> Vec<Reciprocity> {
 fn directions() -> Vec<DVec3> {
     let middle = |i: usize| (i as f64 + 0.5) / DIRECTIONS_A_SIDE as f64;
     let pairs = (0..DIRECTIONS_A_SIDE).flat_map(|i| (0..DIRECTIONS_A_SIDE).map(move |j| (i, j)));
-    let direction = |(i, j)| {
-        let [x, y] = sample_disk([middle(i), middle(j)]);
-        DVec3::new(x, y, (1.0_f64 - x * x - y * y).max(0.0).sqrt())
-    };
+    let direction = |(i, j)| upwards(sample_disk([middle(i), middle(j)]));
     pairs.map(direction).collect()
 }
 

@@ -1,6 +1,6 @@
 //! How one side of a surface scatters light one way: a closed set of tables, one file each.
 
-use super::{KlemsTable, TensorTree};
+use super::{GriddedTable, KlemsTable, TensorTree};
 use glam::DVec3;
 
 /// Luminance of linear RGB (ITU-R BT.709).
@@ -20,6 +20,8 @@ pub enum Distribution {
     Klems(KlemsTable),
     /// Constant in boxes of varied size.
     TensorTree(TensorTree),
+    /// Lobes over a grid of incident directions.
+    Gridded(GriddedTable),
 }
 
 /// A scattered direction.
@@ -42,6 +44,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => [table.value(wi, wo); 3],
             Self::TensorTree(tree) => [tree.value(wi, wo); 3],
+            Self::Gridded(table) => table.value(wi, wo),
         }
     }
 
@@ -52,6 +55,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => [table.albedo(wi); 3],
             Self::TensorTree(tree) => [tree.albedo(wi); 3],
+            Self::Gridded(table) => table.albedo(wi),
         }
     }
 
@@ -64,6 +68,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.sample(wi, u),
             Self::TensorTree(tree) => tree.sample(wi, u),
+            Self::Gridded(table) => table.sample(wi, u),
         }
     }
 
@@ -76,6 +81,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.pdf_sr(wi, wo),
             Self::TensorTree(tree) => tree.pdf_sr(wi, wo),
+            Self::Gridded(table) => table.pdf_sr(wi, wo),
         }
     }
 
@@ -88,6 +94,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.invert(wi, wo),
             Self::TensorTree(tree) => Some(tree.invert(wi, wo)),
+            Self::Gridded(table) => table.invert(wi, wo),
         }
     }
 
@@ -99,6 +106,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.incidences(),
             Self::TensorTree(tree) => tree.incidences(),
+            Self::Gridded(table) => table.incidences(),
         }
     }
 
@@ -108,6 +116,7 @@ impl Distribution {
         match self {
             Self::Klems(_) => false,
             Self::TensorTree(tree) => tree.is_isotropic(),
+            Self::Gridded(table) => table.is_isotropic(),
         }
     }
 
@@ -116,6 +125,7 @@ impl Distribution {
     pub fn is_coloured(&self) -> bool {
         match self {
             Self::Klems(_) | Self::TensorTree(_) => false,
+            Self::Gridded(table) => table.is_coloured(),
         }
     }
 
@@ -125,6 +135,12 @@ impl Distribution {
         match self {
             Self::Klems(_) => "Klems",
             Self::TensorTree(_) => "tensor tree",
+            Self::Gridded(_) => "gridded",
         }
     }
+}
+
+/// The unit direction with that projection.
+pub(super) fn upwards([x, y]: [f64; 2]) -> DVec3 {
+    DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
 }

@@ -15,16 +15,26 @@
 //! side that the normal points to (`doc/notes/BSDFdirections.txt`).
 
 mod analysis;
+mod astm;
+mod ddr;
+mod defects;
 mod distribution;
+mod gridded;
 mod klems;
+mod merl;
+mod pieces;
 mod read;
 mod tree;
 mod window_xml;
 
 pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity};
+pub use astm::read_astm;
+pub use ddr::read_ddr;
 pub use distribution::{Distribution, ScatterSample};
+pub use gridded::GriddedTable;
 pub use klems::{AngleBasis, KlemsTable, ThetaBand};
-pub use read::{BsdfFormat, ReadBsdf, read_bsdf};
+pub use merl::read_merl;
+pub use read::{BsdfFormat, ReadBsdf, read_bsdf, read_bsdf_named};
 pub use tree::TensorTree;
 pub use window_xml::read_bsdf_xml;
 

@@ -1,7 +1,8 @@
 //! Trees from branches and grids of values, and trees turned round.
 
+use super::super::distribution::upwards;
 use super::means::Means;
-use super::{DEEPEST, Node, TensorTree, upwards};
+use super::{DEEPEST, Node, TensorTree};
 use quasilux_sampling::warp::sample_disk;
 
 /// A tree that is being built, from the root on.

@@ -12,7 +12,7 @@
 mod build;
 mod means;
 
-use super::distribution::{INSIDE, ScatterSample};
+use super::distribution::{INSIDE, ScatterSample, upwards};
 pub(super) use build::TreeBuilder;
 use glam::DVec3;
 use means::Means;
@@ -226,9 +226,4 @@ fn choose(u: &mut f64, [lower, upper]: [f64; 2]) -> usize {
     }
     *u = ((*u - probability) / (1.0 - probability)).clamp(0.0, 1.0);
     1
-}
-
-/// The unit direction with that projection.
-fn upwards([x, y]: [f64; 2]) -> DVec3 {
-    DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
 }

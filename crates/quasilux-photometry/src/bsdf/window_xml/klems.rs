@@ -1,7 +1,8 @@
 //! Matrices over angular patches: bases and values.
 
 use super::block::Block;
-use super::numbers::{self, Pieces};
+use super::number_of;
+use crate::bsdf::pieces::{self, Pieces, Style};
 use crate::bsdf::{AngleBasis, KlemsTable};
 use crate::report::{Warnings, quoted};
 use crate::xml::Element;
@@ -26,15 +27,15 @@ fn basis(element: &Element<'_>) -> Result<AngleBasis, ReadError> {
         };
         let bounds = block.child("ThetaBounds").ok_or_else(|| missing("ThetaBounds"))?;
         let upper = bounds.child("UpperTheta").ok_or_else(|| missing("UpperTheta"))?;
-        let lower = bounds.child("LowerTheta").map(numbers::of_element).transpose()?;
-        let upper = numbers::of_element(upper)?;
+        let lower = bounds.child("LowerTheta").map(number_of).transpose()?;
+        let upper = number_of(upper)?;
         if let Some(lower) = lower.filter(|lower| (lower.value - lower_deg).abs() > 1e-6) {
             let found = format!("a band from {} degrees", lower.value);
             let expected = format!("{lower_deg}, where the one before it ends");
             return Err(ReadError::new(lower.at, found, expected));
         }
         let count = block.child("nPhis").ok_or_else(|| missing("nPhis"))?;
-        let patches = numbers::of_element(count)?;
+        let patches = number_of(count)?;
         let is_count = patches.value.fract() == 0.0 && (1.0..=1e6).contains(&patches.value);
         if !is_count {
             let expected = "a number of patches from 1 to 1000000";
@@ -66,10 +67,10 @@ pub(super) fn read(
         return Err(ReadError::new(block.element.at, found, "the values of the block"));
     };
     let expected = incident.patches().saturating_mul(exit.patches());
-    let mut pieces = Pieces::new(data, false);
+    let mut pieces = Pieces::new(data.text(), data.text_at, Style::Plain);
     let mut values = Vec::new();
     for piece in pieces.by_ref().take(expected) {
-        values.push(numbers::value(piece, warnings)?);
+        values.push(pieces::value(piece, warnings)?);
     }
     if values.len() < expected {
         let (rows, columns) = (exit.patches(), incident.patches());

@@ -3,13 +3,13 @@
 //! What is read and tolerated stands in [`formats::window_xml`](crate::formats::window_xml).
 
 mod block;
-mod checks;
 mod klems;
-mod numbers;
+mod reciprocity;
 mod tree;
 
 use super::read::{BsdfFormat, ReadBsdf};
-use super::{BsdfFacts, Distribution, MeasuredBsdf, Side, Way};
+use super::{BsdfFacts, Distribution, MeasuredBsdf, Side, Way, defects};
+use crate::number::{Number, Written};
 use crate::report::{Position, Warnings, quoted};
 use crate::xml::{self, Element};
 use crate::{Deviation, ReadError, text};
@@ -53,8 +53,8 @@ pub fn read_bsdf_xml(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
         };
         bsdf.set(block.side, block.way, distribution);
     }
-    checks::fill_transmission(&mut bsdf, &blocks, &mut warnings);
-    checks::warn_of_defects(&bsdf, blocks[0].element.at, &mut warnings);
+    reciprocity::fill_transmission(&mut bsdf, &blocks, &mut warnings);
+    defects::warn_of_defects(&bsdf, blocks[0].element.at, &mut warnings);
     Ok(ReadBsdf { bsdf, warnings: warnings.into_vec() })
 }
 
@@ -146,7 +146,7 @@ fn thickness_m(element: &Element<'_>, warnings: &mut Warnings) -> Option<f64> {
         ("foot", 0.3048),
     ];
     let metres = units.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(unit));
-    let number = numbers::of_element(element);
+    let number = number_of(element);
     match (metres, number) {
         (Some((_, metres)), Ok(number)) => Some(metres * number.value),
         _ => {
@@ -170,4 +170,9 @@ impl Way {
     fn of_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|way| way.name().eq_ignore_ascii_case(word))
     }
+}
+
+/// The only number of an element.
+fn number_of(element: &Element<'_>) -> Result<Number, ReadError> {
+    Written { text: element.text(), at: element.text_at }.number(element.name)
 }

@@ -1,9 +1,9 @@
 //! Tensor trees: nodes in braces.
 
 use super::block::Block;
-use super::numbers::{self, Pieces};
 use crate::Deviation;
 use crate::ReadError;
+use crate::bsdf::pieces::{self, Pieces, Style};
 use crate::bsdf::{TensorTree, tree::TreeBuilder};
 use crate::number::Written;
 use crate::report::{Position, Warnings, quoted};
@@ -25,8 +25,11 @@ pub(super) fn read(
         let found = "no element ScatteringData";
         return Err(ReadError::new(block.element.at, found, "the tree of the block"));
     };
-    let mut parser =
-        Parser { pieces: Pieces::new(data, true), builder: TreeBuilder::new(rank - 2), warnings };
+    let mut parser = Parser {
+        pieces: Pieces::new(data.text(), data.text_at, Style::Braces),
+        builder: TreeBuilder::new(rank - 2),
+        warnings,
+    };
     let root = parser.expect("{")?;
     parser.node(0, 0, root)?;
     if let Some(further) = parser.pieces.next() {
@@ -70,7 +73,7 @@ impl<'t> Parser<'t, '_> {
         let mut values = Vec::new();
         let mut piece = first;
         while piece.text != "}" {
-            values.push(numbers::value(piece, self.warnings)?);
+            values.push(pieces::value(piece, self.warnings)?);
             piece = self.next("a value or }")?;
         }
         let axes = self.builder.axes();

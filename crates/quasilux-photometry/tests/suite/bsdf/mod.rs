@@ -1,8 +1,13 @@
 //! Measured surfaces: files, tables, sampling.
 
+mod analytic;
+mod astm;
 mod corpus;
+mod ddr;
+mod merl;
 mod radiance;
 mod sampling;
+mod window_xml;
 
 use glam::DVec3;
 use quasilux_photometry::Angles;

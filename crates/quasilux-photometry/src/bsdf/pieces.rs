@@ -1,30 +1,34 @@
-//! Numbers in the text of elements, with their places.
+//! Pieces of a text between blanks and commas, with their places.
 
 use crate::Deviation;
 use crate::ReadError;
-use crate::number::{Number, Written};
+use crate::number::Written;
 use crate::report::{Position, Warnings, quoted};
-use crate::xml::Element;
 
 /// Values below count as zero: sums and quotients of them would lose digits to underflow.
 const SMALLEST_VALUE: f64 = 1e-100;
 
-/// The only number of an element.
-pub(super) fn of_element(element: &Element<'_>) -> Result<Number, ReadError> {
-    Written { text: element.text(), at: element.text_at }.number(element.name)
-}
-
-/// The pieces of a text between blanks and commas, with the places they have if nothing in the text was escaped; with
-/// `braces`, each brace is a piece of its own.
+/// The pieces of a text between blanks and commas, with the places they have if nothing in the text was escaped.
 pub(super) struct Pieces<'t> {
     rest: &'t str,
     at: Position,
-    braces: bool,
+    style: Style,
+}
+
+/// What counts as a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Style {
+    /// Words.
+    Plain,
+    /// Words, and each brace by itself.
+    Braces,
+    /// Words, but none from a semicolon to the end of its line.
+    Comments,
 }
 
 impl<'t> Pieces<'t> {
-    pub(super) fn new(element: &'t Element<'_>, braces: bool) -> Self {
-        Self { rest: element.text(), at: element.text_at, braces }
+    pub(super) fn new(text: &'t str, at: Position, style: Style) -> Self {
+        Self { rest: text, at, style }
     }
 
     /// Where the next piece is looked for.
@@ -35,8 +39,14 @@ impl<'t> Pieces<'t> {
     /// Goes on by so many bytes.
     fn skip(&mut self, bytes: usize) -> &'t str {
         let (skipped, rest) = self.rest.split_at(bytes);
-        for character in skipped.chars() {
-            if character == '\n' {
+        let mut characters = skipped.chars().chain(rest.chars().take(1)).peekable();
+        for _ in 0..skipped.chars().count() {
+            let character = characters.next();
+            let ends_line = match character {
+                Some('\r') => characters.peek() != Some(&'\n'),
+                _ => character == Some('\n'),
+            };
+            if ends_line {
                 self.at = Position { line: self.at.line + 1, column: 1 };
             } else {
                 self.at.column += 1;
@@ -52,12 +62,23 @@ impl<'t> Iterator for Pieces<'t> {
 
     fn next(&mut self) -> Option<Written<'t>> {
         let is_gap = |character: char| character.is_whitespace() || character == ',';
-        let braces = self.braces;
-        let is_brace = |character: char| braces && matches!(character, '{' | '}');
-        let gap = self.rest.find(|character| !is_gap(character))?;
-        self.skip(gap);
+        let style = self.style;
+        let is_mark = |character: char| match style {
+            Style::Plain => false,
+            Style::Braces => matches!(character, '{' | '}'),
+            Style::Comments => character == ';',
+        };
+        loop {
+            let gap = self.rest.find(|character| !is_gap(character))?;
+            self.skip(gap);
+            if style != Style::Comments || !self.rest.starts_with(';') {
+                break;
+            }
+            let comment = self.rest.find(['\n', '\r']).unwrap_or(self.rest.len());
+            self.skip(comment);
+        }
         let at = self.at;
-        let length = match self.rest.find(|c| is_gap(c) || is_brace(c)) {
+        let length = match self.rest.find(|c| is_gap(c) || is_mark(c)) {
             Some(0) => 1,
             Some(length) => length,
             None => self.rest.len(),

@@ -1,0 +1,37 @@
+//! Warnings of tables that break energy conservation or reciprocity.
+
+use super::{BsdfAnalysis, MeasuredBsdf, Reciprocity};
+use crate::Deviation;
+use crate::report::{Position, Warnings};
+
+/// Albedos above 1 by less are the rounding of a file.
+const ENERGY_TOLERANCE: f64 = 1e-3;
+
+/// Mean relative differences below need no word.
+const RECIPROCITY_TOLERANCE: f64 = 0.01;
+
+/// Says by how much tables break energy conservation and reciprocity.
+pub(super) fn warn_of_defects(bsdf: &MeasuredBsdf, at: Position, warnings: &mut Warnings) {
+    let analysis = BsdfAnalysis::of(bsdf);
+    for energy in analysis.energy.iter().filter(|energy| energy.worst > 1.0 + ENERGY_TOLERANCE) {
+        let theta_deg = libm::acos(energy.worst_wi.z.clamp(-1.0, 1.0)).to_degrees();
+        let found = format!(
+            "{:.1} % of the light scattered at {theta_deg:.1} degrees on the {}",
+            100.0 * energy.worst,
+            energy.side.name(),
+        );
+        let expected = "no more than 100 % (used as it is)";
+        warnings.push(Deviation::EnergyNotConserved, at, found, expected);
+    }
+    let is_off = |found: &&Reciprocity| found.mean > RECIPROCITY_TOLERANCE;
+    for reciprocity in analysis.reciprocity.iter().filter(is_off) {
+        let found = format!(
+            "{} {} that differs from that of exchanged directions by {:.1} % in the mean",
+            reciprocity.way.name(),
+            reciprocity.side.name(),
+            100.0 * reciprocity.mean,
+        );
+        let expected = "the same both ways round (used as it is)";
+        warnings.push(Deviation::NotReciprocal, at, found, expected);
+    }
+}

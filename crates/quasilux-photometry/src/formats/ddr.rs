@@ -1,0 +1,35 @@
+//! Integra DDR and DDT files, word by word.
+//!
+//! Text files of Integra's Inspirer and Lumicept for measured reflection (`.ddr`) and transmission (`.ddt`). No description by
+//! their makers is public; [`read_ddr`](crate::bsdf::read_ddr) follows the reader and the writer of libbsdf (Kimura 2014), and
+//! no published file was at hand: the tests make theirs from analytic surfaces. The content does not tell whether it is
+//! reflection or transmission, the extension does.
+//!
+//! Words are read in letters of any case; a semicolon begins a comment to the end of the line.
+//!
+//! | words | meaning here |
+//! |---|---|
+//! | `Source` *word* | not used |
+//! | `TypeSym` | `AxiSymmetrical`: about the specular direction; `PlaneSymmetrical`: in the plane of incidence; `ASymmetrical`, also followed by `4D` |
+//! | `TypeColorModel` | `BW` or `RGB`; `spectral` is refused |
+//! | `TypeData` | `Luminance Absolute` (also if missing): `kbdf` is a factor; `Luminance Relative`: it is the albedo; intensities are refused |
+//! | `psi` *n angles* | incident azimuths; without it the surface is isotropic; one at 360 is that at 0 |
+//! | `sigma` *n angles* | incident polar angles |
+//! | `sigmat` *angles* | polar angle of the specular direction for each `sigma`; without it the same angle |
+//! | `phi` *n angles* | azimuths about the specular direction, 0 towards the normal, in the sense of a right hand whose thumb points along it |
+//! | `theta` *n angles* | angles from the specular direction |
+//! | `bw`, or `red`, `gre` or `green`, `blu` or `blue` | a block of one colour, in this order |
+//! | .. `kbdf` *values* | one for each `psi` and, inside, `sigma`; 1 if missing |
+//! | .. `def` *values* `enddef` | pi times f; `psi` outermost, then `sigma`, `phi`, and `theta` innermost |
+//!
+//! Angles are in degrees and ascend. The specular direction of reflection is the mirror direction, that of transmission
+//! straight on. Between angles f is bilinear; beyond the last `theta` it is zero. Light is scattered by the front.
+//!
+//! # Tolerated deviations
+//! | rule | what is made of it | for example |
+//! |---|---|---|
+//! | [`Resampled`] | always: f is taken to a grid about the normal, with knots where those of the file are | `9:1: found values around the specular direction, 37 by 91; expected spherical angles (resampled; off by 0.21 % in the mean)` |
+//!
+//! As in WINDOW files: `NegativeScattering`, `TrailingValues`, `EnergyNotConserved`, `NotReciprocal`; as in LM-63: `Encoding`.
+//!
+//! [`Resampled`]: crate::Deviation::Resampled

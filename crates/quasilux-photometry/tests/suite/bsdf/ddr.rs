@@ -1,0 +1,134 @@
+//! DDR files made from closed forms.
+
+use super::analytic::{Scattering, SpecularGrid, albedo, ddr, difference, glossy, lambert, rough};
+use super::direction;
+use quasilux_photometry::Deviation;
+use quasilux_photometry::bsdf::{BsdfFormat, Distribution, Side, Way, read_bsdf_named, read_ddr};
+use quasilux_stats::least_squares_slope;
+use std::f64::consts::PI;
+
+/// The table of a surface, from a file of so many degrees at the specular direction.
+pub(super) fn table(f: Scattering, step: f64) -> Distribution {
+    let read = read_ddr(ddr(f, &SpecularGrid::with_step(step)).as_bytes(), Way::Reflection);
+    let bsdf = read.unwrap().bsdf;
+    bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone()
+}
+
+/// At the stored incidences; the file is bilinear, and so is the table: second order.
+#[test]
+fn tables_approach_the_closed_form() {
+    for (name, f, finest) in [("rough", rough as Scattering, 0.003), ("glossy", glossy, 0.009)] {
+        for theta_deg in [0.0, 10.0, 30.0, 60.0, 80.0] {
+            let points: Vec<[f64; 2]> = [2.0_f64, 1.0, 0.5]
+                .into_iter()
+                .map(|step| {
+                    let off = difference(f, &table(f, step), direction(theta_deg, 25.0));
+                    [libm::log(step), libm::log(off)]
+                })
+                .collect();
+            let order = least_squares_slope(&points);
+            let last = libm::exp(points[2][1]);
+            println!("{name} at {theta_deg} degrees: order {order:.2}, {last:.4} at half a degree");
+            assert!(order > 1.5, "{name} at {theta_deg} degrees: order {order}");
+            assert!(last < finest, "{name} at {theta_deg} degrees: {last}");
+        }
+    }
+}
+
+/// What the warning states is the difference between the table and the file: of the order of that from the closed form.
+#[test]
+fn the_stated_error_is_that_of_resampling() {
+    let file = ddr(glossy, &SpecularGrid::with_step(1.0));
+    let read = read_ddr(file.as_bytes(), Way::Reflection).unwrap();
+    let warning = read.warnings.iter().find(|w| w.deviation() == Deviation::Resampled).unwrap();
+    assert_eq!((warning.line(), warning.column()), (8, 1));
+    let text = warning.to_string();
+    let (_, percent) = text.split_once("off by ").unwrap();
+    let stated: f64 = percent.split(' ').next().unwrap().parse().unwrap();
+    let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+    let found = 100.0 * difference(glossy, table, direction(30.0, 0.0));
+    assert!(stated > 0.1 * found && stated < 3.0 * found, "{stated} % stated, {found} % found");
+}
+
+#[test]
+fn lambert_keeps_its_albedo() {
+    let table = table(lambert, 4.0);
+    for theta_deg in [0.0, 5.0, 45.0, 70.0, 89.0] {
+        let wi = direction(theta_deg, -100.0);
+        assert!((table.albedo(wi)[0] - albedo(lambert, wi)).abs() < 2e-4);
+        assert!(difference(lambert, &table, wi) < 2e-4);
+    }
+    assert!(table.is_isotropic() && !table.is_coloured());
+}
+
+/// Three colours, two azimuths and a closing one, and albedos instead of scales.
+#[test]
+fn colours_planes_and_albedos_are_read() {
+    let values = "1 1 1 1 ".repeat(3);
+    let block = |name: &str, scale: &str| format!("{name} kbdf {scale} def {values} enddef\n");
+    let head = "TypeSym ASymmetrical 4D\nTypeColorModel RGB\nTypeData Luminance Relative\n\
+                psi 3 0 90 360 sigma 1 20 phi 2 0 180 theta 2 0 180\n";
+    let text = head.to_owned()
+        + &block("red", "0.5 0.1 9")
+        + &block("gre", "0.25 0.2 9")
+        + &block("blue", "0.125 0.3 9");
+    let read = read_bsdf_named("surface.DDT", text.as_bytes()).unwrap();
+    assert_eq!(read.bsdf.facts().format, BsdfFormat::Ddr);
+    assert!(read.bsdf.scattering(Side::Front, Way::Reflection).is_none());
+    let table = read.bsdf.scattering(Side::Front, Way::Transmission).unwrap();
+    assert!(table.is_coloured() && !table.is_isotropic());
+    assert_eq!(table.incidences().len(), 2);
+    for (phi_deg, expected) in [
+        (0.0, [0.5, 0.25, 0.125]),
+        (90.0, [0.1, 0.2, 0.3]),
+        (45.0, [0.3, 0.225, 0.2125]),
+        (225.0, [0.3, 0.225, 0.2125]),
+        // A third of the way from 90 to 360.
+        (180.0, [0.1 + 0.4 / 3.0, 0.2 + 0.05 / 3.0, 0.3 - 0.175 / 3.0]),
+    ] {
+        let found = table.albedo(direction(20.0, phi_deg));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-9, "{phi_deg}: {found} for {expected}");
+        }
+    }
+}
+
+/// A value at one place shows which way the angles go.
+#[test]
+fn angles_go_from_the_specular_direction_towards_the_normal() {
+    let text = "TypeSym ASymmetrical\nTypeColorModel BW\nsigma 1 50 phi 5 0 90 180 270 360\n\
+                theta 4 0 30 40 50\nbw def\n 0 0 0 0\n 0 1 1 0\n 0 0 0 0\n 0 0 0 0\n 0 0 0 0 enddef";
+    let read = read_ddr(text.as_bytes(), Way::Reflection).unwrap();
+    let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+    let wi = direction(50.0, 0.0);
+    let at = |phi| {
+        let wo = super::analytic::around_specular(50.0, 35.0, phi);
+        table.evaluate(wi, wo)[0] * PI
+    };
+    assert!((at(90.0) - 1.0).abs() < 0.1, "{}", at(90.0));
+    assert!([0.0, 180.0, 270.0].into_iter().all(|phi| at(phi) < 1e-12));
+}
+
+#[test]
+fn what_is_no_ddr_file_is_refused_with_its_place() {
+    let head = "TypeColorModel BW\nsigma 1 0\nphi 1 0\ntheta 2 0 90\n";
+    for (text, place, expected) in [
+        ("TypeSym DirSymmetrical".to_owned(), "1:9", "AxiSymmetrical"),
+        ("TypeColorModel spectral 31".to_owned(), "1:16", "BW or RGB"),
+        ("TypeData Intensity Absolute".to_owned(), "1:10", "Luminance"),
+        ("sigma 2 0 100".to_owned(), "1:11", "within 0 and 90 degrees"),
+        ("sigma 2 10 10".to_owned(), "1:12", "ascending"),
+        ("sigma 1.5 10".to_owned(), "1:7", "a count of sigma"),
+        ("colour red".to_owned(), "1:1", "TypeSym"),
+        ("phi 1 0\ntheta 1 0\nbw def".to_owned(), "3:1", "sigma before it"),
+        (format!("{head};; a comment\nred def 1 1 enddef"), "6:1", "the block bw"),
+        (format!("{head}bw def 1 enddef"), "5:10", "2: for each psi"),
+        (format!("{head}bw def 1 1 1 enddef"), "5:12", "enddef after 2 values"),
+        (format!("{head}bw kbdf 1 1 def"), "5:11", "def, before the values"),
+        (format!("{head}bw def 1"), "5:9", "a value"),
+    ] {
+        let error = read_ddr(text.as_bytes(), Way::Reflection).expect_err(&text);
+        assert!(error.to_string().starts_with(&format!("{place}: ")), "{text:?}: {error}");
+        assert!(error.expected().contains(expected), "{text:?}: {error}");
+    }
+}
