@@ -9,6 +9,9 @@ use damage::{Format, Outcome, Seeds, examine, examine_damaged};
 /// Damaged files of each format. `examples/mutate.rs` runs any number of them.
 const FILES: u64 = 100_000;
 
+/// Damaged surfaces: those that load are looked at from all sides, which takes longer.
+const SURFACES: u64 = 20_000;
+
 #[test]
 fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
     for format in Format::ALL {
@@ -16,12 +19,18 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
         for file in seeds.files() {
             examine(format, file);
         }
-        let mut read = 0;
-        for index in 0..FILES {
-            read += u64::from(examine_damaged(format, &seeds, index).is_read);
+        let (mut read, mut greatest_bytes) = (0, 0);
+        let files = if matches!(format, Format::Bsdf) { SURFACES } else { FILES };
+        for index in 0..files {
+            let Outcome { is_read, peak_bytes } = examine_damaged(format, &seeds, index);
+            read += u64::from(is_read);
+            greatest_bytes = greatest_bytes.max(peak_bytes);
         }
-        println!("{format:?}: {read} of {FILES} damaged files load, the others are refused");
-        assert!(read > FILES / 10 && read < FILES - FILES / 10, "{format:?}: {read} load");
+        println!(
+            "{format:?}: {read} of {files} damaged files load, the others are refused; at most \
+             {greatest_bytes} bytes allocated at one time"
+        );
+        assert!(read > files / 10 && read < files - files / 10, "{format:?}: {read} load");
     }
     for (name, bytes) in greedy_files() {
         for format in Format::ALL {
@@ -84,7 +93,45 @@ fn greedy_files() -> Vec<(&'static str, Vec<u8>)> {
     };
     let unlike =
         |n: usize| format!("<IESTM33-22>{}{}</IESTM33-22>", emitter(2 * n, 8), emitter(9, 2 * n));
+    // Surfaces: values of two letters, leaves of three, nodes as deep as they may be, and many incident directions.
+    let tree = |data: &str| {
+        format!(
+            "<WindowElement><Optical><Layer><DataDefinition><IncidentDataStructure>TensorTree4\
+             </IncidentDataStructure></DataDefinition><WavelengthData><Wavelength>Visible\
+             </Wavelength><WavelengthDataBlock><WavelengthDataDirection>Transmission Front\
+             </WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>\
+             {data}</ScatteringData></WavelengthDataBlock></WavelengthData></Layer></Optical>\
+             </WindowElement>"
+        )
+    };
+    let grid = format!("{{{}}}", "1 2 ".repeat(1 << 15));
+    let mut chain = "{1}".to_owned();
+    for _ in 0..11 {
+        chain = format!("{{{chain}{}}}", "{2}".repeat(15));
+    }
+    let leaf = |leaves: usize| format!("{{{}}}", "{1}".repeat(leaves));
+    let bushes = format!("{{{}}}", leaf(16).repeat(16));
+    let full = format!("{{{}}}", bushes.repeat(16));
+    let astm = |lines: String| format!("VARS theta_i,phi_i,theta_s,phi_s,R,G,B\n{lines}");
+    let angles = |i: usize| 1.5 * i as f64 / 4000.0;
+    let incident = astm((0..4000).map(|i| format!("{:.5},0,0.1,0,1,1,1\n", angles(i))).collect());
+    let planes: String = (0..2000)
+        .map(|i| format!("0,0,{:.5},0,1,1,1\n1,{:.5},0,0,1,1,1\n", angles(i), angles(i)))
+        .collect();
+    let sigmas = |count: usize| {
+        let head = format!("TypeColorModel RGB sigma {count} {}", list(count, 90.0));
+        let block = |name: &str| format!("{name} def {}enddef ", "1 ".repeat(count));
+        head + " phi 1 0 theta 1 0 " + &block("red") + &block("gre") + &block("blu")
+    };
     let texts = vec![
+        ("a tree of one grid", tree(&grid)),
+        ("a tree of single leaves", tree(&full)),
+        ("a tree of one branch", tree(&chain)),
+        ("nodes that never end", tree(&"{".repeat(LENGTH))),
+        ("an incident direction a line", incident),
+        ("as many planes as lines", astm(planes)),
+        ("a thousand lobes of one value", sigmas(1000)),
+        ("too many lobes", sigmas(100_000)),
         ("elements", xml("<b/>")),
         ("elements of one letter", xml("<b>x</b>")),
         ("attributes", xml(&format!("<b{attributes}/>"))),

@@ -10,6 +10,9 @@ use quasilux_sampling::warp::sample_disk;
 /// Directions of the look at reciprocity: squares of equal projected solid angle, so many a side.
 const DIRECTIONS_A_SIDE: usize = 12;
 
+/// They are turned by this, away from the edges that patches have at 45 degrees and the like.
+const TURN_RAD: f64 = 0.1;
+
 /// Figures of a measured surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BsdfAnalysis {
@@ -137,7 +140,11 @@ fn reciprocities(bsdf: &MeasuredBsdf) -> Vec<Reciprocity> {
 fn directions() -> Vec<DVec3> {
     let middle = |i: usize| (i as f64 + 0.5) / DIRECTIONS_A_SIDE as f64;
     let pairs = (0..DIRECTIONS_A_SIDE).flat_map(|i| (0..DIRECTIONS_A_SIDE).map(move |j| (i, j)));
-    let direction = |(i, j)| upwards(sample_disk([middle(i), middle(j)]));
+    let (sin, cos) = libm::sincos(TURN_RAD);
+    let direction = |(i, j)| {
+        let [x, y] = sample_disk([middle(i), middle(j)]);
+        upwards([cos * x - sin * y, sin * x + cos * y])
+    };
     pairs.map(direction).collect()
 }
 

@@ -24,7 +24,7 @@ const INCIDENCES: usize = 46;
 const HALF_KNOTS: [u8; 22] =
     [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 21, 24, 28, 32, 38, 46, 56, 68];
 
-/// Exit directions of one lobe, at most.
+/// Exit directions of one lobe, at most; of small files, as many as there are values.
 const DIRECTIONS: usize = 12_000;
 
 /// Reads a MERL file. Total: any bytes give a surface or an error; its place is the byte, counted from 1 in line 1.
@@ -84,7 +84,8 @@ fn table(measured: &Measured<'_>) -> Option<GriddedTable> {
     let lobe = |i: usize| {
         let wi = direction(incident_deg(i));
         let theta_rad = incident_deg(i).to_radians();
-        let knots = ExitKnots::around(theta_rad, &offsets, &[], false, DIRECTIONS);
+        let most = DIRECTIONS.min(measured.triples() / INCIDENCES);
+        let knots = ExitKnots::around(theta_rad, &offsets, &[], false, most);
         let values: Vec<[f64; 3]> = knots.directions().map(|wo| measured.value(wi, wo)).collect();
         let channel = |channel: usize| values.iter().map(|rgb| rgb[channel]).collect();
         Lobe::new(&knots, &[0, 1, 2].map(channel))

@@ -8,10 +8,15 @@
 mod mutator;
 mod random;
 mod samples;
+mod surface;
 
 pub(crate) use mutator::mutate;
 use peak_alloc::PeakAlloc;
-use quasilux_photometry::{Read, ReadError, most_read_memory_bytes, read_ies, read_ldt, read_tm33};
+use quasilux_photometry::bsdf::{ReadBsdf, read_bsdf};
+use quasilux_photometry::{
+    Read, ReadError, Warning, most_bsdf_memory_bytes, most_read_memory_bytes, read_ies, read_ldt,
+    read_tm33,
+};
 pub(crate) use random::Random;
 use std::path::Path;
 
@@ -27,6 +32,14 @@ pub(crate) enum Format {
     Ies,
     Ldt,
     Tm33,
+    /// Measured surfaces, of any format.
+    Bsdf,
+}
+
+/// What a reader makes of a file.
+pub(crate) enum Answer {
+    Luminaire(Read),
+    Surface(ReadBsdf),
 }
 
 /// What became of one file.
@@ -41,13 +54,22 @@ pub(crate) struct Outcome {
 pub(crate) struct Seeds(Vec<Vec<u8>>);
 
 impl Format {
-    pub(crate) const ALL: [Self; 3] = [Self::Ies, Self::Ldt, Self::Tm33];
+    pub(crate) const ALL: [Self; 4] = [Self::Ies, Self::Ldt, Self::Tm33, Self::Bsdf];
 
-    pub(crate) fn read(self, bytes: &[u8]) -> Result<Read, ReadError> {
+    pub(crate) fn read(self, bytes: &[u8]) -> Result<Answer, ReadError> {
         match self {
-            Self::Ies => read_ies(bytes),
-            Self::Ldt => read_ldt(bytes),
-            Self::Tm33 => read_tm33(bytes),
+            Self::Ies => read_ies(bytes).map(Answer::Luminaire),
+            Self::Ldt => read_ldt(bytes).map(Answer::Luminaire),
+            Self::Tm33 => read_tm33(bytes).map(Answer::Luminaire),
+            Self::Bsdf => read_bsdf(bytes).map(Answer::Surface),
+        }
+    }
+
+    /// The most memory that reading may take.
+    fn most_bytes(self, file_bytes: usize) -> usize {
+        match self {
+            Self::Ies | Self::Ldt | Self::Tm33 => most_read_memory_bytes(file_bytes),
+            Self::Bsdf => most_bsdf_memory_bytes(file_bytes),
         }
     }
 
@@ -57,6 +79,7 @@ impl Format {
             Self::Ies => ("ies", "ies"),
             Self::Ldt => ("ldt", "ldt"),
             Self::Tm33 => ("xml", "ies/tm33"),
+            Self::Bsdf => ("xml", "bsdf"),
         }
     }
 }
@@ -68,6 +91,7 @@ impl Seeds {
             Format::Ies => samples::ies(),
             Format::Ldt => samples::ldt(),
             Format::Tm33 => samples::tm33(),
+            Format::Bsdf => surface::samples(),
         })
     }
 
@@ -115,16 +139,23 @@ pub(crate) fn examine_damaged(format: Format, seeds: &Seeds, index: u64) -> Outc
 }
 
 /// Reads any bytes and checks the answer: no more memory than stated, messages with a place in the
-/// file, and a luminaire whose flux, samples and densities are numbers that fit each other.
+/// file, and a luminaire or a surface whose samples and densities are numbers that fit each other.
 pub(crate) fn examine(format: Format, bytes: &[u8]) -> Outcome {
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
     let answer = format.read(bytes);
     let peak_bytes = ALLOCATOR.peak_usage() - before;
-    let most = most_read_memory_bytes(bytes.len());
+    let most = format.most_bytes(bytes.len());
     assert!(peak_bytes <= most, "{peak_bytes} bytes for a file of {}, over {most}", bytes.len());
     match &answer {
-        Ok(read) => check_luminaire(read, bytes),
+        Ok(Answer::Luminaire(read)) => {
+            check_warnings(&read.warnings, bytes);
+            check_luminaire(read, bytes);
+        }
+        Ok(Answer::Surface(read)) => {
+            check_warnings(&read.warnings, bytes);
+            surface::check(&read.bsdf, &mut Random::new(bytes.len() as u64));
+        }
         Err(error) => check_message(error.line(), error.column(), &error.to_string(), bytes),
     }
     Outcome { is_read: answer.is_ok(), peak_bytes }
@@ -136,10 +167,13 @@ fn check_message(line: usize, column: usize, message: &str, bytes: &[u8]) {
     assert!(message.len() < 500, "{message}");
 }
 
-fn check_luminaire(read: &Read, bytes: &[u8]) {
-    for warning in &read.warnings {
+fn check_warnings(warnings: &[Warning], bytes: &[u8]) {
+    for warning in warnings {
         check_message(warning.line(), warning.column(), &warning.to_string(), bytes);
     }
+}
+
+fn check_luminaire(read: &Read, bytes: &[u8]) {
     let photometry = &read.photometry;
     let flux_lm = photometry.flux_lm();
     assert!(flux_lm.is_finite() && flux_lm >= 0.0, "{flux_lm} lm");

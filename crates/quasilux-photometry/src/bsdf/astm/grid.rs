@@ -1,7 +1,7 @@
 //! Records in any order to lobes on full grids.
 
 use super::Record;
-use crate::bsdf::gridded::{ExitKnots, GriddedTable, Lobe};
+use crate::bsdf::gridded::{ExitKnots, GriddedTable, Lobe, MOST_INCIDENCES};
 use crate::report::Position;
 use crate::{ReadError, Symmetry};
 use std::collections::BTreeMap;
@@ -9,9 +9,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Steps of angles in a radian: closer ones are the same.
 const STEPS: f64 = 1e5;
-
-/// Incident directions of one file: far above what is measured.
-const MOST_INCIDENCES: usize = 4096;
 
 /// An angle as a number that can be compared.
 type Key = i64;

@@ -2,12 +2,10 @@
 
 use super::Words;
 use crate::ReadError;
+use crate::bsdf::gridded::MOST_INCIDENCES;
 use crate::number::Written;
 use crate::report::{Position, quoted};
 use std::f64::consts::{PI, TAU};
-
-/// Incident directions of one file: far above what is measured.
-const MOST_INCIDENCES: usize = 1000;
 
 /// What stands before the values.
 #[derive(Debug)]

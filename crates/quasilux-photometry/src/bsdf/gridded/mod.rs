@@ -20,6 +20,9 @@ pub(super) use knots::{around, bracket};
 pub(super) use resample::{ExitKnots, table_error};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+/// Incident directions of one file: more than are measured, and few enough for the grids of their lobes.
+pub(super) const MOST_INCIDENCES: usize = 1000;
+
 /// Lobes over a grid of incident directions.
 #[derive(Clone, Debug)]
 pub struct GriddedTable {

@@ -28,7 +28,8 @@ fn ggx(alpha: f64, wi: DVec3, wo: DVec3) -> f64 {
     let half = (wi + wo).normalize();
     let a2 = alpha * alpha;
     let cos2 = half.z * half.z;
-    let d = a2 / (PI * (cos2 * (a2 - 1.0) + 1.0).powi(2));
+    let root = cos2 * (a2 - 1.0) + 1.0;
+    let d = a2 / (PI * root * root);
     // The masking term over the cosines stays finite at the horizon.
     let lambda = |z: f64| (a2 + (1.0 - a2) * z * z).sqrt();
     d * 0.5 / (wo.z * lambda(wi.z) + wi.z * lambda(wo.z))
@@ -59,7 +60,7 @@ impl SpecularGrid {
 
 /// A direction around the specular one, for an incident direction at azimuth 0.
 pub(super) fn around_specular(sigma: f64, theta: f64, phi: f64) -> DVec3 {
-    let (sin, cos) = sigma.to_radians().sin_cos();
+    let (sin, cos) = libm::sincos(sigma.to_radians());
     let local = super::direction(theta, phi);
     DVec3::new(cos * local.x - sin * local.z, local.y, sin * local.x + cos * local.z)
 }
@@ -103,7 +104,7 @@ pub(super) fn albedo(f: Scattering, wi: DVec3) -> f64 {
         for j in 0..COLUMNS {
             let phi_rad = 2.0 * PI * (f64::from(j) + 0.5) / f64::from(COLUMNS);
             let wo = Angles { theta_rad, phi_rad }.direction();
-            sum += f(wi, wo) * wo.z * theta_rad.sin() * cell;
+            sum += f(wi, wo) * wo.z * libm::sin(theta_rad) * cell;
         }
     }
     sum
@@ -115,7 +116,7 @@ pub(super) fn difference(f: Scattering, table: &Distribution, wi: DVec3) -> f64 
     for i in 0..90 {
         for j in 0..90 {
             let sine = ((f64::from(i) + 0.5) / 90.0).sqrt();
-            let wo = super::direction(sine.asin().to_degrees(), 4.0 * (f64::from(j) + 0.5));
+            let wo = super::direction(libm::asin(sine).to_degrees(), 4.0 * (f64::from(j) + 0.5));
             let exact = f(wi, wo);
             difference += (table.evaluate(wi, wo)[0] - exact).abs();
             sum += exact;

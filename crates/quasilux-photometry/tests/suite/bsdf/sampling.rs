@@ -139,7 +139,10 @@ impl Boxes {
 
 /// Squared sines between boxes.
 fn klems_sin2() -> [f64; 19] {
-    let end = |band: usize| libm::sin(KLEMS_DEG[band].to_radians()).powi(2);
+    let end = |band: usize| {
+        let sine = libm::sin(KLEMS_DEG[band].to_radians());
+        sine * sine
+    };
     std::array::from_fn(|i| match i % 2 {
         0 => end(i / 2),
         _ => 0.5 * (end(i / 2) + end(i / 2 + 1)),
