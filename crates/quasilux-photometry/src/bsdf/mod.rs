@@ -4,6 +4,19 @@
 //! and what passes, as a [`Distribution`]. Each kind of table keeps the cells that it was stored with; none is
 //! turned into another.
 //!
+//! ```
+//! use glam::DVec3;
+//! use quasilux_photometry::bsdf::{Side, Way, read_bsdf};
+//! let file = b"VARS theta_i,phi_i,theta_s,phi_s,BRDF\n0,0,0,0,0.2\n";
+//! let read = read_bsdf(file)?;
+//! let reflection = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+//! assert!((reflection.albedo(DVec3::Z)[0] - 0.2 * std::f64::consts::PI).abs() < 1e-3);
+//! let sample = reflection.sample(DVec3::Z, [0.3, 0.7]).unwrap();
+//! let weight = reflection.evaluate(DVec3::Z, sample.wo)[0] * sample.wo.z / sample.pdf_sr;
+//! assert!((weight - reflection.albedo(DVec3::Z)[0]).abs() < 1e-12);
+//! # Ok::<(), quasilux_photometry::ReadError>(())
+//! ```
+//!
 //! # Frame
 //! One frame for the whole sheet. `x` and `y` lie in it, the same two for both sides: seen from the back, with `y` up,
 //! `x` points to the right. A direction has unit length and points away from the sheet, and its `z` is the cosine of the

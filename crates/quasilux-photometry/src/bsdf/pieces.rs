@@ -36,19 +36,17 @@ impl<'t> Pieces<'t> {
         self.at
     }
 
-    /// Goes on by so many bytes.
+    /// Goes on by so many bytes. Line feed, carriage return and both together end a line.
     fn skip(&mut self, bytes: usize) -> &'t str {
         let (skipped, rest) = self.rest.split_at(bytes);
-        let mut characters = skipped.chars().chain(rest.chars().take(1)).peekable();
-        for _ in 0..skipped.chars().count() {
-            let character = characters.next();
-            let ends_line = match character {
-                Some('\r') => characters.peek() != Some(&'\n'),
-                _ => character == Some('\n'),
-            };
+        let following = skipped.bytes().skip(1).chain(rest.bytes().next());
+        let followed = skipped.bytes().zip(following.map(Some).chain([None]));
+        for (byte, next) in followed {
+            let ends_line = byte == b'\n' || byte == b'\r' && next != Some(b'\n');
             if ends_line {
                 self.at = Position { line: self.at.line + 1, column: 1 };
-            } else {
+            } else if byte & 0xC0 != 0x80 {
+                // Not inside a character of several bytes.
                 self.at.column += 1;
             }
         }
@@ -95,4 +93,26 @@ pub(super) fn value(piece: Written<'_>, warnings: &mut Warnings) -> Result<f64, 
         warnings.push(Deviation::NegativeScattering, piece.at, quoted(piece.text), expected);
     }
     Ok(if value < SMALLEST_VALUE { 0.0 } else { value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pieces(text: &str, style: Style) -> Vec<(&str, usize, usize)> {
+        let found = Pieces::new(text, Position { line: 5, column: 3 }, style);
+        found.map(|piece| (piece.text, piece.at.line, piece.at.column)).collect()
+    }
+
+    #[test]
+    fn pieces_know_their_places() {
+        let plain = pieces(" 1,2\r\n é3\r4\n\t5{6};7", Style::Plain);
+        let expected = [("1", 5, 4), ("2", 5, 6), ("é3", 6, 2), ("4", 7, 1), ("5{6};7", 8, 2)];
+        assert_eq!(plain, expected);
+        let braces = pieces("{1 }{", Style::Braces);
+        assert_eq!(braces, [("{", 5, 3), ("1", 5, 4), ("}", 5, 6), ("{", 5, 7)]);
+        let comments = pieces("1;; 2\n;3\n4 ;", Style::Comments);
+        assert_eq!(comments, [("1", 5, 3), ("4", 7, 1)]);
+        assert!(pieces(" ,\n", Style::Plain).is_empty());
+    }
 }

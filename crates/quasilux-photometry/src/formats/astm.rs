@@ -14,8 +14,8 @@
 //! Angles are in radians, polar ones from the normal; light is reflected like by a mirror where `phi_s` is half a turn from `phi_i`.
 //! Values are f in sr^-1, without a cosine. Lines may have any order, but each incident direction needs a full
 //! grid of exits; if several azimuths `phi_i` occur, each needs the same polar angles, else the surface is isotropic.
-//! Exit azimuths over half a turn from `phi_i` stand for both halves. f goes on to the normal and to the horizon as
-//! at the nearest polar angle. XYZ becomes linear RGB of ITU-R BT.709, cut at zero. Light is scattered by the front.
+//! Exit azimuths over half a turn from `phi_i` stand for both halves. f is linear between polar angles, and goes on to the
+//! normal and to the horizon as at the nearest one. XYZ becomes linear RGB of ITU-R BT.709, cut at zero. Light is scattered by the front.
 //!
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |

@@ -10,6 +10,12 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Steps of angles in a radian: closer ones are the same.
 const STEPS: f64 = 1e5;
 
+/// Widest gaps between polar angles of exits, from the best on.
+const WIDEST_RAD: [f64; 3] = [PI / 72.0, PI / 36.0, PI / 18.0];
+
+/// Exit directions of all lobes together, or as many as values where those are more.
+const LEAST_DIRECTIONS: usize = 1 << 18;
+
 /// An angle as a number that can be compared.
 type Key = i64;
 
@@ -72,9 +78,15 @@ pub(super) fn table(
         let expected = format!("{} polar angles for each of {azimuths} azimuths", thetas.len());
         return Err(ReadError::new(at, found, expected));
     }
+    let values: usize = incidences.values().map(|(_, exits)| exits.len()).sum();
+    let most = values.max(LEAST_DIRECTIONS) / incidences.len();
     let mut lobes = Vec::with_capacity(incidences.len());
     for (line, exits) in incidences.values() {
-        lobes.push(lobe(exits, is_coloured, Position { line: *line, column: 1 })?);
+        let at = Position { line: *line, column: 1 };
+        let lobe = rows(exits, at)?.refined(most).lobe(is_coloured);
+        lobes.push(lobe.ok_or_else(|| {
+            ReadError::new(at, "exit directions that make no grid", "ascending angles")
+        })?);
     }
     let theta_rad = thetas.into_iter().map(|theta| angle(theta).min(FRAC_PI_2)).collect();
     let phi_rad =
@@ -101,8 +113,54 @@ fn opposite(azimuth: Key) -> Key {
     (key(TAU) - azimuth) % key(TAU)
 }
 
-/// A lobe from a full grid of exits, whose azimuths are counted from the incident one.
-fn lobe(exits: &Exits, is_coloured: bool, at: Position) -> Result<Lobe, ReadError> {
+/// f at a grid of exit directions.
+struct Rows {
+    knots: ExitKnots,
+    /// All azimuths of the first polar angle, then of the next.
+    f: Vec<Vec<[f64; 3]>>,
+}
+
+impl Rows {
+    /// The same with f linear in between at narrower polar angles, as many directions as there may be: a lobe is linear in
+    /// f times the cosine.
+    fn refined(self, most: usize) -> Self {
+        let Self { knots, f } = self;
+        let columns = knots.phi_rad.len();
+        let parts =
+            |pair: &[f64], widest_rad: f64| ((pair[1] - pair[0]) / widest_rad).ceil().max(1.0);
+        let count = |widest_rad: f64| -> f64 {
+            knots.theta_rad.windows(2).map(|pair| parts(pair, widest_rad)).sum()
+        };
+        let fits = |widest_rad: &f64| count(*widest_rad) * columns as f64 <= most as f64;
+        let Some(widest_rad) = WIDEST_RAD.into_iter().find(fits) else {
+            return Self { knots, f };
+        };
+        let (mut theta_rad, mut finer) = (vec![], vec![]);
+        for (pair, ends) in knots.theta_rad.windows(2).zip(f.windows(2)) {
+            let parts = parts(pair, widest_rad);
+            for part in 0..parts as u32 {
+                let t = f64::from(part) / parts;
+                theta_rad.push((1.0 - t) * pair[0] + t * pair[1]);
+                let between = |(a, b): (&[f64; 3], &[f64; 3])| {
+                    [0, 1, 2].map(|channel| (1.0 - t) * a[channel] + t * b[channel])
+                };
+                finer.push(ends[0].iter().zip(&ends[1]).map(between).collect());
+            }
+        }
+        theta_rad.extend(knots.theta_rad.last());
+        finer.extend(f.last().cloned());
+        Self { knots: ExitKnots { theta_rad, ..knots }, f: finer }
+    }
+
+    fn lobe(&self, is_coloured: bool) -> Option<Lobe> {
+        let channel = |channel: usize| self.f.iter().flatten().map(|f| f[channel]).collect();
+        let channels: Vec<Vec<f64>> = (0..if is_coloured { 3 } else { 1 }).map(channel).collect();
+        Lobe::new(&self.knots, &channels)
+    }
+}
+
+/// A full grid of exits, whose azimuths are counted from the incident one.
+fn rows(exits: &Exits, at: Position) -> Result<Rows, ReadError> {
     let mut thetas: Vec<Key> = exits.keys().map(|(theta, _)| *theta).collect();
     thetas.dedup();
     let tilted = exits.keys().filter(|(theta, _)| *theta != 0);
@@ -113,9 +171,10 @@ fn lobe(exits: &Exits, is_coloured: bool, at: Position) -> Result<Lobe, ReadErro
         phis.push(0);
     }
     // The azimuths of half a turn stand for both halves; one alone for all.
-    if phis.len() > 2 && phis[0] == 0 && phis[1] >= key(PI) - 1 {
+    let is_other_half = phis[0] == 0 && phis.len() > 2 && phis[1] >= key(PI) - 1;
+    if is_other_half && phis[phis.len() - 1] > key(PI) + 10 {
         let mirrored = |(&(theta, phi), f): (&(Key, Key), &[f64; 3])| ((theta, opposite(phi)), *f);
-        return lobe(&exits.iter().map(mirrored).collect(), is_coloured, at);
+        return rows(&exits.iter().map(mirrored).collect(), at);
     }
     let is_half = phis[0] == 0 && (phis[phis.len() - 1] - key(PI)).abs() <= 1;
     let mut phi_rad: Vec<f64> = phis.iter().map(|&phi| angle(phi)).collect();
@@ -127,7 +186,7 @@ fn lobe(exits: &Exits, is_coloured: bool, at: Position) -> Result<Lobe, ReadErro
         }
         _ => Symmetry::Open,
     };
-    let mut rows: Vec<Vec<[f64; 3]>> = Vec::with_capacity(thetas.len() + 2);
+    let mut f: Vec<Vec<[f64; 3]>> = Vec::with_capacity(thetas.len() + 2);
     for &theta in &thetas {
         let pole = || exits.range((0, 0)..(1, 0)).next().map(|(_, f)| *f);
         let value = |&phi: &Key| {
@@ -136,7 +195,7 @@ fn lobe(exits: &Exits, is_coloured: bool, at: Position) -> Result<Lobe, ReadErro
             given.or_else(|| if theta == 0 { pole() } else { None })
         };
         let row: Option<Vec<[f64; 3]>> = phis.iter().map(value).collect();
-        rows.push(row.ok_or_else(|| {
+        f.push(row.ok_or_else(|| {
             let found = format!("{} exit directions for an incident one", exits.len());
             let (rows, columns) = (thetas.len(), phis.len());
             ReadError::new(
@@ -150,15 +209,11 @@ fn lobe(exits: &Exits, is_coloured: bool, at: Position) -> Result<Lobe, ReadErro
     // f goes on to the normal and to the horizon as at the nearest polar angle.
     if theta_rad[0] > 0.0 {
         theta_rad.insert(0, 0.0);
-        rows.insert(0, rows[0].clone());
+        f.insert(0, f[0].clone());
     }
     if theta_rad[theta_rad.len() - 1] < FRAC_PI_2 {
         theta_rad.push(FRAC_PI_2);
-        rows.push(rows[rows.len() - 1].clone());
+        f.push(f[f.len() - 1].clone());
     }
-    let channel = |channel: usize| rows.iter().flatten().map(|f| f[channel]).collect();
-    let channels: Vec<Vec<f64>> = (0..if is_coloured { 3 } else { 1 }).map(channel).collect();
-    let knots = ExitKnots { theta_rad, phi_rad, symmetry };
-    Lobe::new(&knots, &channels)
-        .ok_or_else(|| ReadError::new(at, "exit directions that make no grid", "ascending angles"))
+    Ok(Rows { knots: ExitKnots { theta_rad, phi_rad, symmetry }, f })
 }

@@ -219,11 +219,34 @@ fn half(cell: u32, level: usize) -> usize {
 
 /// The half that `u` falls into, by the shares of both; `u` becomes its place in that half.
 fn choose(u: &mut f64, [lower, upper]: [f64; 2]) -> usize {
-    let probability = lower / (lower + upper);
-    if lower > 0.0 && (*u < probability || upper <= 0.0) {
-        *u = (*u / probability).min(1.0);
+    let target = *u * (lower + upper);
+    if lower > 0.0 && (target < lower || upper <= 0.0) {
+        *u = (target / lower).min(1.0);
         return 0;
     }
-    *u = ((*u - probability) / (1.0 - probability)).clamp(0.0, 1.0);
+    *u = ((target - lower) / upper).clamp(0.0, 1.0);
     1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Also where the shares are so unlike that their sum is the greater one.
+    #[test]
+    fn a_half_without_light_is_never_chosen() {
+        for (u, shares, expected) in [
+            (0.25, [1.0, 1.0], (0, 0.5)),
+            (0.75, [1.0, 1.0], (1, 0.5)),
+            (0.0, [0.0, 1.0], (1, 0.0)),
+            (1.0, [1.0, 0.0], (0, 1.0)),
+            (1.0, [1e18, 0.1], (1, 0.0)),
+            (1.0, [0.1, 1e18], (1, 1.0)),
+            (0.0, [0.1, 1e18], (0, 0.0)),
+        ] {
+            let mut place = u;
+            let half = choose(&mut place, shares);
+            assert_eq!((half, place), expected, "{u} of {shares:?}");
+        }
+    }
 }
