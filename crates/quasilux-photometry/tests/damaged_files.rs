@@ -32,6 +32,7 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
         );
         assert!(read > files / 10 && read < files - files / 10, "{format:?}: {read} load");
     }
+    assert_tables_are_small();
     for (name, bytes) in greedy_files() {
         for format in Format::ALL {
             let Outcome { is_read, peak_bytes } = examine(format, &bytes);
@@ -39,6 +40,51 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
             println!("{name} as {format:?}: {ratio:.1} bytes a byte, loads: {is_read}");
         }
     }
+}
+
+/// Bytes a byte that tables as programs write them may take: 200 MB of them less than 2 GiB.
+const MOST_OF_TABLES: f64 = 10.0;
+
+fn assert_tables_are_small() {
+    for (name, bytes) in [("a matrix", matrix()), ("a tree", tree_of_grids())] {
+        let Outcome { is_read, peak_bytes } = examine(Format::Bsdf, &bytes);
+        let ratio = peak_bytes as f64 / bytes.len() as f64;
+        println!("{name} of {} bytes: {ratio:.1} bytes a byte", bytes.len());
+        assert!(is_read && ratio < MOST_OF_TABLES, "{name}: {ratio} bytes a byte, {is_read}");
+    }
+}
+
+/// A million values over a basis of a thousand patches.
+fn matrix() -> Vec<u8> {
+    let basis = "<AngleBasis><AngleBasisName>b</AngleBasisName><AngleBasisBlock><ThetaBounds>\
+                 <UpperTheta>90</UpperTheta></ThetaBounds><nPhis>1000</nPhis></AngleBasisBlock>\
+                 </AngleBasis>";
+    let of_block = "<ColumnAngleBasis>b</ColumnAngleBasis><RowAngleBasis>b</RowAngleBasis>";
+    let values: String =
+        (0..1_000_000).map(|i| format!("{:.8},", f64::from(i % 997) / 3e3)).collect();
+    surface("Columns", basis, of_block, &values)
+}
+
+/// Sixteen grids of 16^4 values.
+fn tree_of_grids() -> Vec<u8> {
+    let of_block = "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>";
+    let grid = |n: u32| -> String {
+        (0..1 << 16).map(|i| format!("{:.8} ", f64::from((i + n) % 997) / 3e3)).collect()
+    };
+    let grids: String = (0..16).map(|n| format!("{{ {}}}\n", grid(n))).collect();
+    surface("TensorTree4", "", of_block, &format!("{{ {grids} }}"))
+}
+
+/// A WINDOW file with one transmission.
+fn surface(structure: &str, basis: &str, of_block: &str, data: &str) -> Vec<u8> {
+    format!(
+        "<WindowElement><Optical><Layer><DataDefinition><IncidentDataStructure>{structure}\
+         </IncidentDataStructure>{basis}</DataDefinition><WavelengthData><Wavelength>Visible\
+         </Wavelength><WavelengthDataBlock><WavelengthDataDirection>Transmission Front\
+         </WavelengthDataDirection>{of_block}<ScatteringData>{data}</ScatteringData>\
+         </WavelengthDataBlock></WavelengthData></Layer></Optical></WindowElement>"
+    )
+    .into_bytes()
 }
 
 /// Files that ask for much memory in few bytes.
@@ -95,14 +141,8 @@ fn greedy_files() -> Vec<(&'static str, Vec<u8>)> {
         |n: usize| format!("<IESTM33-22>{}{}</IESTM33-22>", emitter(2 * n, 8), emitter(9, 2 * n));
     // Surfaces: values of two letters, leaves of three, nodes as deep as they may be, and many incident directions.
     let tree = |data: &str| {
-        format!(
-            "<WindowElement><Optical><Layer><DataDefinition><IncidentDataStructure>TensorTree4\
-             </IncidentDataStructure></DataDefinition><WavelengthData><Wavelength>Visible\
-             </Wavelength><WavelengthDataBlock><WavelengthDataDirection>Transmission Front\
-             </WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>\
-             {data}</ScatteringData></WavelengthDataBlock></WavelengthData></Layer></Optical>\
-             </WindowElement>"
-        )
+        let of_block = "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>";
+        String::from_utf8(surface("TensorTree4", "", of_block, data)).unwrap()
     };
     let grid = format!("{{{}}}", "1 2 ".repeat(1 << 15));
     let mut chain = "{1}".to_owned();

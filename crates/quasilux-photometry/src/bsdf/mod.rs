@@ -25,7 +25,8 @@
 //! `wo = (-wi.x, -wi.y, wi.z)`, and so has light that a mirror reflects.
 //!
 //! The front is the side that a file calls so. In WINDOW files it faces outdoors and Radiance takes the back for the
-//! side that the normal points to (`doc/notes/BSDFdirections.txt`).
+//! side that the normal points to (`doc/notes/BSDFdirections.txt`). Files of one measured side, all other formats, have it in front
+//! and count azimuths counterclockwise as seen from there, from `-x` of this frame on: from the right, with `y` up.
 
 mod analysis;
 mod astm;

@@ -5,6 +5,9 @@
 //! isotropic, two by azimuth, each turned about the normal so that its plane of incidence is that of `wi`. The albedo is the
 //! mixture of the integrals.
 //!
+//! Files with lobes measure one side, the front, and count azimuths counterclockwise as seen from there. In the frame of the
+//! sheet that is clockwise: the `x` of a lobe is `-x` of the sheet.
+//!
 //! Sampling picks a lobe by its share of the albedo with `u[0]`, which is renormalised, and inverts that lobe. The
 //! density is that of the whole mixture, f cos(theta) over the albedo: each sample weighs the same, and nothing is biased. What it
 //! costs is strata: up to four maps share the unit square, so that a sequence fills each with a part of its points,
@@ -14,7 +17,7 @@ mod knots;
 mod resample;
 
 use super::distribution::{INSIDE, LUMINANCE_WEIGHTS, ScatterSample};
-use crate::{Grid, SphericalTable};
+use crate::{Angles, Grid, SphericalTable};
 use glam::DVec3;
 pub(super) use knots::{around, bracket};
 pub(super) use resample::{ExitKnots, table_error};
@@ -48,7 +51,7 @@ pub(super) struct Lobe {
 struct Mixture<'t> {
     lobes: [&'t Lobe; 4],
     weights: [f64; 4],
-    /// Cosine and sine of the azimuth of `wi`: lobes are stored with it at 0.
+    /// Cosine and sine of the azimuth of `wi` as seen from the front: lobes are stored with it at 0.
     turn: [f64; 2],
 }
 
@@ -125,7 +128,7 @@ impl GriddedTable {
 
     pub(super) fn value(&self, wi: DVec3, wo: DVec3) -> [f64; 3] {
         let mixture = self.mixture(wi);
-        let wo_of_lobe = turned_back(wo, mixture.turn);
+        let wo_of_lobe = turned(wo, mixture.turn);
         let g = mixture.sum(|lobe| lobe.g(wo_of_lobe));
         g.map(|g| if g > 0.0 { g / wo.z } else { 0.0 })
     }
@@ -158,13 +161,13 @@ impl GriddedTable {
     pub(super) fn pdf_sr(&self, wi: DVec3, wo: DVec3) -> f64 {
         let mixture = self.mixture(wi);
         let total: f64 = mixture.shares().iter().sum();
-        if total > 0.0 { mixture.luminance(turned_back(wo, mixture.turn)) / total } else { 0.0 }
+        if total > 0.0 { mixture.luminance(turned(wo, mixture.turn)) / total } else { 0.0 }
     }
 
     /// Of the coordinates that lead to `wo`, those of the lobe that is the brightest there.
     pub(super) fn invert(&self, wi: DVec3, wo: DVec3) -> Option<[f64; 2]> {
         let mixture = self.mixture(wi);
-        let direction = turned_back(wo, mixture.turn);
+        let direction = turned(wo, mixture.turn);
         let at_wo =
             [0, 1, 2, 3].map(|i| mixture.weights[i] * mixture.lobes[i].luminance.value(direction));
         let brightest = (0..4).max_by(|&a, &b| at_wo[a].total_cmp(&at_wo[b]))?;
@@ -177,17 +180,19 @@ impl GriddedTable {
 
     pub(super) fn incidences(&self) -> Vec<DVec3> {
         let of_azimuth = |&phi_rad: &f64| {
-            self.theta_rad
-                .iter()
-                .map(move |&theta_rad| crate::Angles { theta_rad, phi_rad }.direction())
+            let at = move |&theta_rad: &f64| Angles { theta_rad, phi_rad }.direction();
+            self.theta_rad.iter().map(at)
         };
+        if !self.is_isotropic() {
+            return self.phi_rad.iter().flat_map(of_azimuth).map(as_in_file).collect();
+        }
         self.phi_rad.iter().flat_map(of_azimuth).collect()
     }
 
     fn mixture(&self, wi: DVec3) -> Mixture<'_> {
         let horizontal = (wi.x * wi.x + wi.y * wi.y).sqrt();
         let turn =
-            if horizontal > 0.0 { [wi.x / horizontal, wi.y / horizontal] } else { [1.0, 0.0] };
+            if horizontal > 0.0 { [-wi.x / horizontal, wi.y / horizontal] } else { [1.0, 0.0] };
         let thetas = bracket(&self.theta_rad, libm::atan2(horizontal, wi.z));
         let phis = if self.is_isotropic() {
             [(0, 1.0), (0, 0.0)]
@@ -227,13 +232,15 @@ fn luminance(rgb: [f64; 3]) -> f64 {
     rgb.iter().zip(LUMINANCE_WEIGHTS).map(|(channel, weight)| channel * weight).sum()
 }
 
+/// A direction in the frame of the lobes, from one of the sheet; and the other way round.
 fn turned(direction: DVec3, [cos, sin]: [f64; 2]) -> DVec3 {
     let DVec3 { x, y, z } = direction;
     // Rounding at the horizon must not lead below it.
-    DVec3::new(cos * x - sin * y, sin * x + cos * y, z.max(0.0))
+    DVec3::new(sin * y - cos * x, sin * x + cos * y, z.max(0.0))
 }
 
-fn turned_back(direction: DVec3, [cos, sin]: [f64; 2]) -> DVec3 {
-    let DVec3 { x, y, z } = direction;
-    DVec3::new(cos * x + sin * y, cos * y - sin * x, z)
+/// A direction in the frame of the file, which is seen from the front, from one of the sheet; and the other way
+/// round.
+fn as_in_file(direction: DVec3) -> DVec3 {
+    DVec3::new(-direction.x, direction.y, direction.z)
 }

@@ -5,7 +5,7 @@
 //! mirror direction, and around the normal at azimuths of the same distances. The horizon is an edge of the grid.
 
 use super::super::distribution::upwards;
-use super::{GriddedTable, luminance};
+use super::{GriddedTable, as_in_file, luminance};
 use crate::{Angles, Symmetry};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -97,7 +97,7 @@ fn knots(wanted: impl Iterator<Item = f64>, last: f64, widest: f64) -> Vec<f64> 
 }
 
 /// The mean of |f - f'| over the mean of f', f' the exact function, at incident directions and at exits of equal
-/// projected solid angle.
+/// projected solid angle, both in the frame of the file.
 pub(in crate::bsdf) fn table_error(
     table: &GriddedTable,
     incidences: &[DVec3],
@@ -111,7 +111,8 @@ pub(in crate::bsdf) fn table_error(
             for j in 0..SIDE {
                 let wo = upwards(quasilux_sampling::warp::sample_disk([middle(i), middle(j)]));
                 let exact = luminance(exact(wi, wo));
-                difference += (luminance(table.value(wi, wo)) - exact).abs();
+                difference +=
+                    (luminance(table.value(as_in_file(wi), as_in_file(wo))) - exact).abs();
                 sum += exact;
             }
         }

@@ -1,7 +1,7 @@
 //! ASTM E1392 files made from closed forms.
 
 use super::analytic::{Scattering, difference, lambert, rough};
-use super::direction;
+use super::{direction, from_front};
 use quasilux_photometry::Deviation;
 use quasilux_photometry::bsdf::{BsdfFormat, Distribution, Side, Way, read_astm, read_bsdf};
 use std::f64::consts::FRAC_PI_2;
@@ -71,7 +71,7 @@ fn planes_of_incidence_are_told_apart() {
     let table = table(&text);
     assert!(!table.is_isotropic());
     let f = |theta_rad: f64, phi_deg| {
-        table.evaluate(direction(theta_rad.to_degrees(), phi_deg), direction(20.0, 0.0))[0]
+        table.evaluate(from_front(theta_rad.to_degrees(), phi_deg), direction(20.0, 0.0))[0]
     };
     for (found, expected) in
         [(f(0.0, 0.0), 0.1), (f(1.0, 0.0), 0.2), (f(1.0, 90.0), 0.3), (f(1.0, 45.0), 0.25)]
