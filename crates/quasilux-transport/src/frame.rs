@@ -26,6 +26,15 @@ impl Frame {
         }
     }
 
+    /// The frame around a unit vector whose y axis is `up` in so far as it is square to that vector; any frame around it
+    /// where nothing of `up` is.
+    pub(crate) fn upright(n: DVec3, up: DVec3) -> Self {
+        match (up - n * n.dot(up)).try_normalize() {
+            Some(bitangent) => Self { tangent: bitangent.cross(n), bitangent, n },
+            None => Self::around(n),
+        }
+    }
+
     /// A local direction in world coordinates.
     pub(crate) fn to_world(self, local: DVec3) -> DVec3 {
         self.tangent * local.x + self.bitangent * local.y + self.n * local.z
@@ -43,13 +52,21 @@ mod tests {
 
     #[test]
     fn frames_are_orthonormal() {
+        let up = DVec3::new(0.3, -1.2, 2.0);
         for n in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::new(0.6, -0.64, 0.48)] {
-            let frame = Frame::around(n);
-            let [x, y, z] = DVec3::AXES.map(|axis| frame.to_world(axis));
-            assert!((x.cross(y) - z).length() < 1e-15 && (z - n).length() < 1e-15);
-            assert!((x.length() - 1.0).abs() < 1e-15 && x.dot(y).abs() < 1e-15);
-            let direction = DVec3::new(0.48, 0.6, -0.64);
-            assert!((frame.to_local(frame.to_world(direction)) - direction).length() < 1e-15);
+            let upright = Frame::upright(n, up);
+            assert!(upright.to_local(up).x.abs() < 1e-15 && upright.to_local(up).y > 0.0);
+            are_orthonormal(upright, n);
+            are_orthonormal(Frame::around(n), n);
         }
+        are_orthonormal(Frame::upright(DVec3::Z, DVec3::NEG_Z), DVec3::Z);
+    }
+
+    fn are_orthonormal(frame: Frame, n: DVec3) {
+        let [x, y, z] = DVec3::AXES.map(|axis| frame.to_world(axis));
+        assert!((x.cross(y) - z).length() < 1e-15 && (z - n).length() < 1e-15);
+        assert!((x.length() - 1.0).abs() < 1e-15 && x.dot(y).abs() < 1e-15);
+        let direction = DVec3::new(0.48, 0.6, -0.64);
+        assert!((frame.to_local(frame.to_world(direction)) - direction).length() < 1e-15);
     }
 }

@@ -220,7 +220,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let Some(at) = at else { return false };
         self.add_emitted(stage, bounces, at);
         let bsdf = stage.world.bsdf(at);
-        let frame = at.frame();
+        let frame = stage.world.frame(at);
         let wo = frame.to_local(-self.direction);
         let goes_on = self.beta * bsdf.albedo(wo, at.front);
         let is_last = stage.max_bounces.is_some_and(|most| bounces >= most);

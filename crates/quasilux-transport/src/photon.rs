@@ -299,7 +299,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             counts.lost += self.quanta();
             return counts.end(&self);
         };
-        let (bsdf, frame) = (stage.world.bsdf(at), at.frame());
+        let (bsdf, frame) = (stage.world.bsdf(at), stage.world.frame(at));
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
         let left = (self.weight * bsdf.albedo(wo, at.front)).luminance();
@@ -370,7 +370,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         }
         self.trail = self.trail.after(&stage.images, bsdf, at.facet, next.wi.z > 0.0);
         let from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
-        Some(Emission { from, direction: at.frame().to_world(next.wi) })
+        Some(Emission { from, direction: world.frame(at).to_world(next.wi) })
     }
 
     /// Its flux.

@@ -41,7 +41,7 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         direction: DVec3,
         beta: S,
     ) -> Self {
-        let (bsdf, frame) = (world.bsdf(at), at.frame());
+        let (bsdf, frame) = (world.bsdf(at), world.frame(at));
         let behind = bsdf.transmits().then(|| world.vantage_behind(at));
         let wo = frame.to_local(-direction);
         let surface = Surface { bsdf, frame, wo, front: at.front, behind };

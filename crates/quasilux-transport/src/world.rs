@@ -148,6 +148,11 @@ impl<S: Spectrum> World<S> {
         self.bsdf_of(self.facet(at))
     }
 
+    /// The local frame of that on the side that was hit.
+    pub(crate) fn frame(&self, at: &Interaction) -> Frame {
+        self.bsdf(at).up().map_or_else(|| Frame::around(at.n), |up| Frame::upright(at.n, up))
+    }
+
     /// How a facet scatters.
     pub(crate) fn bsdf_of(&self, facet: &Facet) -> &Bsdf<S> {
         &self.bsdfs[facet.material as usize]
@@ -367,12 +372,5 @@ impl Vantage {
     pub(crate) fn sight(&self, direction: DVec3, distance_m: f64, target: u32) -> Shot {
         let ray = Ray::new(self.position, direction).up_to(distance_m * (1.0 - SHORTENING));
         Shot { ray, excluded: [self.facet, target] }
-    }
-}
-
-impl Interaction {
-    /// The local frame on the side that was hit.
-    pub(crate) fn frame(&self) -> Frame {
-        Frame::around(self.n)
     }
 }

@@ -129,6 +129,16 @@ impl Way {
 }
 
 impl MeasuredBsdf {
+    /// A surface of tables that a program made; the last one counts where several are for the same side and way.
+    pub fn from_tables(
+        facts: BsdfFacts,
+        tables: impl IntoIterator<Item = (Side, Way, Distribution)>,
+    ) -> Self {
+        let mut surface = Self::new(facts);
+        tables.into_iter().for_each(|(side, way, table)| surface.set(side, way, table));
+        surface
+    }
+
     /// A surface that scatters nothing yet.
     pub(crate) fn new(facts: BsdfFacts) -> Self {
         Self { facts, scattering: [[None, None], [None, None]] }

@@ -4,6 +4,7 @@ mod angular_table;
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod measured;
 mod mirror;
 mod pane;
 mod plastic;
@@ -13,6 +14,7 @@ pub use angular_table::{AngularNode, AngularTable};
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use measured::Measured;
 pub use mirror::Mirror;
 pub use pane::Pane;
 pub use plastic::Plastic;
@@ -21,7 +23,7 @@ pub use translucent::Translucent;
 use crate::Rgb;
 
 /// How a surface scatters light. Both sides scatter alike, but for the inside of a
-/// [`Bsdf::Dielectric`].
+/// [`Bsdf::Dielectric`] and those of a [`Bsdf::Measured`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bsdf {
     /// Lambertian reflection.
@@ -38,6 +40,8 @@ pub enum Bsdf {
     Conductor(Conductor),
     /// A diffuse base under a rough clear coat.
     Plastic(Plastic),
+    /// A sheet of which tables were measured.
+    Measured(Measured),
 }
 
 impl Bsdf {
@@ -51,6 +55,7 @@ impl Bsdf {
             Self::Pane(_) => "pane",
             Self::Conductor(_) => "conductor",
             Self::Plastic(_) => "plastic",
+            Self::Measured(_) => "bsdf",
         }
     }
 
@@ -61,7 +66,11 @@ impl Bsdf {
             Self::Diffuse(diffuse) => Some(diffuse.reflectance),
             Self::Mirror(mirror) => Some(mirror.reflectance),
             Self::Translucent(translucent) => Some(translucent.reflectance),
-            Self::Dielectric(_) | Self::Pane(_) | Self::Conductor(_) | Self::Plastic(_) => None,
+            Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => None,
         }
     }
 
@@ -78,13 +87,18 @@ impl Bsdf {
             Self::Pane(Pane::Tinted { transmittance, .. }) => transmittance.is_grey(),
             Self::Conductor(conductor) => conductor.reflectance.is_grey(),
             Self::Plastic(plastic) => plastic.reflectance.is_grey(),
+            Self::Measured(measured) => measured.is_grey(),
         }
     }
 
     /// Whether light passes through to the other side.
     #[must_use]
-    pub const fn transmits(&self) -> bool {
-        matches!(self, Self::Translucent(_) | Self::Dielectric(_) | Self::Pane(_))
+    pub fn transmits(&self) -> bool {
+        match self {
+            Self::Translucent(_) | Self::Dielectric(_) | Self::Pane(_) => true,
+            Self::Diffuse(_) | Self::Mirror(_) | Self::Conductor(_) | Self::Plastic(_) => false,
+            Self::Measured(measured) => measured.transmits(),
+        }
     }
 
     /// Of the light that meets it, the most that is not absorbed, for whatever direction but grazing
@@ -99,6 +113,7 @@ impl Bsdf {
             Self::Pane(pane) => pane.most_kept(),
             Self::Conductor(conductor) => conductor.reflectance,
             Self::Plastic(plastic) => plastic.reflectance,
+            Self::Measured(measured) => Rgb::grey(measured.most_kept()),
         }
     }
 

@@ -1,9 +1,10 @@
 //! The material of each name: what the project file says, then what geometry files say.
 
+use super::measured::MeasuredFiles;
 use crate::bsdf::Diffuse;
 use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, Geometry};
-use crate::project::{LightEntry, MaterialEntry, Project};
-use crate::{Bsdf, LoadError, Material, Rgb, Warning};
+use crate::project::{LightEntry, MaterialEntry, Project, Scattering};
+use crate::{Bsdf, Files, LoadError, Material, Rgb, Warning};
 
 /// Reflectance of what nobody defines.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
@@ -12,6 +13,7 @@ const DEFAULT_REFLECTANCE: f64 = 0.5;
 pub(super) fn resolve(
     project: &Project,
     geometry: &Geometry,
+    files: &dyn Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, LoadError> {
     let names = || geometry.materials.iter().map(|material| material.name.as_str());
@@ -29,12 +31,23 @@ pub(super) fn resolve(
     let default = entry_of(project, DEFAULT_MATERIAL);
     let mut triangles = vec![0_u64; geometry.materials.len()];
     geometry.mesh.material_of.iter().for_each(|&material| triangles[material as usize] += 1);
-    let materials = geometry.materials.iter().zip(triangles).map(|(material, count)| {
+    let mut measured = MeasuredFiles::new(project, files);
+    let mut materials = Vec::new();
+    for ((number, material), count) in (0..).zip(&geometry.materials).zip(triangles) {
+        let mut bsdf_of =
+            |entry: &MaterialEntry, warnings: &mut Vec<Warning>| match &entry.scattering {
+                Scattering::Described(bsdf) => Ok(bsdf.clone()),
+                Scattering::Measured { file, up } => {
+                    let sheet = measured.read(file, up.as_ref(), warnings)?;
+                    measured.must_lie_across(up.as_ref(), &geometry.mesh, number)?;
+                    Ok(Bsdf::Measured(sheet))
+                }
+            };
         let bsdf = match (entry_of(project, &material.name), material.reflectance) {
-            (Some(entry), _) => entry.bsdf.clone(),
+            (Some(entry), _) => bsdf_of(entry, warnings)?,
             (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
             (None, None) => {
-                let bsdf = default.map_or_else(grey, |entry| entry.bsdf.clone());
+                let bsdf = default.map_or_else(|| Ok(grey()), |entry| bsdf_of(entry, warnings))?;
                 if count > 0 {
                     warnings.push(undefined(material, count, &bsdf));
                 }
@@ -42,9 +55,9 @@ pub(super) fn resolve(
             }
         };
         warn_of_emission(project, material, warnings);
-        Material { name: material.name.clone(), bsdf }
-    });
-    Ok(materials.collect())
+        materials.push(Material { name: material.name.clone(), bsdf });
+    }
+    Ok(materials)
 }
 
 /// Names for a message, a few at most.

@@ -2,6 +2,7 @@
 
 mod lights;
 mod materials;
+mod measured;
 mod photometry;
 
 use crate::project::{Project, SimulationSection};
@@ -41,7 +42,7 @@ pub fn load(
     let project = Project::parse(project_name, project_bytes)?;
     let mut warnings = Vec::new();
     let geometry = geometry::read(&project, files, &mut warnings)?;
-    let materials = materials::resolve(&project, &geometry, &mut warnings)?;
+    let materials = materials::resolve(&project, &geometry, files, &mut warnings)?;
     let lights = lights::place(&project, &geometry, files, &mut warnings)?;
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();

@@ -55,12 +55,12 @@ pub(super) fn read(
     }
 }
 
-fn load_error(file: &str, error: &ReadError) -> LoadError {
+pub(super) fn load_error(file: &str, error: &ReadError) -> LoadError {
     let place = Place { line: error.line(), column: error.column() };
     LoadError::new(file, Some(place), error.message())
 }
 
-fn passed_on(file: &str, warning: &quasilux_photometry::Warning) -> Warning {
+pub(super) fn passed_on(file: &str, warning: &quasilux_photometry::Warning) -> Warning {
     let place = Place { line: warning.line(), column: warning.column() };
     Warning::new(file, Some(place), warning.message())
 }

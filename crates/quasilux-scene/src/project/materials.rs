@@ -4,18 +4,20 @@ use super::document::{Section, Value};
 use super::pane;
 use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Placed, Rgb};
+use glam::DVec3;
 
 /// What each kind may hold beside `kind`.
-const KINDS: [(&str, &[&str]); 6] = [
+const KINDS: [(&str, &[&str]); 7] = [
     ("diffuse", &["reflectance", "transmittance"]),
     ("mirror", &["reflectance"]),
     ("dielectric", &["eta"]),
     ("pane", &["eta", "transmittance", "reflectance"]),
     ("conductor", &["reflectance", "roughness", "alpha"]),
     ("plastic", &["reflectance", "eta", "roughness", "alpha"]),
+    ("bsdf", &["file", "up"]),
 ];
-const PLANNED_KINDS: [&str; 3] = ["bsdf", "glossy", "phong"];
-const PLANNED_KEYS: [&str; 3] = ["bsdf", "specular", "texture"];
+const PLANNED_KINDS: [&str; 2] = ["glossy", "phong"];
+const PLANNED_KEYS: [&str; 2] = ["specular", "texture"];
 
 /// Of glass, and of most plastics and varnishes.
 const DEFAULT_ETA: f64 = 1.5;
@@ -24,13 +26,30 @@ const DEFAULT_ETA: f64 = 1.5;
 const LEAST_ROUGHNESS: f64 = 0.02;
 const LEAST_ALPHA: f64 = 0.0004;
 
+/// What `file` is.
+const FILE_NAME: &str = "the name of a file with a measured BSDF";
+const UP: &str = "a direction [x, y, z] with a length";
+
 pub(super) const SHARES: &str = "a number or [r, g, b] within 0 to 1";
 
 /// One material.
 #[derive(Clone, Debug)]
 pub(crate) struct MaterialEntry {
     pub(crate) name: Placed<String>,
-    pub(crate) bsdf: Bsdf,
+    pub(crate) scattering: Scattering,
+}
+
+/// How a material scatters light.
+#[derive(Clone, Debug)]
+pub(crate) enum Scattering {
+    /// By the project file alone.
+    Described(Bsdf),
+    /// By the tables of a file.
+    Measured {
+        file: Placed<String>,
+        /// Where the `y` axis of the tables points.
+        up: Option<Placed<DVec3>>,
+    },
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> {
@@ -42,16 +61,20 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> 
         .map(|(name, value)| {
             let section = value.section(format!("[materials.{}]", name.value))?;
             let name = Placed { value: name.value.to_owned(), place: name.place };
-            Ok(MaterialEntry { name, bsdf: bsdf(&section)? })
+            Ok(MaterialEntry { name, scattering: scattering(&section)? })
         })
         .collect()
 }
 
-fn bsdf(section: &Section<'_>) -> Result<Bsdf, LoadError> {
+fn scattering(section: &Section<'_>) -> Result<Scattering, LoadError> {
     let names = KINDS.map(|(name, _)| name);
     let kind = section.get("kind").map(|kind| kind.name(&names, &PLANNED_KINDS));
     let kind = kind.transpose()?.unwrap_or("diffuse");
     refuse_keys_of_other_kinds(section, kind)?;
+    if kind == "bsdf" { measured(section) } else { Ok(Scattering::Described(bsdf(section, kind)?)) }
+}
+
+fn bsdf(section: &Section<'_>, kind: &str) -> Result<Bsdf, LoadError> {
     Ok(match kind {
         "mirror" => Bsdf::Mirror(Mirror { reflectance: reflectance(section)? }),
         "dielectric" => Bsdf::Dielectric(Dielectric { eta: eta(section)? }),
@@ -67,6 +90,16 @@ fn bsdf(section: &Section<'_>) -> Result<Bsdf, LoadError> {
         }),
         _ => diffuse(section)?,
     })
+}
+
+fn measured(section: &Section<'_>) -> Result<Scattering, LoadError> {
+    let file = section.require("file", FILE_NAME)?;
+    let file = file.placed(file.string(FILE_NAME)?.to_owned());
+    let up = section.get("up").map(|value| match value.vector(UP)? {
+        DVec3::ZERO => Err(value.unexpected(UP)),
+        up => Ok(value.placed(up)),
+    });
+    Ok(Scattering::Measured { file, up: up.transpose()? })
 }
 
 fn refuse_keys_of_other_kinds(section: &Section<'_>, kind: &str) -> Result<(), LoadError> {

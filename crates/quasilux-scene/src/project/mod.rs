@@ -20,7 +20,7 @@ pub use simulation::SimulationSection;
 pub(crate) use cameras::CameraEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
-pub(crate) use materials::MaterialEntry;
+pub(crate) use materials::{MaterialEntry, Scattering};
 pub(crate) use sensors::SensorEntry;
 
 use crate::{LoadError, Place, Placed};

@@ -13,6 +13,7 @@ mod diffuse;
 mod fresnel;
 mod ggx;
 mod lobes;
+mod measured;
 mod mirror;
 mod pane;
 mod plastic;
@@ -27,6 +28,7 @@ use conductor::Conductor;
 use dielectric::Dielectric;
 use diffuse::Diffuse;
 use glam::DVec3;
+use measured::Measured;
 use mirror::Mirror;
 use plastic::Plastic;
 use quasilux_sampling::SampleCursor;
@@ -43,6 +45,7 @@ pub(crate) enum Bsdf<S> {
     Pane(Pane<S>),
     Conductor(Conductor<S>),
     Plastic(Plastic<S>),
+    Measured(Measured),
 }
 
 /// What travels.
@@ -95,6 +98,7 @@ impl<S: Spectrum> Bsdf<S> {
             In::Plastic(scene::Plastic { reflectance, eta, alpha }) => {
                 Self::Plastic(Plastic::new(S::from_rgb(*reflectance), *eta, *alpha))
             }
+            In::Measured(sheet) => Self::Measured(Measured::new(sheet.clone())),
         }
     }
 
@@ -102,9 +106,20 @@ impl<S: Spectrum> Bsdf<S> {
     pub(crate) fn is_specular(&self) -> bool {
         match self {
             Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => true,
-            Self::Diffuse(_) | Self::Translucent(_) | Self::Conductor(_) | Self::Plastic(_) => {
-                false
-            }
+            Self::Diffuse(_)
+            | Self::Translucent(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => false,
+        }
+    }
+
+    /// Where the local y axis points, in so far as it lies in the surface; `None` where the surface may
+    /// be turned in its plane.
+    pub(crate) fn up(&self) -> Option<DVec3> {
+        match self {
+            Self::Measured(measured) => measured.up(),
+            _ => None,
         }
     }
 
@@ -121,7 +136,11 @@ impl<S: Spectrum> Bsdf<S> {
 
     /// Whether light passes through to the other side by more than finitely many directions.
     pub(crate) fn transmits(&self) -> bool {
-        matches!(self, Self::Translucent(_))
+        match self {
+            Self::Translucent(_) => true,
+            Self::Measured(measured) => measured.transmits(),
+            _ => false,
+        }
     }
 
     /// What it mirrors of light that comes at this cosine, where all of the rest is absorbed or goes straight
@@ -143,7 +162,7 @@ impl<S: Spectrum> Bsdf<S> {
     }
 
     /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front side.
-    pub(crate) fn albedo(&self, wo: DVec3, _front: bool) -> S {
+    pub(crate) fn albedo(&self, wo: DVec3, front: bool) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.reflectance,
             Self::Mirror(mirror) => mirror.reflectance,
@@ -152,6 +171,7 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Pane(pane) => pane.albedo(wo),
             Self::Conductor(conductor) => conductor.albedo(wo),
             Self::Plastic(plastic) => plastic.albedo(wo),
+            Self::Measured(measured) => measured.albedo(wo, front),
         }
     }
 
@@ -181,28 +201,31 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Pane(pane) => pane.sample(wo, cursor),
             Self::Conductor(conductor) => conductor.sample(wo, cursor),
             Self::Plastic(plastic) => plastic.sample(wo, cursor),
+            Self::Measured(measured) => measured.sample(wo, front, mode, cursor),
         }
     }
 
     /// The scattering function f in sr^-1, without the cosine; 0 for mirror directions.
-    pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, _front: bool, _mode: Mode) -> S {
+    pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.evaluate(wi),
             Self::Translucent(translucent) => translucent.evaluate(wi),
             Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => S::black(),
             Self::Conductor(conductor) => conductor.evaluate(wo, wi),
             Self::Plastic(plastic) => plastic.evaluate(wo, wi),
+            Self::Measured(measured) => measured.evaluate(wo, wi, front, mode),
         }
     }
 
-    /// Density in sr^-1 with which [`Self::sample`] draws `wi`; 0 for mirror directions.
-    pub(crate) fn pdf_sr(&self, wo: DVec3, wi: DVec3, _front: bool) -> f64 {
+    /// Density in sr^-1 with which [`Self::sample`] draws `wi` for a path; 0 for mirror directions.
+    pub(crate) fn pdf_sr(&self, wo: DVec3, wi: DVec3, front: bool) -> f64 {
         match self {
             Self::Diffuse(diffuse) => diffuse.pdf_sr(wi),
             Self::Translucent(translucent) => translucent.pdf_sr(wi),
             Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => 0.0,
             Self::Conductor(conductor) => conductor.pdf_sr(wo, wi),
             Self::Plastic(plastic) => plastic.pdf_sr(wo, wi),
+            Self::Measured(measured) => measured.pdf_sr(wo, wi, front),
         }
     }
 }

@@ -118,7 +118,7 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         let own = &world.facets[facet as usize];
         let n = if front { own.front_normal } else { -own.front_normal };
         let centre = world.interaction_on(facet, front, [1.0 / 3.0; 3]);
-        let wo = centre.frame().to_local((self.position - centre.position).normalize());
+        let wo = world.frame(&centre).to_local((self.position - centre.position).normalize());
         let albedo = world.bsdf(&centre).albedo(wo, front).luminance();
         if albedo <= 0.0 {
             return (Vec::new(), 0);

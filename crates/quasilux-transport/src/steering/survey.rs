@@ -186,7 +186,7 @@ impl Survey {
                 let lit = stage.world.is_visible(vantage, direction, distance_m, end.facet);
                 let chance = choice.probability * f64::from(from.rays);
                 let share = cos * cos_end * areas_m2[choice.index] / (PI * distance_m * distance_m);
-                let local = start.frame().to_local(direction);
+                let local = stage.world.frame(start).to_local(direction);
                 let connection = Landing {
                     cell: choice.index as u32,
                     share: share / chance,
@@ -349,7 +349,7 @@ fn go_on<S: Spectrum>(
     let world = &stage.world;
     let u = invert_cosine_hemisphere(wi.abs().to_array()).map(|u| u as f32);
     let from = if wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
-    let start = Emission { from, direction: at.frame().to_world(wi) };
+    let start = Emission { from, direction: world.frame(at).to_world(wi) };
     Some(Flown { u, ..fly(stage, start, far_m, &mut cursor) })
 }
 
@@ -367,7 +367,7 @@ fn fly<S: Spectrum>(
         let rays = u64::from(passed) + 1;
         let nothing = Flown { u: [0.0; 2], found: None, rays };
         let Some(at) = world.trace(from, direction) else { return nothing };
-        let (bsdf, frame) = (world.bsdf(&at), at.frame());
+        let (bsdf, frame) = (world.bsdf(&at), world.frame(&at));
         if bsdf.keeps_illuminance() {
             return Flown {
                 u: [0.0; 2],

@@ -20,6 +20,7 @@ mod hall;
 mod images;
 mod joining;
 mod materials;
+mod measured;
 mod mirrored_light;
 mod scenes;
 mod snapshots;

@@ -1,0 +1,68 @@
+//! A measured sheet.
+
+use glam::DVec3;
+use quasilux_photometry::bsdf::{EnergyBalance, MeasuredBsdf, Side, Way};
+use std::sync::Arc;
+
+/// A thin sheet whose scattering was measured: tables for light that arrives on its two sides.
+///
+/// The front of the table is on the front of the facets.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    table: Arc<MeasuredBsdf>,
+    up: Option<DVec3>,
+    /// The share of diffuse light that is not absorbed, on the side where that is more.
+    most_kept: f64,
+}
+
+impl Measured {
+    /// The sheet of a table. `up` is the direction of the table's `y` axis, in so far as it lies in
+    /// a facet; `None` only where the table is isotropic.
+    #[must_use]
+    pub fn new(table: Arc<MeasuredBsdf>, up: Option<DVec3>) -> Self {
+        let kept = |side| {
+            let balance = EnergyBalance::of(&table, side)?;
+            Some(balance.diffuse.iter().sum())
+        };
+        let most_kept = Side::ALL.into_iter().filter_map(kept).fold(0.0, f64::max);
+        Self { table, up, most_kept }
+    }
+
+    /// How it scatters.
+    #[must_use]
+    pub fn table(&self) -> &MeasuredBsdf {
+        &self.table
+    }
+
+    /// The direction of the table's `y` axis in the world, of any length.
+    #[must_use]
+    pub const fn up(&self) -> Option<DVec3> {
+        self.up
+    }
+
+    /// Whether it treats all channels alike.
+    #[must_use]
+    pub fn is_grey(&self) -> bool {
+        !self.table.is_coloured()
+    }
+
+    /// Whether light passes through to the other side.
+    #[must_use]
+    pub fn transmits(&self) -> bool {
+        self.table.distributions().any(|(_, way, _)| way == Way::Transmission)
+    }
+
+    /// The share of diffuse light that is not absorbed, on the side where that is more; above 1 where the
+    /// table breaks the conservation of energy.
+    #[must_use]
+    pub const fn most_kept(&self) -> f64 {
+        self.most_kept
+    }
+}
+
+/// Of the same table, turned alike.
+impl PartialEq for Measured {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.table, &other.table) && self.up == other.up
+    }
+}

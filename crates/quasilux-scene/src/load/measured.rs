@@ -1,0 +1,82 @@
+//! Files of measured BSDFs, each read once.
+
+use super::photometry::{load_error, passed_on};
+use crate::bsdf::Measured;
+use crate::geometry::read_file;
+use crate::project::Project;
+use crate::{Files, LoadError, Mesh, Placed, Warning};
+use glam::DVec3;
+use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Facets must lean at least this far, in rad, from being square to where a table points up.
+const LEAST_LEAN_RAD: f64 = 1e-6;
+
+/// The files that a project names, as far as they were read.
+pub(super) struct MeasuredFiles<'a> {
+    project: &'a Project,
+    files: &'a dyn Files,
+    tables: HashMap<String, Arc<MeasuredBsdf>>,
+}
+
+impl<'a> MeasuredFiles<'a> {
+    pub(super) fn new(project: &'a Project, files: &'a dyn Files) -> Self {
+        Self { project, files, tables: HashMap::new() }
+    }
+
+    /// The sheet of a file; passes warnings on when it is read first.
+    pub(super) fn read(
+        &mut self,
+        file: &Placed<String>,
+        up: Option<&Placed<DVec3>>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Measured, LoadError> {
+        let name = file.value.as_str();
+        let table = match self.tables.get(name) {
+            Some(known) => Arc::clone(known),
+            None => {
+                let bytes = read_file(self.project, file, self.files)?;
+                let read = read_bsdf(&bytes).map_err(|error| load_error(name, &error))?;
+                warnings.extend(read.warnings.iter().map(|warning| passed_on(name, warning)));
+                let table = Arc::new(read.bsdf);
+                self.tables.insert(name.to_owned(), Arc::clone(&table));
+                table
+            }
+        };
+        if up.is_none() && !table.is_isotropic() {
+            let message = format!(
+                "\"{name}\" scatters differently when it is turned in its plane; expected up = [x, y, z], \
+                 where the table's upward direction points"
+            );
+            return Err(self.project.error(file.place, message));
+        }
+        Ok(Measured::new(table, up.map(|up| up.value)))
+    }
+
+    /// Refuses facets of a material that its upward direction stands on.
+    pub(super) fn must_lie_across(
+        &self,
+        up: Option<&Placed<DVec3>>,
+        mesh: &Mesh,
+        material: u32,
+    ) -> Result<(), LoadError> {
+        let Some(up) = up else { return Ok(()) };
+        let along = up.value.normalize();
+        let stands = |triangle: &u32| {
+            mesh.material_of[*triangle as usize] == material
+                && mesh.front_normal(*triangle).cross(along).length() < LEAST_LEAN_RAD
+        };
+        match (0..mesh.triangles.len() as u32).find(stands) {
+            None => Ok(()),
+            Some(triangle) => {
+                let [x, y, z] = mesh.corners(triangle)[0].to_array();
+                let message = format!(
+                    "\"up\" is square to the facet at ({x}, {y}, {z}); expected a direction that lies in \
+                     all facets of the material, or leans that way"
+                );
+                Err(self.project.error(up.place, message))
+            }
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! A measured sheet: what its tables say of both sides.
+//!
+//! Photons take the table of light that arrives as they do: its inverse transform draws their directions.
+//! Paths run against the light. They need f with the light coming from where they go, and draw that
+//! direction as if it did not matter which of the two comes first (Helmholtz reciprocity). Where tables
+//! differ in that, the two directions of f are what the file says for each, and a share of the paths'
+//! directions, the `doubt`, goes to all sides alike, so that none with light is missed.
+
+use super::BsdfSample;
+use super::Mode;
+use crate::spectrum::Spectrum;
+use glam::DVec3;
+use quasilux_photometry::bsdf::{Distribution, Reciprocity, Side, Way};
+use quasilux_sampling::SampleCursor;
+use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
+use quasilux_scene::{Rgb, bsdf as scene};
+
+/// Mean defects of reciprocity below this are rounding.
+const ROUNDING: f64 = 1e-6;
+/// The doubt is the mean defect, within these bounds.
+const LEAST_DOUBT: f64 = 0.05;
+const MOST_DOUBT: f64 = 0.5;
+
+/// The sheet.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    sheet: scene::Measured,
+    /// Of paths that look at a side, by the way that light reaches them.
+    doubt: [[f64; 2]; 2],
+}
+
+/// One way that light goes on.
+struct Lobe<'t> {
+    table: Option<&'t Distribution>,
+    /// The share of directions that do not come from the table.
+    doubt: f64,
+}
+
+impl Measured {
+    pub(super) fn new(sheet: scene::Measured) -> Self {
+        let table = sheet.table();
+        let doubt = |side: Side, way: Way| {
+            let there = table.scattering(source(side, way), way).is_some();
+            match (there, Reciprocity::of(table, side, way)) {
+                (false, _) => 0.0,
+                (true, None) => 1.0,
+                (true, Some(found)) if found.mean < ROUNDING => 0.0,
+                (true, Some(found)) => found.mean.clamp(LEAST_DOUBT, MOST_DOUBT),
+            }
+        };
+        let doubt = Side::ALL.map(|side| Way::ALL.map(|way| doubt(side, way)));
+        Self { sheet, doubt }
+    }
+
+    /// The direction in the world along which the local y axis lies.
+    pub(crate) fn up(&self) -> Option<DVec3> {
+        self.sheet.up()
+    }
+
+    pub(super) fn transmits(&self) -> bool {
+        self.sheet.transmits()
+    }
+
+    /// The share of light that goes on; an estimate of it where the tables are not reciprocal.
+    pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool) -> S {
+        let share = |way: Way| self.lobe(front, way, Mode::Radiance).share(in_table(wo, front));
+        let [reflected, passed] = Way::ALL.map(share);
+        S::from_rgb(reflected + passed)
+    }
+
+    pub(super) fn sample<S: Spectrum>(
+        &self,
+        wo: DVec3,
+        front: bool,
+        mode: Mode,
+        cursor: &mut SampleCursor<'_>,
+    ) -> Option<BsdfSample<S>> {
+        let from = in_table(wo, front);
+        let p_reflected = self.p_reflected(from, front, mode)?;
+        let is_reflected = cursor.choose_bool(p_reflected);
+        let way = if is_reflected { Way::Reflection } else { Way::Transmission };
+        let to = self.lobe(front, way, mode).sample(from, cursor)?;
+        let wi = out_of_table(to, front, way);
+        let pdf_sr = self.pdf_of(wo, wi, front, mode);
+        let value: S = self.evaluate(wo, wi, front, mode);
+        Some(BsdfSample { wi, weight: value * (wi.z.abs() / pdf_sr), pdf_sr: Some(pdf_sr) })
+    }
+
+    pub(super) fn evaluate<S: Spectrum>(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> S {
+        let (own, other) = (in_table(wo, front), in_table(wi, front));
+        let (side, way) = (side(front), way(wi));
+        let value = match mode {
+            Mode::Flux => self.sheet.table().scattering(side, way).map(|f| f.evaluate(own, other)),
+            Mode::Radiance => {
+                let table = self.sheet.table().scattering(source(side, way), way);
+                table.map(|f| f.evaluate(other, own))
+            }
+        };
+        value.map_or(S::black(), |rgb| S::from_rgb(Rgb(rgb)))
+    }
+
+    /// Of paths.
+    pub(super) fn pdf_sr(&self, wo: DVec3, wi: DVec3, front: bool) -> f64 {
+        self.pdf_of(wo, wi, front, Mode::Radiance)
+    }
+
+    fn pdf_of(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> f64 {
+        let (from, to) = (in_table(wo, front), in_table(wi, front));
+        let Some(p_reflected) = self.p_reflected(from, front, mode) else { return 0.0 };
+        let p = if wi.z > 0.0 { p_reflected } else { 1.0 - p_reflected };
+        p * self.lobe(front, way(wi), mode).pdf_sr(from, to)
+    }
+
+    /// By the light that goes each way; `None` where none does.
+    fn p_reflected(&self, from: DVec3, front: bool, mode: Mode) -> Option<f64> {
+        let share = |way: Way| self.lobe(front, way, mode).share(from).luminance();
+        let [reflected, passed] = Way::ALL.map(share);
+        let sum = reflected + passed;
+        (sum > 0.0).then(|| reflected / sum)
+    }
+
+    fn lobe(&self, front: bool, way: Way, mode: Mode) -> Lobe<'_> {
+        let side = side(front);
+        let table = self.sheet.table().scattering(side, way);
+        match mode {
+            Mode::Flux => Lobe { table, doubt: 0.0 },
+            Mode::Radiance => Lobe { table, doubt: self.doubt[side as usize][way as usize] },
+        }
+    }
+}
+
+impl Lobe<'_> {
+    /// The share of light from a direction that goes this way, as far as paths can know.
+    fn share(&self, from: DVec3) -> Rgb {
+        Rgb(self.albedo(from)) * (1.0 - self.doubt) + Rgb::grey(self.doubt)
+    }
+
+    fn albedo(&self, from: DVec3) -> [f64; 3] {
+        self.table.map_or([0.0; 3], |table| table.albedo(from))
+    }
+
+    /// How many of the directions come from the table.
+    fn p_table(&self, from: DVec3) -> f64 {
+        if self.doubt == 0.0 {
+            return 1.0;
+        }
+        let share = (1.0 - self.doubt) * Rgb(self.albedo(from)).luminance();
+        share / (share + self.doubt)
+    }
+
+    fn sample(&self, from: DVec3, cursor: &mut SampleCursor<'_>) -> Option<DVec3> {
+        let is_from_table = self.doubt == 0.0 || cursor.choose_bool(self.p_table(from));
+        let u = [cursor.rest_1d(), cursor.next_1d()];
+        match self.table.filter(|_| is_from_table) {
+            Some(table) => Some(table.sample(from, u)?.wo),
+            None => Some(sample_cosine_hemisphere(u).into()),
+        }
+    }
+
+    fn pdf_sr(&self, from: DVec3, to: DVec3) -> f64 {
+        let p_table = self.p_table(from);
+        let sharp = self.table.map_or(0.0, |table| table.pdf_sr(from, to));
+        p_table * sharp + (1.0 - p_table) * pdf_cosine_hemisphere(to.to_array())
+    }
+}
+
+/// The side that light arrives on which goes on from `side` after it went that way.
+fn source(side: Side, way: Way) -> Side {
+    match way {
+        Way::Reflection => side,
+        Way::Transmission => side.other(),
+    }
+}
+
+fn side(front: bool) -> Side {
+    if front { Side::Front } else { Side::Back }
+}
+
+fn way(wi: DVec3) -> Way {
+    if wi.z > 0.0 { Way::Reflection } else { Way::Transmission }
+}
+
+/// A local direction as tables have it. Their x axis points to the right for who sees the back, and z is positive on
+/// either side.
+fn in_table(local: DVec3, front: bool) -> DVec3 {
+    DVec3::new(if front { -local.x } else { local.x }, local.y, local.z.abs())
+}
+
+fn out_of_table(direction: DVec3, front: bool, way: Way) -> DVec3 {
+    let local = in_table(direction, front);
+    match way {
+        Way::Reflection => local,
+        Way::Transmission => DVec3::new(local.x, local.y, -local.z),
+    }
+}

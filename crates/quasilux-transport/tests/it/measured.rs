@@ -1,0 +1,179 @@
+//! Measured sheets: all estimators see the same light, and a table of a known surface is that surface.
+
+use crate::images::add_panel;
+use crate::scenes::{level_grid, points, room};
+use glam::DVec3;
+use quasilux_photometry::bsdf::{
+    AngleBasis, BsdfFacts, BsdfFormat, Distribution, KlemsTable, MeasuredBsdf, Side, Way, read_bsdf,
+};
+use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};
+use quasilux_scene::light::AreaLight;
+use quasilux_scene::{Bsdf, Light, Rgb, Scene};
+use quasilux_stats::{sidak, student_t_quantile};
+use quasilux_transport::{Estimates, Estimator, Settings, check, simulate};
+use std::path::Path;
+use std::sync::Arc;
+
+const REPLICATES: u32 = 32;
+
+/// A room with an emitting panel on one side of a wall of the sheet; looked at are two cells on either side and a point behind it.
+fn divided(sheet: Bsdf) -> Scene {
+    let mut scene = room(DVec3::ONE, Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(0.5) }));
+    add_panel(&mut scene, DVec3::new(0.5, 0.0, 0.0), DVec3::Y, DVec3::Z, sheet);
+    // A panel rather than a point: sharp lobes of sheets meet it often enough for paths.
+    let first = scene.mesh.triangles.len() as u32;
+    let (corner, black) =
+        (DVec3::new(0.05, 0.2, 0.9), Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK }));
+    add_panel(&mut scene, corner, DVec3::Y * 0.4, DVec3::X * 0.3, black);
+    let area_m2 = 0.4 * 0.3;
+    let (material, triangles) = (scene.mesh.material_of[first as usize], vec![first, first + 1]);
+    let light = AreaLight { material, triangles, area_m2, luminance_cd_m2: 1000.0 };
+    scene.lights = vec![Light::Area(light)];
+    scene.sensors = vec![
+        level_grid(DVec3::new(0.1, 0.1, 0.3), [0.3, 0.8], [1, 1]),
+        level_grid(DVec3::new(0.6, 0.1, 0.3), [0.3, 0.8], [1, 1]),
+        points("behind", &[(DVec3::new(0.7, 0.3, 0.6), DVec3::new(-0.8, 0.0, 0.6))]),
+    ];
+    scene
+}
+
+/// Values at the middles of the patches of a basis.
+fn table(value: impl Fn(DVec3, DVec3) -> f64) -> Distribution {
+    let basis = AngleBasis::known("LBNL/Klems Half").expect("a basis");
+    let middles: Vec<DVec3> = {
+        let even = KlemsTable::new(basis.clone(), basis.clone(), vec![1.0; 73 * 73]);
+        Distribution::Klems(even.expect("a table")).incidences()
+    };
+    let pairs = middles.iter().flat_map(|&wi| middles.iter().map(move |&wo| (wi, wo)));
+    let values = pairs.map(|(wi, wo)| value(wi, wo)).collect();
+    Distribution::Klems(KlemsTable::new(basis.clone(), basis, values).expect("a table"))
+}
+
+fn measured(tables: impl IntoIterator<Item = (Side, Way, Distribution)>) -> Bsdf {
+    let facts = BsdfFacts {
+        format: BsdfFormat::WindowKlems,
+        name: String::new(),
+        manufacturer: String::new(),
+        thickness_m: None,
+    };
+    let table = MeasuredBsdf::from_tables(facts, tables);
+    Bsdf::Measured(Measured::new(Arc::new(table), Some(DVec3::Z)))
+}
+
+fn estimates(scene: &Scene, estimator: Estimator, samples: u64) -> Vec<Mean> {
+    let settings = Settings {
+        estimator,
+        replicates: REPLICATES,
+        max_samples: Some(samples),
+        rel_tol: 0.0,
+        ..Settings::default()
+    };
+    let scene = match estimator {
+        // Photons are counted by cells.
+        Estimator::Photon => Scene { sensors: scene.sensors[..2].to_vec(), ..scene.clone() },
+        _ => scene.clone(),
+    };
+    assert_eq!(check(&scene, &settings), Ok(()));
+    let found = simulate(&scene, &settings, &mut ());
+    assert_eq!((found.invalid_contributions, found.biased), (0, false));
+    (0..scene.sensors.len()).map(|sensor| Mean::of(&found, sensor)).collect()
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Mean {
+    value_lx: f64,
+    standard_error_lx: f64,
+}
+
+impl Mean {
+    fn of(estimates: &Estimates, sensor: usize) -> Self {
+        let values: Vec<f64> =
+            estimates.sensors[sensor].replicate_lx.iter().map(|row| row[0]).collect();
+        let n = values.len() as f64;
+        let value_lx = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|x| (x - value_lx) * (x - value_lx)).sum();
+        Self { value_lx, standard_error_lx: (squares / (n * (n - 1.0))).sqrt() }
+    }
+}
+
+/// By Welch's t at a significance of 1 % for all pairs together (Sidak 1967); the joint half-width is asserted to be at
+/// most `widest` of the value.
+fn assert_alike(what: &str, pairs: &[(Mean, Mean)], widest: f64) {
+    for (a, b) in pairs {
+        let [x, y] = [a, b].map(|mean| mean.standard_error_lx * mean.standard_error_lx);
+        let degrees = f64::from(REPLICATES - 1) * (x + y) * (x + y) / (x * x + y * y);
+        let t = student_t_quantile(1.0 - sidak(0.01, pairs.len()), degrees);
+        let joint_lx = t * (x + y).sqrt();
+        assert!(joint_lx <= widest * a.value_lx, "{what}: known to {joint_lx} lx: {a:?}, {b:?}");
+        assert!((a.value_lx - b.value_lx).abs() <= joint_lx, "{what}: {a:?}, {b:?}");
+    }
+}
+
+/// Constant values are Lambert's without any error of the table.
+#[test]
+fn a_table_of_lambert_is_a_translucent_sheet() {
+    let [reflectance, transmittance] = [0.3, 0.4].map(Rgb::grey);
+    let known = divided(Bsdf::Translucent(Translucent { reflectance, transmittance }));
+    let even = |share: f64| table(move |_, _| share / std::f64::consts::PI);
+    let tables = Side::ALL.into_iter().flat_map(|side| {
+        [(side, Way::Reflection, even(0.3)), (side, Way::Transmission, even(0.4))]
+    });
+    let scene = divided(measured(tables));
+    let expected = estimates(&known, Estimator::Path, 1 << 12);
+    for (estimator, samples) in [
+        (Estimator::Path, 1 << 12),
+        (Estimator::Photon, 1 << 15),
+        (Estimator::Bidirectional, 1 << 10),
+    ] {
+        let found = estimates(&scene, estimator, samples);
+        let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
+        assert_alike(estimator.name(), &pairs, 0.03);
+    }
+}
+
+/// A sheet whose sides differ, that turns light to one side and up, and whose table does not care for reciprocity:
+/// photons take f as it is and paths the other way round.
+#[test]
+fn photons_and_paths_agree_on_sheets_that_break_reciprocity() {
+    let toward = |axis: DVec3, wo: DVec3, power: i32| wo.dot(axis.normalize()).max(0.0).powi(power);
+    let front = table(move |wi, wo| 0.3 * wi.z * toward(DVec3::new(0.5, 0.5, 1.0), wo, 4));
+    let back = table(move |_, wo| 0.2 + 0.1 * toward(DVec3::new(-0.3, 0.8, 0.6), wo, 8));
+    let through = table(move |wi, wo| {
+        0.9 * toward(DVec3::new(-wi.x, 0.7 - wi.y, wi.z + 0.2), wo, 12) + 0.02 * wi.x.max(0.0)
+    });
+    let scene = divided(measured([
+        (Side::Front, Way::Reflection, front),
+        (Side::Back, Way::Reflection, back.clone()),
+        (Side::Front, Way::Transmission, through.clone()),
+        (Side::Back, Way::Transmission, through),
+    ]));
+    assert_estimators_agree("made up", &scene, 0.06);
+}
+
+/// Blinds and prisms as others measured or computed them.
+#[test]
+fn photons_and_paths_agree_on_published_sheets() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
+    if !folder.exists() {
+        println!("no published surfaces in {}: skipped", folder.display());
+        return;
+    }
+    // The last one is so far from reciprocal that paths through it know little.
+    for (name, widest) in
+        [("klems-2011-SA1.xml", 0.1), ("klems-room-blinds.xml", 0.1), ("tt-room-blindsT3.xml", 0.8)]
+    {
+        let bytes = std::fs::read(folder.join(name)).expect("a file");
+        let table = Arc::new(read_bsdf(&bytes).expect("a surface").bsdf);
+        let sheet = Bsdf::Measured(Measured::new(table, Some(DVec3::Z)));
+        assert_estimators_agree(name, &divided(sheet), widest);
+    }
+}
+
+fn assert_estimators_agree(what: &str, scene: &Scene, widest: f64) {
+    let paths = estimates(scene, Estimator::Path, 1 << 12);
+    let photons = estimates(scene, Estimator::Photon, 1 << 15);
+    let both = estimates(scene, Estimator::Bidirectional, 1 << 10);
+    let pairs: Vec<(Mean, Mean)> =
+        paths.iter().copied().zip(photons).chain(paths.iter().copied().zip(both)).collect();
+    assert_alike(what, &pairs, widest);
+}
