@@ -1,9 +1,11 @@
 //! What can be said on the command line.
 
+mod bsdf;
 mod parts;
 mod photometry;
 mod points;
 
+pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use parts::{
     MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments,
 };
@@ -34,8 +36,8 @@ pub(crate) enum Command {
     Points(PointsArguments),
     /// Summarise, draw or convert luminaire files
     Photometry(PhotometryArguments),
-    /// Summarise or draw measured surfaces (not built yet)
-    Bsdf(NotBuilt),
+    /// Summarise or draw measured surfaces
+    Bsdf(BsdfArguments),
     /// Write down what a run of a fixed number of samples does, for shards: every point gets them all, whatever
     /// the tolerance
     Plan(PlanArguments),
@@ -159,12 +161,6 @@ pub(crate) struct ExperimentArguments {
     /// Seed of all randomisations; the first one where there are several
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct NotBuilt {
-    #[arg(hide = true, trailing_var_arg = true, allow_hyphen_values = true)]
-    _ignored: Vec<String>,
 }
 
 /// A share in (0, 1], as a number or with a percent sign.

@@ -32,11 +32,6 @@ impl Refusal {
     pub(crate) fn new(message: impl fmt::Display) -> Self {
         Self(message.to_string())
     }
-
-    /// Something that the design promises and this version lacks.
-    pub(crate) fn not_built(what: impl fmt::Display) -> Self {
-        Self(format!("{what} is not built yet"))
-    }
 }
 
 impl fmt::Display for Refusal {

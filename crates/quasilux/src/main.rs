@@ -24,7 +24,7 @@ mod whole;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use exit::{Exit, Refusal};
+use exit::Exit;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -34,7 +34,7 @@ fn main() -> ExitCode {
         Command::Experiment(arguments) => commands::experiment(&arguments),
         Command::Points(arguments) => commands::points(&arguments),
         Command::Photometry(arguments) => commands::photometry(&arguments),
-        Command::Bsdf(_) => Err(Refusal::not_built("quasilux bsdf")),
+        Command::Bsdf(arguments) => commands::bsdf(&arguments),
         Command::Plan(arguments) => commands::plan(&arguments),
         Command::Shard(arguments) => commands::shard(&arguments),
         Command::Merge(arguments) => commands::merge(&arguments),

@@ -1,7 +1,7 @@
 //! A luminaire's intensities over gamma: the polar diagram of data sheets, and a Cartesian one.
 
 use super::drawing::{Drawing, Frame};
-use super::polar::{Extent, Polar};
+use super::polar::{Extent, Polar, Zero};
 use super::style::{Anchor, GREY, Stroke, TextStyle};
 use super::{Axis, Line, Panel, Scale};
 
@@ -46,10 +46,10 @@ pub enum Diagram {
     Both,
 }
 
-const HEAD_PX: f64 = 58.0;
-const LEGEND_PX: f64 = 40.0;
+pub(super) const HEAD_PX: f64 = 58.0;
+pub(super) const LEGEND_PX: f64 = 40.0;
 const LEGEND_LINE_PX: f64 = 34.0;
-const MARGIN_PX: f64 = 14.0;
+pub(super) const MARGIN_PX: f64 = 14.0;
 const PANEL_PX: [f64; 2] = [440.0, 250.0];
 /// Widths of a small letter and of a capital, in heights: enough for the fonts that are asked for.
 const LETTER: f64 = 0.56;
@@ -60,7 +60,7 @@ const CAPITAL: f64 = 0.72;
 pub fn intensities(intensities: &Intensities<'_>) -> String {
     let Intensities { curves, sides, diagram, .. } = *intensities;
     let (factor, unit) = intensities.per_klm.map_or((1.0, "cd"), |factor| (factor, "cd/klm"));
-    let polar = Polar { curves, factor, unit, sides };
+    let polar = Polar { curves, factor, unit, sides, zero: Zero::Nadir };
     let [polar_width, polar_height] = polar.size_px();
     let [left, top, right, bottom] = Panel::MARGINS_PX;
     let panel_size = |height: f64| [PANEL_PX[0], height.max(PANEL_PX[1])];
@@ -73,7 +73,7 @@ pub fn intensities(intensities: &Intensities<'_>) -> String {
     };
     let mut drawing =
         Drawing::new([width + 2.0 * MARGIN_PX, HEAD_PX + height + LEGEND_PX + MARGIN_PX]);
-    draw_head(&mut drawing, intensities, width);
+    draw_head(&mut drawing, [intensities.title, intensities.subtitle], width);
     let mut x = MARGIN_PX;
     if diagram != Diagram::Cartesian {
         polar.draw(&mut drawing, [x, HEAD_PX + 0.5 * (height - polar_height)]);
@@ -101,9 +101,10 @@ fn panel(curves: &[IntensityCurve]) -> Panel {
     }
 }
 
-fn draw_head(drawing: &mut Drawing, intensities: &Intensities<'_>, width_px: f64) {
+/// A title, and what stands below it, smaller.
+pub(super) fn draw_head(drawing: &mut Drawing, [title, subtitle]: [&str; 2], width_px: f64) {
     for (y, size_px, colour, text) in
-        [(26.0, 16.0, None, intensities.title), (46.0, 12.0, Some(GREY), intensities.subtitle)]
+        [(26.0, 16.0, None, title), (46.0, 12.0, Some(GREY), subtitle)]
     {
         let plain = TextStyle::plain(Anchor::Start);
         let style = TextStyle { size_px, colour: colour.unwrap_or(plain.colour), ..plain };
@@ -121,7 +122,7 @@ fn shortened(text: &str, most: usize) -> String {
     format!("{}\u{2026}", kept.trim_end())
 }
 
-fn draw_legend(drawing: &mut Drawing, curves: &[IntensityCurve], y: f64) {
+pub(super) fn draw_legend(drawing: &mut Drawing, curves: &[IntensityCurve], y: f64) {
     let style = TextStyle::plain(Anchor::Start);
     let mut x = MARGIN_PX + 4.0;
     for curve in curves {

@@ -18,6 +18,15 @@ pub(super) enum Extent {
     Full,
 }
 
+/// Where angles are counted from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Zero {
+    /// From nadir alone, up to 180 degrees.
+    Nadir,
+    /// From nadir and from zenith, up to 90 degrees.
+    BothPoles,
+}
+
 /// A polar diagram to be drawn.
 pub(super) struct Polar<'a> {
     pub(super) curves: &'a [IntensityCurve],
@@ -27,6 +36,8 @@ pub(super) struct Polar<'a> {
     pub(super) unit: &'static str,
     /// What lies on the left and on the right side.
     pub(super) sides: [&'a str; 2],
+    /// Where the angles that are written start.
+    pub(super) zero: Zero,
 }
 
 const RADIUS_PX: f64 = 205.0;
@@ -125,7 +136,11 @@ impl Polar<'_> {
             let gamma_deg = first + f64::from(i * RAYS_DEG);
             drawing.line(&[centre, place(centre, RADIUS_PX, gamma_deg)], GRID);
             let [x, y] = place(centre, RADIUS_PX + 16.0, gamma_deg);
-            let named = if gamma_deg > 180.0 { 360.0 - gamma_deg } else { gamma_deg.abs() };
+            let from_nadir = if gamma_deg > 180.0 { 360.0 - gamma_deg } else { gamma_deg.abs() };
+            let named = match self.zero {
+                Zero::BothPoles => from_nadir.min(180.0 - from_nadir),
+                Zero::Nadir => from_nadir,
+            };
             drawing.text([x, y + 4.0], style, &format!("{named}\u{b0}"));
         }
     }

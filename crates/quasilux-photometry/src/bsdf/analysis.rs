@@ -148,7 +148,9 @@ fn directions() -> Vec<DVec3> {
     pairs.map(direction).collect()
 }
 
-fn luminance(rgb: [f64; 3]) -> f64 {
+/// Luminance of linear RGB (ITU-R BT.709); grey stays exactly what it is.
+#[must_use]
+pub fn luminance(rgb: [f64; 3]) -> f64 {
     // The weights add up to 1 but for rounding: grey stays what it is.
     if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
         return rgb[0];

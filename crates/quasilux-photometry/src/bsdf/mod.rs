@@ -41,7 +41,7 @@ mod read;
 mod tree;
 mod window_xml;
 
-pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity};
+pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity, luminance};
 pub use astm::read_astm;
 pub use ddr::read_ddr;
 pub use distribution::{Distribution, ScatterSample};

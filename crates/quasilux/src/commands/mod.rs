@@ -1,6 +1,9 @@
 //! One file a command.
 
+mod bsdf;
+mod drawings;
 mod experiment;
+mod inputs;
 mod merge;
 mod photometry;
 mod plan;
@@ -10,6 +13,7 @@ mod run;
 mod shard;
 mod validate;
 
+pub(crate) use bsdf::bsdf;
 pub(crate) use experiment::experiment;
 pub(crate) use merge::merge;
 pub(crate) use photometry::photometry;

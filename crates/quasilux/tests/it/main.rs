@@ -2,6 +2,7 @@
 
 mod area;
 mod bad_input;
+mod bsdf;
 mod cameras;
 mod direct;
 mod experiment;

@@ -8,6 +8,7 @@
 
 use super::input::{Input, Luminaire};
 use super::words::{self, degrees};
+use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
 use quasilux_measure::json;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
 use serde::Serialize;
@@ -32,22 +33,6 @@ struct FileEntry<'a> {
     error: Option<ErrorEntry<'a>>,
     luminaire: Option<LuminaireEntry>,
     warnings: Vec<WarningEntry>,
-}
-
-#[derive(Serialize)]
-struct ErrorEntry<'a> {
-    line: Option<usize>,
-    column: Option<usize>,
-    message: &'a str,
-}
-
-#[derive(Serialize)]
-struct WarningEntry {
-    rule: String,
-    line: usize,
-    column: usize,
-    count: usize,
-    message: String,
 }
 
 #[derive(Serialize)]
@@ -106,24 +91,12 @@ struct FluxCodeEntry {
 impl<'a> FileEntry<'a> {
     fn of(input: &'a Input) -> Self {
         let luminaire = input.luminaire.as_ref();
-        let error = luminaire.err().map(|failure| ErrorEntry {
-            line: failure.place.map(|[line, _]| line),
-            column: failure.place.map(|[_, column]| column),
-            message: &failure.message,
-        });
         let warnings = luminaire.map_or(&[][..], |luminaire| &luminaire.warnings);
-        let warning = |warning: &quasilux_photometry::Warning| WarningEntry {
-            rule: words::rule(warning),
-            line: warning.line(),
-            column: warning.column(),
-            count: warning.count(),
-            message: warning.message(),
-        };
         Self {
             file: &input.name,
-            error,
+            error: luminaire.err().map(Failure::entry),
             luminaire: luminaire.ok().map(LuminaireEntry::of),
-            warnings: warnings.iter().map(warning).collect(),
+            warnings: warnings.iter().map(WarningEntry::of).collect(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::input::{Input, Luminaire};
 use super::words::{self, degrees};
+use crate::commands::inputs::{printable, warning_line};
 use quasilux_measure::number::brief;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
 use quasilux_photometry::{Analysis, PhotometricType, Symmetry};
@@ -16,8 +17,7 @@ pub(super) fn summary(input: &Input, luminaire: &Luminaire) -> String {
         text += &format!("  {name:<15} {}\n", printable(&value));
     }
     for warning in &luminaire.warnings {
-        let line = format!("warning: {}:{warning} [{}]", input.name, words::rule(warning));
-        text += &printable(&line);
+        text += &warning_line(&input.name, warning);
         text.push('\n');
     }
     text
@@ -149,9 +149,4 @@ fn percent(share: f64) -> String {
 
 fn many(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
-/// Text without control characters: names come from files, and the terminal obeys what it is sent.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }

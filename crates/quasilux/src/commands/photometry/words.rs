@@ -2,7 +2,7 @@
 
 use quasilux_photometry::analysis::{FluxCode, Plane};
 use quasilux_photometry::{
-    IesStandard, LuminaireFacts, PhotometricType, Standard, Symmetry, Tm33Edition, Warning,
+    IesStandard, LuminaireFacts, PhotometricType, Standard, Symmetry, Tm33Edition,
 };
 use std::f64::consts::PI;
 
@@ -39,11 +39,6 @@ pub(super) fn symmetry(symmetry: Symmetry) -> &'static str {
 
 pub(super) fn plane(plane: Plane) -> &'static str {
     if plane == Plane::C0_C180 { "C0-C180" } else { "C90-C270" }
-}
-
-/// The rule's name, as `quasilux_photometry::Deviation` lists it.
-pub(super) fn rule(warning: &Warning) -> String {
-    format!("{:?}", warning.deviation())
 }
 
 /// The five figures of the CIE flux code.

@@ -59,7 +59,7 @@ fn commands_and_paths() {
                 .file("results", "")
                 .with(&["--out", "results/of/today"])
                 .says(&["results/of/today: ", "cannot write"]),
-            Case::new("a command to come").instead(&["bsdf", "x.xml"]).says(&["not built yet"]),
+            Case::new("a surface that is not there").instead(&["bsdf", "x.xml"]).says(&["x.xml: "]),
             Case::new("unknown experiment")
                 .instead(&["experiment", "octave"])
                 .says(&["octave", "octant"]),

@@ -1,0 +1,74 @@
+//! Where a surface sends light: polar diagrams of scattering lobes in the plane of incidence, the side of the light up.
+
+use super::drawing::Drawing;
+use super::intensities::{HEAD_PX, IntensityCurve, LEGEND_PX, MARGIN_PX, draw_head, draw_legend};
+use super::polar::{Polar, Zero};
+use super::style::{Anchor, Dash, GREY, Stroke, TextStyle};
+
+const SUBTITLE: &str = "f cos in the plane of incidence; dotted: where light comes from; up: reflected, down: transmitted";
+/// Room for what a diagram shows.
+const TITLE_PX: f64 = 18.0;
+
+/// The lobes of light that arrives on one side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LobeDiagram {
+    /// What stands above it.
+    pub title: String,
+    /// One for each direction that light comes from.
+    pub lobes: Vec<Lobe>,
+}
+
+/// Where light from one direction goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lobe {
+    /// The angle between that direction and the normal, in degrees; it is drawn to the left of the normal.
+    pub incidence_deg: f64,
+    /// f times the cosine, in sr^-1, over the angle from the normal that points down, -180 to 180 degrees, negative to
+    /// the left.
+    pub curve: IntensityCurve,
+}
+
+/// Diagrams side by side as an SVG file; those of one incidence have the same names and strokes in all of them.
+#[must_use]
+pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> String {
+    let curves: Vec<Vec<IntensityCurve>> = diagrams.iter().map(curves_and_rays).collect();
+    let polars: Vec<Polar<'_>> = curves.iter().map(|curves| polar(curves)).collect();
+    let sizes: Vec<[f64; 2]> = polars.iter().map(Polar::size_px).collect();
+    let width = sizes.iter().map(|[width, _]| width).sum::<f64>();
+    let height = sizes.iter().map(|[_, height]| *height).fold(0.0, f64::max);
+    let below = HEAD_PX + TITLE_PX + height + LEGEND_PX;
+    let mut drawing = Drawing::new([width.max(1.0) + 2.0 * MARGIN_PX, below + MARGIN_PX]);
+    draw_head(&mut drawing, [title, SUBTITLE], width);
+    let style = TextStyle { colour: GREY, ..TextStyle::plain(Anchor::Middle) };
+    let mut x = MARGIN_PX;
+    for ((diagram, polar), [width, own_height]) in diagrams.iter().zip(&polars).zip(sizes) {
+        let top = HEAD_PX + TITLE_PX + 0.5 * (height - own_height);
+        drawing.text([x + 0.5 * width, HEAD_PX + 8.0], style, &diagram.title);
+        polar.draw(&mut drawing, [x, top]);
+        x += width;
+    }
+    if let Some(diagram) = diagrams.first() {
+        let named: Vec<IntensityCurve> =
+            diagram.lobes.iter().map(|lobe| lobe.curve.clone()).collect();
+        draw_legend(&mut drawing, &named, below - 10.0);
+    }
+    drawing.finish(&format!("{title}: {SUBTITLE}"))
+}
+
+fn polar(curves: &[IntensityCurve]) -> Polar<'_> {
+    Polar { curves, factor: 1.0, unit: "sr^{-1}", sides: ["", ""], zero: Zero::BothPoles }
+}
+
+/// The lobes, and thin lines to where their light comes from, as long as the largest of the lobes.
+fn curves_and_rays(diagram: &LobeDiagram) -> Vec<IntensityCurve> {
+    let values = diagram.lobes.iter().flat_map(|lobe| &lobe.curve.points).map(|[_, value]| *value);
+    let largest = values.fold(0.0, f64::max);
+    let ray = |lobe: &Lobe| {
+        let gamma_deg = lobe.incidence_deg - 180.0;
+        let stroke = Stroke { width_px: 1.0, dash: Dash::Dotted, ..lobe.curve.stroke };
+        let points = vec![[gamma_deg, 0.0], [gamma_deg, largest]];
+        IntensityCurve { name: String::new(), points, stroke }
+    };
+    let lobes = diagram.lobes.iter().map(|lobe| lobe.curve.clone());
+    diagram.lobes.iter().map(ray).chain(lobes).collect()
+}

@@ -1,0 +1,156 @@
+//! The document in JSON, format "quasilux-bsdf/1", for programs.
+//!
+//! `files` has an entry for each file, in the order of the command line: its name in `file`, and either
+//! `surface` with its `warnings`, or `error`; the other is `null`. Shares are luminous and run from 0 to 1.
+//! Angles of incidence are those of the table: theta from the normal of the side that the light arrives on, phi from
+//! the x axis towards y, up.
+
+use super::input::{Input, Surface};
+use crate::arguments::Incidence;
+use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
+use quasilux_measure::json;
+use quasilux_photometry::bsdf::{Distribution, EnergyBalance, Reciprocity, Side, Way, luminance};
+use serde::Serialize;
+
+/// Name and version of the document's format.
+const FORMAT: &str = "quasilux-bsdf/1";
+
+/// The document, ending in a line feed.
+pub(super) fn document(inputs: &[Input]) -> String {
+    json::text(&Document { format: FORMAT, files: inputs.iter().map(FileEntry::of).collect() })
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format: &'static str,
+    files: Vec<FileEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct FileEntry<'a> {
+    file: &'a str,
+    error: Option<ErrorEntry<'a>>,
+    surface: Option<SurfaceEntry<'a>>,
+    warnings: Vec<WarningEntry>,
+}
+
+#[derive(Serialize)]
+struct SurfaceEntry<'a> {
+    format: &'static str,
+    name: &'a str,
+    manufacturer: &'a str,
+    thickness_m: Option<f64>,
+    is_isotropic: bool,
+    is_coloured: bool,
+    tables: Vec<TableEntry>,
+    energy: Vec<EnergyEntry>,
+    reciprocity: Vec<ReciprocityEntry>,
+}
+
+/// How light from one side goes one way.
+#[derive(Serialize)]
+struct TableEntry {
+    side: &'static str,
+    way: &'static str,
+    kind: &'static str,
+    incidences: Vec<IncidenceEntry>,
+}
+
+#[derive(Serialize)]
+struct IncidenceEntry {
+    theta_deg: f64,
+    phi_deg: f64,
+    /// Of the light from there, what goes this way.
+    share: f64,
+}
+
+#[derive(Serialize)]
+struct EnergyEntry {
+    side: &'static str,
+    normal_reflectance: f64,
+    normal_transmittance: f64,
+    diffuse_reflectance: f64,
+    diffuse_transmittance: f64,
+    most_scattered: f64,
+    most_scattered_at_deg: [f64; 2],
+}
+
+#[derive(Serialize)]
+struct ReciprocityEntry {
+    side: &'static str,
+    way: &'static str,
+    mean_defect: f64,
+    worst_defect: f64,
+}
+
+impl<'a> FileEntry<'a> {
+    fn of(input: &'a Input) -> Self {
+        let surface = input.surface.as_ref();
+        let warnings = surface.map_or(&[][..], |surface| &surface.warnings);
+        Self {
+            file: &input.name,
+            error: surface.err().map(Failure::entry),
+            surface: surface.ok().map(SurfaceEntry::of),
+            warnings: warnings.iter().map(WarningEntry::of).collect(),
+        }
+    }
+}
+
+impl<'a> SurfaceEntry<'a> {
+    fn of(Surface { bsdf, analysis, .. }: &'a Surface) -> Self {
+        let facts = bsdf.facts();
+        let table =
+            |(side, way, table): (Side, Way, &Distribution)| TableEntry::of(side, way, table);
+        Self {
+            format: facts.format.name(),
+            name: &facts.name,
+            manufacturer: &facts.manufacturer,
+            thickness_m: facts.thickness_m,
+            is_isotropic: bsdf.is_isotropic(),
+            is_coloured: bsdf.is_coloured(),
+            tables: bsdf.distributions().map(table).collect(),
+            energy: analysis.energy.iter().map(EnergyEntry::of).collect(),
+            reciprocity: analysis.reciprocity.iter().map(ReciprocityEntry::of).collect(),
+        }
+    }
+}
+
+impl TableEntry {
+    fn of(side: Side, way: Way, table: &Distribution) -> Self {
+        let incidence = |&wi: &_| {
+            let [theta_deg, phi_deg] = Incidence::of(wi).degrees();
+            IncidenceEntry { theta_deg, phi_deg, share: luminance(table.albedo(wi)) }
+        };
+        Self {
+            side: side.name(),
+            way: way.name(),
+            kind: table.kind(),
+            incidences: table.incidences().iter().map(incidence).collect(),
+        }
+    }
+}
+
+impl EnergyEntry {
+    fn of(balance: &EnergyBalance) -> Self {
+        Self {
+            side: balance.side.name(),
+            normal_reflectance: balance.normal[0],
+            normal_transmittance: balance.normal[1],
+            diffuse_reflectance: balance.diffuse[0],
+            diffuse_transmittance: balance.diffuse[1],
+            most_scattered: balance.worst,
+            most_scattered_at_deg: Incidence::of(balance.worst_wi).degrees(),
+        }
+    }
+}
+
+impl ReciprocityEntry {
+    fn of(found: &Reciprocity) -> Self {
+        Self {
+            side: found.side.name(),
+            way: found.way.name(),
+            mean_defect: found.mean,
+            worst_defect: found.worst,
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Files of measured surfaces, read by what is in them.
+
+use crate::commands::inputs::{Failure, bytes_of, name_of};
+use quasilux_photometry::Warning;
+use quasilux_photometry::bsdf::{BsdfAnalysis, MeasuredBsdf, read_bsdf};
+use std::path::Path;
+
+/// A file, and what came of it.
+pub(super) struct Input {
+    /// As the user names it.
+    pub(super) name: String,
+    /// The surface, or why there is none.
+    pub(super) surface: Result<Surface, Failure>,
+}
+
+/// A file that was read.
+pub(super) struct Surface {
+    pub(super) bsdf: MeasuredBsdf,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) analysis: BsdfAnalysis,
+}
+
+impl Input {
+    /// Reads and analyses a file.
+    pub(super) fn read(path: &Path) -> Self {
+        let name = name_of(path);
+        let surface = bytes_of(path).and_then(|bytes| {
+            let read = read_bsdf(&bytes).map_err(|error| Failure::of(&name, &error))?;
+            let analysis = BsdfAnalysis::of(&read.bsdf);
+            Ok(Surface { bsdf: read.bsdf, warnings: read.warnings, analysis })
+        });
+        Self { name, surface }
+    }
+}
