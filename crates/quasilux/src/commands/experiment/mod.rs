@@ -2,14 +2,17 @@
 //! built.
 
 mod batwing;
+mod bsdf_rejection;
 mod building;
 mod claim;
+mod closed_box;
 mod course;
 mod coverage;
 mod cube;
 mod dimension;
 mod emission;
 mod first_shot;
+mod flights;
 mod gain;
 mod neumann;
 mod octant;
@@ -25,7 +28,7 @@ use claim::Claim;
 use std::path::{Path, PathBuf};
 
 /// Experiments that can be run, with what they show.
-const BUILT: [Experiment; 9] = [
+const BUILT: [Experiment; 10] = [
     Experiment {
         name: "cube",
         shows: "the diffuse cube, tables 4 and 5 of the paper",
@@ -50,6 +53,12 @@ const BUILT: [Experiment; 9] = [
         shows: "inverse transform against rejection",
         takes: &[MAX_N],
         run: rejection::run,
+    },
+    Experiment {
+        name: "bsdf-rejection",
+        shows: "inverse transform against rejection on measured surfaces",
+        takes: COUNTED,
+        run: bsdf_rejection::run,
     },
     Experiment {
         name: "coverage",

@@ -48,7 +48,7 @@ impl Cube {
             let count = 16 * per_replicate;
             let used = |index| {
                 let mut cursor = SampleCursor::new(&points, index);
-                walk.photon(&mut cursor, |_| ());
+                walk.photon(&mut cursor, &mut |_| ());
                 u64::from(cursor.used())
             };
             (0..count).map(used).sum::<u64>() as f64 / count as f64

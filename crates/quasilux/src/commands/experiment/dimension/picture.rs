@@ -9,13 +9,11 @@ use quasilux_sampling::Sequence;
 
 /// The plot as an SVG file.
 pub(super) fn svg(setups: &[Setup]) -> String {
-    let points = |setup: &Setup| -> Vec<[f64; 2]> {
-        setup.errors.iter().map(|error| [error.photons as f64, error.rms()]).collect()
-    };
+    let points = |setup: &Setup| setup.flights.points();
     let values = |k: usize| setups.iter().flat_map(points).map(move |point| point[k]);
     let line = |setup: &Setup| Line { points: points(setup), stroke: stroke(setup) };
     let entry = |setup: &Setup| {
-        let text = format!("{}, {}", setup.sequence.name(), setup.name);
+        let text = format!("{}, {}", setup.flights.sequence.name(), setup.name);
         vec![LegendEntry { text, stroke: Some(stroke(setup)) }]
     };
     let panel = Panel {
@@ -36,7 +34,7 @@ pub(super) fn svg(setups: &[Setup]) -> String {
 fn stroke(setup: &Setup) -> Stroke {
     let place = Features::ALL.iter().position(|(_, features)| *features == setup.features);
     let colour = PALETTE[place.unwrap_or(0) % PALETTE.len()];
-    match setup.sequence {
+    match setup.flights.sequence {
         Sequence::Random => Stroke { dash: Dash::Dashed, ..Stroke::solid(colour, 1.5) },
         _ => Stroke::solid(colour, 2.5),
     }

@@ -10,13 +10,13 @@ use std::fmt::Write;
 pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
     let mut text = "scene,setup,sequence,mean_coordinates,n,rms_error\n".to_owned();
     for setup in setups {
-        for error in &setup.errors {
+        for error in &setup.flights.errors {
             writeln!(
                 text,
                 "room,{},{},{},{},{}",
                 setup.name,
-                setup.sequence.name(),
-                exact(setup.dimensions.mean()),
+                setup.flights.sequence.name(),
+                exact(setup.flights.dimensions.mean()),
                 error.photons,
                 exact(error.rms()),
             )
@@ -46,19 +46,19 @@ pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &
          coordinate to what hangs on it.\n\n| setup | coordinates |"
     )
     .expect("strings grow");
-    let counts = || setups[0].errors.iter().map(|error| error.photons);
+    let counts = || setups[0].flights.errors.iter().map(|error| error.photons);
     for n in counts() {
         write!(text, " N = {n} |").expect("strings grow");
     }
     writeln!(text, "\n|---|---:|{}", "---:|".repeat(counts().count())).expect("strings grow");
     for setup in setups {
-        let points = match setup.sequence {
+        let points = match setup.flights.sequence {
             Sequence::Random => "random",
             _ => "Sobol'",
         };
-        write!(text, "| {points}, {} | {:.2} |", setup.name, setup.dimensions.mean())
+        write!(text, "| {points}, {} | {:.2} |", setup.name, setup.flights.dimensions.mean())
             .expect("strings grow");
-        for error in &setup.errors {
+        for error in &setup.flights.errors {
             write!(text, " {:.3} % |", 100.0 * error.rms()).expect("strings grow");
         }
         text.push('\n');

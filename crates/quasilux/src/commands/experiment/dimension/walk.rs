@@ -1,6 +1,7 @@
 //! One photon's way, with each feature on or off.
 
-use super::room::{Hit, REFLECTANCE, Room};
+use super::room::{REFLECTANCE, Room};
+use crate::commands::experiment::closed_box::{ClosedBox, Hit};
 use crate::commands::experiment::emission::Method;
 use glam::DVec3;
 use quasilux_sampling::SampleCursor;
@@ -42,10 +43,10 @@ impl Features {
 
 impl Walk<'_> {
     /// Sends a photon, and tells of every cell that it lands in.
-    pub(super) fn photon(&self, cursor: &mut SampleCursor<'_>, mut landed: impl FnMut(usize)) {
+    pub(super) fn photon(&self, cursor: &mut SampleCursor<'_>, landed: &mut dyn FnMut(usize)) {
         let (mut origin, mut direction) = self.start(cursor);
         loop {
-            let hit = self.room.hit(origin, direction);
+            let hit = ClosedBox::hit(origin, direction);
             landed(hit.cell);
             match self.reflected(&hit, cursor) {
                 Some(on) => (origin, direction) = (hit.position, on),

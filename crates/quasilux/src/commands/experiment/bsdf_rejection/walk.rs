@@ -1,0 +1,122 @@
+//! One photon's way between walls of one table.
+
+use crate::commands::experiment::closed_box::{ClosedBox, HALF_M};
+use glam::DVec3;
+use quasilux_photometry::bsdf::{AngleBasis, Distribution, KlemsTable};
+use quasilux_sampling::SampleCursor;
+use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// Patches of the table.
+const BASIS: &str = "LBNL/Klems Full";
+/// Shares of light that are scattered evenly, and around the mirrored direction.
+const DIFFUSE: f64 = 0.2;
+const GLOSSY: f64 = 0.5;
+/// Power of the cosine to the mirrored direction.
+const POWER: f64 = 20.0;
+/// Where the light is, in half sides of the box.
+const LIGHT: DVec3 = DVec3::new(0.3, -0.4, 0.5);
+
+/// A way to make directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Method {
+    /// Directions by the cosine, accepted with probability f over its greatest value: three coordinates a trial, all of
+    /// the same point.
+    Rejection,
+    /// Two coordinates, one of them what the choice between absorption and scattering left.
+    InverseTransform,
+}
+
+/// The table of the walls, with what rejection must know of it.
+pub(super) struct Glossy {
+    table: Distribution,
+    /// The greatest f for light from each band of polar angles: the cosine where it begins, and f in sr^-1.
+    limits: Vec<(f64, f64)>,
+}
+
+impl Method {
+    pub(super) const ALL: [Self; 2] = [Self::Rejection, Self::InverseTransform];
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Rejection => "rejection",
+            Self::InverseTransform => "inverse transform",
+        }
+    }
+}
+
+impl Glossy {
+    /// From Phong's lobe in the form of E. P. Lafortune and Y. D. Willems (1994), which is reciprocal, at the middles of the
+    /// patches.
+    pub(super) fn new() -> Self {
+        let basis = AngleBasis::known(BASIS).expect("a basis");
+        let even = vec![1.0; basis.patches() * basis.patches()];
+        let even = KlemsTable::new(basis.clone(), basis.clone(), even).expect("a value a pair");
+        let middles = Distribution::Klems(even).incidences();
+        let pairs = middles.iter().flat_map(|&wi| middles.iter().map(move |&wo| (wi, wo)));
+        let values: Vec<f64> = pairs.map(|(wi, wo)| f_sr(wi, wo)).collect();
+        let greatest = |row: &[f64]| row.iter().copied().fold(0.0, f64::max);
+        let rows: Vec<f64> = values.chunks_exact(middles.len()).map(greatest).collect();
+        let mut next = 0;
+        let limits = basis.bands().iter().map(|band| {
+            let own = &rows[next..next + band.patches];
+            next += band.patches;
+            (libm::cos(band.lower_rad), greatest(own))
+        });
+        let limits = limits.collect();
+        let table = KlemsTable::new(basis.clone(), basis, values).expect("a value a pair");
+        Self { table: Distribution::Klems(table), limits }
+    }
+
+    /// The share of light along the normal that is scattered.
+    pub(super) fn albedo(&self) -> f64 {
+        self.table.albedo(DVec3::Z)[0]
+    }
+
+    /// Sends a photon, and tells of every cell that it lands in.
+    pub(super) fn photon(
+        &self,
+        method: Method,
+        cursor: &mut SampleCursor<'_>,
+        landed: &mut dyn FnMut(usize),
+    ) {
+        let mut origin = HALF_M * LIGHT;
+        let mut direction = sample_uniform_sphere([cursor.rest_1d(), cursor.next_1d()]).into();
+        loop {
+            let hit = ClosedBox::hit(origin, direction);
+            landed(hit.cell);
+            let (tangent, bitangent) = hit.normal.any_orthonormal_pair();
+            let local = |w: DVec3| DVec3::new(tangent.dot(w), bitangent.dot(w), hit.normal.dot(w));
+            let Some(on) = self.scattered(method, local(-direction), cursor) else { return };
+            (origin, direction) =
+                (hit.position, tangent * on.x + bitangent * on.y + hit.normal * on.z);
+        }
+    }
+
+    /// The direction in which a photon goes on, if it does.
+    fn scattered(&self, method: Method, wi: DVec3, cursor: &mut SampleCursor<'_>) -> Option<DVec3> {
+        if !cursor.choose_bool(self.table.albedo(wi)[0]) {
+            cursor.close();
+            return None;
+        }
+        if method == Method::InverseTransform {
+            let sample = self.table.sample(wi, [cursor.rest_1d(), cursor.next_1d()]);
+            return Some(sample.expect("light is scattered from everywhere").wo);
+        }
+        cursor.close();
+        let limit = self.limits.iter().rev().find(|(cos, _)| wi.z <= *cos);
+        let (_, limit_sr) = limit.copied().unwrap_or(self.limits[0]);
+        loop {
+            let wo: DVec3 = sample_cosine_hemisphere(cursor.next_2d()).into();
+            if cursor.next_1d() < self.table.evaluate(wi, wo)[0] / limit_sr {
+                return Some(wo);
+            }
+        }
+    }
+}
+
+fn f_sr(wi: DVec3, wo: DVec3) -> f64 {
+    let mirrored = DVec3::new(-wi.x, -wi.y, wi.z);
+    let lobe = libm::pow(mirrored.dot(wo).max(0.0), POWER);
+    DIFFUSE * FRAC_1_PI + GLOSSY * (POWER + 2.0) / (2.0 * PI) * lobe
+}
