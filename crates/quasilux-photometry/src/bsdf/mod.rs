@@ -38,6 +38,7 @@ mod klems;
 mod merl;
 mod pieces;
 mod read;
+mod reversed;
 mod tree;
 mod window_xml;
 
@@ -49,6 +50,7 @@ pub use gridded::GriddedTable;
 pub use klems::{AngleBasis, KlemsTable, ThetaBand};
 pub use merl::read_merl;
 pub use read::{BsdfFormat, ReadBsdf, read_bsdf, read_bsdf_named};
+pub use reversed::Reversed;
 pub use tree::TensorTree;
 pub use window_xml::read_bsdf_xml;
 

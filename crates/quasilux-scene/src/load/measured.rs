@@ -6,7 +6,7 @@ use crate::geometry::read_file;
 use crate::project::Project;
 use crate::{Files, LoadError, Mesh, Placed, Warning};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf};
+use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf_named};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -37,7 +37,8 @@ impl<'a> MeasuredFiles<'a> {
             Some(known) => Arc::clone(known),
             None => {
                 let bytes = read_file(self.project, file, self.files)?;
-                let read = read_bsdf(&bytes).map_err(|error| load_error(name, &error))?;
+                let read =
+                    read_bsdf_named(name, &bytes).map_err(|error| load_error(name, &error))?;
                 warnings.extend(read.warnings.iter().map(|warning| passed_on(name, warning)));
                 let table = Arc::new(read.bsdf);
                 self.tables.insert(name.to_owned(), Arc::clone(&table));

@@ -1,16 +1,15 @@
 //! A measured sheet: what its tables say of both sides.
 //!
 //! Photons take the table of light that arrives as they do: its inverse transform draws their directions.
-//! Paths run against the light. They need f with the light coming from where they go, and draw that
-//! direction as if it did not matter which of the two comes first (Helmholtz reciprocity). Where tables
-//! differ in that, the two directions of f are what the file says for each, and a share of the paths'
-//! directions, the `doubt`, goes to all sides alike, so that none with light is missed.
+//! Paths run against the light. They need f with the light coming from where they go: that table with its
+//! directions exchanged, or the table itself where it makes no difference (Helmholtz reciprocity). Where neither is at hand, a
+//! share of their directions, the `doubt`, goes to all sides alike, so that none with light is missed.
 
 use super::BsdfSample;
 use super::Mode;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Distribution, Reciprocity, Side, Way};
+use quasilux_photometry::bsdf::{Distribution, MeasuredBsdf, Reciprocity, Reversed, Side, Way};
 use quasilux_sampling::SampleCursor;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_scene::{Rgb, bsdf as scene};
@@ -26,7 +25,15 @@ const MOST_DOUBT: f64 = 0.5;
 pub(crate) struct Measured {
     sheet: scene::Measured,
     /// Of paths that look at a side, by the way that light reaches them.
-    doubt: [[f64; 2]; 2],
+    against: [[Against; 2]; 2],
+}
+
+/// Where paths look for the light that reaches them.
+#[derive(Clone, Debug)]
+struct Against {
+    /// In place of the table for light that arrives as they do.
+    reversed: Option<Distribution>,
+    doubt: f64,
 }
 
 /// One way that light goes on.
@@ -36,20 +43,29 @@ struct Lobe<'t> {
     doubt: f64,
 }
 
+impl Against {
+    fn new(table: &MeasuredBsdf, side: Side, way: Way) -> Self {
+        let Some(source) = table.scattering(source(side, way), way) else {
+            return Self { reversed: None, doubt: 0.0 };
+        };
+        let defect = Reciprocity::of(table, side, way).map(|found| found.mean);
+        let doubt = defect.map_or(1.0, |defect| defect.clamp(LEAST_DOUBT, MOST_DOUBT));
+        match source.reversed() {
+            _ if defect.is_some_and(|defect| defect < ROUNDING) => {
+                Self { reversed: None, doubt: 0.0 }
+            }
+            Some(Reversed { table, is_exact: true }) => Self { reversed: Some(table), doubt: 0.0 },
+            Some(Reversed { table, .. }) => Self { reversed: Some(table), doubt: LEAST_DOUBT },
+            None => Self { reversed: None, doubt },
+        }
+    }
+}
+
 impl Measured {
     pub(super) fn new(sheet: scene::Measured) -> Self {
-        let table = sheet.table();
-        let doubt = |side: Side, way: Way| {
-            let there = table.scattering(source(side, way), way).is_some();
-            match (there, Reciprocity::of(table, side, way)) {
-                (false, _) => 0.0,
-                (true, None) => 1.0,
-                (true, Some(found)) if found.mean < ROUNDING => 0.0,
-                (true, Some(found)) => found.mean.clamp(LEAST_DOUBT, MOST_DOUBT),
-            }
-        };
-        let doubt = Side::ALL.map(|side| Way::ALL.map(|way| doubt(side, way)));
-        Self { sheet, doubt }
+        let against = |side| Way::ALL.map(|way| Against::new(sheet.table(), side, way));
+        let against = Side::ALL.map(against);
+        Self { sheet, against }
     }
 
     /// The direction in the world along which the local y axis lies.
@@ -124,7 +140,10 @@ impl Measured {
         let table = self.sheet.table().scattering(side, way);
         match mode {
             Mode::Flux => Lobe { table, doubt: 0.0 },
-            Mode::Radiance => Lobe { table, doubt: self.doubt[side as usize][way as usize] },
+            Mode::Radiance => {
+                let Against { reversed, doubt } = &self.against[side as usize][way as usize];
+                Lobe { table: reversed.as_ref().or(table), doubt: *doubt }
+            }
         }
     }
 }

@@ -45,7 +45,7 @@ pub(crate) enum Bsdf<S> {
     Pane(Pane<S>),
     Conductor(Conductor<S>),
     Plastic(Plastic<S>),
-    Measured(Measured),
+    Measured(Box<Measured>),
 }
 
 /// What travels.
@@ -98,7 +98,7 @@ impl<S: Spectrum> Bsdf<S> {
             In::Plastic(scene::Plastic { reflectance, eta, alpha }) => {
                 Self::Plastic(Plastic::new(S::from_rgb(*reflectance), *eta, *alpha))
             }
-            In::Measured(sheet) => Self::Measured(Measured::new(sheet.clone())),
+            In::Measured(sheet) => Self::Measured(Box::new(Measured::new(sheet.clone()))),
         }
     }
 

@@ -159,14 +159,11 @@ fn photons_and_paths_agree_on_published_sheets() {
         println!("no published surfaces in {}: skipped", folder.display());
         return;
     }
-    // The last one is so far from reciprocal that paths through it know little.
-    for (name, widest) in
-        [("klems-2011-SA1.xml", 0.1), ("klems-room-blinds.xml", 0.1), ("tt-room-blindsT3.xml", 0.8)]
-    {
+    for name in ["klems-2011-SA1.xml", "klems-room-blinds.xml", "tt-room-blindsT3.xml"] {
         let bytes = std::fs::read(folder.join(name)).expect("a file");
         let table = Arc::new(read_bsdf(&bytes).expect("a surface").bsdf);
         let sheet = Bsdf::Measured(Measured::new(table, Some(DVec3::Z)));
-        assert_estimators_agree(name, &divided(sheet), widest);
+        assert_estimators_agree(name, &divided(sheet), 0.2);
     }
 }
 

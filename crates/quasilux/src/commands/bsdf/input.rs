@@ -2,7 +2,7 @@
 
 use crate::commands::inputs::{Failure, bytes_of, name_of};
 use quasilux_photometry::Warning;
-use quasilux_photometry::bsdf::{BsdfAnalysis, MeasuredBsdf, read_bsdf};
+use quasilux_photometry::bsdf::{BsdfAnalysis, MeasuredBsdf, read_bsdf_named};
 use std::path::Path;
 
 /// A file, and what came of it.
@@ -25,7 +25,8 @@ impl Input {
     pub(super) fn read(path: &Path) -> Self {
         let name = name_of(path);
         let surface = bytes_of(path).and_then(|bytes| {
-            let read = read_bsdf(&bytes).map_err(|error| Failure::of(&name, &error))?;
+            let read =
+                read_bsdf_named(&name, &bytes).map_err(|error| Failure::of(&name, &error))?;
             let analysis = BsdfAnalysis::of(&read.bsdf);
             Ok(Surface { bsdf: read.bsdf, warnings: read.warnings, analysis })
         });

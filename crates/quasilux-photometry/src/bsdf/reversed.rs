@@ -1,0 +1,51 @@
+//! The two directions of a distribution exchanged.
+
+use super::Distribution;
+
+/// A distribution with its directions exchanged, f'(wi, wo) = f(wo, wi).
+#[derive(Clone, Debug)]
+pub struct Reversed {
+    /// It, as a table that can be sampled.
+    pub table: Distribution,
+    /// Whether its values are those of the original, or means over its boxes.
+    pub is_exact: bool,
+}
+
+impl Distribution {
+    /// f for light that goes the other way round: exact for Klems patches and for trees of rank 4, averaged over boxes for
+    /// trees of rank 3. `None` for grids, for patches without a counterpart at the opposite azimuth, and for trees that would
+    /// become too large.
+    #[must_use]
+    pub fn reversed(&self) -> Option<Reversed> {
+        let table = match self {
+            Self::Klems(table) => Self::Klems(table.reversed()?),
+            Self::TensorTree(tree) => Self::TensorTree(tree.reversed()?),
+            Self::Gridded(_) => return None,
+        };
+        let is_exact = matches!(self, Self::Klems(_)) || !self.is_isotropic();
+        Some(Reversed { table, is_exact })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{AngleBasis, KlemsTable};
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn exchanged_directions_have_the_same_value() {
+        let basis = AngleBasis::known("LBNL/Klems Quarter").expect("a basis");
+        let values: Vec<f64> = (0..41 * 41).map(f64::from).collect();
+        let table = KlemsTable::new(basis.clone(), basis, values).expect("a value a pair");
+        let forth = Distribution::Klems(table);
+        let back = forth.reversed().expect("patches have counterparts");
+        assert!(back.is_exact);
+        let (a, b) = (DVec3::new(0.1, -0.5, 0.8), DVec3::new(-0.7, 0.2, 0.4));
+        for (a, b) in [(a, b), (b, a), (a, a), (a, DVec3::Z)] {
+            let (a, b) = (a.normalize(), b.normalize());
+            assert_eq!(back.table.evaluate(a, b), forth.evaluate(b, a));
+        }
+        assert!(forth.evaluate(a.normalize(), b.normalize())[0] > 0.0);
+    }
+}
