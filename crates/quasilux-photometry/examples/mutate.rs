@@ -1,0 +1,43 @@
+//! Reads a million damaged files of each format, or as many as the first argument says:
+//!
+//!     cargo run --release -p quasilux-photometry --example mutate -- 1000000
+//!
+//! The numbers of the files go on from a second argument (0 without it), so that runs can share the
+//! work. A panic names the file.
+
+#[path = "../tests/damage/mod.rs"]
+mod damage;
+
+use damage::{Format, Outcome, Seeds, examine_damaged};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments: Result<Vec<u64>, _> = std::env::args().skip(1).map(|a| a.parse()).collect();
+    let Ok(arguments) = arguments else {
+        eprintln!("usage: mutate [FILES [FIRST]]");
+        return ExitCode::from(2);
+    };
+    let count = arguments.first().copied().unwrap_or(1_000_000);
+    let first = arguments.get(1).copied().unwrap_or(0);
+    for format in Format::ALL {
+        run(format, first..first + count);
+    }
+    ExitCode::SUCCESS
+}
+
+fn run(format: Format, indices: std::ops::Range<u64>) {
+    let seeds = Seeds::with_published(format);
+    let count = indices.end - indices.start;
+    let (mut read, mut greatest_bytes) = (0_u64, 0);
+    for index in indices {
+        let Outcome { is_read, peak_bytes } = examine_damaged(format, &seeds, index);
+        read += u64::from(is_read);
+        greatest_bytes = greatest_bytes.max(peak_bytes);
+    }
+    println!(
+        "{format:?}: {count} damaged files of {} seeds: {read} load, {} are refused; \
+         at most {greatest_bytes} bytes allocated at one time",
+        seeds.files().len(),
+        count - read,
+    );
+}
