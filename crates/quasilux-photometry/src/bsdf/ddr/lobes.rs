@@ -16,7 +16,7 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
     let values = header.incidences() * thetas * phis;
     let most = values.max(LEAST_DIRECTIONS) / header.incidences();
     let is_mirrored = header.symmetry != SpecularSymmetry::None;
-    let mut lobes = Vec::new();
+    let (mut lobes, mut factors) = (Vec::new(), Vec::new());
     for incidence in 0..header.planes() * header.sigma_rad.len() {
         let sigma = incidence % header.sigma_rad.len();
         let measured = Measured { header, blocks, incidence, start: incidence * thetas * phis };
@@ -27,13 +27,16 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
         let channel =
             |channel: usize| knots.directions().map(|wo| measured.value(wo, channel)).collect();
         let mut channels: Vec<Vec<f64>> = (0..blocks.len()).map(channel).collect();
-        if header.unit == Unit::Relative {
-            for (values, block) in channels.iter_mut().zip(blocks) {
+        let mut factor = [1.0; 3];
+        for (channel, values) in channels.iter_mut().enumerate() {
+            if header.unit == Unit::Relative {
                 let albedo = Lobe::new(&knots, std::slice::from_ref(values))?.albedo();
-                let factor = if albedo > 0.0 { block.scales[incidence] / albedo } else { 0.0 };
-                values.iter_mut().for_each(|value| *value *= factor);
+                let scale = blocks[channel].scales[incidence];
+                factor[channel] = if albedo > 0.0 { scale / albedo } else { 0.0 };
+                values.iter_mut().for_each(|value| *value *= factor[channel]);
             }
         }
+        factors.push(factor);
         lobes.push(Lobe::new(&knots, &channels)?);
     }
     let table = GriddedTable::new(
@@ -41,12 +44,12 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
         header.psi_rad[..header.planes()].to_vec(),
         lobes,
     )?;
-    let error = if header.unit == Unit::Absolute { error(&table, header, blocks) } else { 0.0 };
+    let error = error(&table, header, blocks, &factors);
     Some((table, error))
 }
 
-/// At the stored incidences: between them the file says nothing.
-fn error(table: &GriddedTable, header: &Header, blocks: &[Block]) -> f64 {
+/// At the stored incidences: between them the file says nothing. Its values are multiplied by `factors`.
+fn error(table: &GriddedTable, header: &Header, blocks: &[Block], factors: &[[f64; 3]]) -> f64 {
     let per_incidence = header.theta_rad.len() * header.phi_rad.len();
     let error = |incidence: usize| {
         let measured = Measured { header, blocks, incidence, start: incidence * per_incidence };
@@ -56,7 +59,10 @@ fn error(table: &GriddedTable, header: &Header, blocks: &[Block]) -> f64 {
         let (sin, cos) = libm::sincos(phi_rad);
         let exact = |_: DVec3, wo: DVec3| {
             let wo = DVec3::new(cos * wo.x + sin * wo.y, cos * wo.y - sin * wo.x, wo.z);
-            [0, 1, 2].map(|channel| measured.value(wo, channel.min(blocks.len() - 1)))
+            [0, 1, 2].map(|channel| {
+                let channel = channel.min(blocks.len() - 1);
+                factors[incidence][channel] * measured.value(wo, channel)
+            })
         };
         table_error(table, &[wi], exact)
     };
