@@ -98,6 +98,17 @@ impl Distribution {
         }
     }
 
+    /// A bound of the luminance of f times the cosine of `wo`, in sr^-1, over all exits: what rejection would need. It is
+    /// reached to within the cosine in a cell, or to within the mixture of lobes.
+    #[must_use]
+    pub fn greatest(&self, wi: DVec3) -> f64 {
+        match self {
+            Self::Klems(table) => table.greatest(wi),
+            Self::TensorTree(tree) => tree.greatest(wi),
+            Self::Gridded(table) => table.greatest(wi),
+        }
+    }
+
     /// The incident directions that the table is stored for: centres of cells or knots of a grid, along the
     /// half-plane of positive `x` where the table is isotropic. Trees finer than 32 cells a side are shown at that
     /// resolution.

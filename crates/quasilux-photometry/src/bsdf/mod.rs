@@ -142,11 +142,13 @@ impl MeasuredBsdf {
     }
 
     /// A surface that scatters nothing yet.
-    pub(crate) fn new(facts: BsdfFacts) -> Self {
+    #[must_use]
+    pub fn new(facts: BsdfFacts) -> Self {
         Self { facts, scattering: [[None, None], [None, None]] }
     }
 
-    pub(crate) fn set(&mut self, side: Side, way: Way, distribution: Distribution) {
+    /// Takes over how light that arrives on `side` is scattered that way.
+    pub fn set(&mut self, side: Side, way: Way, distribution: Distribution) {
         self.scattering[side as usize][way as usize] = Some(distribution);
     }
 

@@ -42,7 +42,7 @@
 //! | [`SeveralLayers`] | the first is read | `90:3: found another Layer; expected one layer (the first is read)` |
 //! | [`UnknownThickness`] | left out: nothing depends on it | `9:5: found a thickness of "1" "mil"; expected a number in meter, ... (left out)` |
 //! | [`SolarOnly`] | read as if it were visible | `40:2: found Solar data alone; expected Visible (read as if it were)` |
-//! | [`ColourLeftOut`] | the luminance counts | `40:2: found CIE-X or CIE-Z; expected Visible alone (the colour is left out)` |
+//! | [`ColourLeftOut`] | the luminance counts | `40:2: found data of the colour; expected Visible alone (the colour is left out)` |
 //! | [`UnknownDirection`] | left out | `50:3: found "Absorptance Front"; expected Transmission or Reflection, ... (left out)` |
 //! | [`RepeatedBlock`] | the last one is read | `70:3: found another transmission front; expected each direction once (...)` |
 //! | [`TrailingValues`] | left out | `99:1: found "0.5"; expected the end of the data after 21025 values (left out)` |

@@ -178,6 +178,11 @@ impl GriddedTable {
         Some([u0.clamp(0.0, 1.0), u1])
     }
 
+    /// The mixture of the greatest values of all lobes, wherever they are.
+    pub(super) fn greatest(&self, wi: DVec3) -> f64 {
+        self.mixture(wi).sum(|lobe| [lobe.luminance.maximum().value, 0.0, 0.0])[0]
+    }
+
     pub(super) fn incidences(&self) -> Vec<DVec3> {
         let of_azimuth = |&phi_rad: &f64| {
             let at = move |&theta_rad: &f64| Angles { theta_rad, phi_rad }.direction();

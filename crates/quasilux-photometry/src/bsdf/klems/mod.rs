@@ -124,6 +124,19 @@ impl KlemsTable {
         Some(u.map(|u| u.clamp(0.0, 1.0)))
     }
 
+    /// With the cosine at the nearer edge of each patch.
+    pub(super) fn greatest(&self, wi: DVec3) -> f64 {
+        let Some(row) = self.row(wi) else {
+            return 0.0;
+        };
+        let values = &self.values[row * self.exit.patches()..(row + 1) * self.exit.patches()];
+        let of_band = |band: &ThetaBand| {
+            let of_band = &values[band.first..band.first + band.patches];
+            libm::cos(band.lower_rad) * of_band.iter().copied().fold(0.0, f64::max)
+        };
+        self.exit.bands().iter().map(of_band).fold(0.0, f64::max)
+    }
+
     pub(super) fn incidences(&self) -> Vec<DVec3> {
         let centre = |cell: Cell| {
             let [x, y, z] = self.incident.place(cell);

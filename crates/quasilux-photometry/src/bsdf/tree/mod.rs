@@ -148,6 +148,21 @@ impl TensorTree {
         [0, 1].map(|axis| (before[axis] + width[axis] * within(axis)).clamp(0.0, 1.0))
     }
 
+    /// The greatest value of the slice; cosines count as 1.
+    pub(super) fn greatest(&self, wi: DVec3) -> f64 {
+        self.greatest_of(0, 0, self.incidence(wi))
+    }
+
+    fn greatest_of(&self, node: usize, level: usize, incidence: Incidence) -> f64 {
+        match self.children(node, level, incidence) {
+            None => self.nodes[node].value,
+            Some(children) => {
+                let of_child = |child| self.greatest_of(child, level + 1, incidence);
+                children.into_iter().map(of_child).fold(0.0, f64::max)
+            }
+        }
+    }
+
     pub(super) fn incidences(&self) -> Vec<DVec3> {
         let side = 1 << self.height.clamp(1, 5);
         let middle = |i: usize| (i as f64 + 0.5) / side as f64;

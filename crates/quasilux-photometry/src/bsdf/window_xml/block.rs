@@ -17,7 +17,7 @@ pub(super) struct Block<'e, 't> {
 enum Spectrum {
     Visible,
     Solar,
-    /// CIE X and Z beside a visible Y.
+    /// CIE X and Z, or u and v, beside a visible Y.
     Colour,
     Other,
 }
@@ -30,6 +30,8 @@ impl Spectrum {
             ("Solar", Self::Solar),
             ("CIE-X", Self::Colour),
             ("CIE-Z", Self::Colour),
+            ("CIE-u", Self::Colour),
+            ("CIE-v", Self::Colour),
         ];
         let known = words.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(word));
         known.map_or(Self::Other, |(_, spectrum)| spectrum)
@@ -46,7 +48,7 @@ pub(super) fn select<'e, 't>(
     let of_spectrum = |wanted: Spectrum| data.iter().find(|(spectrum, _)| *spectrum == wanted);
     if let Some((_, colour)) = of_spectrum(Spectrum::Colour) {
         let expected = "Visible alone (the colour is left out)";
-        warnings.push(Deviation::ColourLeftOut, colour.at, "CIE-X or CIE-Z", expected);
+        warnings.push(Deviation::ColourLeftOut, colour.at, "data of the colour", expected);
     }
     let spectrum = match (of_spectrum(Spectrum::Visible), of_spectrum(Spectrum::Solar)) {
         (Some(_), _) => Spectrum::Visible,

@@ -287,6 +287,26 @@ fn sample_density_and_inverse_belong_together() {
     }
 }
 
+/// No value is above the bound, and some samples come near it.
+#[test]
+fn the_bound_holds() {
+    for (name, distribution) in distributions() {
+        let mut generator = Generator(11);
+        for wi in incidences() {
+            let mut greatest = 0.0_f64;
+            for _ in 0..20_000 {
+                let u = [generator.uniform(), generator.uniform()];
+                let wo = distribution.sample(wi, u).unwrap().wo;
+                greatest = greatest.max(distribution.evaluate(wi, wo)[1] * wo.z);
+            }
+            let bound = distribution.greatest(wi);
+            let ratio = greatest / bound;
+            let least = if matches!(distribution, Distribution::Klems(_)) { 0.99 } else { 0.2 };
+            assert!(ratio <= 1.0 + 1e-12 && ratio > least, "{name} at {wi}: {ratio}");
+        }
+    }
+}
+
 #[test]
 fn corners_of_the_unit_square_have_light_too() {
     for (name, distribution) in distributions() {
