@@ -26,7 +26,7 @@
 //!
 //! What a reader tolerates beyond the standard is listed in [`Deviation`]; each case is reported as
 //! a [`Warning`]. Any bytes may be given: readers do not panic, and take no more memory than
-//! [`most_read_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
+//! [`most_read_memory_bytes`], those of surfaces [`most_bsdf_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
 //! table. The formats stand line by line in [`formats`].
 
 pub mod analysis;

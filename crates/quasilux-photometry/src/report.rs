@@ -34,7 +34,7 @@ pub struct Warning {
     expected: String,
 }
 
-/// A rule by which a reader tolerates what the standard does not allow.
+/// A rule by which a reader tolerates what the standard does not allow, or a defect of a surface's table that it states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Deviation {
