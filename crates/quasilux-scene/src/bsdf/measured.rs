@@ -6,11 +6,14 @@ use std::sync::Arc;
 
 /// A thin sheet whose scattering was measured: tables for light that arrives on its two sides.
 ///
-/// The front of the table is on the front of the facets.
+/// The front of the table is on the front of the facets. A table of one side alone that lets nothing through is that of an opaque
+/// sample, and holds for both sides.
 #[derive(Clone, Debug)]
 pub struct Measured {
     table: Arc<MeasuredBsdf>,
     up: Option<DVec3>,
+    /// The side that the table knows of, where that is one and nothing passes.
+    only_side: Option<Side>,
     /// The share of diffuse light that is not absorbed, on the side where that is more.
     most_kept: f64,
 }
@@ -25,13 +28,20 @@ impl Measured {
             Some(balance.diffuse.iter().sum())
         };
         let most_kept = Side::ALL.into_iter().filter_map(kept).fold(0.0, f64::max);
-        Self { table, up, most_kept }
+        let only_side = only_side(&table);
+        Self { table, up, only_side, most_kept }
     }
 
     /// How it scatters.
     #[must_use]
     pub fn table(&self) -> &MeasuredBsdf {
         &self.table
+    }
+
+    /// Which side of the table is on that side of a facet.
+    #[must_use]
+    pub fn side(&self, front: bool) -> Side {
+        self.only_side.unwrap_or(if front { Side::Front } else { Side::Back })
     }
 
     /// The direction of the table's `y` axis in the world, of any length.
@@ -58,6 +68,14 @@ impl Measured {
     pub const fn most_kept(&self) -> f64 {
         self.most_kept
     }
+}
+
+/// The one side that an opaque sample was measured from.
+fn only_side(table: &MeasuredBsdf) -> Option<Side> {
+    let is_opaque = table.distributions().all(|(_, way, _)| way == Way::Reflection);
+    let mut sides = table.distributions().map(|(side, _, _)| side);
+    let first = sides.next()?;
+    (is_opaque && sides.all(|side| side == first)).then_some(first)
 }
 
 /// Of the same table, turned alike.

@@ -79,7 +79,8 @@ impl Measured {
 
     /// The share of light that goes on; an estimate of it where the tables are not reciprocal.
     pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool) -> S {
-        let share = |way: Way| self.lobe(front, way, Mode::Radiance).share(in_table(wo, front));
+        let side = self.sheet.side(front);
+        let share = |way: Way| self.lobe(side, way, Mode::Radiance).share(in_table(wo, side));
         let [reflected, passed] = Way::ALL.map(share);
         S::from_rgb(reflected + passed)
     }
@@ -91,20 +92,21 @@ impl Measured {
         mode: Mode,
         cursor: &mut SampleCursor<'_>,
     ) -> Option<BsdfSample<S>> {
-        let from = in_table(wo, front);
-        let p_reflected = self.p_reflected(from, front, mode)?;
+        let side = self.sheet.side(front);
+        let from = in_table(wo, side);
+        let p_reflected = self.p_reflected(from, side, mode)?;
         let is_reflected = cursor.choose_bool(p_reflected);
         let way = if is_reflected { Way::Reflection } else { Way::Transmission };
-        let to = self.lobe(front, way, mode).sample(from, cursor)?;
-        let wi = out_of_table(to, front, way);
+        let to = self.lobe(side, way, mode).sample(from, cursor)?;
+        let wi = out_of_table(to, side, way);
         let pdf_sr = self.pdf_of(wo, wi, front, mode);
         let value: S = self.evaluate(wo, wi, front, mode);
         Some(BsdfSample { wi, weight: value * (wi.z.abs() / pdf_sr), pdf_sr: Some(pdf_sr) })
     }
 
     pub(super) fn evaluate<S: Spectrum>(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> S {
-        let (own, other) = (in_table(wo, front), in_table(wi, front));
-        let (side, way) = (side(front), way(wi));
+        let (side, way) = (self.sheet.side(front), way(wi));
+        let (own, other) = (in_table(wo, side), in_table(wi, side));
         let value = match mode {
             Mode::Flux => self.sheet.table().scattering(side, way).map(|f| f.evaluate(own, other)),
             Mode::Radiance => {
@@ -121,22 +123,22 @@ impl Measured {
     }
 
     fn pdf_of(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> f64 {
-        let (from, to) = (in_table(wo, front), in_table(wi, front));
-        let Some(p_reflected) = self.p_reflected(from, front, mode) else { return 0.0 };
+        let side = self.sheet.side(front);
+        let (from, to) = (in_table(wo, side), in_table(wi, side));
+        let Some(p_reflected) = self.p_reflected(from, side, mode) else { return 0.0 };
         let p = if wi.z > 0.0 { p_reflected } else { 1.0 - p_reflected };
-        p * self.lobe(front, way(wi), mode).pdf_sr(from, to)
+        p * self.lobe(side, way(wi), mode).pdf_sr(from, to)
     }
 
     /// By the light that goes each way; `None` where none does.
-    fn p_reflected(&self, from: DVec3, front: bool, mode: Mode) -> Option<f64> {
-        let share = |way: Way| self.lobe(front, way, mode).share(from).luminance();
+    fn p_reflected(&self, from: DVec3, side: Side, mode: Mode) -> Option<f64> {
+        let share = |way: Way| self.lobe(side, way, mode).share(from).luminance();
         let [reflected, passed] = Way::ALL.map(share);
         let sum = reflected + passed;
         (sum > 0.0).then(|| reflected / sum)
     }
 
-    fn lobe(&self, front: bool, way: Way, mode: Mode) -> Lobe<'_> {
-        let side = side(front);
+    fn lobe(&self, side: Side, way: Way, mode: Mode) -> Lobe<'_> {
         let table = self.sheet.table().scattering(side, way);
         match mode {
             Mode::Flux => Lobe { table, doubt: 0.0 },
@@ -191,22 +193,22 @@ fn source(side: Side, way: Way) -> Side {
     }
 }
 
-fn side(front: bool) -> Side {
-    if front { Side::Front } else { Side::Back }
-}
-
 fn way(wi: DVec3) -> Way {
     if wi.z > 0.0 { Way::Reflection } else { Way::Transmission }
 }
 
 /// A local direction as tables have it. Their x axis points to the right for who sees the back, and z is positive on
 /// either side.
-fn in_table(local: DVec3, front: bool) -> DVec3 {
-    DVec3::new(if front { -local.x } else { local.x }, local.y, local.z.abs())
+fn in_table(local: DVec3, side: Side) -> DVec3 {
+    let x = match side {
+        Side::Front => -local.x,
+        Side::Back => local.x,
+    };
+    DVec3::new(x, local.y, local.z.abs())
 }
 
-fn out_of_table(direction: DVec3, front: bool, way: Way) -> DVec3 {
-    let local = in_table(direction, front);
+fn out_of_table(direction: DVec3, side: Side, way: Way) -> DVec3 {
+    let local = in_table(direction, side);
     match way {
         Way::Reflection => local,
         Way::Transmission => DVec3::new(local.x, local.y, -local.z),

@@ -1,7 +1,7 @@
 //! Measured sheets: all estimators see the same light, and a table of a known surface is that surface.
 
 use crate::images::add_panel;
-use crate::scenes::{level_grid, points, room};
+use crate::scenes::{all_walls_emit, level_grid, points, room};
 use glam::DVec3;
 use quasilux_photometry::bsdf::{
     AngleBasis, BsdfFacts, BsdfFormat, Distribution, KlemsTable, MeasuredBsdf, Side, Way, read_bsdf,
@@ -11,6 +11,7 @@ use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Light, Rgb, Scene};
 use quasilux_stats::{sidak, student_t_quantile};
 use quasilux_transport::{Estimates, Estimator, Settings, check, simulate};
+use std::f64::consts::{FRAC_1_PI, PI};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -114,7 +115,7 @@ fn assert_alike(what: &str, pairs: &[(Mean, Mean)], widest: f64) {
 fn a_table_of_lambert_is_a_translucent_sheet() {
     let [reflectance, transmittance] = [0.3, 0.4].map(Rgb::grey);
     let known = divided(Bsdf::Translucent(Translucent { reflectance, transmittance }));
-    let even = |share: f64| table(move |_, _| share / std::f64::consts::PI);
+    let even = |share: f64| table(move |_, _| share * FRAC_1_PI);
     let tables = Side::ALL.into_iter().flat_map(|side| {
         [(side, Way::Reflection, even(0.3)), (side, Way::Transmission, even(0.4))]
     });
@@ -128,6 +129,35 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
         let found = estimates(&scene, estimator, samples);
         let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
         assert_alike(estimator.name(), &pairs, 0.03);
+    }
+}
+
+/// Walls that emit 100 cd/m2 and reflect half of all light as a table says that knows one side alone: it is as bright
+/// everywhere, `pi L / (1 - rho)`, whichever side of them looks in.
+#[test]
+fn a_furnace_of_tables_is_as_bright_as_it_must_be() {
+    let half = || table(|_, _| 0.5 * FRAC_1_PI);
+    for side in Side::ALL {
+        let mut scene = room(DVec3::ONE, measured([(side, Way::Reflection, half())]));
+        all_walls_emit(&mut scene, 100.0);
+        let middle = DVec3::new(0.4, 0.5, 0.3);
+        scene.sensors = vec![
+            level_grid(middle, [0.2, 0.3], [1, 1]),
+            level_grid(DVec3::new(0.1, 0.1, 0.7), [0.3, 0.2], [1, 1]),
+            points("inside", &[(middle, DVec3::new(-0.8, 0.0, 0.6))]),
+        ];
+        let expected_lx = 100.0 * PI / 0.5;
+        for (estimator, samples) in [(Estimator::Path, 1 << 10), (Estimator::Photon, 1 << 15)] {
+            for found in estimates(&scene, estimator, samples) {
+                let off_lx = (found.value_lx - expected_lx).abs();
+                // Ten comparisons; 3.7 standard errors of 32 replicates are exceeded by one in a thousand.
+                assert!(
+                    off_lx <= 3.7 * found.standard_error_lx.max(1e-9),
+                    "{estimator:?}: {found:?}"
+                );
+                assert!(found.standard_error_lx < 0.01 * expected_lx, "{estimator:?}: {found:?}");
+            }
+        }
     }
 }
 
