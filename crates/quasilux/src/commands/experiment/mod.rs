@@ -11,6 +11,7 @@ mod coverage;
 mod cube;
 mod dimension;
 mod emission;
+mod error_plot;
 mod first_shot;
 mod flights;
 mod gain;
