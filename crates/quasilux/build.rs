@@ -1,5 +1,5 @@
-//! Tells builds apart by what they are made of: the SHA-256 of a list of all sources and of the versions of all
-//! dependencies, in `QUASILUX_BUILD`. Debug and release builds of the same sources, wherever they are made,
+//! Tells builds apart by what they are made of: the SHA-256 of a list of all sources, of the versions of all
+//! dependencies and of what builds them, in `QUASILUX_BUILD`. Debug and release builds of the same sources, wherever they are made,
 //! have the same one.
 
 #![allow(clippy::disallowed_methods, reason = "cargo talks to build scripts by the environment")]
@@ -21,7 +21,10 @@ fn main() -> io::Result<()> {
             collect(root, &folder.join(part), &mut sources)?;
         }
     }
-    collect(root, &root.join("Cargo.lock"), &mut sources)?;
+    // Versions of dependencies, profiles and the compiler.
+    for part in ["Cargo.lock", "Cargo.toml", "rust-toolchain.toml"] {
+        collect(root, &root.join(part), &mut sources)?;
+    }
     let mut list = String::new();
     for (name, bytes) in &sources {
         writeln!(list, "{}  {name}", hex(bytes)).expect("text takes everything");

@@ -4,7 +4,7 @@
 //! the command and the numbers, and the same numbers in `expected.toml`.
 
 use crate::expectation::Expected;
-use crate::{Failure, cluster, prediction};
+use crate::{Failure, cluster, prediction, same_bits};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,7 +26,9 @@ pub(crate) fn run_all(root: &Path) -> Result<(), Failure> {
         example.check_readme(root)?;
         example.run(root, &out)
     });
-    let outcome = outcome.and_then(|()| cluster::run(root, &out.join("cluster")));
+    let outcome = outcome
+        .and_then(|()| cluster::run(root, &out.join("cluster")))
+        .and_then(|()| same_bits::check(root));
     // What a failed run left behind is where the search for its cause begins.
     if outcome.is_ok() {
         let _ = fs::remove_dir_all(&out);

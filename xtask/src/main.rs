@@ -13,6 +13,7 @@ mod generated;
 mod octant;
 mod office;
 mod prediction;
+mod same_bits;
 mod steps;
 
 use std::path::{Path, PathBuf};

@@ -190,6 +190,9 @@ fn illuminance(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected an illuminance above 0, like 0.5 or 0.5lx".to_owned())
 }
 
+/// Thirty years: what is longer cannot be added to a clock.
+const LONGEST_S: f64 = 1e9;
+
 /// A positive time in seconds, minutes or hours; seconds where no unit is given.
 fn duration(text: &str) -> Result<Duration, String> {
     let (number, unit_s) = match text.char_indices().last() {
@@ -200,9 +203,9 @@ fn duration(text: &str) -> Result<Duration, String> {
     };
     let seconds = number.trim().parse::<f64>().ok().map(|number| number * unit_s);
     seconds
-        .filter(|seconds| *seconds > 0.0)
+        .filter(|seconds| *seconds > 0.0 && *seconds <= LONGEST_S)
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or_else(|| "expected a time above 0, like 60s, 5m or 1.5h".to_owned())
+        .ok_or_else(|| "expected a time above 0, like 60s, 5m or 1.5h, and at most 1e9s".to_owned())
 }
 
 #[cfg(test)]

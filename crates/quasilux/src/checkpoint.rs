@@ -75,7 +75,7 @@ impl Keeping {
         settings: &Settings,
     ) -> Result<Self, Refusal> {
         let keeping = Self::new(path, file, project, settings)?;
-        expect_nothing_to_lose(path)?;
+        expect_nothing_to_lose(path, project)?;
         Ok(keeping)
     }
 
@@ -151,20 +151,21 @@ pub(crate) fn read(path: &Path) -> Result<(Checkpoint, Option<String>), Refusal>
 }
 
 /// Refuses where a run from the start would take the place of one that is not over, or of something that nobody can
-/// tell.
-fn expect_nothing_to_lose(path: &Path) -> Result<(), Refusal> {
+/// tell. Pictures come after the last checkpoint, so that runs with cameras may lack them still.
+fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), Refusal> {
     if !path.exists() && !beside(path, "previous").exists() {
         return Ok(());
     }
     let name = path.display();
     let (Checkpoint { heading, state }, _) = read(path)
         .map_err(|refusal| Refusal::new(format!("{refusal}; remove it to begin a run there")))?;
-    if quasilux_transport::is_over(&state) {
+    let has_pictures = !project.loaded.scene.cameras.is_empty();
+    if quasilux_transport::is_over(&state) && !has_pictures {
         return Ok(());
     }
     let project = heading.project.display();
     Err(Refusal::new(format!(
-        "{name}: keeps a run of {project} that is not over: go on with `quasilux resume {name}`, or remove it to \
+        "{name}: keeps a run of {project} that may not be over: go on with `quasilux resume {name}`, or remove it to \
          begin anew"
     )))
 }

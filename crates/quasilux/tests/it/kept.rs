@@ -41,6 +41,7 @@ fn runs_that_are_killed_again_and_again_end_with_the_same_bits() {
     });
     let on = ["resume", "run.ck", "--out", "kept", "--quiet", "--checkpoint-every", "0.02s"];
     let mut numbers = Numbers(3);
+    let mut killed = 0;
     for moment in 0..20 {
         let (folder, settings) = &setups[moment % setups.len()];
         let begin = [&["run", "room.toml", "--out", "kept", "--quiet"][..], settings, &KEEPING];
@@ -48,13 +49,19 @@ fn runs_that_are_killed_again_and_again_end_with_the_same_bits() {
         let mut child = if is_first { start(folder, &begin.concat()) } else { start(folder, &on) };
         // The first kill waits for a checkpoint.
         while is_first && !folder.path("run.ck").exists() {
+            assert!(
+                child.try_wait().expect("it is ours").is_none(),
+                "it ended without a checkpoint"
+            );
             sleep(Duration::from_millis(2));
         }
         sleep(Duration::from_millis((4 * moment + numbers.below(120)) as u64));
+        killed += u32::from(child.try_wait().expect("it is ours").is_none());
         // SIGKILL, wherever that is.
         child.kill().expect("the program can be killed");
         child.wait().expect("the program is gone");
     }
+    assert!(killed >= 12, "only {killed} of 20 were at work");
     for (folder, settings) in &setups {
         let run = go_on(folder, &["--threads", "7"]);
         assert_eq!(run.code, Some(3), "{settings:?}: {}", run.stderr);

@@ -4,7 +4,7 @@ use crate::commands::experiment::closed_box::{ClosedBox, HALF_M};
 use glam::DVec3;
 use quasilux_photometry::bsdf::{AngleBasis, Distribution, KlemsTable};
 use quasilux_sampling::SampleCursor;
-use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
+use quasilux_sampling::warp::{sample_uniform_hemisphere, sample_uniform_sphere};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Patches of the table.
@@ -20,18 +20,16 @@ const LIGHT: DVec3 = DVec3::new(0.3, -0.4, 0.5);
 /// A way to make directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Method {
-    /// Directions by the cosine, accepted with probability f over its greatest value: three coordinates a trial, all of
+    /// Uniform directions, accepted with probability f times the cosine over its bound: three coordinates a trial, all of
     /// the same point.
     Rejection,
     /// Two coordinates, one of them what the choice between absorption and scattering left.
     InverseTransform,
 }
 
-/// The table of the walls, with what rejection must know of it.
+/// The table of the walls.
 pub(super) struct Glossy {
     table: Distribution,
-    /// The greatest f for light from each band of polar angles: the cosine where it begins, and f in sr^-1.
-    limits: Vec<(f64, f64)>,
 }
 
 impl Method {
@@ -54,18 +52,9 @@ impl Glossy {
         let even = KlemsTable::new(basis.clone(), basis.clone(), even).expect("a value a pair");
         let middles = Distribution::Klems(even).incidences();
         let pairs = middles.iter().flat_map(|&wi| middles.iter().map(move |&wo| (wi, wo)));
-        let values: Vec<f64> = pairs.map(|(wi, wo)| f_sr(wi, wo)).collect();
-        let greatest = |row: &[f64]| row.iter().copied().fold(0.0, f64::max);
-        let rows: Vec<f64> = values.chunks_exact(middles.len()).map(greatest).collect();
-        let mut next = 0;
-        let limits = basis.bands().iter().map(|band| {
-            let own = &rows[next..next + band.patches];
-            next += band.patches;
-            (libm::cos(band.lower_rad), greatest(own))
-        });
-        let limits = limits.collect();
+        let values = pairs.map(|(wi, wo)| f_sr(wi, wo)).collect();
         let table = KlemsTable::new(basis.clone(), basis, values).expect("a value a pair");
-        Self { table: Distribution::Klems(table), limits }
+        Self { table: Distribution::Klems(table) }
     }
 
     /// The share of light along the normal that is scattered.
@@ -104,11 +93,10 @@ impl Glossy {
             return Some(sample.expect("light is scattered from everywhere").wo);
         }
         cursor.close();
-        let limit = self.limits.iter().rev().find(|(cos, _)| wi.z <= *cos);
-        let (_, limit_sr) = limit.copied().unwrap_or(self.limits[0]);
+        let bound = self.table.greatest(wi);
         loop {
-            let wo: DVec3 = sample_cosine_hemisphere(cursor.next_2d()).into();
-            if cursor.next_1d() < self.table.evaluate(wi, wo)[0] / limit_sr {
+            let wo: DVec3 = sample_uniform_hemisphere(cursor.next_2d()).into();
+            if cursor.next_1d() < self.table.evaluate(wi, wo)[0] * wo.z / bound {
                 return Some(wo);
             }
         }
