@@ -20,6 +20,7 @@ mod octant;
 mod periodicity;
 mod points;
 mod rejection;
+mod timing;
 
 use crate::arguments::ExperimentArguments;
 use crate::exit::{Exit, Refusal};

@@ -35,6 +35,8 @@ pub(super) struct Count {
     pub(super) figure: Figure,
     /// Distance from the truth over half-width; not a number where there is no interval.
     pub(super) errors: Vec<f64>,
+    /// Indices per replicate that each run had.
+    pub(super) samples: Vec<u64>,
 }
 
 /// What the test says of all counts.
@@ -71,6 +73,14 @@ impl Figure {
 }
 
 impl Count {
+    /// The smallest and the largest number of indices per replicate, and the share of runs with the smallest.
+    pub(super) fn ends(&self) -> ([u64; 2], f64) {
+        let fewest = self.samples.iter().copied().min().unwrap_or(0);
+        let most = self.samples.iter().copied().max().unwrap_or(0);
+        let first = self.samples.iter().filter(|samples| **samples == fewest).count();
+        ([fewest, most], first as f64 / self.samples.len() as f64)
+    }
+
     /// Runs in which intervals of `scale` times the width cover the truth.
     pub(super) fn covered(&self, scale: f64) -> usize {
         self.errors.iter().filter(|error| **error <= scale).count()

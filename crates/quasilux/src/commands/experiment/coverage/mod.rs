@@ -55,16 +55,20 @@ fn counts(scenes: &[Known], first_seed: u64, seeds: u32) -> Vec<Count> {
             for moment in Moment::ALL {
                 for figure in Figure::all(known.truth_lx.len()) {
                     let errors = trials.iter().map(|trial| trial.error(moment, figure)).collect();
-                    counts.push(Count { scene: known.name, sequence, moment, figure, errors });
+                    let samples = trials.iter().map(|trial| trial.samples(moment)).collect();
+                    let scene = known.name;
+                    counts.push(Count { scene, sequence, moment, figure, errors, samples });
                 }
             }
         }
         for moment in Moment::ALL {
             for figure in Figure::all(1) {
                 let own =
-                    counts[first..].iter().filter(|c| c.moment == moment && c.figure == figure);
-                let errors = own.flat_map(|count| count.errors.iter().copied()).collect();
-                counts.push(Count { scene: report::ALL, sequence, moment, figure, errors });
+                    || counts[first..].iter().filter(|c| c.moment == moment && c.figure == figure);
+                let errors = own().flat_map(|count| count.errors.iter().copied()).collect();
+                let samples = own().flat_map(|count| count.samples.iter().copied()).collect();
+                let scene = report::ALL;
+                counts.push(Count { scene, sequence, moment, figure, errors, samples });
             }
         }
     }
@@ -87,7 +91,11 @@ mod tests {
         let (sobol, random) = counts.split_at(counts.len() / 2);
         let both = sobol.iter().zip(random).filter(|(count, _)| count.scene == report::ALL);
         let both: Vec<Count> = both
-            .map(|(a, b)| Count { errors: [&a.errors[..], &b.errors].concat(), ..*a })
+            .map(|(a, b)| Count {
+                errors: [&a.errors[..], &b.errors].concat(),
+                samples: [&a.samples[..], &b.samples].concat(),
+                ..*a
+            })
             .collect();
         assert_eq!(both.len(), 6);
         let verdict = Verdict::of(&both, 1.0);

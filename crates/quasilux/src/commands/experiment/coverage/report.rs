@@ -15,12 +15,14 @@ const NARROW: f64 = 0.7;
 /// One line a count.
 pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
     let mut text =
-        "scene,sequence,moment,figure,runs,covered,coverage,covered_if_30_percent_narrower,p_value,passed\n"
+        "scene,sequence,moment,figure,runs,covered,coverage,covered_if_30_percent_narrower,p_value,passed,\
+         fewest_samples,most_samples,share_at_fewest\n"
             .to_owned();
     for (number, count) in counts.iter().enumerate() {
+        let ([fewest, most], share) = count.ends();
         writeln!(
             text,
-            "{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{fewest},{most},{}",
             count.scene,
             count.sequence.name(),
             count.moment.name(),
@@ -31,6 +33,7 @@ pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
             count.covered(NARROW),
             exact(verdict.p_values[number]),
             !verdict.fails(number),
+            exact(share),
         )
         .expect("strings grow");
     }
@@ -55,12 +58,37 @@ pub(super) fn markdown(counts: &[Count], verdict: &Verdict, seeds: u32) -> Strin
                 .expect("strings grow");
         }
     }
-    text.push('\n');
+    text.push_str(&ends(counts));
     for known in &scenes {
         writeln!(text, "- {}: {} ({})", known.name, known.why, known.estimator.name())
             .expect("strings grow");
     }
     text.push_str(&judgement(counts, verdict));
+    text
+}
+
+/// Where runs stop.
+fn ends(counts: &[Count]) -> String {
+    let mut text = "\nSamples in each replicate where runs stop, and the share that stops at the fewest:\n\n| scene |"
+        .to_owned();
+    for (sequence, _) in SEQUENCES {
+        write!(text, " {0}: samples | {0}: at the fewest |", sequence.name())
+            .expect("strings grow");
+    }
+    writeln!(text, "\n|---|{}", "---:|".repeat(2 * SEQUENCES.len())).expect("strings grow");
+    for known in &scenes::all() {
+        write!(text, "| {} |", known.name).expect("strings grow");
+        for (sequence, _) in SEQUENCES {
+            let own = counts.iter().find(|count| {
+                let is_stop = count.moment == Moment::Stop && count.figure == Figure::Average;
+                is_stop && count.scene == known.name && count.sequence == sequence
+            });
+            let ([fewest, most], share) = own.map_or(([0; 2], f64::NAN), Count::ends);
+            write!(text, " {fewest} to {most} | {} % |", percent(share)).expect("strings grow");
+        }
+        text.push('\n');
+    }
+    text.push('\n');
     text
 }
 

@@ -7,8 +7,15 @@ use quasilux_transport::{Control, Estimates, Interval, Observer, Settings, simul
 
 /// Errors over half-widths of all figures, in the order of [`Figure::all`].
 pub(super) struct Trial {
-    fixed: Vec<f64>,
-    stop: Vec<f64>,
+    fixed: End,
+    stop: End,
+}
+
+/// What is known at a moment.
+struct End {
+    /// Indices per replicate.
+    samples: u64,
+    errors: Vec<f64>,
 }
 
 /// Keeps what is known at the first checkpoint.
@@ -38,29 +45,38 @@ impl Trial {
         };
         let mut first = First::default();
         let stopped = simulate(&known.scene, &settings, &mut first);
-        let errors = |mut estimates: Estimates, moment: Moment| {
+        let end = |mut estimates: Estimates, moment: Moment| {
             if moment == Moment::Fixed {
                 // No run stops here, so the interval need not pay for looks.
                 estimates.miss_probability = 1.0 - estimates.confidence;
             }
-            errors(known, &estimates)
+            End { samples: estimates.samples, errors: errors(known, &estimates) }
         };
         let first = first.0.unwrap_or_else(|| stopped.clone());
-        Self { fixed: errors(first, Moment::Fixed), stop: errors(stopped, Moment::Stop) }
+        Self { fixed: end(first, Moment::Fixed), stop: end(stopped, Moment::Stop) }
     }
 
     /// Distance from the truth over half-width.
     pub(super) fn error(&self, moment: Moment, figure: Figure) -> f64 {
-        let errors = match moment {
-            Moment::Fixed => &self.fixed,
-            Moment::Stop => &self.stop,
-        };
+        let errors = &self.end(moment).errors;
         let points = errors.len() - 2;
         errors[match figure {
             Figure::Point(number) => number,
             Figure::Average => points,
             Figure::Minimum => points + 1,
         }]
+    }
+
+    /// Indices per replicate.
+    pub(super) fn samples(&self, moment: Moment) -> u64 {
+        self.end(moment).samples
+    }
+
+    fn end(&self, moment: Moment) -> &End {
+        match moment {
+            Moment::Fixed => &self.fixed,
+            Moment::Stop => &self.stop,
+        }
     }
 }
 

@@ -5,13 +5,10 @@ use super::scene::Places;
 use super::setup::{Points, Setup};
 use super::truth::Truth;
 use crate::commands::experiment::course::{Course, Stage};
+use crate::commands::experiment::timing::{SHORT_RAYS, seconds_of_a_ray};
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_transport::Estimates;
 use std::time::{Duration, Instant};
-
-/// Times that each curve is timed, and the rays of all replicates that it then takes about.
-const ROUNDS: u32 = 25;
-const SHORT_RAYS: f64 = 2e6;
 
 /// What is measured, and how long.
 #[derive(Clone)]
@@ -108,18 +105,12 @@ impl Curve {
         Self { setup, looks, last }
     }
 
-    /// Times the curves by short runs in turn, so that what else the machine does hits all of them alike: what a ray of each
-    /// takes over the mean of its round, and the means of the rounds, are the medians over the rounds. From what a ray takes
-    /// follows what all checkpoints take.
+    /// Times the curves: from what a ray of each takes follows what all checkpoints take.
     pub(super) fn time(curves: &mut [Self], task: &Task) {
-        let round = |_| curves.iter().map(|curve| curve.seconds_of_a_ray(task)).collect();
-        let rounds: Vec<Vec<f64>> = (0..ROUNDS).map(round).collect();
-        let mean = |round: &Vec<f64>| round.iter().sum::<f64>() / round.len() as f64;
-        let usual = median(rounds.iter().map(mean).collect());
-        for (k, curve) in curves.iter_mut().enumerate() {
-            let share = median(rounds.iter().map(|round| round[k] / mean(round)).collect());
+        let of_a_ray = seconds_of_a_ray(curves.len(), |k| curves[k].seconds_of_a_ray(task));
+        for (curve, seconds) in curves.iter_mut().zip(of_a_ray) {
             for look in &mut curve.looks {
-                look.cost.seconds = share * usual * look.cost.rays;
+                look.cost.seconds = seconds * look.cost.rays;
             }
         }
     }
@@ -220,11 +211,6 @@ pub(super) fn root_mean_square(values: &[f64]) -> f64 {
 #[expect(clippy::disallowed_methods, reason = "errors are shown against time")]
 fn now() -> Instant {
     Instant::now()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// The L2 norm of the distance over that of the truth.

@@ -15,6 +15,7 @@ mod trial;
 use super::Outcome;
 use crate::arguments::ExperimentArguments;
 use quasilux_sampling::Sequence;
+use rooms::Room;
 use std::time::Duration;
 use trial::Trial;
 
@@ -24,6 +25,7 @@ const REPLICATES: u32 = 64;
 const MOST: u64 = 1 << 13;
 
 /// How much is done.
+#[derive(Clone, Copy)]
 struct Effort {
     replicates: u32,
     samples: u64,
@@ -40,7 +42,9 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
         seed: arguments.seed,
         limit: arguments.seconds_per_point,
     };
-    let trials = trials(&trial::SEQUENCES, &effort);
+    let rooms = rooms::all();
+    let mut trials = trials(&rooms, &trial::SEQUENCES, &effort);
+    Trial::time(&mut trials, &rooms, &effort);
     let mut claims = report::claims(&trials);
     claims.extend(report::claims_of_time(&trials));
     let tables = report::markdown(&trials, &claims);
@@ -48,8 +52,7 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
 }
 
 /// A trial of each room with each kind of points.
-fn trials(sequences: &[Sequence], effort: &Effort) -> Vec<Trial> {
-    let rooms = rooms::all();
+fn trials(rooms: &[Room], sequences: &[Sequence], effort: &Effort) -> Vec<Trial> {
     let of_room = |room| sequences.iter().map(move |&of| Trial::new(room, of, effort));
     rooms.iter().flat_map(of_room).collect()
 }
@@ -64,7 +67,7 @@ mod tests {
     #[test]
     fn first_shot_finds_the_same_light_with_less_noise() {
         let effort = Effort { replicates: 16, samples: 1 << 9, seed: 0, limit: None };
-        for claim in report::claims(&trials(&[Sequence::Sobol], &effort)) {
+        for claim in report::claims(&trials(&rooms::all(), &[Sequence::Sobol], &effort)) {
             assert!(claim.holds, "{}", claim.text);
         }
     }

@@ -4,6 +4,7 @@ use super::Effort;
 use super::rooms::Room;
 use crate::commands::experiment::course::{Course, Stage};
 use crate::commands::experiment::gain::Gain;
+use crate::commands::experiment::timing::{SHORT_RAYS, seconds_of_a_ray};
 use quasilux_sampling::Sequence;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_transport::interval::t_quantile_for;
@@ -48,25 +49,32 @@ pub(super) struct Agreement {
 
 impl Trial {
     pub(super) fn new(room: &Room, sequence: Sequence, effort: &Effort) -> Self {
-        let run = |first_shot: Switch, seed: u64| {
-            let settings = Settings {
-                estimator: Estimator::BidirectionalMap,
-                first_shot,
-                sequence,
-                steering: Switch::Off,
-                map_adaptive: false,
-                map_element_m: Some(ELEMENT_M),
-                replicates: effort.replicates,
-                list_terms: TERMS_OF_PATHS,
-                max_samples: Some(effort.samples),
-                seed,
-                ..Settings::default()
-            };
-            Course::run(&room.scene, &settings, effort.limit)
-        };
-        // Other seeds: what the two have in common is light alone.
-        let (off, on) = (run(Switch::Off, 2 * effort.seed), run(Switch::On, 2 * effort.seed + 1));
+        let run =
+            |switch| Course::run(&room.scene, &settings(switch, sequence, effort), effort.limit);
+        let (off, on) = (run(Switch::Off), run(Switch::On));
         Self { room: room.name, why: room.why, sequence, off, on }
+    }
+
+    /// Times all runs by short ones: from what a ray of each takes follows what all checkpoints take.
+    pub(super) fn time(trials: &mut [Self], rooms: &[Room], effort: &Effort) {
+        let of_a_ray = seconds_of_a_ray(2 * trials.len(), |k| {
+            let trial = &trials[k / 2];
+            let (switch, course) =
+                if k % 2 == 0 { (Switch::Off, &trial.off) } else { (Switch::On, &trial.on) };
+            let replicates = f64::from(effort.replicates);
+            let is_short = |stage: &&Stage| stage.rays * replicates <= SHORT_RAYS;
+            let samples = course.stages.iter().rfind(is_short).map_or(1, |stage| stage.samples);
+            let short = Effort { samples, ..*effort };
+            let room = rooms.iter().find(|room| room.name == trial.room).expect("its own room");
+            let settings = settings(switch, trial.sequence, &short);
+            let course = Course::run(&room.scene, &settings, None);
+            course.last().seconds / course.last().rays
+        });
+        for (trial, seconds) in trials.iter_mut().zip(of_a_ray.chunks_exact(2)) {
+            for (course, seconds) in [&mut trial.off, &mut trial.on].into_iter().zip(seconds) {
+                course.stages.iter_mut().for_each(|stage| stage.seconds = seconds * stage.rays);
+            }
+        }
     }
 
     /// Both runs with their names.
@@ -115,6 +123,24 @@ impl Trial {
         let replicates = columns[0][0].len();
         let allowed = t_quantile_for(replicates, one).unwrap_or(f64::NAN);
         Agreement { worst, allowed, relative }
+    }
+}
+
+/// What first shot is switched on or off in.
+fn settings(first_shot: Switch, sequence: Sequence, effort: &Effort) -> Settings {
+    Settings {
+        estimator: Estimator::BidirectionalMap,
+        first_shot,
+        sequence,
+        steering: Switch::Off,
+        map_adaptive: false,
+        map_element_m: Some(ELEMENT_M),
+        replicates: effort.replicates,
+        list_terms: TERMS_OF_PATHS,
+        max_samples: Some(effort.samples),
+        // Other seeds: what the two have in common is light alone.
+        seed: 2 * effort.seed + u64::from(first_shot == Switch::On),
+        ..Settings::default()
     }
 }
 
