@@ -222,7 +222,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let bsdf = stage.world.bsdf(at);
         let frame = stage.world.frame(at);
         let wo = frame.to_local(-self.direction);
-        let goes_on = self.beta * bsdf.albedo(wo, at.front);
+        let goes_on = self.beta * bsdf.albedo(wo, at.front, Mode::Radiance);
         let is_last = stage.max_bounces.is_some_and(|most| bounces >= most);
         if is_last || goes_on.max_channel() == 0.0 {
             return false;

@@ -302,7 +302,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let (bsdf, frame) = (stage.world.bsdf(at), stage.world.frame(at));
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
-        let left = (self.weight * bsdf.albedo(wo, at.front)).luminance();
+        let left = (self.weight * bsdf.albedo(wo, at.front, Mode::Flux)).luminance();
         let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
         // Of drawn places those are rare that absorb much, so all photons go on from there.
         let is_certain = arrival.is_drawn || left >= lead.certain_weight;

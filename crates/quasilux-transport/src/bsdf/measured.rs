@@ -2,8 +2,9 @@
 //!
 //! Photons take the table of light that arrives as they do: its inverse transform draws their directions.
 //! Paths run against the light. They need f with the light coming from where they go: that table with its
-//! directions exchanged, or the table itself where it makes no difference (Helmholtz reciprocity). Where neither is at hand, a
-//! share of their directions, the `doubt`, goes to all sides alike, so that none with light is missed.
+//! directions exchanged. Where that is not at hand, they take the table as if it did not matter which direction comes first
+//! (Helmholtz reciprocity), and a share of their directions, the `doubt`, goes to all sides alike, so that none with
+//! light is missed.
 
 use super::BsdfSample;
 use super::Mode;
@@ -14,8 +15,6 @@ use quasilux_sampling::SampleCursor;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_scene::{Rgb, bsdf as scene};
 
-/// Mean defects of reciprocity below this are rounding.
-const ROUNDING: f64 = 1e-6;
 /// The doubt is the mean defect, within these bounds.
 const LEAST_DOUBT: f64 = 0.05;
 const MOST_DOUBT: f64 = 0.5;
@@ -48,15 +47,17 @@ impl Against {
         let Some(source) = table.scattering(source(side, way), way) else {
             return Self { reversed: None, doubt: 0.0 };
         };
-        let defect = Reciprocity::of(table, side, way).map(|found| found.mean);
-        let doubt = defect.map_or(1.0, |defect| defect.clamp(LEAST_DOUBT, MOST_DOUBT));
         match source.reversed() {
-            _ if defect.is_some_and(|defect| defect < ROUNDING) => {
-                Self { reversed: None, doubt: 0.0 }
+            Some(Reversed { table, is_exact }) => {
+                let doubt = if is_exact { 0.0 } else { LEAST_DOUBT };
+                Self { reversed: Some(table), doubt }
             }
-            Some(Reversed { table, is_exact: true }) => Self { reversed: Some(table), doubt: 0.0 },
-            Some(Reversed { table, .. }) => Self { reversed: Some(table), doubt: LEAST_DOUBT },
-            None => Self { reversed: None, doubt },
+            // A look at some directions cannot tell that a table is reciprocal everywhere.
+            None => {
+                let defect = Reciprocity::of(table, side, way).map(|found| found.mean);
+                let doubt = defect.map_or(1.0, |defect| defect.clamp(LEAST_DOUBT, MOST_DOUBT));
+                Self { reversed: None, doubt }
+            }
         }
     }
 }
@@ -77,10 +78,10 @@ impl Measured {
         self.sheet.transmits()
     }
 
-    /// The share of light that goes on; an estimate of it where the tables are not reciprocal.
-    pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool) -> S {
+    /// The share of light that goes on; of paths an estimate where exchanged tables are not at hand.
+    pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool, mode: Mode) -> S {
         let side = self.sheet.side(front);
-        let share = |way: Way| self.lobe(side, way, Mode::Radiance).share(in_table(wo, side));
+        let share = |way: Way| self.lobe(side, way, mode).share(in_table(wo, side));
         let [reflected, passed] = Way::ALL.map(share);
         S::from_rgb(reflected + passed)
     }

@@ -162,7 +162,7 @@ impl<S: Spectrum> Bsdf<S> {
     }
 
     /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front side.
-    pub(crate) fn albedo(&self, wo: DVec3, front: bool) -> S {
+    pub(crate) fn albedo(&self, wo: DVec3, front: bool, mode: Mode) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.reflectance,
             Self::Mirror(mirror) => mirror.reflectance,
@@ -171,7 +171,7 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Pane(pane) => pane.albedo(wo),
             Self::Conductor(conductor) => conductor.albedo(wo),
             Self::Plastic(plastic) => plastic.albedo(wo),
-            Self::Measured(measured) => measured.albedo(wo, front),
+            Self::Measured(measured) => measured.albedo(wo, front, mode),
         }
     }
 

@@ -133,7 +133,8 @@ fn white_surfaces_give_all_light_back() {
         let bsdf = Bsdf::<f64>::new(&material);
         for cos in COSINES {
             let wo = direction(cos, 0.4);
-            let (albedo, sum) = (bsdf.albedo(wo, true), quadrature(&material, &bsdf, wo));
+            let (albedo, sum) =
+                (bsdf.albedo(wo, true, Mode::Radiance), quadrature(&material, &bsdf, wo));
             let found = format!("{material:?} at {cos}: {albedo} {sum}");
             assert!((albedo - 1.0).abs() < 1e-9 && (sum - 1.0).abs() < 5e-4, "{found}");
         }
@@ -147,7 +148,10 @@ fn white_surfaces_give_all_light_back() {
         for cos in COSINES {
             for front in [true, false] {
                 let wo = direction(cos, 0.4);
-                assert!((bsdf.albedo(wo, front) - 1.0).abs() < 1e-14, "{material:?}");
+                assert!(
+                    (bsdf.albedo(wo, front, Mode::Radiance) - 1.0).abs() < 1e-14,
+                    "{material:?}"
+                );
                 let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
                 for index in 0..64 {
                     let mut cursor = SampleCursor::new(&points, index);
@@ -165,7 +169,8 @@ fn albedo_is_the_integral_of_f_cos() {
         let bsdf = Bsdf::<f64>::new(&material);
         for cos in COSINES {
             let wo = direction(cos, 2.0);
-            let (albedo, sum) = (bsdf.albedo(wo, true), quadrature(&material, &bsdf, wo));
+            let (albedo, sum) =
+                (bsdf.albedo(wo, true, Mode::Radiance), quadrature(&material, &bsdf, wo));
             assert!((albedo - sum).abs() < 5e-4, "{material:?} at {cos}: {albedo} {sum}");
             assert!(albedo <= 1.0 + 1e-12, "{material:?} at {cos}: {albedo}");
         }

@@ -6,6 +6,7 @@
 //! an estimate: what it has wrong costs variance.
 
 use super::cell::Cell;
+use crate::bsdf::Mode;
 use crate::lights::{Incidence, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
@@ -119,7 +120,7 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         let n = if front { own.front_normal } else { -own.front_normal };
         let centre = world.interaction_on(facet, front, [1.0 / 3.0; 3]);
         let wo = world.frame(&centre).to_local((self.position - centre.position).normalize());
-        let albedo = world.bsdf(&centre).albedo(wo, front).luminance();
+        let albedo = world.bsdf(&centre).albedo(wo, front, Mode::Flux).luminance();
         if albedo <= 0.0 {
             return (Vec::new(), 0);
         }

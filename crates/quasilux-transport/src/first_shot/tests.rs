@@ -6,6 +6,7 @@
 //! have standard errors of 0.1 to 0.3 %: an error of 2 % in one of them is found nearly always.
 
 use super::*;
+use crate::bsdf::Mode;
 use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
@@ -244,7 +245,8 @@ fn weights_are_nearly_equal() {
             if let Some(Drawn::Place(place)) = drawn
                 && place.is_lit(&stage)
             {
-                let weight = place.flux_share * stage.world.bsdf(&place.at).albedo(DVec3::Z, true);
+                let weight = place.flux_share
+                    * stage.world.bsdf(&place.at).albedo(DVec3::Z, true, Mode::Flux);
                 sum += weight;
                 squares += weight * weight;
             }

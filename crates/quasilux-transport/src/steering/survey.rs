@@ -307,7 +307,7 @@ impl Survey {
         let cell = *number;
         let known = &mut self.known[cell as usize];
         if known.places.len() < PLACES {
-            let albedo = stage.world.bsdf(&at).albedo(DVec3::Z, at.front).luminance();
+            let albedo = stage.world.bsdf(&at).albedo(DVec3::Z, at.front, Mode::Flux).luminance();
             known.albedo += (albedo - known.albedo) / (known.places.len() + 1) as f64;
             known.places.push(at);
         }
