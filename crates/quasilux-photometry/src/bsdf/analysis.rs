@@ -2,7 +2,7 @@
 //!
 //! Tables are used as they are: these figures say by how much they are wrong.
 
-use super::distribution::{LUMINANCE_WEIGHTS, upwards};
+use super::distribution::{luminance, upwards};
 use super::{Distribution, MeasuredBsdf, Side, Way};
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
@@ -146,14 +146,4 @@ fn directions() -> Vec<DVec3> {
         upwards([cos * x - sin * y, sin * x + cos * y])
     };
     pairs.map(direction).collect()
-}
-
-/// Luminance of linear RGB (ITU-R BT.709); grey stays exactly what it is.
-#[must_use]
-pub fn luminance(rgb: [f64; 3]) -> f64 {
-    // The weights add up to 1 but for rounding: grey stays what it is.
-    if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
-        return rgb[0];
-    }
-    rgb.iter().zip(LUMINANCE_WEIGHTS).map(|(channel, weight)| channel * weight).sum()
 }

@@ -4,7 +4,7 @@ use super::{GriddedTable, KlemsTable, TensorTree};
 use glam::DVec3;
 
 /// Luminance of linear RGB (ITU-R BT.709).
-pub(crate) const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
+const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Samples nearer to the edge of a cell, in parts of it, are moved inside: rounding must not carry a direction
 /// into the next cell.
@@ -154,4 +154,14 @@ impl Distribution {
 /// The unit direction with that projection.
 pub(super) fn upwards([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
+}
+
+/// Luminance of linear RGB (ITU-R BT.709); grey stays exactly what it is.
+#[must_use]
+pub fn luminance(rgb: [f64; 3]) -> f64 {
+    // The weights add up to 1 but for rounding: grey stays what it is.
+    if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
+        return rgb[0];
+    }
+    rgb.iter().zip(LUMINANCE_WEIGHTS).map(|(channel, weight)| channel * weight).sum()
 }

@@ -42,10 +42,10 @@ mod reversed;
 mod tree;
 mod window_xml;
 
-pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity, luminance};
+pub use analysis::{BsdfAnalysis, EnergyBalance, Reciprocity};
 pub use astm::read_astm;
 pub use ddr::read_ddr;
-pub use distribution::{Distribution, ScatterSample};
+pub use distribution::{Distribution, ScatterSample, luminance};
 pub use gridded::GriddedTable;
 pub use klems::{AngleBasis, KlemsTable, ThetaBand};
 pub use merl::read_merl;

@@ -16,7 +16,7 @@
 mod knots;
 mod resample;
 
-use super::distribution::{INSIDE, LUMINANCE_WEIGHTS, ScatterSample};
+use super::distribution::{INSIDE, ScatterSample, luminance};
 use crate::{Angles, Grid, SphericalTable};
 use glam::DVec3;
 pub(super) use knots::{around, bracket};
@@ -231,10 +231,6 @@ impl Mixture<'_> {
     fn luminance(&self, direction: DVec3) -> f64 {
         self.sum(|lobe| [lobe.luminance.value(direction), 0.0, 0.0])[0]
     }
-}
-
-fn luminance(rgb: [f64; 3]) -> f64 {
-    rgb.iter().zip(LUMINANCE_WEIGHTS).map(|(channel, weight)| channel * weight).sum()
 }
 
 /// A direction in the frame of the lobes, from one of the sheet; and the other way round.

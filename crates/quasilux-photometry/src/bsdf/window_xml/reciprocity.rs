@@ -21,11 +21,8 @@ pub(super) fn fill_transmission(
             continue;
         };
         let found = format!("no Transmission {}", side.name());
-        let reversed = match bsdf.scattering(side.other(), Way::Transmission) {
-            Some(Distribution::Klems(table)) => table.reversed().map(Distribution::Klems),
-            Some(Distribution::TensorTree(tree)) => tree.reversed().map(Distribution::TensorTree),
-            _ => None,
-        };
+        let known = bsdf.scattering(side.other(), Way::Transmission);
+        let reversed = known.and_then(Distribution::reversed).map(|reversed| reversed.table);
         let (deviation, expected) = match &reversed {
             Some(Distribution::TensorTree(tree)) if tree.is_isotropic() => {
                 let side = tree.resolution();
