@@ -33,6 +33,7 @@ mod astm;
 mod ddr;
 mod defects;
 mod distribution;
+mod from_function;
 mod gridded;
 mod klems;
 mod merl;

@@ -242,6 +242,6 @@ fn turned(direction: DVec3, [cos, sin]: [f64; 2]) -> DVec3 {
 
 /// A direction in the frame of the file, which is seen from the front, from one of the sheet; and the other way
 /// round.
-fn as_in_file(direction: DVec3) -> DVec3 {
+pub(super) fn as_in_file(direction: DVec3) -> DVec3 {
     DVec3::new(-direction.x, direction.y, direction.z)
 }

@@ -65,7 +65,7 @@ impl ThetaBand {
 
 /// Where a direction falls.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
+pub(in crate::bsdf) struct Cell {
     pub(super) band: usize,
     /// Within the band.
     pub(super) patch: usize,
@@ -150,13 +150,18 @@ impl AngleBasis {
         [sin * cos_phi, sin * sin_phi, (1.0 - sin2).max(0.0).sqrt()]
     }
 
+    /// The same at another place of the cell.
+    pub(in crate::bsdf) fn place_in(&self, cell: Cell, fraction: [f64; 2]) -> [f64; 3] {
+        self.place(Cell { fraction, ..cell })
+    }
+
     /// The index of a cell in the order of files.
     pub(super) fn index(&self, cell: Cell) -> usize {
         self.bands[cell.band].first + cell.patch
     }
 
     /// The patches in the order of files: band and patch within it.
-    pub(super) fn cells(&self) -> impl Iterator<Item = Cell> {
+    pub(in crate::bsdf) fn cells(&self) -> impl Iterator<Item = Cell> {
         let of_band = |(band, found): (usize, &ThetaBand)| {
             (0..found.patches).map(move |patch| Cell { band, patch, fraction: [0.5, 0.5] })
         };

@@ -4,6 +4,7 @@ mod analytic;
 mod astm;
 mod corpus;
 mod ddr;
+mod from_function;
 mod merl;
 mod radiance;
 mod sampling;
