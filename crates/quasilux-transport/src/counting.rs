@@ -3,6 +3,10 @@
 //! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
 
+mod pilot;
+
+pub(crate) use pilot::plan;
+
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::grid_plane::GridPlane;
 use crate::map::{MapLayout, QUANTA_PER_PHOTON};
@@ -14,8 +18,8 @@ use crate::simulate::Estimation;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::state::{Decisions, Reader, StateError, Stored, Writer, digest};
-use crate::steering::{self, Plan, Windows};
-use crate::targets::{by_sensor, snapshot, targets};
+use crate::steering::{Plan, Windows};
+use crate::targets::{by_sensor, snapshot};
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::{Interaction, World};
@@ -80,7 +84,7 @@ impl<'a, S: Spectrum> Counting<'a, S> {
     pub(crate) fn new(stage: &'a Stage<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
         let receivers = Receivers::new(&stage.world, scene, settings);
         let replicates = settings.effective_replicates();
-        let plan = steering::plan(stage, &targets(scene), settings.steering);
+        let plan = plan(stage, scene, &receivers, settings);
         let lightest = plan.windows.as_ref().map_or(1.0, Windows::lightest);
         let (quanta, terms) = (QUANTA_PER_PHOTON / lightest, settings.list_terms.max(1));
         let counters = || Counters::new(receivers.counters, terms, quanta);
@@ -190,7 +194,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
                 ..Dimensions::default()
             },
             biased: self.photons.endless > 0,
-            warnings: self.photons.warnings(),
+            warnings: self.photons.warning().into_iter().collect(),
             ..Estimates::default()
         }
     }

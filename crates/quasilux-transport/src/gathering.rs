@@ -4,11 +4,12 @@ mod advance;
 mod moment;
 mod state;
 
+use crate::endless;
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::join::{self, Decision, Joined};
 use crate::path_end::PathEnd;
 use crate::path_wave::PathWave;
-use crate::photon::{MOST_EVENTS, PhotonCounts};
+use crate::photon::PhotonCounts;
 use crate::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::settings::Settings;
 use crate::shadow::{Asker, Shadows};
@@ -282,12 +283,6 @@ impl<S: Spectrum> Gathering<'_, S> {
             sum
         })
     }
-
-    fn warning(paths: u64) -> Option<String> {
-        (paths > 0).then(|| {
-            format!("{paths} paths were cut after {MOST_EVENTS} bounces: light is trapped here, and values are too low")
-        })
-    }
 }
 
 impl<S: Spectrum> Estimation for Gathering<'_, S> {
@@ -327,13 +322,15 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
         };
+        let of_paths = endless::warning(work.endless, "paths", "values");
+        let warnings = photons.warning().into_iter().chain(of_paths).collect();
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,
             rays: work.rays + photons.rays,
             flux: photons.balance(self.stage.lights.flux_lm),
             biased: work.endless + photons.trapped > 0,
-            warnings: photons.warnings().into_iter().chain(Self::warning(work.endless)).collect(),
+            warnings,
             dimensions: Dimensions { photon: photons.dimensions, path: work.dimensions },
             invalid_contributions: self.invalid_points
                 + self.joined.as_ref().map_or(0, Joined::invalid)

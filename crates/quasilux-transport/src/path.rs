@@ -9,7 +9,9 @@
 //! is a control variate, its elements cause no bias, and no light is lost with those that end.
 
 use crate::bsdf::Mode;
+use crate::endless::Gain;
 use crate::frame::Frame;
+use crate::gathered::Gathered;
 use crate::join::{Joining, Shares};
 use crate::path_end::{MapEnd, Rest};
 use crate::purpose::Purpose;
@@ -27,21 +29,6 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
-
-/// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Gathered<S> {
-    /// Straight from the lights; of the point-like ones only where the start asks for it.
-    pub(crate) direct: S,
-    /// After at least one bounce; may be negative where a map is corrected.
-    pub(crate) indirect: S,
-    /// Both by the number of bounces, the last all from there on; empty where terms are not listed.
-    pub(crate) terms: Vec<S>,
-    /// Whether the path came to a surface where there may be indirect light that it can find.
-    pub(crate) reflected: bool,
-    /// Whether it was cut on its way.
-    pub(crate) endless: bool,
-}
 
 /// A path that is over.
 pub(crate) struct Ended<S> {
@@ -98,6 +85,7 @@ pub(crate) struct Path<'p, S> {
     passes: u32,
     /// Bounces behind the light that its last vertex asks for.
     bounces_asked: u32,
+    gain: Gain,
     /// From lights that its last vertex turned out to see.
     arrived: S,
     /// From the point-like lights at its start.
@@ -166,6 +154,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             beta_emitted: beta,
             passes,
             bounces_asked: 0,
+            gain: Gain::NONE,
             arrived: S::black(),
             pointlikes: S::black(),
             found: Gathered::default(),
@@ -242,6 +231,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
             self.add_hidden(stage, bounces, at);
         }
         let albedo = goes_on.max_channel() / self.beta.max_channel();
+        if !self.gain.grow(albedo, bounces) {
+            self.cut();
+            return false;
+        }
         let from_map = match self.rest {
             Rest::Map(end) if bsdf.keeps_illuminance() => {
                 self.end_on(end, stage, bounces, at, albedo)
@@ -456,29 +449,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
 /// What goes on counts so many times: 0, or more than once for those that do not.
 pub(crate) fn survival_factor(survival: f64, cursor: &mut SampleCursor<'_>) -> f64 {
     if cursor.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
-}
-
-impl<S: Spectrum> Gathered<S> {
-    /// Adds light that arrives at the vertex after `bounces` reflections, or that the ray from there
-    /// runs into.
-    fn add(&mut self, bounces: u32, light: S) {
-        *if bounces == 0 { &mut self.direct } else { &mut self.indirect } += light;
-        self.add_to_term(bounces, light);
-    }
-
-    /// Adds light to its term alone.
-    fn add_to_term(&mut self, bounces: u32, light: S) {
-        if let Some(rest) = self.terms.len().checked_sub(1) {
-            self.terms[rest.min(bounces as usize)] += light;
-        }
-    }
-
-    /// Keeps the first terms apart, and the rest.
-    fn list_terms(&mut self, listed: u32) {
-        if listed > 0 {
-            self.terms = vec![S::black(); listed as usize + 1];
-        }
-    }
 }
 
 impl<S> Default for PathWork<S> {

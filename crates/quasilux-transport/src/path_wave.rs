@@ -3,8 +3,8 @@
 //! All rays of one bounce are traced together, then all that the paths ask of the lights. Every path
 //! takes its coordinates and adds its contributions in the order in which it would alone.
 
+use crate::endless::MOST_EVENTS;
 use crate::path::{Path, PathWork, Start};
-use crate::photon::MOST_EVENTS;
 use crate::shadow::Asker;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;

@@ -9,6 +9,7 @@
 //! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::Mode;
+use crate::endless::{Gain, MOST_EVENTS};
 use crate::first_shot::{Drawn, LitCells, LitPlace};
 use crate::lights::{Emission, Emitted};
 use crate::purpose::Purpose;
@@ -20,9 +21,6 @@ use crate::world::Interaction;
 use glam::DVec3;
 use quasilux_sampling::{DimensionHistogram, SampleCursor};
 use std::ops::AddAssign;
-
-/// After this many events a photon or path is cut: only halls of perfect mirrors get there.
-pub(crate) const MOST_EVENTS: u32 = 4096;
 
 /// Flux is counted in this many steps a photon: 2^39 photons fit.
 const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
@@ -37,7 +35,7 @@ pub(crate) struct PhotonCounts {
     pub(crate) lost: i64,
     /// Cut after the wanted number of bounces.
     pub(crate) cut: i64,
-    /// Photons cut after [`MOST_EVENTS`].
+    /// Photons cut because they would not [end](crate::endless).
     pub(crate) endless: u64,
     /// The same of photons that are not in the balance of the flux.
     pub(crate) trapped: u64,
@@ -105,6 +103,7 @@ pub(crate) struct Photon<'p, S> {
     specular_only: bool,
     /// Bounces behind it before its first flight.
     bounces: u32,
+    gain: Gain,
 }
 
 /// Where photons begin.
@@ -227,7 +226,14 @@ pub(crate) struct Arrival<'a> {
 impl<'p, S: Spectrum> Photon<'p, S> {
     /// The photon that takes its coordinates from `cursor`.
     pub(crate) fn new(cursor: SampleCursor<'p>) -> Self {
-        Self { cursor, weight: S::white(), trail: Trail::Found, specular_only: false, bounces: 0 }
+        Self {
+            cursor,
+            weight: S::white(),
+            trail: Trail::Found,
+            specular_only: false,
+            bounces: 0,
+            gain: Gain::NONE,
+        }
     }
 
     /// The photon as a receiver wants it.
@@ -303,6 +309,9 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
         let left = (self.weight * bsdf.albedo(wo, at.front, Mode::Flux)).luminance();
+        if !self.gain.grow(left / luminance, arrival.bounces + self.bounces) {
+            return counts.give_up(&self);
+        }
         let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
         // Of drawn places those are rare that absorb much, so all photons go on from there.
         let is_certain = arrival.is_drawn || left >= lead.certain_weight;
@@ -327,8 +336,8 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let children: Vec<SampleCursor<'p>> =
             (1..count).map(|child| self.cursor.child(child)).collect();
         self.bounces += u32::from(arrival.is_drawn);
-        let Self { weight, trail, specular_only, bounces, .. } = self;
-        let child = |cursor| Self { cursor, weight, trail, specular_only, bounces };
+        let Self { weight, trail, specular_only, bounces, gain, .. } = self;
+        let child = |cursor| Self { cursor, weight, trail, specular_only, bounces, gain };
         for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
             let guide = window.map(|window| &window.guide);
             let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);

@@ -7,7 +7,8 @@
 //! index and its ancestors alone, never on its company: a wave gives what
 //! [`crate::photon::trace_photon`] gives.
 
-use crate::photon::{Arrival, Beginning, Lead, MOST_EVENTS, Photon, PhotonCounts, PhotonReceiver};
+use crate::endless::MOST_EVENTS;
+use crate::photon::{Arrival, Beginning, Lead, Photon, PhotonCounts, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::trial::Step;

@@ -1,9 +1,10 @@
 //! Many photons at once: ranges of indices of all replicates, shared between threads.
 
+use crate::endless;
 use crate::estimates::FluxBalance;
 use crate::observer::Snapshot;
 use crate::order::{WAVES_PER_FIELD, Waves};
-use crate::photon::{Lead, MOST_EVENTS, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::photon::{Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
 use crate::photon_wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -120,14 +121,7 @@ impl PhotonCounts {
     }
 
     /// What a reader of the results must know of them.
-    pub(crate) fn warnings(&self) -> Vec<String> {
-        let photons = self.endless + self.trapped;
-        if photons == 0 {
-            return Vec::new();
-        }
-        vec![format!(
-            "{photons} photons were cut after {MOST_EVENTS} bounces: light is trapped here, and \
-             values are too low"
-        )]
+    pub(crate) fn warning(&self) -> Option<String> {
+        endless::warning(self.endless + self.trapped, "photons", "values")
     }
 }

@@ -13,12 +13,12 @@
 //! No sums are kept for a picture: a run of pixels is traced in all replicates, then summarised, and 24
 //! bytes a pixel stay.
 
+use crate::endless;
 use crate::estimates::Estimates;
 use crate::interval::{Interval, t_quantile_for};
 use crate::path::{Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::{PathWave, WAVE};
-use crate::photon::MOST_EVENTS;
 use crate::picture::{CameraEstimates, Pixel};
 use crate::sections::WorkCounts;
 use crate::settings::Settings;
@@ -92,14 +92,8 @@ pub(crate) fn add_pictures<S: Spectrum>(
     estimates.tolerance_reached &= complete;
     estimates.rays += work.rays;
     estimates.dimensions.path.merge(&work.dimensions);
-    if work.endless > 0 {
-        estimates.biased = true;
-        estimates.warnings.push(format!(
-            "{} paths of pictures were cut after {MOST_EVENTS} bounces: light is trapped here, and \
-             luminances are too low",
-            work.endless
-        ));
-    }
+    estimates.biased |= work.endless > 0;
+    estimates.warnings.extend(endless::warning(work.endless, "paths of pictures", "luminances"));
 }
 
 /// Where the picture of one camera is made.

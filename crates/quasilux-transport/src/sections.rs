@@ -1,7 +1,8 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
+use crate::gathered::Gathered;
 use crate::join::Joining;
-use crate::path::{Ended, Gathered, Seeks, Start};
+use crate::path::{Ended, Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
 use crate::purpose::Purpose;

@@ -43,6 +43,8 @@ pub(crate) enum Stream {
     MapPilots,
     /// Photons that show whether to begin where light lands.
     FirstShotPilots,
+    /// Photons that show whether steering pays where they are counted.
+    SteeringPilots,
     /// Photons that look for what paths cannot find.
     HiddenPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
@@ -72,6 +74,7 @@ impl Stream {
             Self::PlanPhotons => 1,
             Self::MapPilots => 1 << 62,
             Self::FirstShotPilots => 1 << 62 | 1,
+            Self::SteeringPilots => u64::MAX - 65,
             Self::HiddenPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
             Self::JoinedPhotons(group) => (1 << 62) + 2 + 2 * group,
@@ -124,6 +127,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             Stream::PlanPhotons
             | Stream::MapPilots
             | Stream::FirstShotPilots
+            | Stream::SteeringPilots
             | Stream::HiddenPhotons
             | Stream::JoinedPhotons(_)
             | Stream::CoarsePhotons

@@ -65,6 +65,8 @@ pub(crate) struct BeyondPane<S> {
 pub(crate) struct World<S> {
     pub(crate) facets: Vec<Facet>,
     bsdfs: Vec<Bsdf<S>>,
+    /// What each keeps at most of light from all sides.
+    most_kept: Vec<f64>,
     bvh: TriangleBvh,
     /// The emitting facets again, where some lie flush in another surface: they come first there.
     flush_emitters: Option<FlushEmitters>,
@@ -110,6 +112,7 @@ impl<S: Spectrum> World<S> {
         let mut world = Self {
             facets,
             bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
+            most_kept: scene.materials.iter().map(|of| of.bsdf.most_kept().luminance()).collect(),
             bvh,
             flush_emitters: None,
             has_panes: false,
@@ -156,6 +159,11 @@ impl<S: Spectrum> World<S> {
     /// How a facet scatters.
     pub(crate) fn bsdf_of(&self, facet: &Facet) -> &Bsdf<S> {
         &self.bsdfs[facet.material as usize]
+    }
+
+    /// Luminous flux that a facet does not absorb, at most, over what meets it: [`quasilux_scene::Bsdf::most_kept`].
+    pub(crate) fn most_kept_by(&self, facet: &Facet) -> f64 {
+        self.most_kept[facet.material as usize]
     }
 
     /// Luminance in cd/m^2 that the place emits toward the side it was hit from.

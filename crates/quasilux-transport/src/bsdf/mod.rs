@@ -32,8 +32,28 @@ use measured::Measured;
 use mirror::Mirror;
 use plastic::Plastic;
 use quasilux_sampling::SampleCursor;
-use quasilux_scene::bsdf as scene;
+use quasilux_scene::{Rgb, bsdf as scene};
 use translucent::Translucent;
+
+/// A material as a laboratory would measure it.
+#[derive(Clone, Debug)]
+pub struct Scattering(Bsdf<Rgb>);
+
+impl Scattering {
+    /// Of a material.
+    #[must_use]
+    pub fn of(material: &quasilux_scene::Bsdf) -> Self {
+        Self(Bsdf::new(material))
+    }
+
+    /// The scattering function f in sr^-1, without the cosine, of light that arrives from `wi` on the front and leaves
+    /// along `wo`: unit vectors away from the surface in its frame, z along the normal. 0 of what goes into single
+    /// directions.
+    #[must_use]
+    pub fn evaluate(&self, wi: DVec3, wo: DVec3) -> Rgb {
+        self.0.evaluate(wi, wo, true, Mode::Flux)
+    }
+}
 
 /// How a surface scatters light, on both sides.
 #[derive(Clone, Debug)]

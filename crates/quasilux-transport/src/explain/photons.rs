@@ -3,13 +3,12 @@
 //! Steered photons split; what they split off draws coordinates that belong to no block.
 
 use super::{Pilot, Points, Walk, WalkKind};
-use crate::counting::Receivers;
+use crate::counting::{self, Receivers};
 use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
-use crate::steering::{self, Windows};
-use crate::targets::targets;
+use crate::steering::Windows;
 use crate::world::Interaction;
 use quasilux_sampling::SampleCursor;
 use quasilux_scene::Scene;
@@ -54,7 +53,7 @@ impl<'s, S: Spectrum> PhotonWalk<'s, S> {
             let lx = stage.lights.flux_lm / (area_m2 * points as f64);
             readings[counter as usize].push(Reading { sensor, lx });
         }
-        let windows = steering::plan(stage, &targets(scene), settings.steering).windows;
+        let windows = counting::plan(stage, scene, &receivers, settings).windows;
         Self { stage, receivers, windows, readings, sensors: scene.sensors.len() }
     }
 }

@@ -25,8 +25,8 @@ const BEAM: f64 = 6.0;
 const DEEPEST: u32 = 24;
 /// Looks at corners are this share of the way to the centroid: other surfaces touch there.
 const INWARD: f64 = 1.0 / 1024.0;
-/// The share of its mean intensity that a light is taken to have where its table has less: looks may
-/// miss a narrow beam.
+/// The share of its mean intensity that a light is taken to have where its table has less, and that of what a
+/// surface keeps of all light where it keeps less: looks may miss a narrow beam, or where a surface shines.
 const EVERYWHERE: f64 = 0.1;
 
 /// A light that looks at a facet.
@@ -71,8 +71,8 @@ struct View<'v, 's, 'a, S> {
     n: DVec3,
     area_m2: f64,
     edge_m: f64,
-    /// The share of what lands that goes on.
-    albedo: f64,
+    /// The share of what lands that goes on, over all directions.
+    most_kept: f64,
     rays: u64,
     found: Vec<LitCell>,
 }
@@ -118,10 +118,8 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         let world = &self.stage.world;
         let own = &world.facets[facet as usize];
         let n = if front { own.front_normal } else { -own.front_normal };
-        let centre = world.interaction_on(facet, front, [1.0 / 3.0; 3]);
-        let wo = world.frame(&centre).to_local((self.position - centre.position).normalize());
-        let albedo = world.bsdf(&centre).albedo(wo, front, Mode::Flux).luminance();
-        if albedo <= 0.0 {
+        let most_kept = world.most_kept_by(own);
+        if most_kept <= 0.0 {
             return (Vec::new(), 0);
         }
         let mut view = View {
@@ -131,7 +129,7 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
             n,
             area_m2: own.area_m2(),
             edge_m: own.longest_edge_m(),
-            albedo,
+            most_kept,
             rays: 0,
             found: Vec::new(),
         };
@@ -191,7 +189,7 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         // No corner is farther from the centroid than two thirds of the longest edge.
         let nearest_m = (to_light.length() - edge_m * (2.0 / 3.0)).max(height_m);
         let most_lx = largest_cd * height_m / (nearest_m * nearest_m * nearest_m);
-        edge_m > largest_angle * nearest_m && most_lx * area_m2 * self.albedo > NOTABLE * all_lm
+        edge_m > largest_angle * nearest_m && most_lx * area_m2 * self.most_kept > NOTABLE * all_lm
     }
 
     fn look(&mut self, cell: Cell, weights: [f64; 3]) -> Look {
@@ -211,6 +209,9 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
                 seen_lx = illuminance_lx;
             }
         }
-        Look { seen: seen_lx * self.albedo, open: open_lx * self.albedo }
+        let wo = world.frame(&at).to_local(direction);
+        let kept = world.bsdf(&at).albedo(wo, self.front, Mode::Flux).luminance();
+        let may_keep = kept.max(EVERYWHERE * self.most_kept);
+        Look { seen: seen_lx * kept, open: open_lx * may_keep }
     }
 }

@@ -10,10 +10,10 @@ use quasilux_transport::{
 };
 use std::f64::consts::PI;
 
-/// Steps along each edge of a pixel of the quadrature that pixels are compared with.
+/// Of the quadrature that pixels are compared with, where luminances are smooth.
 const STEPS: u32 = 32;
 
-fn camera(position: DVec3, target: DVec3) -> Camera {
+pub(crate) fn camera(position: DVec3, target: DVec3) -> Camera {
     Camera {
         name: "view".to_owned(),
         position,
@@ -24,15 +24,20 @@ fn camera(position: DVec3, target: DVec3) -> Camera {
     }
 }
 
-/// The mean over each pixel of a luminance by direction, by the midpoint rule.
-fn quadrature(camera: &Camera, luminance_cd_m2: impl Fn(DVec3) -> f64) -> Vec<f64> {
+/// The mean over each pixel of a luminance by direction, by the midpoint rule with this many steps along each
+/// edge.
+pub(crate) fn quadrature(
+    camera: &Camera,
+    steps: u32,
+    luminance_cd_m2: impl Fn(DVec3) -> f64,
+) -> Vec<f64> {
     let view = camera.view();
-    let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(STEPS);
+    let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(steps);
     let pixel = |x: u32, y: u32| {
-        let places = (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| (i, j)));
+        let places = (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j)));
         let places = places.map(|(i, j)| [f64::from(x) + middle(i), f64::from(y) + middle(j)]);
         places.map(|place| luminance_cd_m2(view.direction(place))).sum::<f64>()
-            / f64::from(STEPS * STEPS)
+            / f64::from(steps * steps)
     };
     let [width, height] = camera.resolution;
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
@@ -40,7 +45,7 @@ fn quadrature(camera: &Camera, luminance_cd_m2: impl Fn(DVec3) -> f64) -> Vec<f6
 
 /// Asserts the luminance of each pixel, within its interval of 95 % widened by half and a share of
 /// 0.2 %: with 12 pixels right programs pass, and an error of 1 % in any does not.
-fn assert_luminances(estimates: &Estimates, wanted: &[f64]) {
+pub(crate) fn assert_luminances(estimates: &Estimates, wanted: &[f64]) {
     let pixels = &estimates.cameras[0].pixels;
     assert_eq!(pixels.len(), wanted.len());
     for (i, (pixel, wanted)) in pixels.iter().zip(wanted).enumerate() {
@@ -92,7 +97,7 @@ fn a_red_wall_under_a_point_light() {
     let red = Rgb([0.6, 0.06, 0.05]);
     let (mut scene, settings) = lit_room(red);
     let camera = camera(DVec3::new(2.5, 1.3, 1.2), DVec3::new(4.0, 1.5, 1.3));
-    let lx = quadrature(&camera, |w| on_far_wall_lx(camera.position, w));
+    let lx = quadrature(&camera, STEPS, |w| on_far_wall_lx(camera.position, w));
     scene.cameras.push(camera);
     let estimates = simulate(&scene, &settings, &mut ());
     let wanted: Vec<f64> = lx.iter().map(|lx| red.luminance() * lx / PI).collect();
@@ -122,8 +127,9 @@ fn a_mirror_shows_the_mirrored_picture() {
     let mut camera = camera(DVec3::new(0.6, 1.4, 1.2), DVec3::new(0.0, 1.42, 1.21));
     camera.vertical_fov_rad = 0.35;
     let flip = DVec3::new(-1.0, 1.0, 1.0);
-    let wanted =
-        quadrature(&camera, |w| 0.9 * 0.7 / PI * on_far_wall_lx(camera.position * flip, w * flip));
+    let wanted = quadrature(&camera, STEPS, |w| {
+        0.9 * 0.7 / PI * on_far_wall_lx(camera.position * flip, w * flip)
+    });
     scene.cameras.push(camera);
     let settings = Settings { max_bounces: Some(2), ..settings };
     assert_luminances(&simulate(&scene, &settings, &mut ()), &wanted);

@@ -1,5 +1,9 @@
 //! Light that is hard to find: a corridor lit from a niche at one end, with photons steered and not.
 
+use crate::images::add_panel;
+use crate::measured_odd::grid_below;
+use crate::scenes::{diffuse, diffuse_cube, point_light, room, wall_grid};
+use glam::DVec3;
 use quasilux_scene::{Files, Quantity, Scene, SensorShape, load};
 use quasilux_transport::trial::{Traced, Way, try_photons};
 use quasilux_transport::{Estimates, Estimator, Interval, Settings, Switch, simulate};
@@ -145,14 +149,30 @@ fn waves_of_split_photons_count_what_single_families_count() {
     assert!(alone.1.rays > 2 * alone.1.photons, "{:?}", alone.1);
 }
 
+/// So is a diffuse sheet in a black room under a cell that looks at it: the survey says that photons are worth nothing where they
+/// land, but it is on their way there that they are counted.
+#[test]
+fn a_sheet_in_the_dark_is_left_alone() {
+    let mut scene = room(DVec3::ONE, diffuse(0.0));
+    let corner = DVec3::new(0.2, 0.2, 0.01);
+    add_panel(&mut scene, corner, DVec3::X * 0.6, DVec3::Y * 0.6, diffuse(0.6));
+    scene.lights.push(point_light(DVec3::new(0.5, 0.5, 0.9), 10.0));
+    scene.sensors = vec![grid_below(DVec3::new(0.1, 0.2, 0.6))];
+    assert_is_left_alone(&scene);
+}
+
 /// A plain room is left alone: the same rays but for the survey, the same values.
 #[test]
 fn a_plain_room_is_left_alone() {
-    let mut scene = crate::scenes::diffuse_cube(&[]);
-    scene.sensors = vec![crate::scenes::wall_grid([5, 5])];
+    let mut scene = diffuse_cube(&[]);
+    scene.sensors = vec![wall_grid([5, 5])];
+    assert_is_left_alone(&scene);
+}
+
+fn assert_is_left_alone(scene: &Scene) {
     let run = |steering| {
         let settings = Settings { max_samples: Some(1 << 10), ..settings(steering) };
-        simulate(&scene, &settings, &mut ())
+        simulate(scene, &settings, &mut ())
     };
     let (plain, asked) = (run(Switch::Off), run(Switch::Auto));
     assert_eq!(plain.sensors, asked.sensors);

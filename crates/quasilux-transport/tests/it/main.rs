@@ -21,6 +21,8 @@ mod images;
 mod joining;
 mod materials;
 mod measured;
+mod measured_known;
+mod measured_odd;
 mod mirrored_light;
 mod scenes;
 mod snapshots;

@@ -1,0 +1,177 @@
+//! Tables made of known surfaces stand for these: the rougher they are made, the more they differ, and no more than
+//! they say.
+//!
+//! What a table says is its L1 difference from the surface, the mean over diffuse light of
+//! `integral |f_table - f| cos dw / integral f cos dw`: light that goes elsewhere than it should, at most. Rooms are
+//! asked to agree within that share of what the sheet brings, beside their joint intervals.
+
+use crate::measured::{Mean, REPLICATES, assert_estimators_agree, divided, estimates, measured};
+use crate::scenes::{all_walls_emit, diffuse, level_grid, room};
+use glam::DVec3;
+use quasilux_photometry::bsdf::{Distribution, GriddedTable, Side, TensorTree, Way};
+use quasilux_sampling::warp::sample_disk;
+use quasilux_scene::bsdf::Conductor;
+use quasilux_scene::{Bsdf, Rgb, Scene};
+use quasilux_stats::{least_squares_slope, student_t_quantile};
+use quasilux_transport::{Estimator, Scattering};
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+
+/// Directions of the quadratures, so many a side of the disk.
+const INCIDENT: u32 = 9;
+const EXIT: u32 = 160;
+
+/// GGX with compensation, smooth or like a mirror.
+fn metal(alpha: f64) -> Bsdf {
+    Bsdf::Conductor(Conductor { reflectance: Rgb::grey(0.8), alpha })
+}
+
+fn f(alpha: f64) -> impl Fn(DVec3, DVec3) -> f64 {
+    let metal = Scattering::of(&metal(alpha));
+    move |wi, wo| metal.evaluate(wi, wo).0[0]
+}
+
+fn tree(alpha: f64, log_side: usize) -> Distribution {
+    Distribution::TensorTree(TensorTree::from_function(true, log_side, f(alpha)).expect("a tree"))
+}
+
+/// Incidences `90 / parts` degrees apart; offsets from the mirror direction grow from a share of the lobe's width.
+fn lobes(alpha: f64, parts: u32) -> Distribution {
+    let step_rad = FRAC_PI_2 / f64::from(parts);
+    let theta_rad: Vec<f64> = (0..=parts).map(|i| f64::from(i) * step_rad).collect();
+    let mut offsets_rad = vec![0.0];
+    let finest_rad = 2.0 * alpha / f64::from(parts);
+    while offsets_rad[offsets_rad.len() - 1] < FRAC_PI_2 {
+        let last = offsets_rad[offsets_rad.len() - 1];
+        offsets_rad.push(last + (finest_rad + last * 2.0 / f64::from(parts)));
+    }
+    let table = GriddedTable::from_function(&theta_rad, &offsets_rad, f(alpha));
+    Distribution::Gridded(table.expect("lobes"))
+}
+
+/// Directions of equal projected solid angle.
+fn directions(a_side: u32) -> impl Iterator<Item = DVec3> {
+    let middle = move |i: u32| (f64::from(i) + 0.5) / f64::from(a_side);
+    let pairs = (0..a_side).flat_map(move |i| (0..a_side).map(move |j| [middle(i), middle(j)]));
+    pairs.map(|u| {
+        let [x, y] = sample_disk(u);
+        DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
+    })
+}
+
+/// Directions around the mirror direction, and the shares of projected solid angle that they stand for: even over
+/// half-vectors of GGX, so that sharp lobes are met.
+fn around_mirror(alpha: f64, wi: DVec3) -> impl Iterator<Item = (DVec3, f64)> {
+    directions(EXIT).filter_map(move |h| {
+        // Slopes of GGX: tan = alpha r / sqrt(1 - r^2) at radius r of the disk.
+        let r2 = h.x * h.x + h.y * h.y;
+        let scale = alpha / (1.0 - r2).sqrt();
+        let m = DVec3::new(h.x * scale, h.y * scale, 1.0).normalize();
+        let across = wi.dot(m);
+        let wo = m * (2.0 * across) - wi;
+        let t2 = (1.0 - m.z * m.z) / (m.z * m.z);
+        let a2 = alpha * alpha;
+        let density = a2 * FRAC_1_PI / (m.z * m.z * m.z * (a2 + t2) * (a2 + t2));
+        let solid_sr = 4.0 * across / density / f64::from(EXIT * EXIT);
+        (across > 0.0 && wo.z > 0.0).then_some((wo, solid_sr * wo.z))
+    })
+}
+
+/// What the table says of itself.
+fn stated_error(alpha: f64, table: &Distribution) -> f64 {
+    let f = f(alpha);
+    let (mut off, mut all) = (0.0, 0.0);
+    for wi in directions(INCIDENT) {
+        for (wo, share) in around_mirror(alpha, wi) {
+            let known = f(wi, wo);
+            off += (table.evaluate(wi, wo)[0] - known).abs() * share;
+            all += known * share;
+        }
+    }
+    off / all
+}
+
+fn of_tables(table: &Distribution) -> Bsdf {
+    measured([(Side::Front, Way::Reflection, table.clone())])
+}
+
+/// Boxes make errors of the first order in their width, lobes of the second in their distance: errors of three
+/// refinements, each by half.
+#[test]
+fn stated_errors_shrink_at_the_expected_order() {
+    for (name, alpha, least, table) in [
+        ("boxes", 0.35, 0.8, &tree as &dyn Fn(f64, usize) -> Distribution),
+        ("lobes", 0.35, 1.4, &|alpha, level| lobes(alpha, 3 << level)),
+        ("lobes like mirrors", 0.03, 1.4, &|alpha, level| lobes(alpha, 3 << level)),
+    ] {
+        let levels = [3, 4, 5].map(|level| if least < 1.0 { level } else { level - 2 });
+        let errors = levels.map(|level| stated_error(alpha, &table(alpha, level)));
+        let points = [0, 1, 2].map(|i| [i as f64, libm::log2(errors[i])]);
+        let order = -least_squares_slope(&points);
+        println!("{name}, alpha {alpha}: {errors:.4?}, order {order:.2}");
+        assert!(order > least, "{name}, alpha {alpha}: {errors:?}");
+    }
+}
+
+/// The sheet's part of what the first sensor gets differs by no more than the table's error from that of the metal, beside the
+/// joint 99.9 % half-width of both.
+#[test]
+fn tables_of_metals_light_a_room_as_the_metals_do() {
+    for (alpha, table) in [(0.35, tree(0.35, 6)), (0.35, lobes(0.35, 24)), (0.03, lobes(0.03, 36))]
+    {
+        let stated = stated_error(alpha, &table);
+        let scenes = [metal(alpha), of_tables(&table), diffuse(0.0)].map(divided);
+        let [known, found, without] =
+            scenes.each_ref().map(|scene| estimates(scene, Estimator::Path, 1 << 13)[0]);
+        let brought_lx = known.value_lx - without.value_lx;
+        let joint_lx = joint_half_width_lx(known, found);
+        let off_lx = (known.value_lx - found.value_lx).abs();
+        println!(
+            "{} of alpha {alpha}: {off_lx:.3} of {brought_lx:.2} lx brought, known to {joint_lx:.3}, stated {stated:.4}",
+            table.kind()
+        );
+        assert!(joint_lx < 0.02 * brought_lx, "{alpha}: {known:?}, {found:?}");
+        assert!(off_lx <= joint_lx + stated * brought_lx, "{alpha}: {known:?}, {found:?}");
+        assert_estimators_agree(table.kind(), &scenes[1], 0.2);
+    }
+}
+
+/// All walls emit and are of the metal; light that comes after bounces is what counts.
+#[test]
+fn tables_of_metals_light_a_furnace_as_the_metals_do() {
+    let furnace = |bsdf: Bsdf| -> Scene {
+        let mut scene = room(DVec3::ONE, bsdf);
+        all_walls_emit(&mut scene, 100.0);
+        scene.sensors = vec![
+            level_grid(DVec3::new(0.4, 0.5, 0.3), [0.2, 0.3], [1, 1]),
+            level_grid(DVec3::new(0.1, 0.1, 0.7), [0.3, 0.2], [1, 1]),
+        ];
+        scene
+    };
+    for (alpha, table) in [(0.35, tree(0.35, 6)), (0.35, lobes(0.35, 24)), (0.03, lobes(0.03, 36))]
+    {
+        let stated = stated_error(alpha, &table);
+        let scenes = [metal(alpha), of_tables(&table)].map(furnace);
+        for (estimator, samples) in [(Estimator::Path, 1 << 10), (Estimator::Photon, 1 << 14)] {
+            let [known, found] =
+                scenes.each_ref().map(|scene| estimates(scene, estimator, samples));
+            for (known, found) in known.into_iter().zip(found) {
+                let joint_lx = joint_half_width_lx(known, found);
+                let off_lx = (known.value_lx - found.value_lx).abs();
+                println!(
+                    "{} of alpha {alpha}, {}: {off_lx:.2} of {:.1} lx, known to {joint_lx:.2}, stated {stated:.4}",
+                    table.kind(),
+                    estimator.name(),
+                    known.value_lx
+                );
+                assert!(joint_lx < 0.02 * known.value_lx, "{known:?}, {found:?}");
+                assert!(off_lx <= joint_lx + stated * known.value_lx, "{known:?}, {found:?}");
+            }
+        }
+    }
+}
+
+/// Of the difference of two means, at 99.9 %.
+fn joint_half_width_lx(a: Mean, b: Mean) -> f64 {
+    let t = student_t_quantile(0.9995, f64::from(REPLICATES - 1));
+    t * libm::hypot(a.standard_error_lx, b.standard_error_lx)
+}
