@@ -1,5 +1,6 @@
 //! How one side of a surface scatters light one way: a closed set of tables, one file each.
 
+use super::analysis::Incident;
 use super::{GriddedTable, KlemsTable, TensorTree};
 use glam::DVec3;
 
@@ -118,6 +119,15 @@ impl Distribution {
             Self::Klems(table) => table.incidences(),
             Self::TensorTree(tree) => tree.incidences(),
             Self::Gridded(table) => table.incidences(),
+        }
+    }
+
+    /// Incidences such that the mean of the albedo over projected solid angle is the sum of theirs by their parts, exactly.
+    pub(super) fn parts(&self) -> Vec<Incident> {
+        match self {
+            Self::Klems(table) => table.parts(),
+            Self::TensorTree(tree) => tree.parts(),
+            Self::Gridded(table) => table.parts(),
         }
     }
 

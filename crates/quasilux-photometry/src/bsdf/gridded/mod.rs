@@ -16,10 +16,12 @@
 mod knots;
 mod resample;
 
+use super::analysis::Incident;
 use super::distribution::{INSIDE, ScatterSample, luminance};
 use crate::{Angles, Grid, SphericalTable};
 use glam::DVec3;
 pub(super) use knots::{around, bracket};
+use knots::{parts_of_azimuths, parts_of_polar_angles};
 pub(super) use resample::{ExitKnots, table_error};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -192,6 +194,21 @@ impl GriddedTable {
             return self.phi_rad.iter().flat_map(of_azimuth).map(as_in_file).collect();
         }
         self.phi_rad.iter().flat_map(of_azimuth).collect()
+    }
+
+    /// Knots, each for the light of which its lobe has the share: shares are linear in both angles between them.
+    pub(super) fn parts(&self) -> Vec<Incident> {
+        let of_theta = parts_of_polar_angles(&self.theta_rad);
+        let of_phi = parts_of_azimuths(&self.phi_rad);
+        let parts = of_phi.iter().flat_map(|phi| of_theta.iter().map(move |theta| phi * theta));
+        let at = |(wi, part)| Incident { wi, part };
+        self.incidences().into_iter().zip(parts).map(at).collect()
+    }
+
+    /// Whether the greatest sum of shares of both is at a knot of one of them.
+    pub(super) fn shares_azimuths(&self, other: &Self) -> bool {
+        let are_isotropic = self.is_isotropic() && other.is_isotropic();
+        are_isotropic || self.phi_rad == other.phi_rad
     }
 
     fn mixture(&self, wi: DVec3) -> Mixture<'_> {

@@ -168,6 +168,36 @@ impl AngleBasis {
         self.bands.iter().enumerate().flat_map(of_band)
     }
 
+    /// The projection, and `z`, of a place in each piece that a patch has in common with one of another basis.
+    pub(super) fn common_places(&self, other: &Self) -> Vec<[f64; 3]> {
+        let between = |mut ends: Vec<f64>| -> Vec<f64> {
+            ends.sort_by(f64::total_cmp);
+            let pairs = ends.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12);
+            pairs.map(|pair| pair[0].midpoint(pair[1])).collect()
+        };
+        let bands = [self, other].map(|basis| &basis.bands);
+        let ends = bands.into_iter().flatten().flat_map(|band| band.sin2).collect();
+        let mut places = Vec::new();
+        for sin2 in between(ends) {
+            let at_sin2 = |band: &&ThetaBand| (band.sin2[0]..band.sin2[1]).contains(&sin2);
+            let found = bands.map(|bands| bands.iter().find(at_sin2).map_or(1, |b| b.patches));
+            // In parts of a turn, from an edge of each on.
+            let edges =
+                |patches: usize| (0..patches).map(move |i| (i as f64 + 0.5) / patches as f64);
+            let all = found.into_iter().flat_map(edges);
+            let around = |turns: Vec<f64>| {
+                let closing = turns.iter().copied().fold(f64::INFINITY, f64::min) + 1.0;
+                between(turns.into_iter().chain([closing]).collect())
+            };
+            for turns in around(all.collect()) {
+                let (sin_phi, cos_phi) = libm::sincos(TAU * turns);
+                let sin = sin2.sqrt();
+                places.push([sin * cos_phi, sin * sin_phi, (1.0 - sin2).max(0.0).sqrt()]);
+            }
+        }
+        places
+    }
+
     /// The patch half a turn away from each, in the order of files; `None` where some band has an odd number of
     /// patches, more than one.
     pub(super) fn opposites(&self) -> Option<Vec<usize>> {

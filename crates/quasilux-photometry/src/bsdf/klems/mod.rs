@@ -7,10 +7,12 @@
 
 mod basis;
 
+use super::analysis::Incident;
 use super::distribution::{INSIDE, ScatterSample};
 use basis::Cell;
 pub use basis::{AngleBasis, ThetaBand};
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// A scattering matrix.
 #[derive(Clone, Debug)]
@@ -138,13 +140,30 @@ impl KlemsTable {
     }
 
     pub(super) fn incidences(&self) -> Vec<DVec3> {
-        let centre = |cell: Cell| {
+        self.parts().into_iter().map(|part| part.wi).collect()
+    }
+
+    /// The centres of incident patches, each for its projected solid angle; the light beyond the last band is not scattered.
+    pub(super) fn parts(&self) -> Vec<Incident> {
+        let has_cap = self.incident.bands()[0].patches == 1;
+        let of_cell = |cell: Cell| {
             let [x, y, z] = self.incident.place(cell);
-            DVec3::new(-x, -y, z)
+            let is_cap = has_cap && cell.band == 0;
+            let wi = if is_cap { DVec3::Z } else { DVec3::new(-x, -y, z) };
+            let part = self.incident.bands()[cell.band].patch_projected_sr() / PI;
+            Incident { wi, part }
         };
-        let normal = self.incident.bands()[0].patches == 1;
-        let cells = self.incident.cells();
-        cells.map(|cell| if normal && cell.band == 0 { DVec3::Z } else { centre(cell) }).collect()
+        self.incident.cells().map(of_cell).collect()
+    }
+
+    /// An incidence in each piece that a patch of one table and one of the other have in common; none where both have the same
+    /// patches.
+    pub(super) fn common_incidences(one: &Self, other: &Self) -> Vec<DVec3> {
+        if one.incident.bands() == other.incident.bands() {
+            return vec![];
+        }
+        let onwards = one.incident.common_places(&other.incident);
+        onwards.into_iter().map(|[x, y, z]| DVec3::new(-x, -y, z)).collect()
     }
 
     /// The incident patch: by where light goes to.

@@ -19,6 +19,13 @@ struct MeanNode {
     first_child: u32,
 }
 
+/// A box of incident directions: number `cell` along each axis, 2^`level` a side.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct IncidentBox {
+    pub(super) level: usize,
+    pub(super) cell: [u32; 2],
+}
+
 /// A function of the incidence.
 #[derive(Clone, Copy, Debug)]
 enum Mean {
@@ -35,6 +42,23 @@ impl Means {
             level += 1;
         }
         node.value
+    }
+
+    /// The boxes in which the tree of the root is constant.
+    pub(super) fn boxes(&self, root: u32, incident_axes: usize) -> Vec<IncidentBox> {
+        let (mut boxes, mut open) = (Vec::new(), vec![(root, IncidentBox::default())]);
+        while let Some((node, at)) = open.pop() {
+            let first = self.0[node as usize].first_child;
+            if first == 0 {
+                boxes.push(at);
+                continue;
+            }
+            for half in (0..1_u32 << incident_axes).rev() {
+                let cell = [0, 1].map(|axis| 2 * at.cell[axis] + (half >> axis & 1));
+                open.push((first + half, IncidentBox { level: at.level + 1, cell }));
+            }
+        }
+        boxes
     }
 
     /// Makes the means of all branches; children lie behind their parents. `None` if there are too many.

@@ -12,10 +12,11 @@
 mod build;
 mod means;
 
+use super::analysis::Incident;
 use super::distribution::{INSIDE, ScatterSample, upwards};
 pub(super) use build::TreeBuilder;
 use glam::DVec3;
-use means::Means;
+use means::{IncidentBox, Means};
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use std::f64::consts::PI;
 
@@ -172,6 +173,28 @@ impl TensorTree {
         }
         let pairs = (0..side).flat_map(|i| (0..side).map(move |j| [middle(i), middle(j)]));
         pairs.map(|place| upwards(sample_disk(place).map(|onwards| -onwards))).collect()
+    }
+
+    /// The centres of the boxes of incidences in which the albedo is constant.
+    pub(super) fn parts(&self) -> Vec<Incident> {
+        let Node { first_child, mean, .. } = self.nodes[0];
+        let boxes = if first_child == 0 {
+            vec![IncidentBox::default()]
+        } else {
+            self.means.boxes(mean, self.incident_axes)
+        };
+        let of_box = |found: &IncidentBox| {
+            let size = 1.0 / (1_u64 << found.level) as f64;
+            let [low, next] = found.cell.map(|cell| cell as f64 * size);
+            if self.incident_axes == 2 {
+                let [x, y] = sample_disk([low + 0.5 * size, next + 0.5 * size]);
+                return Incident { wi: upwards([-x, -y]), part: size * size };
+            }
+            let [outer, inner] = [low, low + size].map(|place| (1.0 - 2.0 * place).max(0.0));
+            let wi = upwards([0.5 * (outer + inner), 0.0]);
+            Incident { wi, part: outer * outer - inner * inner }
+        };
+        boxes.iter().map(of_box).filter(|part| part.part > 0.0).collect()
     }
 
     fn incidence(&self, wi: DVec3) -> Incidence {

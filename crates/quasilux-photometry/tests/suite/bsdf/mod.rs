@@ -1,5 +1,6 @@
 //! Measured surfaces: files, tables, sampling.
 
+mod analysis;
 mod analytic;
 mod astm;
 mod corpus;

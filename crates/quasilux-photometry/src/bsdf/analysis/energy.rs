@@ -1,0 +1,80 @@
+//! Shares of light: what is reflected, what passes, and the greatest sum of both.
+
+use super::super::distribution::luminance;
+use super::super::{Distribution, KlemsTable, MeasuredBsdf, Side, Way};
+use super::{Incident, spread};
+use glam::DVec3;
+
+/// Directions where sums of two tables are looked at that have nothing in common.
+const SPREAD: usize = 4096;
+
+/// Where light of one side goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnergyBalance {
+    /// The side that light arrives on.
+    pub side: Side,
+    /// Luminous reflectance and transmittance for light along the normal.
+    pub normal: [f64; 2],
+    /// The same for diffuse light: means over projected solid angle, exact for what the tables say.
+    pub diffuse: [f64; 2],
+    /// The greatest sum of both over all incidences, of the strongest colour channel.
+    ///
+    /// It is the maximum itself: of tables that are constant in cells a value of one of their cells, of lobes, whose
+    /// shares are linear between knots, one at a knot. Only where both tables are of different kinds, or two grids of lobes have
+    /// azimuths apart, it is the greatest of 4096 directions and of all cells.
+    pub worst: f64,
+    /// The incidence where that is.
+    pub worst_wi: DVec3,
+}
+
+impl EnergyBalance {
+    /// The balance of one side; `None` where it scatters nothing.
+    #[must_use]
+    pub fn of(bsdf: &MeasuredBsdf, side: Side) -> Option<Self> {
+        let ways = Way::ALL.map(|way| bsdf.scattering(side, way));
+        let share = |way: usize, wi| ways[way].map_or([0.0; 3], |found| found.albedo(wi));
+        let total = |wi| {
+            let (reflected, passed) = (share(0, wi), share(1, wi));
+            (0..3).map(|channel| reflected[channel] + passed[channel]).fold(0.0, f64::max)
+        };
+        let parts = ways.map(|table| table.map_or_else(Vec::new, Distribution::parts));
+        let mean = |way: usize| {
+            let of_part = |part: &Incident| part.part * luminance(share(way, part.wi));
+            // Of nothing zero, which a sum of no numbers is not: that is -0.
+            parts[way].iter().map(of_part).fold(0.0, |sum, of_part| sum + of_part)
+        };
+        let diffuse = [mean(0), mean(1)];
+        let looked_at = parts.into_iter().flatten().map(|part| part.wi);
+        let further = match ways {
+            [Some(reflected), Some(passed)] => common(reflected, passed),
+            [None, None] => return None,
+            _ => vec![],
+        };
+        let mut worst = (total(DVec3::Z), DVec3::Z);
+        for wi in looked_at.chain(further) {
+            let total = total(wi);
+            if total > worst.0 {
+                worst = (total, wi);
+            }
+        }
+        let normal = [0, 1].map(|way| luminance(share(way, DVec3::Z)));
+        Some(Self { side, normal, diffuse, worst: worst.0, worst_wi: worst.1 })
+    }
+}
+
+/// Incidences where the sum of shares of two tables has its maximum, besides those of each.
+fn common(one: &Distribution, other: &Distribution) -> Vec<DVec3> {
+    match (one, other) {
+        (Distribution::Klems(one), Distribution::Klems(other)) => {
+            KlemsTable::common_incidences(one, other)
+        }
+        // Boxes lie in each other: the smaller one is what both have in common.
+        (Distribution::TensorTree(a), Distribution::TensorTree(b))
+            if a.is_isotropic() == b.is_isotropic() =>
+        {
+            vec![]
+        }
+        (Distribution::Gridded(a), Distribution::Gridded(b)) if a.shares_azimuths(b) => vec![],
+        _ => spread(SPREAD).collect(),
+    }
+}
