@@ -110,7 +110,7 @@ impl GriddedTable {
             Lobe::new(&knots, &[values])
         };
         let lobes: Option<Vec<Lobe>> = theta_rad.iter().map(lobe).collect();
-        Self::new(theta_rad.to_vec(), vec![0.0], lobes?)
+        Self::new(theta_rad.to_vec(), vec![0.0], theta_rad.to_vec(), lobes?)
     }
 }
 

@@ -91,8 +91,8 @@ fn table(measured: &Measured<'_>) -> Option<GriddedTable> {
         Lobe::new(&knots, &[0, 1, 2].map(channel))
     };
     let lobes: Option<Vec<Lobe>> = (0..INCIDENCES).map(lobe).collect();
-    let theta_rad = (0..INCIDENCES).map(|i| incident_deg(i).to_radians()).collect();
-    GriddedTable::new(theta_rad, vec![0.0], lobes?)
+    let theta_rad: Vec<f64> = (0..INCIDENCES).map(|i| incident_deg(i).to_radians()).collect();
+    GriddedTable::new(theta_rad.clone(), vec![0.0], theta_rad, lobes?)
 }
 
 /// The values of a file.

@@ -23,12 +23,13 @@
 //! | .. `def` *values* `enddef` | pi times f; `psi` outermost, then `sigma`, `phi`, and `theta` innermost |
 //!
 //! Angles are in degrees and ascend. The specular direction of reflection is the mirror direction, that of transmission
-//! straight on. Between angles f is bilinear; beyond the last `theta` it is zero. Light is scattered by the front.
+//! straight on. Between angles of exit f is bilinear; beyond the last `theta` it is zero. Between incident angles lobes move with the
+//! specular direction and keep their light, see [`GriddedTable`](crate::bsdf::GriddedTable). Light is scattered by the front.
 //!
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |
 //! |---|---|---|
-//! | [`Resampled`] | always: f is taken to a grid about the normal, with knots where those of the file are | `9:1: found values around the specular direction, 37 by 91; expected spherical angles (resampled; off by 0.21 % in the mean)` |
+//! | [`Resampled`] | always: f is taken to a grid about the normal, with knots where those of the file are | `9:1: found values around the specular direction, 37 by 91; expected spherical angles (resampled; off by 0.21 % in the mean at incidences of the file, by about 1.30 % between them)` |
 //!
 //! As in WINDOW files: `NegativeScattering`, `TrailingValues`, `EnergyNotConserved`, `NotReciprocal`; as in LM-63: `Encoding`.
 //!

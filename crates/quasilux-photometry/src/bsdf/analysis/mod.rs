@@ -41,7 +41,7 @@ impl BsdfAnalysis {
 
 /// Point `index` of `count` in the unit square: a lattice of rank 1, its generator the golden section (Roberts 2018), moved by
 /// `shift`.
-fn lattice(index: usize, count: usize, shift: f64) -> [f64; 2] {
+pub(super) fn lattice(index: usize, count: usize, shift: f64) -> [f64; 2] {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let turns = index as f64 * GOLDEN + shift;
     [(index as f64 + 0.5) / count as f64, turns - turns.floor()]

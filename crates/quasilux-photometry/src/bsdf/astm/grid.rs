@@ -88,10 +88,10 @@ pub(super) fn table(
             ReadError::new(at, "exit directions that make no grid", "ascending angles")
         })?);
     }
-    let theta_rad = thetas.into_iter().map(|theta| angle(theta).min(FRAC_PI_2)).collect();
+    let theta_rad: Vec<f64> = thetas.into_iter().map(|theta| angle(theta).min(FRAC_PI_2)).collect();
     let phi_rad =
         if azimuths.len() == 1 { vec![0.0] } else { azimuths.into_iter().map(angle).collect() };
-    GriddedTable::new(theta_rad, phi_rad, lobes).ok_or_else(|| {
+    GriddedTable::new(theta_rad.clone(), phi_rad, theta_rad, lobes).ok_or_else(|| {
         ReadError::new(at, "incident directions that make no grid", "ascending angles")
     })
 }

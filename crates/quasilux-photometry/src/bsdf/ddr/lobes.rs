@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Exit directions of all lobes together, or as many as values where those are more.
 const LEAST_DIRECTIONS: usize = 1 << 18;
 
-/// The table, and how far it is from the file's values between them.
+/// The table, and how far it is from the file's values at its incidences.
 pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, f64)> {
     let (thetas, phis) = (header.theta_rad.len(), header.phi_rad.len());
     let values = header.incidences() * thetas * phis;
@@ -30,7 +30,7 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
         let mut factor = [1.0; 3];
         for (channel, values) in channels.iter_mut().enumerate() {
             if header.unit == Unit::Relative {
-                let albedo = Lobe::new(&knots, std::slice::from_ref(values))?.albedo();
+                let [albedo, ..] = Lobe::new(&knots, std::slice::from_ref(values))?.albedo();
                 let scale = blocks[channel].scales[incidence];
                 factor[channel] = if albedo > 0.0 { scale / albedo } else { 0.0 };
                 values.iter_mut().for_each(|value| *value *= factor[channel]);
@@ -42,13 +42,14 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
     let table = GriddedTable::new(
         header.sigma_rad.clone(),
         header.psi_rad[..header.planes()].to_vec(),
+        header.specular_rad.clone(),
         lobes,
     )?;
     let error = error(&table, header, blocks, &factors);
     Some((table, error))
 }
 
-/// At the stored incidences: between them the file says nothing. Its values are multiplied by `factors`.
+/// At the stored incidences; what is between them only neighbours tell, see [`GriddedTable::error_between`]. Its values are multiplied by `factors`.
 fn error(table: &GriddedTable, header: &Header, blocks: &[Block], factors: &[[f64; 3]]) -> f64 {
     let per_incidence = header.theta_rad.len() * header.phi_rad.len();
     let error = |incidence: usize| {

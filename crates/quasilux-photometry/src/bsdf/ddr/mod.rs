@@ -40,8 +40,11 @@ pub fn read_ddr(bytes: &[u8], way: Way) -> Result<ReadBsdf, ReadError> {
         header.phi_rad.len(),
         header.theta_rad.len()
     );
+    let between = table.error_between().map_or_else(String::new, |between| {
+        format!(" at incidences of the file, by about {:.2} % between them", 100.0 * between)
+    });
     let expected =
-        format!("spherical angles (resampled; off by {:.2} % in the mean)", 100.0 * error);
+        format!("spherical angles (resampled; off by {:.2} % in the mean{between})", 100.0 * error);
     warnings.push(Deviation::Resampled, header.at, found, expected);
 
     let facts = BsdfFacts {

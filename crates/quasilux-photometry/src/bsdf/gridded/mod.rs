@@ -1,29 +1,39 @@
 //! A scattering distribution as lobes over a grid of incident directions.
 //!
-//! For each stored incidence there is a [`SphericalTable`] of g = f cos(theta) over exit directions, bilinear in spherical
-//! angles. Between incidences f is the linear mixture of their lobes, two by polar angle and, where the surface is not
-//! isotropic, two by azimuth, each turned about the normal so that its plane of incidence is that of `wi`. The albedo is the
-//! mixture of the integrals.
+//! For each stored incidence f is the sum of its least value and of a [`SphericalTable`](crate::SphericalTable) of what is above that, times
+//! cos(theta), over exit directions, bilinear in spherical angles. Between incidences g = f cos(theta) is the linear mixture of theirs, two
+//! by polar angle and, where the surface is not isotropic, two by azimuth, each turned about the normal so that its
+//! plane of incidence is that of `wi`. What is above the least value follows the mirror direction where neighbours have more
+//! in common so (`motion.rs`), without loss: the albedo is the mixture of the integrals. The difference from the surface is of second
+//! order in the gap between incidences; [`GriddedTable::error_between`] estimates it from the table itself.
 //!
 //! Files with lobes measure one side, the front, and count azimuths counterclockwise as seen from there. In the frame of the
 //! sheet that is clockwise: the `x` of a lobe is `-x` of the sheet.
 //!
-//! Sampling picks a lobe by its share of the albedo with `u[0]`, which is renormalised, and inverts that lobe. The
-//! density is that of the whole mixture, f cos(theta) over the albedo: each sample weighs the same, and nothing is biased. What it
-//! costs is strata: up to four maps share the unit square, so that a sequence fills each with a part of its points,
-//! and one direction has several pairs of coordinates, of which [`GriddedTable::invert`] returns one.
+//! Sampling picks Lambert's part or a lobe by its share of the albedo with `u[0]`, which is renormalised, inverts it and moves
+//! the direction. The density is that of the whole mixture, f cos(theta) over the albedo: each sample weighs the same, and nothing is biased. What it
+//! costs is strata: up to five maps share the unit square, so that a sequence fills each with a part of its points,
+//! and one direction has several pairs of coordinates, of which `invert` returns one.
 
+mod error;
 mod knots;
+mod lobe;
+mod mixture;
+mod motion;
 mod resample;
 
 use super::analysis::Incident;
-use super::distribution::{INSIDE, ScatterSample, luminance};
-use crate::{Angles, Grid, SphericalTable};
+use super::distribution::ScatterSample;
+use crate::Angles;
+pub(super) use error::table_error;
 use glam::DVec3;
 pub(super) use knots::{around, bracket};
 use knots::{parts_of_azimuths, parts_of_polar_angles};
-pub(super) use resample::{ExitKnots, table_error};
-use std::f64::consts::{FRAC_PI_2, TAU};
+pub(super) use lobe::Lobe;
+use mixture::{Mixture, Part};
+use motion::{Mirror, Motion, Move};
+pub(super) use resample::ExitKnots;
+use std::f64::consts::TAU;
 
 /// Incident directions of one file: more than are measured, and few enough for the grids of their lobes.
 pub(super) const MOST_INCIDENCES: usize = 1000;
@@ -35,89 +45,47 @@ pub struct GriddedTable {
     theta_rad: Vec<f64>,
     /// Incident azimuths, ascending within one turn; one alone where the surface is isotropic.
     phi_rad: Vec<f64>,
+    /// The polar angle about which lobes lie, for each of `theta_rad`.
+    specular_rad: Vec<f64>,
+    /// The same as directions.
+    mirrors: Vec<Mirror>,
+    /// How lobes move between each polar angle and the next.
+    motions: Vec<Motion>,
     /// All polar angles of the first azimuth, then of the next.
     lobes: Vec<Lobe>,
 }
 
-/// What one incident direction is scattered to, its azimuth being 0.
-#[derive(Clone, Debug)]
-pub(super) struct Lobe {
-    /// The luminance of g, in sr^-1.
-    luminance: SphericalTable,
-    /// g by linear RGB, where it is not grey.
-    channels: Option<[SphericalTable; 3]>,
-}
-
-/// The lobes that mix at an incident direction; some have no weight.
-#[derive(Clone, Copy)]
-struct Mixture<'t> {
-    lobes: [&'t Lobe; 4],
-    weights: [f64; 4],
-    /// Cosine and sine of the azimuth of `wi` as seen from the front: lobes are stored with it at 0.
-    turn: [f64; 2],
-}
-
-impl Lobe {
-    /// A lobe from f at exit directions: one list for grey, three for linear RGB, each all azimuths at the first polar angle, then
-    /// at the next. `None` where they are no grid.
-    pub(super) fn new(knots: &ExitKnots, channels: &[Vec<f64>]) -> Option<Self> {
-        let columns = knots.phi_rad.len();
-        // At the horizon f may be anything, and g is zero.
-        let cosine = |index: usize| libm::cos(knots.theta_rad[index / columns]).max(0.0);
-        let is_horizon = |index: usize| knots.theta_rad[index / columns] >= FRAC_PI_2;
-        let g = |values: &[f64]| -> Vec<f64> {
-            let of_index =
-                |(index, f): (usize, &f64)| if is_horizon(index) { 0.0 } else { f * cosine(index) };
-            values.iter().enumerate().map(of_index).collect()
-        };
-        let table = |values: Vec<f64>| {
-            let (theta_rad, phi_rad) = (knots.theta_rad.clone(), knots.phi_rad.clone());
-            SphericalTable::new(Grid { theta_rad, phi_rad, symmetry: knots.symmetry, values }).ok()
-        };
-        let [red, green, blue] = match channels {
-            [grey] => return Some(Self { luminance: table(g(grey))?, channels: None }),
-            [red, green, blue] => [red, green, blue].map(|values| g(values)),
-            _ => return None,
-        };
-        let weighted = |index: usize| {
-            let rgb = [red[index], green[index], blue[index]];
-            luminance(rgb)
-        };
-        let luminance = table((0..red.len()).map(weighted).collect())?;
-        Some(Self { luminance, channels: Some([table(red)?, table(green)?, table(blue)?]) })
-    }
-
-    /// The luminance of the share that is scattered.
-    pub(super) fn albedo(&self) -> f64 {
-        self.luminance.integral()
-    }
-
-    fn g(&self, direction: DVec3) -> [f64; 3] {
-        match &self.channels {
-            Some(channels) => [0, 1, 2].map(|channel| channels[channel].value(direction)),
-            None => [self.luminance.value(direction); 3],
-        }
-    }
-
-    fn integrals(&self) -> [f64; 3] {
-        match &self.channels {
-            Some(channels) => [0, 1, 2].map(|channel| channels[channel].integral()),
-            None => [self.luminance.integral(); 3],
-        }
-    }
-}
-
 impl GriddedTable {
-    /// A table of lobes, all polar angles of the first azimuth, then of the next. One azimuth alone makes it isotropic.
-    /// `None` unless angles ascend and there is a lobe for each pair.
-    pub(super) fn new(theta_rad: Vec<f64>, phi_rad: Vec<f64>, lobes: Vec<Lobe>) -> Option<Self> {
+    /// A table of lobes, all polar angles of the first azimuth, then of the next; they lie about the polar angles `specular_rad`. One
+    /// azimuth alone makes it isotropic. `None` unless angles ascend and there is a lobe for each pair.
+    pub(super) fn new(
+        theta_rad: Vec<f64>,
+        phi_rad: Vec<f64>,
+        specular_rad: Vec<f64>,
+        lobes: Vec<Lobe>,
+    ) -> Option<Self> {
         let ascends = |angles: &[f64]| angles.windows(2).all(|pair| pair[0] < pair[1]);
         let is_full = !theta_rad.is_empty()
             && !phi_rad.is_empty()
+            && specular_rad.len() == theta_rad.len()
             && lobes.len() == theta_rad.len() * phi_rad.len();
         let spans_a_turn = phi_rad.last().zip(phi_rad.first()).is_some_and(|(l, f)| l - f < TAU);
-        let is_grid = is_full && spans_a_turn && ascends(&theta_rad) && ascends(&phi_rad);
-        is_grid.then_some(Self { theta_rad, phi_rad, lobes })
+        if !(is_full && spans_a_turn && ascends(&theta_rad) && ascends(&phi_rad)) {
+            return None;
+        }
+        let mirrors: Vec<Mirror> = specular_rad.iter().map(|&angle| Mirror::new(angle)).collect();
+        let mut table =
+            Self { theta_rad, phi_rad, specular_rad, mirrors, motions: Vec::new(), lobes };
+        let motions = (1..table.theta_rad.len()).map(|above| table.motion([above - 1, above]));
+        table.motions = motions.collect();
+        Some(table)
+    }
+
+    /// How lobes had better move between two incident polar angles.
+    fn motion(&self, thetas: [usize; 2]) -> Motion {
+        let rows = self.lobes.chunks_exact(self.theta_rad.len());
+        let pairs = rows.map(|row| thetas.map(|theta| &row[theta]));
+        Motion::between(pairs, thetas.map(|theta| self.mirrors[theta]))
     }
 
     pub(super) fn is_isotropic(&self) -> bool {
@@ -125,64 +93,39 @@ impl GriddedTable {
     }
 
     pub(super) fn is_coloured(&self) -> bool {
-        self.lobes.iter().any(|lobe| lobe.channels.is_some())
+        self.lobes.iter().any(Lobe::is_coloured)
     }
 
     pub(super) fn value(&self, wi: DVec3, wo: DVec3) -> [f64; 3] {
-        let mixture = self.mixture(wi);
-        let wo_of_lobe = turned(wo, mixture.turn);
-        let g = mixture.sum(|lobe| lobe.g(wo_of_lobe));
-        g.map(|g| if g > 0.0 { g / wo.z } else { 0.0 })
+        let (mixture, turn) = self.mixture(wi);
+        mixture.f(turned(wo, turn))
     }
 
     pub(super) fn albedo(&self, wi: DVec3) -> [f64; 3] {
-        self.mixture(wi).sum(Lobe::integrals)
+        self.mixture(wi).0.albedo()
     }
 
     pub(super) fn sample(&self, wi: DVec3, u: [f64; 2]) -> Option<ScatterSample> {
-        let mixture = self.mixture(wi);
-        let shares = mixture.shares();
-        let total: f64 = shares.iter().sum();
-        if total <= 0.0 {
-            return None;
-        }
-        let mut target = u[0] * total;
-        let last = shares.iter().rposition(|&share| share > 0.0)?;
-        let mut index = 0;
-        while index < last && target >= shares[index] {
-            target -= shares[index];
-            index += 1;
-        }
-        // At the edges of a lobe, the horizon among them, its density may be zero.
-        let inside = [target / shares[index], u[1]].map(|u| u.clamp(INSIDE, 1.0 - INSIDE));
-        let direction = mixture.lobes[index].luminance.sample_direction(inside)?;
-        let pdf_sr = mixture.luminance(direction) / total;
-        Some(ScatterSample { wo: turned(direction, mixture.turn), pdf_sr })
+        let (mixture, turn) = self.mixture(wi);
+        let direction = mixture.sample(u)?;
+        let pdf_sr = mixture.pdf_sr(direction);
+        Some(ScatterSample { wo: turned(direction, turn), pdf_sr })
     }
 
     pub(super) fn pdf_sr(&self, wi: DVec3, wo: DVec3) -> f64 {
-        let mixture = self.mixture(wi);
-        let total: f64 = mixture.shares().iter().sum();
-        if total > 0.0 { mixture.luminance(turned(wo, mixture.turn)) / total } else { 0.0 }
+        let (mixture, turn) = self.mixture(wi);
+        mixture.pdf_sr(turned(wo, turn))
     }
 
-    /// Of the coordinates that lead to `wo`, those of the lobe that is the brightest there.
+    /// Of the coordinates that lead to `wo`, those of the part of the mixture that is the brightest there.
     pub(super) fn invert(&self, wi: DVec3, wo: DVec3) -> Option<[f64; 2]> {
-        let mixture = self.mixture(wi);
-        let direction = turned(wo, mixture.turn);
-        let at_wo =
-            [0, 1, 2, 3].map(|i| mixture.weights[i] * mixture.lobes[i].luminance.value(direction));
-        let brightest = (0..4).max_by(|&a, &b| at_wo[a].total_cmp(&at_wo[b]))?;
-        let [within, u1] = mixture.lobes[brightest].luminance.invert(direction);
-        let shares = mixture.shares();
-        let before: f64 = shares[..brightest].iter().sum();
-        let u0 = (before + within * shares[brightest]) / shares.iter().sum::<f64>();
-        Some([u0.clamp(0.0, 1.0), u1])
+        let (mixture, turn) = self.mixture(wi);
+        mixture.invert(turned(wo, turn))
     }
 
     /// The mixture of the greatest values of all lobes, wherever they are.
     pub(super) fn greatest(&self, wi: DVec3) -> f64 {
-        self.mixture(wi).sum(|lobe| [lobe.luminance.maximum().value, 0.0, 0.0])[0]
+        self.mixture(wi).0.greatest()
     }
 
     pub(super) fn incidences(&self) -> Vec<DVec3> {
@@ -211,42 +154,45 @@ impl GriddedTable {
         are_isotropic || self.phi_rad == other.phi_rad
     }
 
-    fn mixture(&self, wi: DVec3) -> Mixture<'_> {
+    /// The lobes that mix at an incident direction, and cosine and sine of its azimuth as seen from the front: lobes are
+    /// stored with it at 0.
+    fn mixture(&self, wi: DVec3) -> (Mixture<'_>, [f64; 2]) {
         let horizontal = (wi.x * wi.x + wi.y * wi.y).sqrt();
         let turn =
             if horizontal > 0.0 { [-wi.x / horizontal, wi.y / horizontal] } else { [1.0, 0.0] };
-        let thetas = bracket(&self.theta_rad, libm::atan2(horizontal, wi.z));
+        let theta_rad = libm::atan2(horizontal, wi.z);
+        let thetas = bracket(&self.theta_rad, theta_rad);
         let phis = if self.is_isotropic() {
             [(0, 1.0), (0, 0.0)]
         } else {
             around(&self.phi_rad, libm::atan2(turn[1], turn[0]))
         };
-        let lobe = |i: usize| &self.lobes[phis[i / 2].0 * self.theta_rad.len() + thetas[i % 2].0];
-        let weights = [0, 1, 2, 3].map(|i| phis[i / 2].1 * thetas[i % 2].1);
-        Mixture { lobes: [0, 1, 2, 3].map(lobe), weights, turn }
+        let (motion, mirror) = self.mirror(theta_rad, thetas);
+        let moves = thetas.map(|(theta, _)| Move::new(self.mirrors[theta], mirror, motion));
+        let part = |i: usize| Part {
+            lobe: &self.lobes[phis[i / 2].0 * self.theta_rad.len() + thetas[i % 2].0],
+            weight: phis[i / 2].1 * thetas[i % 2].1,
+            step: moves[i % 2],
+        };
+        (Mixture { parts: [0, 1, 2, 3].map(part) }, turn)
     }
-}
 
-impl Mixture<'_> {
-    /// The sum of a quantity of the lobes by their weights.
-    fn sum(&self, quantity: impl Fn(&Lobe) -> [f64; 3]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (lobe, &weight) in self.lobes.iter().zip(&self.weights) {
-            // Of lobes without weight nothing is looked up.
-            let of_lobe = if weight > 0.0 { quantity(lobe) } else { [0.0; 3] };
-            sum = [0, 1, 2].map(|channel| sum[channel] + weight * of_lobe[channel]);
+    /// Where lobes belong at an incident polar angle between two knots, or beyond the ends, and how they get there.
+    fn mirror(&self, theta_rad: f64, knots: [(usize, f64); 2]) -> (Motion, Mirror) {
+        let [(low, below), (high, above)] = knots;
+        if low != high {
+            let specular_rad = below * self.specular_rad[low] + above * self.specular_rad[high];
+            let motion = self.motions[low];
+            // At a knot nothing moves.
+            let mirror = if above == 0.0 { self.mirrors[low] } else { Mirror::new(specular_rad) };
+            return (motion, mirror);
         }
-        sum
-    }
-
-    /// The share of each lobe in the luminance of the albedo.
-    fn shares(&self) -> [f64; 4] {
-        [0, 1, 2, 3].map(|i| self.weights[i] * self.lobes[i].luminance.integral())
-    }
-
-    /// The luminance of g towards a direction of the lobes' frame.
-    fn luminance(&self, direction: DVec3) -> f64 {
-        self.sum(|lobe| [lobe.luminance.value(direction), 0.0, 0.0])[0]
+        // The two knots are one beyond the ends, and where there is but one.
+        let motion = if low == 0 { self.motions.first() } else { self.motions.last() };
+        let off_rad = theta_rad - self.theta_rad[low];
+        let motion = motion.copied().filter(|_| off_rad != 0.0).unwrap_or(Motion::Still);
+        let mirror = Mirror::new((self.specular_rad[low] + off_rad).max(0.0));
+        (motion, mirror.near(self.mirrors[low]))
     }
 }
 

@@ -4,8 +4,6 @@
 //! normal, whose knots lie where those of the file do: in the plane of incidence at the same distances from the
 //! mirror direction, and around the normal at azimuths of the same distances. The horizon is an edge of the grid.
 
-use super::super::distribution::upwards;
-use super::{GriddedTable, as_in_file, luminance};
 use crate::{Angles, Symmetry};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -94,28 +92,4 @@ fn knots(wanted: impl Iterator<Item = f64>, last: f64, widest: f64) -> Vec<f64> 
         knots.push(knot);
     }
     knots
-}
-
-/// The mean of |f - f'| over the mean of f', f' the exact function, at incident directions and at exits of equal
-/// projected solid angle, both in the frame of the file.
-pub(in crate::bsdf) fn table_error(
-    table: &GriddedTable,
-    incidences: &[DVec3],
-    exact: impl Fn(DVec3, DVec3) -> [f64; 3],
-) -> f64 {
-    const SIDE: usize = 24;
-    let middle = |i: usize| (i as f64 + 0.5) / SIDE as f64;
-    let (mut difference, mut sum) = (0.0, 0.0);
-    for &wi in incidences {
-        for i in 0..SIDE {
-            for j in 0..SIDE {
-                let wo = upwards(quasilux_sampling::warp::sample_disk([middle(i), middle(j)]));
-                let exact = luminance(exact(wi, wo));
-                difference +=
-                    (luminance(table.value(as_in_file(wi), as_in_file(wo))) - exact).abs();
-                sum += exact;
-            }
-        }
-    }
-    if sum > 0.0 { difference / sum } else { 0.0 }
 }

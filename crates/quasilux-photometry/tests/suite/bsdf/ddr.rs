@@ -51,6 +51,63 @@ fn the_stated_error_is_that_of_resampling() {
     assert!(stated > 0.1 * found && stated < 3.0 * found, "{stated} % stated, {found} % found");
 }
 
+/// Between incidences of the file, some 20 degrees apart: at most so much, and a lobe has one peak, in the mirror direction. Lobes that
+/// stay where they are stored would be two, and off by 0.15, 0.48, 0.81 and 0.44 where the glossy one is.
+#[test]
+fn lobes_move_with_the_mirror_direction() {
+    for (name, f, most) in [
+        ("rough", rough as Scattering, [0.008, 0.025, 0.08, 0.08]),
+        ("glossy", glossy, [0.006, 0.01, 0.05, 0.18]),
+    ] {
+        let table = table(f, 0.5);
+        for (theta_deg, most) in [5.0, 20.0, 45.0, 70.0].into_iter().zip(most) {
+            let wi = direction(theta_deg, 0.0);
+            let off = difference(f, &table, wi);
+            let in_plane = |i: i32| table.evaluate(wi, direction(0.25 * f64::from(i), 180.0))[0];
+            let all: Vec<f64> = (-340..=340).map(in_plane).collect();
+            let highest = all.iter().copied().fold(0.0, f64::max);
+            let is_peak =
+                |i: &usize| all[*i] > all[i - 1].max(all[i + 1]) && all[*i] > 0.1 * highest;
+            let peaks: Vec<f64> =
+                (1..680).filter(is_peak).map(|i| 0.25 * (i as f64 - 340.0)).collect();
+            println!("{name} at {theta_deg} degrees: {off:.4}, peaks {peaks:?}");
+            assert!(off < most, "{name} at {theta_deg} degrees: {off}");
+            if name == "glossy" {
+                assert!(peaks.len() == 1 && (peaks[0] - theta_deg).abs() <= 2.5, "{peaks:?}");
+            }
+        }
+    }
+}
+
+/// The mixture between incidences approaches the surface at second order in their gap, and the warning foretells how far the table is off.
+#[test]
+fn errors_between_incidences_are_foretold() {
+    let mut found = Vec::new();
+    for gap in [16.0, 8.0, 4.0] {
+        let sigma: Vec<f64> =
+            (0..=5).map(|i| 20.0 + gap * f64::from(i)).filter(|sigma| *sigma < 72.0).collect();
+        let grid = SpecularGrid { sigma: sigma.clone(), ..SpecularGrid::with_step(0.5) };
+        let read = read_ddr(ddr(glossy, &grid).as_bytes(), Way::Reflection).unwrap();
+        let warning = read.warnings.iter().find(|w| w.deviation() == Deviation::Resampled);
+        let text = warning.unwrap().to_string();
+        // At incidences of the file, and between them.
+        let percent = |before: &str| -> f64 {
+            let (_, percent) = text.split_once(before).unwrap();
+            percent.split(' ').next().unwrap().parse().unwrap()
+        };
+        let stated = 0.01 * (percent("off by ") + percent("by about "));
+        let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+        let middles = sigma.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        let offs = middles.map(|theta| difference(glossy, table, direction(theta, 0.0)));
+        let off = offs.sum::<f64>() / (sigma.len() - 1) as f64;
+        println!("each {gap} degrees: {off:.4}, stated {stated:.4}");
+        assert!(stated > 0.5 * off && stated < 2.0 * off, "{gap}: {stated} for {off}");
+        found.push(off);
+    }
+    // What resampling leaves is the same at all gaps.
+    assert!((found[0] - found[2]) / (found[1] - found[2]) > 3.5, "{found:?}");
+}
+
 #[test]
 fn lambert_keeps_its_albedo() {
     let table = table(lambert, 4.0);
