@@ -12,7 +12,7 @@ use quasilux_photometry::bsdf::{Distribution, GriddedTable, Side, TensorTree, Wa
 use quasilux_sampling::warp::sample_disk;
 use quasilux_scene::bsdf::Conductor;
 use quasilux_scene::{Bsdf, Rgb, Scene};
-use quasilux_stats::{least_squares_slope, student_t_quantile};
+use quasilux_stats::student_t_quantile;
 use quasilux_transport::{Estimator, Scattering};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
@@ -94,19 +94,21 @@ fn of_tables(table: &Distribution) -> Bsdf {
     measured([(Side::Front, Way::Reflection, table.clone())])
 }
 
-/// Boxes make errors of the first order in their width, lobes of the second in their distance: errors of three
-/// refinements, each by half.
+/// Boxes make errors of the first order in their width. Lobes are of the second in what lies between them; the slope is
+/// that of the last two of three refinements, each by half.
 #[test]
 fn stated_errors_shrink_at_the_expected_order() {
+    type Maker = dyn Fn(usize) -> Distribution;
+    let boxes = |level: usize| tree(0.35, 3 + level);
+    let rough = |level: usize| lobes(0.35, 6 << level);
+    let sharp = |level: usize| lobes(0.03, 6 << level);
     for (name, alpha, least, table) in [
-        ("boxes", 0.35, 0.8, &tree as &dyn Fn(f64, usize) -> Distribution),
-        ("lobes", 0.35, 1.4, &|alpha, level| lobes(alpha, 3 << level)),
-        ("lobes like mirrors", 0.03, 1.4, &|alpha, level| lobes(alpha, 3 << level)),
+        ("boxes", 0.35, 0.8, &boxes as &Maker),
+        ("lobes", 0.35, 1.4, &rough),
+        ("lobes like mirrors", 0.03, 1.4, &sharp),
     ] {
-        let levels = [3, 4, 5].map(|level| if least < 1.0 { level } else { level - 2 });
-        let errors = levels.map(|level| stated_error(alpha, &table(alpha, level)));
-        let points = [0, 1, 2].map(|i| [i as f64, libm::log2(errors[i])]);
-        let order = -least_squares_slope(&points);
+        let errors = [0, 1, 2, 3_usize].map(|level| stated_error(alpha, &table(level)));
+        let order = 0.5 * libm::log2(errors[1] / errors[3]);
         println!("{name}, alpha {alpha}: {errors:.4?}, order {order:.2}");
         assert!(order > least, "{name}, alpha {alpha}: {errors:?}");
     }
@@ -129,7 +131,7 @@ fn tables_of_metals_light_a_room_as_the_metals_do() {
             "{} of alpha {alpha}: {off_lx:.3} of {brought_lx:.2} lx brought, known to {joint_lx:.3}, stated {stated:.4}",
             table.kind()
         );
-        assert!(joint_lx < 0.02 * brought_lx, "{alpha}: {known:?}, {found:?}");
+        assert!(joint_lx < 0.03 * brought_lx, "{alpha}: {known:?}, {found:?}");
         assert!(off_lx <= joint_lx + stated * brought_lx, "{alpha}: {known:?}, {found:?}");
         assert_estimators_agree(table.kind(), &scenes[1], 0.2);
     }
@@ -151,7 +153,9 @@ fn tables_of_metals_light_a_furnace_as_the_metals_do() {
     {
         let stated = stated_error(alpha, &table);
         let scenes = [metal(alpha), of_tables(&table)].map(furnace);
-        for (estimator, samples) in [(Estimator::Path, 1 << 10), (Estimator::Photon, 1 << 14)] {
+        for (estimator, samples, widest) in
+            [(Estimator::Path, 1 << 10, 0.02), (Estimator::Photon, 1 << 14, 0.06)]
+        {
             let [known, found] =
                 scenes.each_ref().map(|scene| estimates(scene, estimator, samples));
             for (known, found) in known.into_iter().zip(found) {
@@ -163,7 +167,7 @@ fn tables_of_metals_light_a_furnace_as_the_metals_do() {
                     estimator.name(),
                     known.value_lx
                 );
-                assert!(joint_lx < 0.02 * known.value_lx, "{known:?}, {found:?}");
+                assert!(joint_lx < widest * known.value_lx, "{known:?}, {found:?}");
                 assert!(off_lx <= joint_lx + stated * known.value_lx, "{known:?}, {found:?}");
             }
         }
