@@ -1,7 +1,7 @@
 //! How one side of a surface scatters light one way: a closed set of tables, one file each.
 
 use super::analysis::Incident;
-use super::{GriddedTable, KlemsTable, TensorTree};
+use super::{ExchangedTree, GriddedTable, KlemsTable, TensorTree};
 use glam::DVec3;
 
 /// Luminance of linear RGB (ITU-R BT.709).
@@ -21,6 +21,8 @@ pub enum Distribution {
     Klems(KlemsTable),
     /// Constant in boxes of varied size.
     TensorTree(TensorTree),
+    /// An isotropic tree of boxes for light that goes the other way round.
+    ExchangedTree(ExchangedTree),
     /// Lobes over a grid of incident directions.
     Gridded(GriddedTable),
 }
@@ -45,6 +47,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => [table.value(wi, wo); 3],
             Self::TensorTree(tree) => [tree.value(wi, wo); 3],
+            Self::ExchangedTree(tree) => [tree.value(wi, wo); 3],
             Self::Gridded(table) => table.value(wi, wo),
         }
     }
@@ -56,6 +59,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => [table.albedo(wi); 3],
             Self::TensorTree(tree) => [tree.albedo(wi); 3],
+            Self::ExchangedTree(tree) => [tree.albedo(wi); 3],
             Self::Gridded(table) => table.albedo(wi),
         }
     }
@@ -69,6 +73,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.sample(wi, u),
             Self::TensorTree(tree) => tree.sample(wi, u),
+            Self::ExchangedTree(tree) => tree.sample(wi, u),
             Self::Gridded(table) => table.sample(wi, u),
         }
     }
@@ -82,6 +87,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.pdf_sr(wi, wo),
             Self::TensorTree(tree) => tree.pdf_sr(wi, wo),
+            Self::ExchangedTree(tree) => tree.pdf_sr(wi, wo),
             Self::Gridded(table) => table.pdf_sr(wi, wo),
         }
     }
@@ -95,6 +101,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.invert(wi, wo),
             Self::TensorTree(tree) => Some(tree.invert(wi, wo)),
+            Self::ExchangedTree(tree) => Some(tree.invert(wi, wo)),
             Self::Gridded(table) => table.invert(wi, wo),
         }
     }
@@ -106,6 +113,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.greatest(wi),
             Self::TensorTree(tree) => tree.greatest(wi),
+            Self::ExchangedTree(tree) => tree.greatest(wi),
             Self::Gridded(table) => table.greatest(wi),
         }
     }
@@ -118,6 +126,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.incidences(),
             Self::TensorTree(tree) => tree.incidences(),
+            Self::ExchangedTree(tree) => tree.original().incidences(),
             Self::Gridded(table) => table.incidences(),
         }
     }
@@ -127,6 +136,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.parts(),
             Self::TensorTree(tree) => tree.parts(),
+            Self::ExchangedTree(tree) => tree.parts(),
             Self::Gridded(table) => table.parts(),
         }
     }
@@ -137,6 +147,7 @@ impl Distribution {
         match self {
             Self::Klems(_) => false,
             Self::TensorTree(tree) => tree.is_isotropic(),
+            Self::ExchangedTree(_) => true,
             Self::Gridded(table) => table.is_isotropic(),
         }
     }
@@ -145,7 +156,7 @@ impl Distribution {
     #[must_use]
     pub fn is_coloured(&self) -> bool {
         match self {
-            Self::Klems(_) | Self::TensorTree(_) => false,
+            Self::Klems(_) | Self::TensorTree(_) | Self::ExchangedTree(_) => false,
             Self::Gridded(table) => table.is_coloured(),
         }
     }
@@ -155,7 +166,7 @@ impl Distribution {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Klems(_) => "Klems",
-            Self::TensorTree(_) => "tensor tree",
+            Self::TensorTree(_) | Self::ExchangedTree(_) => "tensor tree",
             Self::Gridded(_) => "gridded",
         }
     }
@@ -174,4 +185,26 @@ pub fn luminance(rgb: [f64; 3]) -> f64 {
         return rgb[0];
     }
     rgb.iter().zip(LUMINANCE_WEIGHTS).map(|(channel, weight)| channel * weight).sum()
+}
+
+/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the renormalised rest.
+/// Never a step of height zero.
+pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usize, f64) {
+    let (start, end) = (before(0), before(count));
+    let target = start + u * (end - start);
+    let (mut low, mut high) = (0, count);
+    while low < high {
+        let middle = low.midpoint(high);
+        if before(middle + 1) > target {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    // Rounding, or u = 1: the last step that rises.
+    while low == count || before(low + 1) <= before(low) {
+        low -= 1;
+    }
+    let rest = (target - before(low)) / (before(low + 1) - before(low));
+    (low, rest.clamp(0.0, 1.0))
 }

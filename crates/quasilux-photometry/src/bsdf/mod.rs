@@ -52,7 +52,7 @@ pub use klems::{AngleBasis, KlemsTable, ThetaBand};
 pub use merl::read_merl;
 pub use read::{BsdfFormat, ReadBsdf, read_bsdf, read_bsdf_named};
 pub use reversed::Reversed;
-pub use tree::TensorTree;
+pub use tree::{ExchangedTree, TensorTree};
 pub use window_xml::read_bsdf_xml;
 
 /// One measured surface: how both sides of a thin sheet scatter light.

@@ -1,6 +1,6 @@
 //! The two directions of a distribution exchanged.
 
-use super::Distribution;
+use super::{Distribution, ExchangedTree};
 
 /// A distribution with its directions exchanged, f'(wi, wo) = f(wo, wi).
 #[derive(Clone, Debug)]
@@ -12,18 +12,20 @@ pub struct Reversed {
 }
 
 impl Distribution {
-    /// f for light that goes the other way round: exact for Klems patches and for trees of rank 4, averaged over boxes for
-    /// trees of rank 3. `None` for grids, for patches without a counterpart at the opposite azimuth, and for trees that would
-    /// become too large.
+    /// f for light that goes the other way round, exactly. `None` for grids, for patches without a counterpart at the opposite azimuth,
+    /// and for trees of rank 4 that become too large.
     #[must_use]
     pub fn reversed(&self) -> Option<Reversed> {
         let table = match self {
             Self::Klems(table) => Self::Klems(table.reversed()?),
+            Self::TensorTree(tree) if tree.is_isotropic() => {
+                Self::ExchangedTree(ExchangedTree::new(tree)?)
+            }
             Self::TensorTree(tree) => Self::TensorTree(tree.reversed()?),
+            Self::ExchangedTree(tree) => Self::TensorTree(tree.original().clone()),
             Self::Gridded(_) => return None,
         };
-        let is_exact = matches!(self, Self::Klems(_)) || !self.is_isotropic();
-        Some(Reversed { table, is_exact })
+        Some(Reversed { table, is_exact: true })
     }
 }
 

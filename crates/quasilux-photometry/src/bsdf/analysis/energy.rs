@@ -1,6 +1,6 @@
 //! Shares of light: what is reflected, what passes, and the greatest sum of both.
 
-use super::super::distribution::luminance;
+use super::super::distribution::{luminance, upwards};
 use super::super::{Distribution, KlemsTable, MeasuredBsdf, Side, Way};
 use super::{Incident, spread};
 use glam::DVec3;
@@ -20,7 +20,7 @@ pub struct EnergyBalance {
     /// The greatest sum of both over all incidences, of the strongest colour channel.
     ///
     /// It is the maximum itself: of tables that are constant in cells a value of one of their cells, of lobes, whose
-    /// shares are linear between knots, one at a knot. Only where both tables are of different kinds, or two grids of lobes have
+    /// shares are linear between knots, one at a knot, and of exchanged trees one at the edge of a ring, to 1e-5 of its width. Only where both tables are of different kinds, or two grids of lobes have
     /// azimuths apart, it is the greatest of 4096 directions and of all cells.
     pub worst: f64,
     /// The incidence where that is.
@@ -48,7 +48,7 @@ impl EnergyBalance {
         let further = match ways {
             [Some(reflected), Some(passed)] => common(reflected, passed),
             [None, None] => return None,
-            _ => vec![],
+            [Some(one), None] | [None, Some(one)] => common(one, one),
         };
         let mut worst = (total(DVec3::Z), DVec3::Z);
         for wi in looked_at.chain(further) {
@@ -74,7 +74,29 @@ fn common(one: &Distribution, other: &Distribution) -> Vec<DVec3> {
         {
             vec![]
         }
+        (one, other) if ring_width(one).is_some() && ring_width(other).is_some() => {
+            let width = ring_width(one).into_iter().chain(ring_width(other)).fold(1.0, f64::min);
+            edges(width)
+        }
         (Distribution::Gridded(a), Distribution::Gridded(b)) if a.shares_azimuths(b) => vec![],
         _ => spread(SPREAD).collect(),
     }
+}
+
+/// In rings of the sine that wide what an isotropic tree sends is monotonic; `None` of others.
+fn ring_width(table: &Distribution) -> Option<f64> {
+    match table {
+        Distribution::TensorTree(tree) if tree.is_isotropic() => {
+            Some(2.0 / tree.resolution() as f64)
+        }
+        Distribution::ExchangedTree(tree) => Some(2.0 / tree.resolution() as f64),
+        _ => None,
+    }
+}
+
+/// Incidences at the edges of rings, on either side.
+fn edges(width: f64) -> Vec<DVec3> {
+    let rings = (1.0 / width).round() as u32;
+    let at = |ring: u32| [1e-5, 1.0 - 1e-5].map(|part| (f64::from(ring) + part) * width);
+    (0..rings).flat_map(at).map(|sine| upwards([sine.min(1.0), 0.0])).collect()
 }

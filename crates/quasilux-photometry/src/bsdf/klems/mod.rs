@@ -8,7 +8,7 @@
 mod basis;
 
 use super::analysis::Incident;
-use super::distribution::{INSIDE, ScatterSample};
+use super::distribution::{INSIDE, ScatterSample, pick};
 use basis::Cell;
 pub use basis::{AngleBasis, ThetaBand};
 use glam::DVec3;
@@ -180,26 +180,4 @@ impl KlemsTable {
 /// Not too near to the edges of a patch.
 fn inside(fraction: f64) -> f64 {
     fraction.clamp(INSIDE, 1.0 - INSIDE)
-}
-
-/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the renormalised rest.
-/// Never a step of height zero.
-fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usize, f64) {
-    let (start, end) = (before(0), before(count));
-    let target = start + u * (end - start);
-    let (mut low, mut high) = (0, count);
-    while low < high {
-        let middle = low.midpoint(high);
-        if before(middle + 1) > target {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    // Rounding, or u = 1: the last step that rises.
-    while low == count || before(low + 1) <= before(low) {
-        low -= 1;
-    }
-    let rest = (target - before(low)) / (before(low + 1) - before(low));
-    (low, rest.clamp(0.0, 1.0))
 }

@@ -1,9 +1,8 @@
 //! Trees from branches and grids of values, and trees turned round.
 
-use super::super::distribution::upwards;
 use super::means::Means;
 use super::{DEEPEST, Node, TensorTree};
-use quasilux_sampling::warp::sample_disk;
+use std::sync::Arc;
 
 /// A tree that is being built, from the root on.
 #[derive(Debug)]
@@ -72,7 +71,7 @@ impl TreeBuilder {
         self.nodes.shrink_to_fit();
         let means = Means::new(&mut self.nodes, self.incident_axes)?;
         let Self { incident_axes, nodes, height } = self;
-        Some(TensorTree { incident_axes, nodes, means, height })
+        Some(TensorTree { incident_axes, nodes: Arc::new(nodes), means: Arc::new(means), height })
     }
 }
 
@@ -91,44 +90,15 @@ struct Part<'v> {
 impl TensorTree {
     /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi).
     ///
-    /// Rank 4: exact. The squares of a direction and of its opposite are mirror images: the old place of an axis is one
-    /// less the new place of its counterpart. Rank 3: what was one incident axis would be two exit axes, so values
-    /// are averaged over eight points of the boxes of a full tree, no finer than the leaves are many. `None`
-    /// if the tree becomes too large.
+    /// Of rank 4: the squares of a direction and of its opposite are mirror images, and the old place of an axis is one
+    /// less the new place of its counterpart. `None` of rank 3, see [`ExchangedTree`](super::ExchangedTree).
     pub(in crate::bsdf) fn reversed(&self) -> Option<Self> {
+        if self.is_isotropic() {
+            return None;
+        }
         let mut builder = TreeBuilder::new(self.incident_axes);
-        if self.incident_axes == 1 {
-            let log_side = self.log_side_of_leaves();
-            builder.grid(0, 0, &self.reversed_grid(1 << log_side), log_side)?;
-        } else {
-            self.reverse_into(&mut builder, [0, 0], 0)?;
-        }
+        self.reverse_into(&mut builder, [0, 0], 0)?;
         builder.finish()
-    }
-
-    /// The finest full tree that has no more than four times the leaves.
-    fn log_side_of_leaves(&self) -> usize {
-        let most = 4 * self.leaves();
-        (1..=self.height.max(1)).rev().find(|log| 1 << (3 * log) <= most).unwrap_or(1)
-    }
-
-    /// Values of exchanged directions of a tree of rank 3; zero in the half that is not in use.
-    fn reversed_grid(&self, side: usize) -> Vec<f64> {
-        let place =
-            |box_: usize, part: usize| (box_ as f64 + 0.25 + 0.5 * part as f64) / side as f64;
-        let mut values = Vec::with_capacity(side * side * side);
-        for index in 0..side * side * side {
-            let at = [index / (side * side), index / side % side, index % side];
-            let is_used = 2 * at[0] < side;
-            let value = |point: usize| {
-                let [incident, x, y] = [0, 1, 2].map(|axis| place(at[axis], point >> axis & 1));
-                let wi = upwards([2.0 * incident - 1.0, 0.0]);
-                self.value(upwards(sample_disk([x, y])), wi)
-            };
-            let sum: f64 = if is_used { (0..8).map(value).sum() } else { 0.0 };
-            values.push(sum / 8.0);
-        }
-        values
     }
 
     fn reverse_into(

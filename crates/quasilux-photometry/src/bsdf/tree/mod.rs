@@ -10,15 +10,18 @@
 //! over exit squares at the incident direction, kept with each node (`means.rs`). No rejection, and strata stay strata.
 
 mod build;
+mod exchanged;
 mod means;
 
 use super::analysis::Incident;
 use super::distribution::{INSIDE, ScatterSample, upwards};
 pub(super) use build::TreeBuilder;
+pub use exchanged::ExchangedTree;
 use glam::DVec3;
 use means::{IncidentBox, Means};
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Levels below the root, at most.
 pub(super) const DEEPEST: usize = 12;
@@ -31,8 +34,8 @@ const CELLS: f64 = (1 << DEEPEST) as f64;
 pub struct TensorTree {
     /// 1 in rank 3, 2 in rank 4.
     incident_axes: usize,
-    nodes: Vec<Node>,
-    means: Means,
+    nodes: Arc<Vec<Node>>,
+    means: Arc<Means>,
     /// Levels below the root.
     height: usize,
 }
@@ -77,13 +80,18 @@ impl TensorTree {
 
     pub(super) fn value(&self, wi: DVec3, wo: DVec3) -> f64 {
         let incidence = self.incidence(wi);
-        let exit = incidence.square(wo).map(cell);
+        let (node, _) = self.leaf(incidence, incidence.square(wo).map(cell));
+        self.nodes[node].value
+    }
+
+    /// The leaf at an incidence and a smallest box of the exit square, and its level.
+    fn leaf(&self, incidence: Incidence, exit: [u32; 2]) -> (usize, usize) {
         let (mut node, mut level) = (0, 0);
         while let Some(children) = self.children(node, level, incidence) {
             node = children[half(exit[0], level) | half(exit[1], level) << 1];
             level += 1;
         }
-        self.nodes[node].value
+        (node, level)
     }
 
     pub(super) fn albedo(&self, wi: DVec3) -> f64 {

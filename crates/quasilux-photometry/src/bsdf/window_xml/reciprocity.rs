@@ -24,12 +24,6 @@ pub(super) fn fill_transmission(
         let known = bsdf.scattering(side.other(), Way::Transmission);
         let reversed = known.and_then(Distribution::reversed).map(|reversed| reversed.table);
         let (deviation, expected) = match &reversed {
-            Some(Distribution::TensorTree(tree)) if tree.is_isotropic() => {
-                let side = tree.resolution();
-                let expected =
-                    format!("both directions (resampled by reciprocity, {side} boxes a side)");
-                (Deviation::ByReciprocity, expected)
-            }
             Some(_) => {
                 let expected = "both directions (taken from the other one by reciprocity)";
                 (Deviation::ByReciprocity, expected.to_owned())
