@@ -1,11 +1,15 @@
 //! How often one interval covers the truth, and whether that is often enough.
 
 use quasilux_sampling::Sequence;
+use std::collections::BTreeMap;
 
 /// A coverage between these is what is promised.
 const PROMISED: [f64; 2] = [0.935, 0.965];
 /// The probability that any of the counts fails though all coverages are as promised.
 const SIGNIFICANCE: f64 = 0.01;
+
+/// Where more runs than this share stop at the same look, stopping is not tested.
+const MOST_AT_ONE_LOOK: f64 = 0.9;
 
 /// When the interval is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +39,7 @@ pub(super) struct Count {
     pub(super) figure: Figure,
     /// Distance from the truth over half-width; not a number where there is no interval.
     pub(super) errors: Vec<f64>,
-    /// Indices per replicate that each run had.
+    /// Indices per replicate that each interval is from.
     pub(super) samples: Vec<u64>,
 }
 
@@ -63,6 +67,16 @@ impl Figure {
         (0..points).map(Self::Point).chain([Self::Average, Self::Minimum])
     }
 
+    /// Its own of values of all figures, in the order of [`Figure::all`].
+    pub(super) fn of<T: Copy>(self, values: &[T]) -> T {
+        let points = values.len() - 2;
+        values[match self {
+            Self::Point(number) => number,
+            Self::Average => points,
+            Self::Minimum => points + 1,
+        }]
+    }
+
     pub(super) fn name(self) -> String {
         match self {
             Self::Point(number) => format!("point {number}"),
@@ -73,12 +87,24 @@ impl Figure {
 }
 
 impl Count {
-    /// The smallest and the largest number of indices per replicate, and the share of runs with the smallest.
-    pub(super) fn ends(&self) -> ([u64; 2], f64) {
-        let fewest = self.samples.iter().copied().min().unwrap_or(0);
-        let most = self.samples.iter().copied().max().unwrap_or(0);
-        let first = self.samples.iter().filter(|samples| **samples == fewest).count();
-        ([fewest, most], first as f64 / self.samples.len() as f64)
+    /// Numbers of indices per replicate, each with how many intervals have it, from the fewest on.
+    pub(super) fn ends(&self) -> BTreeMap<u64, usize> {
+        let mut ends = BTreeMap::new();
+        for &samples in &self.samples {
+            *ends.entry(samples).or_insert(0) += 1;
+        }
+        ends
+    }
+
+    /// The share of the commonest of them.
+    pub(super) fn commonest_end(&self) -> f64 {
+        let most = self.ends().into_values().max().unwrap_or(0);
+        most as f64 / self.samples.len() as f64
+    }
+
+    /// Whether runs stop at several looks.
+    pub(super) fn has_looks(&self) -> bool {
+        self.commonest_end() <= MOST_AT_ONE_LOOK
     }
 
     /// Runs in which intervals of `scale` times the width cover the truth.
@@ -89,6 +115,11 @@ impl Count {
     /// The share of them.
     pub(super) fn coverage(&self, scale: f64) -> f64 {
         self.covered(scale) as f64 / self.errors.len() as f64
+    }
+
+    /// Whether it says where runs stop.
+    pub(super) fn is_of_runs(&self) -> bool {
+        self.moment == Moment::Stop && self.figure == Figure::Average
     }
 
     /// What it counts, in words.

@@ -16,13 +16,12 @@ const NARROW: f64 = 0.7;
 pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
     let mut text =
         "scene,sequence,moment,figure,runs,covered,coverage,covered_if_30_percent_narrower,p_value,passed,\
-         fewest_samples,most_samples,share_at_fewest\n"
+         intervals_by_samples\n"
             .to_owned();
     for (number, count) in counts.iter().enumerate() {
-        let ([fewest, most], share) = count.ends();
         writeln!(
             text,
-            "{},{},{},{},{},{},{},{},{},{},{fewest},{most},{}",
+            "{},{},{},{},{},{},{},{},{},{},{}",
             count.scene,
             count.sequence.name(),
             count.moment.name(),
@@ -33,7 +32,7 @@ pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
             count.covered(NARROW),
             exact(verdict.p_values[number]),
             !verdict.fails(number),
-            exact(share),
+            ends(count).join(" "),
         )
         .expect("strings grow");
     }
@@ -44,8 +43,9 @@ pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
 pub(super) fn markdown(counts: &[Count], verdict: &Verdict, seeds: u32) -> String {
     let mut text = format!(
         "# Coverage of the intervals\n\n\
-         How often 95 % intervals from 16 replicates cover the truth, in %, over {seeds} seeds: after a fixed\n\
-         number of samples, and where the run stops by itself. Of points, the lowest and the highest coverage.\n\n"
+         How often 95 % intervals from 16 replicates cover the truth, in % (and how many do), over {seeds} seeds: at the\n\
+         first checkpoint, after a fixed number of samples, and where the run stops by itself. Of points, the lowest and\n\
+         the highest coverage. Rows of all scenes have one point, the average and the minimum of each together.\n\n"
     );
     text.push_str(&header());
     let scenes = scenes::all();
@@ -58,7 +58,7 @@ pub(super) fn markdown(counts: &[Count], verdict: &Verdict, seeds: u32) -> Strin
                 .expect("strings grow");
         }
     }
-    text.push_str(&ends(counts));
+    text.push_str(&stops(counts));
     for known in &scenes {
         writeln!(text, "- {}: {} ({})", known.name, known.why, known.estimator.name())
             .expect("strings grow");
@@ -67,24 +67,28 @@ pub(super) fn markdown(counts: &[Count], verdict: &Verdict, seeds: u32) -> Strin
     text
 }
 
+/// Numbers of samples with how many of the intervals are from them, as "128:40".
+fn ends(count: &Count) -> Vec<String> {
+    count.ends().iter().map(|(samples, intervals)| format!("{samples}:{intervals}")).collect()
+}
+
 /// Where runs stop.
-fn ends(counts: &[Count]) -> String {
-    let mut text = "\nSamples in each replicate where runs stop, and the share that stops at the fewest:\n\n| scene |"
-        .to_owned();
+fn stops(counts: &[Count]) -> String {
+    let mut text =
+        "\nSamples in each replicate where runs stop, and how many runs do:\n\n| scene |"
+            .to_owned();
     for (sequence, _) in SEQUENCES {
-        write!(text, " {0}: samples | {0}: at the fewest |", sequence.name())
-            .expect("strings grow");
+        write!(text, " {} |", sequence.name()).expect("strings grow");
     }
-    writeln!(text, "\n|---|{}", "---:|".repeat(2 * SEQUENCES.len())).expect("strings grow");
+    writeln!(text, "\n|---|{}", "---|".repeat(SEQUENCES.len())).expect("strings grow");
     for known in &scenes::all() {
         write!(text, "| {} |", known.name).expect("strings grow");
         for (sequence, _) in SEQUENCES {
-            let own = counts.iter().find(|count| {
-                let is_stop = count.moment == Moment::Stop && count.figure == Figure::Average;
-                is_stop && count.scene == known.name && count.sequence == sequence
-            });
-            let ([fewest, most], share) = own.map_or(([0; 2], f64::NAN), Count::ends);
-            write!(text, " {fewest} to {most} | {} % |", percent(share)).expect("strings grow");
+            let is_own = |count: &&Count| {
+                count.is_of_runs() && count.scene == known.name && count.sequence == sequence
+            };
+            let own = counts.iter().find(is_own).map_or_else(Vec::new, ends);
+            write!(text, " {} |", own.join(", ")).expect("strings grow");
         }
         text.push('\n');
     }
@@ -109,14 +113,21 @@ fn row(counts: &[Count], (scene, moment, sequence): (&str, Moment, Sequence)) ->
     };
     let of = |figure: Figure| {
         let count = own().find(|count| count.figure == figure);
-        count.map_or(String::new(), |count| percent(count.coverage(1.0)))
+        count.map_or(String::new(), |count| {
+            format!("{} ({})", percent(count.coverage(1.0)), count.covered(1.0))
+        })
     };
     let points = own().filter(|count| matches!(count.figure, Figure::Point(_)));
-    let coverages: Vec<f64> = points.map(|count| count.coverage(1.0)).collect();
-    let low = coverages.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = coverages.iter().copied().fold(0.0, f64::max);
-    let points =
-        if low < high { format!("{} to {}", percent(low), percent(high)) } else { percent(low) };
+    let covered: Vec<usize> = points.clone().map(|count| count.covered(1.0)).collect();
+    let runs = points.map(|count| count.errors.len()).next().unwrap_or(0) as f64;
+    let low = covered.iter().copied().min().unwrap_or(0);
+    let high = covered.iter().copied().max().unwrap_or(0);
+    let [low_share, high_share] = [low, high].map(|covered| percent(covered as f64 / runs));
+    let points = if low < high {
+        format!("{low_share} to {high_share} ({low} to {high})")
+    } else {
+        format!("{low_share} ({low})")
+    };
     [points, of(Figure::Average), of(Figure::Minimum)]
 }
 
@@ -134,6 +145,19 @@ fn judgement(counts: &[Count], verdict: &Verdict) -> String {
     );
     for count in verdict.failures(counts) {
         writeln!(text, "- fails: {}", count.label()).expect("strings grow");
+    }
+    let runs = counts.iter().filter(|count| count.is_of_runs());
+    if let Some(worst) = runs.max_by(|a, b| a.commonest_end().total_cmp(&b.commonest_end())) {
+        writeln!(
+            text,
+            "Runs stop at several looks: at most {} % of those of a scene at the same one ({}, {}), which tests\n\
+             stopping if it is 90 % or less: {}.",
+            percent(worst.commonest_end()),
+            worst.scene,
+            worst.sequence.name(),
+            if worst.has_looks() { "holds" } else { "**FAILS**" },
+        )
+        .expect("strings grow");
     }
     text
 }

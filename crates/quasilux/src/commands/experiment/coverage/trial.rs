@@ -2,7 +2,6 @@
 
 use super::count::{Figure, Moment};
 use super::scenes::Known;
-use quasilux_sampling::{Randomization, Sequence};
 use quasilux_transport::{Control, Estimates, Interval, Observer, Settings, simulate};
 
 /// Errors over half-widths of all figures, in the order of [`Figure::all`].
@@ -13,8 +12,8 @@ pub(super) struct Trial {
 
 /// What is known at a moment.
 struct End {
-    /// Indices per replicate.
-    samples: u64,
+    /// Indices per replicate behind each figure: a point that is done gets no more.
+    samples: Vec<u64>,
     errors: Vec<f64>,
 }
 
@@ -30,27 +29,15 @@ impl Observer for First {
 }
 
 impl Trial {
-    pub(super) fn run(
-        known: &Known,
-        (sequence, randomization): (Sequence, Randomization),
-        seed: u64,
-    ) -> Self {
-        let settings = Settings {
-            estimator: known.estimator,
-            rel_tol: known.rel_tol,
-            sequence,
-            randomization,
-            seed,
-            ..Settings::default()
-        };
+    pub(super) fn run(known: &Known, settings: &Settings) -> Self {
         let mut first = First::default();
-        let stopped = simulate(&known.scene, &settings, &mut first);
+        let stopped = simulate(&known.scene, settings, &mut first);
         let end = |mut estimates: Estimates, moment: Moment| {
             if moment == Moment::Fixed {
                 // No run stops here, so the interval need not pay for looks.
                 estimates.miss_probability = 1.0 - estimates.confidence;
             }
-            End { samples: estimates.samples, errors: errors(known, &estimates) }
+            End { samples: samples(&estimates), errors: errors(known, &estimates) }
         };
         let first = first.0.unwrap_or_else(|| stopped.clone());
         Self { fixed: end(first, Moment::Fixed), stop: end(stopped, Moment::Stop) }
@@ -58,18 +45,12 @@ impl Trial {
 
     /// Distance from the truth over half-width.
     pub(super) fn error(&self, moment: Moment, figure: Figure) -> f64 {
-        let errors = &self.end(moment).errors;
-        let points = errors.len() - 2;
-        errors[match figure {
-            Figure::Point(number) => number,
-            Figure::Average => points,
-            Figure::Minimum => points + 1,
-        }]
+        figure.of(&self.end(moment).errors)
     }
 
     /// Indices per replicate.
-    pub(super) fn samples(&self, moment: Moment) -> u64 {
-        self.end(moment).samples
+    pub(super) fn samples(&self, moment: Moment, figure: Figure) -> u64 {
+        figure.of(&self.end(moment).samples)
     }
 
     fn end(&self, moment: Moment) -> &End {
@@ -78,6 +59,12 @@ impl Trial {
             Moment::Stop => &self.stop,
         }
     }
+}
+
+/// Of figures of all points, those of the run.
+fn samples(estimates: &Estimates) -> Vec<u64> {
+    let of_points = estimates.sensors[0].samples.iter().copied();
+    of_points.chain([estimates.samples; 2]).collect()
 }
 
 fn errors(known: &Known, estimates: &Estimates) -> Vec<f64> {
