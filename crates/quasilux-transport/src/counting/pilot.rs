@@ -39,8 +39,8 @@ pub(crate) fn plan<S: Spectrum>(
         let trace = |windows, photons| Pilots::trace(stage, receivers, windows, photons);
         let steered = trace(plan.windows.as_ref(), 0..PILOTS);
         let mut plain = trace(None, 0..PILOTS);
-        let as_many_rays = PILOTS * steered.rays / plain.rays.max(1);
-        plain.add(&trace(None, PILOTS..as_many_rays.min(MOST_PLAIN)));
+        let as_many = PILOTS * steered.rays / plain.rays.max(1);
+        plain.add(&trace(None, PILOTS..as_many.min(MOST_PLAIN)));
         plan.rays += plain.rays + steered.rays;
         if plain.relative_variance() <= steered.relative_variance() {
             plan.windows = None;
