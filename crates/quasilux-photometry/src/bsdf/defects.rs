@@ -1,6 +1,6 @@
 //! Warnings of tables that break energy conservation or reciprocity.
 
-use super::{BsdfAnalysis, MeasuredBsdf, Reciprocity};
+use super::{MeasuredBsdf, Reciprocity};
 use crate::Deviation;
 use crate::report::{Position, Warnings};
 
@@ -12,7 +12,7 @@ const RECIPROCITY_TOLERANCE: f64 = 0.01;
 
 /// Says by how much tables break energy conservation and reciprocity.
 pub(super) fn warn_of_defects(bsdf: &MeasuredBsdf, at: Position, warnings: &mut Warnings) {
-    let analysis = BsdfAnalysis::of(bsdf);
+    let analysis = bsdf.analysis();
     for energy in analysis.energy.iter().filter(|energy| energy.worst > 1.0 + ENERGY_TOLERANCE) {
         let theta_deg = libm::acos(energy.worst_wi.z.clamp(-1.0, 1.0)).to_degrees();
         let found = format!(

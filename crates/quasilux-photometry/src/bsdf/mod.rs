@@ -51,9 +51,10 @@ pub use gridded::GriddedTable;
 pub use klems::{AngleBasis, KlemsTable, ThetaBand};
 pub use merl::read_merl;
 pub use read::{BsdfFormat, ReadBsdf, read_bsdf, read_bsdf_named};
-pub use reversed::Reversed;
 pub use tree::{ExchangedTree, TensorTree};
 pub use window_xml::read_bsdf_xml;
+
+use std::sync::OnceLock;
 
 /// One measured surface: how both sides of a thin sheet scatter light.
 #[derive(Clone, Debug)]
@@ -61,6 +62,15 @@ pub struct MeasuredBsdf {
     facts: BsdfFacts,
     /// By [`Side`] that light arrives on, then by [`Way`].
     scattering: [[Option<Distribution>; 2]; 2],
+    kept: Box<Kept>,
+}
+
+/// What is made of tables once somebody asks.
+#[derive(Clone, Debug, Default)]
+struct Kept {
+    /// Their directions exchanged, by the side and the way of the original.
+    exchanged: [[OnceLock<Option<Distribution>>; 2]; 2],
+    analysis: OnceLock<BsdfAnalysis>,
 }
 
 /// What a file says about its surface.
@@ -145,18 +155,34 @@ impl MeasuredBsdf {
     /// A surface that scatters nothing yet.
     #[must_use]
     pub fn new(facts: BsdfFacts) -> Self {
-        Self { facts, scattering: [[None, None], [None, None]] }
+        Self { facts, scattering: [[None, None], [None, None]], kept: Box::default() }
     }
 
     /// Takes over how light that arrives on `side` is scattered that way.
     pub fn set(&mut self, side: Side, way: Way, distribution: Distribution) {
         self.scattering[side as usize][way as usize] = Some(distribution);
+        self.kept.exchanged[side as usize][way as usize] = OnceLock::new();
+        self.kept.analysis = OnceLock::new();
     }
 
     /// How light that arrives on `side` is scattered that way; `None` where nothing is.
     #[must_use]
     pub fn scattering(&self, side: Side, way: Way) -> Option<&Distribution> {
         self.scattering[side as usize][way as usize].as_ref()
+    }
+
+    /// The same for light that goes the other way round: arriving where that leaves, and leaving where it arrives. Made when it is first
+    /// asked for; `None` where there is none, see [`Distribution::reversed`].
+    #[must_use]
+    pub fn exchanged(&self, side: Side, way: Way) -> Option<&Distribution> {
+        let made = &self.kept.exchanged[side as usize][way as usize];
+        made.get_or_init(|| self.scattering(side, way)?.reversed()).as_ref()
+    }
+
+    /// Figures of energy and reciprocity, made when they are first asked for.
+    #[must_use]
+    pub fn analysis(&self) -> &BsdfAnalysis {
+        self.kept.analysis.get_or_init(|| BsdfAnalysis::of(self))
     }
 
     /// What the file says besides.

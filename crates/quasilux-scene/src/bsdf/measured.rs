@@ -23,11 +23,8 @@ impl Measured {
     /// a facet; `None` only where the table is isotropic.
     #[must_use]
     pub fn new(table: Arc<MeasuredBsdf>, up: Option<DVec3>) -> Self {
-        let kept = |side| {
-            let balance = EnergyBalance::of(&table, side)?;
-            Some(balance.diffuse.iter().sum())
-        };
-        let most_kept = Side::ALL.into_iter().filter_map(kept).fold(0.0, f64::max);
+        let kept = |balance: &EnergyBalance| balance.diffuse.iter().sum();
+        let most_kept = table.analysis().energy.iter().map(kept).fold(0.0, f64::max);
         let only_side = only_side(&table);
         Self { table, up, only_side, most_kept }
     }

@@ -10,7 +10,7 @@ use super::BsdfSample;
 use super::Mode;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Distribution, MeasuredBsdf, Reciprocity, Reversed, Side, Way};
+use quasilux_photometry::bsdf::{Distribution, MeasuredBsdf, Side, Way};
 use quasilux_sampling::SampleCursor;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_scene::{Rgb, bsdf as scene};
@@ -23,16 +23,9 @@ const MOST_DOUBT: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(crate) struct Measured {
     sheet: scene::Measured,
-    /// Of paths that look at a side, by the way that light reaches them.
-    against: [[Against; 2]; 2],
-}
-
-/// Where paths look for the light that reaches them.
-#[derive(Clone, Debug)]
-struct Against {
-    /// In place of the table for light that arrives as they do.
-    reversed: Option<Distribution>,
-    doubt: f64,
+    /// The share of directions of paths that do not come from a table, by the side that they look at and the way that
+    /// light reaches them.
+    doubts: [[f64; 2]; 2],
 }
 
 /// One way that light goes on.
@@ -42,31 +35,11 @@ struct Lobe<'t> {
     doubt: f64,
 }
 
-impl Against {
-    fn new(table: &MeasuredBsdf, side: Side, way: Way) -> Self {
-        let Some(source) = table.scattering(source(side, way), way) else {
-            return Self { reversed: None, doubt: 0.0 };
-        };
-        match source.reversed() {
-            Some(Reversed { table, is_exact }) => {
-                let doubt = if is_exact { 0.0 } else { LEAST_DOUBT };
-                Self { reversed: Some(table), doubt }
-            }
-            // A look at some directions cannot tell that a table is reciprocal everywhere.
-            None => {
-                let defect = Reciprocity::of(table, side, way).map(|found| found.mean);
-                let doubt = defect.map_or(1.0, |defect| defect.clamp(LEAST_DOUBT, MOST_DOUBT));
-                Self { reversed: None, doubt }
-            }
-        }
-    }
-}
-
 impl Measured {
     pub(super) fn new(sheet: scene::Measured) -> Self {
-        let against = |side| Way::ALL.map(|way| Against::new(sheet.table(), side, way));
-        let against = Side::ALL.map(against);
-        Self { sheet, against }
+        let of_side = |side| Way::ALL.map(|way| doubt(sheet.table(), side, way));
+        let doubts = Side::ALL.map(of_side);
+        Self { sheet, doubts }
     }
 
     /// The direction in the world along which the local y axis lies.
@@ -140,12 +113,13 @@ impl Measured {
     }
 
     fn lobe(&self, side: Side, way: Way, mode: Mode) -> Lobe<'_> {
-        let table = self.sheet.table().scattering(side, way);
+        let sheet = self.sheet.table();
+        let table = sheet.scattering(side, way);
         match mode {
             Mode::Flux => Lobe { table, doubt: 0.0 },
             Mode::Radiance => {
-                let Against { reversed, doubt } = &self.against[side as usize][way as usize];
-                Lobe { table: reversed.as_ref().or(table), doubt: *doubt }
+                let exchanged = sheet.exchanged(source(side, way), way);
+                Lobe { table: exchanged.or(table), doubt: self.doubts[side as usize][way as usize] }
             }
         }
     }
@@ -184,6 +158,17 @@ impl Lobe<'_> {
         let sharp = self.table.map_or(0.0, |table| table.pdf_sr(from, to));
         p_table * sharp + (1.0 - p_table) * pdf_cosine_hemisphere(to.to_array())
     }
+}
+
+/// How many directions of paths that look at a side had better not come from a table.
+fn doubt(table: &MeasuredBsdf, side: Side, way: Way) -> f64 {
+    let source = source(side, way);
+    if table.scattering(source, way).is_none() || table.exchanged(source, way).is_some() {
+        return 0.0;
+    }
+    // A look at some directions cannot tell that a table is reciprocal everywhere.
+    let defect = table.analysis().reciprocity(side, way).map(|found| found.mean);
+    defect.map_or(1.0, |defect| defect.clamp(LEAST_DOUBT, MOST_DOUBT))
 }
 
 /// The side that light arrives on which goes on from `side` after it went that way.

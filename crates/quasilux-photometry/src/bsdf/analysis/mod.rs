@@ -5,9 +5,8 @@
 mod energy;
 mod reciprocity;
 
-use super::MeasuredBsdf;
-use super::Side;
 use super::distribution::upwards;
+use super::{MeasuredBsdf, Side, Way};
 pub use energy::EnergyBalance;
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
@@ -31,7 +30,18 @@ pub(super) struct Incident {
 }
 
 impl BsdfAnalysis {
-    /// Figures of a surface.
+    /// How far f of light that arrives on `side` and goes `way` is from that of exchanged directions; `None` where one of the two is
+    /// missing.
+    #[must_use]
+    pub fn reciprocity(&self, side: Side, way: Way) -> Option<&Reciprocity> {
+        // Of transmission there is one figure for both sides.
+        let is_meant = |found: &&Reciprocity| {
+            found.way == way && (way == Way::Transmission || found.side == side)
+        };
+        self.reciprocity.iter().find(is_meant)
+    }
+
+    /// Figures of a surface; [`MeasuredBsdf::analysis`] keeps them.
     #[must_use]
     pub fn of(bsdf: &MeasuredBsdf) -> Self {
         let energy = Side::ALL.into_iter().filter_map(|side| EnergyBalance::of(bsdf, side));

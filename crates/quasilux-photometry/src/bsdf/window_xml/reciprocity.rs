@@ -22,7 +22,7 @@ pub(super) fn fill_transmission(
         };
         let found = format!("no Transmission {}", side.name());
         let known = bsdf.scattering(side.other(), Way::Transmission);
-        let reversed = known.and_then(Distribution::reversed).map(|reversed| reversed.table);
+        let reversed = known.and_then(Distribution::reversed);
         let (deviation, expected) = match &reversed {
             Some(_) => {
                 let expected = "both directions (taken from the other one by reciprocity)";

@@ -298,3 +298,23 @@ fn defects_of_narrow_lobes_are_measured() {
     println!("{} for {mean}", found.mean);
     assert!((found.mean / mean - 1.0).abs() < 0.02);
 }
+
+/// Figures and exchanged tables are made once, and again after a table is put in.
+#[test]
+fn a_surface_keeps_its_figures_and_exchanged_tables() {
+    let basis = || AngleBasis::known("LBNL/Klems Quarter").unwrap();
+    let table =
+        |f: f64| Distribution::Klems(KlemsTable::new(basis(), basis(), vec![f; 41 * 41]).unwrap());
+    let mut bsdf = reflecting(table(0.1));
+    let figures: *const BsdfAnalysis = bsdf.analysis();
+    assert!(std::ptr::eq(figures, bsdf.analysis()));
+    let front = (Side::Front, Way::Reflection);
+    let exchanged: *const Distribution = bsdf.exchanged(front.0, front.1).unwrap();
+    assert!(std::ptr::eq(exchanged, bsdf.exchanged(front.0, front.1).unwrap()));
+    assert!(bsdf.exchanged(Side::Back, Way::Reflection).is_none());
+    assert!(bsdf.analysis().reciprocity(Side::Back, Way::Reflection).is_none());
+    bsdf.set(front.0, front.1, table(0.2));
+    assert!((bsdf.analysis().energy[0].diffuse[0] - 0.2 * PI).abs() < 1e-12);
+    let value = bsdf.exchanged(front.0, front.1).unwrap().evaluate(DVec3::Z, DVec3::Z);
+    assert_eq!(value, [0.2; 3]);
+}

@@ -97,7 +97,8 @@ impl<'a> FileEntry<'a> {
 }
 
 impl<'a> SurfaceEntry<'a> {
-    fn of(Surface { bsdf, analysis, .. }: &'a Surface) -> Self {
+    fn of(Surface { bsdf, .. }: &'a Surface) -> Self {
+        let analysis = bsdf.analysis();
         let facts = bsdf.facts();
         let table =
             |(side, way, table): (Side, Way, &Distribution)| TableEntry::of(side, way, table);

@@ -12,7 +12,7 @@ const STEP_DEG: f64 = 0.25;
 
 /// The drawing as an SVG file: a diagram for each side that scatters light.
 pub(super) fn drawing(input: &Input, surface: &Surface, incidences: &[Incidence]) -> String {
-    let sides = surface.analysis.energy.iter().map(|balance| balance.side);
+    let sides = surface.bsdf.analysis().energy.iter().map(|balance| balance.side);
     let diagrams: Vec<LobeDiagram> = sides
         .map(|side| LobeDiagram {
             title: format!("light on the {}", side.name()),

@@ -2,7 +2,7 @@
 
 use crate::commands::inputs::{Failure, bytes_of, name_of};
 use quasilux_photometry::Warning;
-use quasilux_photometry::bsdf::{BsdfAnalysis, MeasuredBsdf, read_bsdf_named};
+use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf_named};
 use std::path::Path;
 
 /// A file, and what came of it.
@@ -17,7 +17,6 @@ pub(super) struct Input {
 pub(super) struct Surface {
     pub(super) bsdf: MeasuredBsdf,
     pub(super) warnings: Vec<Warning>,
-    pub(super) analysis: BsdfAnalysis,
 }
 
 impl Input {
@@ -27,8 +26,7 @@ impl Input {
         let surface = bytes_of(path).and_then(|bytes| {
             let read =
                 read_bsdf_named(&name, &bytes).map_err(|error| Failure::of(&name, &error))?;
-            let analysis = BsdfAnalysis::of(&read.bsdf);
-            Ok(Surface { bsdf: read.bsdf, warnings: read.warnings, analysis })
+            Ok(Surface { bsdf: read.bsdf, warnings: read.warnings })
         });
         Self { name, surface }
     }

@@ -43,7 +43,7 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
         let count = table.incidences().len();
         add(&name, format!("{}, {count} incident directions{colour}", table.kind()));
     }
-    for balance in &surface.analysis.energy {
+    for balance in &surface.bsdf.analysis().energy {
         let side = balance.side;
         for incidence in incidences {
             let name = format!("{}, light at {}", side.name(), incidence.text());
@@ -52,7 +52,7 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
         add(&format!("{}, diffuse light", side.name()), shares(balance.diffuse));
         add(&format!("{}, most scattered", side.name()), most(balance));
     }
-    for found in &surface.analysis.reciprocity {
+    for found in &surface.bsdf.analysis().reciprocity {
         let text = format!(
             "{}, {}: exchanged directions differ by {} in the mean, {} at worst",
             found.side.name(),
