@@ -6,6 +6,8 @@
 //! one batwing luminaire lights a floor and nothing is reflected, so that the error is all of the
 //! photons' directions.
 
+mod claims;
+mod contrast;
 mod floor;
 mod picture;
 mod report;
@@ -14,6 +16,7 @@ use super::Outcome;
 use super::batwing::Luminaire;
 use super::emission::Method;
 use crate::arguments::ExperimentArguments;
+use contrast::Contrast;
 use floor::Floor;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_sampling::{
@@ -40,12 +43,18 @@ struct Setup {
 /// What one setup did.
 struct Curve {
     setup: Setup,
-    /// (N, root mean square over floor cells and replicates of the error over the floor's mean).
-    points: Vec<[f64; 2]>,
+    errors: Vec<Error>,
     /// The order of convergence, where there are points enough for it.
     slope: Option<f64>,
     /// Coordinates that photons used.
     dimensions: DimensionHistogram,
+}
+
+/// After one number of photons.
+struct Error {
+    photons: u64,
+    /// Squared error over the floor's mean squared, mean over its cells, of each replicate.
+    squares: Vec<f64>,
 }
 
 /// One replicate of one setup.
@@ -73,14 +82,39 @@ impl Setup {
     }
 }
 
+impl Curve {
+    /// (N, root mean square).
+    fn points(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.errors.iter().map(Error::point)
+    }
+
+    /// With the most photons.
+    fn last(&self) -> &Error {
+        self.errors.last().expect("there is a least number")
+    }
+}
+
+impl Error {
+    /// N, and the root mean square over floor cells and replicates.
+    fn point(&self) -> [f64; 2] {
+        let mean = self.squares.iter().sum::<f64>() / self.squares.len() as f64;
+        [self.photons as f64, mean.sqrt()]
+    }
+
+    /// How many times smaller this error is than another.
+    fn under(&self, worse: &Self) -> Contrast {
+        Contrast::gain(&worse.squares, &self.squares)
+    }
+}
+
 /// Measures the four curves.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let counts = counts(arguments.max_n.unwrap_or(MOST));
     let luminaire = Luminaire::batwing();
     let floor = Floor::under(&luminaire.photometry);
     let curves = Setup::ALL.map(|setup| curve(setup, &luminaire, &floor, &counts, arguments.seed));
-    let claims = report::claims(&curves);
-    let tables = report::markdown(&curves, &luminaire, &floor);
+    let claims = claims::claims(&curves);
+    let tables = report::markdown(&curves, &luminaire, &floor, &claims);
     Outcome::new(report::csv(&curves), tables, picture::svg(&curves), &claims)
 }
 
@@ -102,17 +136,15 @@ fn curve(setup: Setup, luminaire: &Luminaire, floor: &Floor, counts: &[u64], see
     for replicate in &replicates {
         dimensions.merge(&replicate.dimensions);
     }
-    let points: Vec<[f64; 2]> = counts
-        .iter()
-        .enumerate()
-        .map(|(k, count)| {
-            let sum: f64 = replicates.iter().map(|replicate| replicate.mean_squares[k]).sum();
-            [*count as f64, (sum / f64::from(REPLICATES)).sqrt()]
-        })
-        .collect();
-    let fitted: Vec<[f64; 2]> = points.iter().copied().filter(|[n, _]| *n >= FIT_FROM).collect();
+    let error = |(k, photons): (usize, &u64)| {
+        let squares = replicates.iter().map(|replicate| replicate.mean_squares[k]).collect();
+        Error { photons: *photons, squares }
+    };
+    let errors: Vec<Error> = counts.iter().enumerate().map(error).collect();
+    let points = errors.iter().map(Error::point);
+    let fitted: Vec<[f64; 2]> = points.filter(|[n, _]| *n >= FIT_FROM).collect();
     let slope = fit_power_law(&fitted).map(|law| law.exponent);
-    Curve { setup, points, slope, dimensions }
+    Curve { setup, errors, slope, dimensions }
 }
 
 fn replicate(

@@ -1,27 +1,41 @@
 //! The figures as a table for programs and as one for people, with what is seen in them.
 
 use super::floor::Floor;
-use super::{Curve, FIT_FROM, REPLICATES};
+use super::{Curve, FIT_FROM, Method, REPLICATES, Setup};
 use crate::commands::experiment::batwing::Luminaire;
 use crate::commands::experiment::claim::Claim;
-use quasilux_measure::number::exact;
+use quasilux_measure::number::{count, exact};
+use quasilux_sampling::Sequence;
 use std::fmt::Write;
 
-const COLUMNS: &str = "method,sequence,replicates,n,rms_error,slope,mean_dimension";
+const COLUMNS: &str = "method,sequence,replicates,n,rms_error,slope,mean_dimension,\
+    random_over_this,random_over_this_t,rejection_over_this,rejection_over_this_t";
 
-/// One line for each setup and number of photons.
+/// One line for each setup and number of photons. Errors over this one are those of random points with the same method,
+/// and those of rejection with the same points; t is of their logarithms.
 pub(super) fn csv(curves: &[Curve]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for curve in curves {
         let slope = curve.slope.map(exact).unwrap_or_default();
-        for [n, error] in &curve.points {
+        for (k, error) in curve.errors.iter().enumerate() {
+            let [n, rms] = error.point();
+            let over = |method: Method, sequence: Sequence| {
+                let own = Setup { method, sequence };
+                let other = curves.iter().find(|other| other.setup == own && own != curve.setup);
+                other.map_or(",".to_owned(), |other| {
+                    let gain = error.under(&other.errors[k]);
+                    format!("{},{}", exact(gain.ratio), exact(gain.t()))
+                })
+            };
             writeln!(
                 text,
-                "{},{},{REPLICATES},{n},{},{slope},{}",
+                "{},{},{REPLICATES},{n},{},{slope},{},{},{}",
                 curve.setup.method.name(),
                 curve.setup.sequence.name(),
-                exact(*error),
+                exact(rms),
                 exact(curve.dimensions.mean()),
+                over(curve.setup.method, Sequence::Random),
+                over(Method::Rejection, curve.setup.sequence),
             )
             .expect("strings grow");
         }
@@ -30,7 +44,12 @@ pub(super) fn csv(curves: &[Curve]) -> String {
 }
 
 /// The table, and what it says.
-pub(super) fn markdown(curves: &[Curve], luminaire: &Luminaire, floor: &Floor) -> String {
+pub(super) fn markdown(
+    curves: &[Curve],
+    luminaire: &Luminaire,
+    floor: &Floor,
+    claims: &[Claim],
+) -> String {
     let mut text = format!(
         "# Inverse transform against rejection\n\n\
          A batwing luminaire of {:.0} lm lights {}, {:.0} lx on average.\n\
@@ -42,11 +61,17 @@ pub(super) fn markdown(curves: &[Curve], luminaire: &Luminaire, floor: &Floor) -
         100.0 * luminaire.acceptance(),
     );
     text.push_str(&table(curves));
-    text.push_str(&Claim::markdown(&claims(curves)));
-    text
+    text.push_str(&gains(curves));
+    text + &Claim::markdown(claims)
 }
 
-/// A row for every second power of four, and the last.
+/// Every second number of photons, and the last.
+fn shown(curves: &[Curve]) -> impl Iterator<Item = usize> {
+    let last = curves[0].errors.len() - 1;
+    (0..=last).filter(move |k| (last - k).is_multiple_of(2))
+}
+
+/// A row for each of these, and what belongs to the whole curve.
 fn table(curves: &[Curve]) -> String {
     let header = curves.iter().fold("| N |".to_owned(), |header, curve| {
         format!("{header} {}, {} |", curve.setup.method.name(), curve.setup.sequence.name())
@@ -56,10 +81,10 @@ fn table(curves: &[Curve]) -> String {
         let cells: Vec<String> = curves.iter().map(cell).collect();
         writeln!(text, "| {name} | {} |", cells.join(" | ")).expect("strings grow");
     };
-    let last = curves[0].points.len() - 1;
-    for k in (0..=last).filter(|k| (last - k).is_multiple_of(2)) {
-        row(format!("{}", curves[0].points[k][0]), &|curve| {
-            format!("{:.3} %", 100.0 * curve.points[k][1])
+    for k in shown(curves) {
+        row(count(curves[0].errors[k].photons), &|curve| {
+            let [_, rms] = curve.errors[k].point();
+            format!("{:.3} %", 100.0 * rms)
         });
     }
     row("slope".to_owned(), &|curve| match curve.slope {
@@ -70,33 +95,29 @@ fn table(curves: &[Curve]) -> String {
     text
 }
 
-/// What the methods and the points gain, at the largest N. Root mean squares over cells and randomisations scatter
-/// by about 2 % each, so that limits 10 % and more away are not crossed by chance.
-pub(super) fn claims(curves: &[Curve]) -> Vec<Claim> {
-    let last = |curve: &Curve| curve.points.last().map_or(f64::NAN, |point| point[1]);
+/// What points and methods gain, with intervals.
+fn gains(curves: &[Curve]) -> String {
+    let mut text = format!(
+        "\nHow many times smaller errors are, with 95 % intervals by Student's t over the {REPLICATES} randomisations, which all\n\
+         columns have in common: by Sobol' points instead of random ones, and by inverse transform instead of rejection.\n\n\
+         | N | Sobol', rejection | Sobol', inverse transform | inverse transform, random | inverse transform, Sobol' |\n\
+         |---:|---:|---:|---:|---:|\n"
+    );
     let [rejection_random, inverse_random, rejection_sobol, inverse_sobol] = curves else {
-        return Vec::new();
+        return String::new();
     };
-    let n = inverse_sobol.points.last().map_or(f64::NAN, |point| point[0]);
-    let gain = |worse: &Curve, better: &Curve| last(worse) / last(better);
-    let of_inverse = gain(inverse_random, inverse_sobol);
-    let of_rejection = gain(rejection_random, rejection_sobol);
-    let random = gain(rejection_random, inverse_random);
-    let sobol = gain(rejection_sobol, inverse_sobol);
-    vec![
-        Claim {
-            text: format!(
-                "At N = {n} Sobol' points divide the error of random ones by {of_inverse:.1} with inverse transform, by \
-                 {of_rejection:.1} with rejection, which is less"
-            ),
-            holds: of_inverse > 1.1 * of_rejection,
-        },
-        Claim {
-            text: format!(
-                "Inverse transform divides the error of rejection by {sobol:.1} with Sobol' points, by {random:.2} with \
-                 random ones, which is 1 but for chance"
-            ),
-            holds: sobol > 1.1 && (random - 1.0).abs() < 0.1,
-        },
-    ]
+    for k in shown(curves) {
+        let gain = |worse: &Curve, better: &Curve| better.errors[k].under(&worse.errors[k]).text();
+        writeln!(
+            text,
+            "| {} | {} | {} | {} | {} |",
+            count(curves[0].errors[k].photons),
+            gain(rejection_random, rejection_sobol),
+            gain(inverse_random, inverse_sobol),
+            gain(rejection_random, inverse_random),
+            gain(rejection_sobol, inverse_sobol),
+        )
+        .expect("strings grow");
+    }
+    text
 }
