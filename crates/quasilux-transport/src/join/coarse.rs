@@ -1,4 +1,4 @@
-//! Photons counted by the cell they land in.
+//! Photons counted by the cells around where they land.
 
 use super::Joining;
 use super::joined::lock;
@@ -149,8 +149,8 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
         let leaving = Leaving::new(self.stage, self.joining, at, weight);
         let slot = (bounces as usize).min(self.slots - 1);
         for side in leaving.sides {
-            if let Some(cell) = side.cell {
-                self.own[cell * self.slots + slot].add(side.lm_sr, self.quantum);
+            for (cell, lm_sr) in side.parts_lm_sr() {
+                self.own[cell * self.slots + slot].add(lm_sr, self.quantum);
             }
         }
     }

@@ -4,6 +4,7 @@ use super::Joining;
 use crate::bsdf::Mode;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
+use crate::steering::Around;
 use crate::world::Interaction;
 use glam::DVec3;
 
@@ -18,8 +19,8 @@ pub(super) struct Leaving {
 pub(super) struct Side {
     /// The same in all directions, but for the cosine.
     pub(super) lm_sr: f64,
-    /// The cell that it leaves, where anything does and the survey knows one.
-    pub(super) cell: Option<usize>,
+    /// The cells around the place, where anything leaves it.
+    pub(super) around: Around,
 }
 
 impl Leaving {
@@ -34,11 +35,22 @@ impl Leaving {
         let side = |n: DVec3, wi: DVec3| {
             let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
             let lm_sr = scattered.luminance() * stage.lights.flux_lm;
-            let cell = if lm_sr > 0.0 { joining.cell(at.position, n) } else { None };
-            Side { lm_sr, cell }
+            let around = match lm_sr > 0.0 {
+                true => joining.landings.around(at.position, n),
+                false => Around::default(),
+            };
+            Side { lm_sr, around }
         };
-        let nothing = Side { lm_sr: 0.0, cell: None };
+        let nothing = Side { lm_sr: 0.0, around: Around::default() };
         let behind = if bsdf.transmits() { side(-at.n, -DVec3::Z) } else { nothing };
         Self { sides: [side(at.n, DVec3::Z), behind] }
+    }
+}
+
+impl Side {
+    /// What is told to each cell around, in lm/sr, in proportion to linear interpolation: where it is told jumps
+    /// nowhere.
+    pub(super) fn parts_lm_sr(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.around.iter().map(|(cell, weight)| (cell, weight * self.lm_sr))
     }
 }

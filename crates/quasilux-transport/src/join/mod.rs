@@ -23,12 +23,12 @@
 //! costs quasi-random points some of their advantage.
 //!
 //! Joining is dear: a photon flies a few rays and asks for one to each sensor. Most photons are therefore only
-//! counted, by the cell of the survey where they land (`coarse`), and give each sensor what it is expected to see
-//! of that cell, which was found out before (`outlook`). Few are joined, and tell how much more or less than that
-//! they give. With A and B independent photons,
+//! counted, by the survey's cells around where they land (`coarse`), and give each sensor what it is expected to see
+//! of these cells, which was found out before (`outlook`) and is interpolated, so that it has no jumps. Few are
+//! joined, and tell how much more or less than that they give. With A and B independent photons,
 //!
 //! ```text
-//! light by photons = mean over many A of expected(cell of A) + mean over few B of (given by B - expected(cell of B))
+//! light by photons = mean over many A of expected(A) + mean over few B of (given by B - expected(B))
 //! ```
 //!
 //! whose mean is right for any expectation: two levels of M. B. Giles, "Multilevel Monte Carlo path simulation",
@@ -114,12 +114,7 @@ impl Joining {
 
     /// What to expect of a photon on the side `n` of a surface.
     pub(crate) fn landings(&self, position: DVec3, n: DVec3) -> Density {
-        self.landings.at(position, n)
-    }
-
-    /// The survey's cell at a place on the side `n` of a surface, where it knows one.
-    fn cell(&self, position: DVec3, n: DVec3) -> Option<usize> {
-        self.landings.cell(position, n)
+        self.landings.density(&self.landings.around(position, n))
     }
 
     /// The parts that paths find by a place where their first hits have the density `pdf_m2`, in m^-2,

@@ -1,8 +1,8 @@
 //! What sensors are expected to see of each cell of the survey.
 //!
-//! A photon that lands in a cell gives about the same to a sensor wherever in the cell it lands. What it
-//! gives on the mean is found once, from a few remembered places of each cell, before any photon counts:
-//! a coarse picture of the sensors' views. It need not be right, see [`super`].
+//! What a photon gives to a sensor changes little within a cell. What it gives on the mean is found once, from
+//! the few places that the survey remembers of each cell, before any photon counts: a coarse picture of the
+//! sensors' views. It need not be right, see [`super`].
 
 use super::Joining;
 use super::view::View;
@@ -14,10 +14,8 @@ use crate::world::Interaction;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Places of a cell that are looked at, at most.
-const PLACES: usize = 4;
-/// Where in cells of grids they are looked at from: each place from another quarter.
-const IN_CELL: [[f64; 2]; PLACES] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75], [0.75, 0.25]];
+/// Where in cells of grids places are looked at from: each from another quarter than the one before.
+const IN_CELL: [[f64; 2]; 4] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75], [0.75, 0.25]];
 /// Photons straight from their lights, and others: their shares differ.
 pub(super) const CLASSES: usize = 2;
 
@@ -66,12 +64,11 @@ fn look<S: Spectrum>(
     places: &[Interaction],
     targets: &[Target],
 ) -> (Vec<f32>, u64) {
-    let places = &places[..places.len().min(PLACES)];
     let densities: Vec<_> = places.iter().map(|at| joining.landings(at.position, at.n)).collect();
     let (mut sights, mut offers) = (Vec::new(), Vec::new());
     for (number, target) in targets.iter().enumerate() {
-        for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL) {
-            let Some(view) = View::of(&stage.world, target, at, in_cell) else { continue };
+        for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL.iter().cycle()) {
+            let Some(view) = View::of(&stage.world, target, at, *in_cell) else { continue };
             if view.behind {
                 continue;
             }

@@ -59,6 +59,8 @@ pub(super) struct JoinReceiver<'a, S> {
     photon: Option<Seen>,
     /// How close photons are to be expected where it landed, by side.
     landings: [Density; 2],
+    /// What each target is taken to get in any case.
+    foreseen_lx: Vec<f64>,
     sights: Vec<Shot>,
     offers: Vec<Offer>,
     visible: Vec<bool>,
@@ -100,6 +102,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
             points,
             photon: None,
             landings: [Density::default(); 2],
+            foreseen_lx: vec![0.0; group.targets.len()],
             sights: Vec::new(),
             offers: Vec::new(),
             visible: Vec::new(),
@@ -110,7 +113,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
     /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
     fn ask(&mut self, number: usize, at: &Interaction, leaving: &Leaving, bounces: u32) {
         let Some(Seen { in_cell, chance, .. }) = self.photon else { return };
-        let foreseen_lx = self.foreseen_lx(number, leaving, bounces == 0);
+        let foreseen_lx = self.foreseen_lx[number];
         let view = View::of(&self.stage.world, &self.group.targets[number], at, in_cell);
         let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
         let doubtful_lx = (lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx);
@@ -144,14 +147,15 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
         leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
     }
 
-    /// What a target is taken to get in any case.
-    fn foreseen_lx(&self, number: usize, leaving: &Leaving, is_first: bool) -> f64 {
-        let Some(outlook) = self.group.outlook else { return 0.0 };
-        let of_side = |side: &Side| {
-            let seen = side.cell.map_or(0.0, |cell| outlook.of_cell(cell, is_first)[number]);
-            side.lm_sr * f64::from(seen)
-        };
-        leaving.sides.iter().map(of_side).sum()
+    /// Finds out what all targets are taken to get in any case.
+    fn foresee(&mut self, leaving: &Leaving, is_first: bool) {
+        self.foreseen_lx.fill(0.0);
+        let Some(outlook) = self.group.outlook else { return };
+        for (cell, lm_sr) in leaving.sides.iter().flat_map(Side::parts_lm_sr) {
+            let seen = outlook.of_cell(cell, is_first);
+            let sums = self.foreseen_lx.iter_mut().zip(seen);
+            sums.for_each(|(sum, lx_sr_lm)| *sum += lm_sr * f64::from(*lx_sr_lm));
+        }
     }
 
     /// Traces the rays that wait.
@@ -183,7 +187,8 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
             return;
         }
         let leaving = Leaving::new(self.stage, self.joining, at, weight);
-        self.landings = [at.n, -at.n].map(|n| self.joining.landings(at.position, n));
+        self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
+        self.foresee(&leaving, bounces == 0);
         for number in 0..self.group.targets.len() {
             if self.group.ends[number].is_none() {
                 self.ask(number, at, &leaving, bounces);

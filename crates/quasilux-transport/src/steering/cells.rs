@@ -14,6 +14,8 @@ const CELLS: f64 = 2048.0;
 const MOST_BOXES: f64 = (1 << 16) as f64;
 /// Cells are seen as small from this many of their edges.
 const FAR_EDGES: f64 = 6.0;
+/// Boxes that meet around a place.
+const CORNERS: usize = 8;
 /// Ways to face: along or against each axis.
 const SIDES: usize = 6;
 /// Parts along an edge of a facet by which its area is told to cells, at most.
@@ -23,6 +25,13 @@ const MOST_PARTS: f64 = 256.0;
 pub(crate) struct Regions {
     cells: Cells,
     number_of_cell: Vec<u32>,
+}
+
+/// The regions around a place, and what part of it is told to each.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Around {
+    parts: [(u32, f64); CORNERS],
+    known: usize,
 }
 
 /// A grid of boxes over the scene.
@@ -56,16 +65,26 @@ impl Regions {
     }
 
     /// The known regions around a place on the side `n` of a surface, with the weights of linear
-    /// interpolation between the middles of their boxes, which sum to 1; none where no region is known.
-    pub(crate) fn around(&self, position: DVec3, n: DVec3) -> impl Iterator<Item = (usize, f64)> {
-        let corners = self.cells.corners(position, n);
-        let known = corners.map(|(cell, weight)| {
+    /// interpolation between the middles of their boxes.
+    pub(crate) fn around(&self, position: DVec3, n: DVec3) -> Around {
+        let mut around = Around::default();
+        for (cell, weight) in self.cells.corners(position, n) {
             let number = self.number_of_cell[cell];
-            (number as usize, if number == Self::UNKNOWN { 0.0 } else { weight })
-        });
-        let sum: f64 = known.iter().map(|(_, weight)| weight).sum();
-        let known = known.into_iter().filter(|(_, weight)| *weight > 0.0);
-        known.map(move |(number, weight)| (number, weight / sum))
+            if number != Self::UNKNOWN && weight > 0.0 {
+                around.parts[around.known] = (number, weight);
+                around.known += 1;
+            }
+        }
+        let sum: f64 = around.iter().map(|(_, weight)| weight).sum();
+        around.parts.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        around
+    }
+}
+
+impl Around {
+    /// Each known region with its weight; the weights sum to 1. None where no region is known.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.parts[..self.known].iter().map(|(number, weight)| (*number as usize, *weight))
     }
 }
 
@@ -106,7 +125,7 @@ impl Cells {
     }
 
     /// The cells in the boxes around a place, and the weights of linear interpolation.
-    fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); 8] {
+    fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); CORNERS] {
         let place = ((position - self.low) / self.edge_m).to_array().map(|x| x - 0.5);
         std::array::from_fn(|corner| {
             let mut weight = 1.0;

@@ -5,7 +5,7 @@
 
 use crate::state::Writer;
 use crate::steering::balance::Balance;
-use crate::steering::cells::Regions;
+use crate::steering::cells::{Around, Regions};
 use crate::steering::survey::Survey;
 use crate::world::Interaction;
 use glam::DVec3;
@@ -107,16 +107,16 @@ impl Landings {
             .for_each(|x| out.f64(x));
     }
 
-    /// The surveyed cell at a place on the side `n` of a surface.
-    pub(crate) fn cell(&self, position: DVec3, n: DVec3) -> Option<usize> {
-        self.regions.number(position, n)
+    /// The surveyed cells around a place on the side `n` of a surface.
+    pub(crate) fn around(&self, position: DVec3, n: DVec3) -> Around {
+        self.regions.around(position, n)
     }
 
-    /// What to expect at a place on the side `n` of a surface; nothing where the survey found nothing. It
+    /// What to expect at a place with these cells around it; nothing where the survey found nothing. It
     /// changes smoothly along a surface.
-    pub(crate) fn at(&self, position: DVec3, n: DVec3) -> Density {
+    pub(crate) fn density(&self, around: &Around) -> Density {
         let mut density = Density::default();
-        for (number, weight) in self.regions.around(position, n) {
+        for (number, weight) in around.iter() {
             let there = self.per_m2[number];
             density.first += weight * there.first;
             density.rest += weight * there.rest;

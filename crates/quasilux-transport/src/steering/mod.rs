@@ -14,6 +14,7 @@ mod guide;
 mod survey;
 mod windows;
 
+pub(crate) use cells::Around;
 pub(crate) use forecast::{Density, Forecast, Landings};
 pub(crate) use guide::Guide;
 pub(crate) use windows::{Split, Windows};

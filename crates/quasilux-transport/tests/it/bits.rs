@@ -78,6 +78,6 @@ const KNOWN: [&str; 5] = [
     "dc4c605233854f3e",
     "6e836aed5ae7bb54",
     "0fa5f8e77f24593d",
-    "5772445605f0b94a",
+    "4f51f967ae1be17a",
     "4755db5b5da21624",
 ];
