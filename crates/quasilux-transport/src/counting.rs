@@ -183,7 +183,9 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
         let terms = terms.collect();
         let resolved = found(&replicate_lx);
         let samples = vec![self.samples; direct_lx.len()];
-        let all = SensorEstimates { replicate_lx, direct_lx, resolved, samples, terms };
+        let missed_lobes = vec![false; direct_lx.len()];
+        let all =
+            SensorEstimates { replicate_lx, direct_lx, resolved, missed_lobes, samples, terms };
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,

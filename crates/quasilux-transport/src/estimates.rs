@@ -54,6 +54,9 @@ pub struct SensorEstimates {
     pub direct_lx: Vec<f64>,
     /// Whether light was found wherever it was looked for; points without have no interval.
     pub resolved: Vec<bool>,
+    /// Whether too few paths met where narrow lobes are bright: such points are not resolved, either, but more paths
+    /// are sure to help.
+    pub missed_lobes: Vec<bool>,
     /// Indices per replicate behind each point: fewer than of others where it reached its tolerance before.
     pub samples: Vec<u64>,
     /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
@@ -201,6 +204,7 @@ impl SensorEstimates {
             replicate_lx: columns(&self.replicate_lx),
             direct_lx: self.direct_lx[points.clone()].to_vec(),
             resolved: self.resolved[points.clone()].to_vec(),
+            missed_lobes: self.missed_lobes[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),
         }

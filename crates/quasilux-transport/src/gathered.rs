@@ -1,5 +1,6 @@
 //! What one path found, apart by how often the light was reflected.
 
+use crate::lobes::Lobes;
 use crate::spectrum::Spectrum;
 
 /// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
@@ -15,6 +16,8 @@ pub(crate) struct Gathered<S> {
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
     pub(crate) endless: bool,
+    /// The glossy surfaces that it came to.
+    pub(crate) lobes: Lobes,
 }
 
 impl<S: Spectrum> Gathered<S> {

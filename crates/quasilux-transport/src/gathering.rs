@@ -2,11 +2,13 @@
 
 mod advance;
 mod moment;
+mod resolved;
 mod state;
 
 use crate::endless;
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::join::{self, Decision, Joined};
+use crate::lobes;
 use crate::path_end::PathEnd;
 use crate::path_wave::PathWave;
 use crate::photon::PhotonCounts;
@@ -202,23 +204,6 @@ impl<S: Spectrum> Gathering<'_, S> {
         self.quantum.value(sum) / self.samples_of(target) as f64
     }
 
-    /// Whether the paths of each target found light where they came to surfaces that reflect.
-    fn resolved(&self) -> Vec<bool> {
-        self.sums
-            .chunks_exact(self.replicates as usize)
-            .zip(&self.samples_direct)
-            .enumerate()
-            .map(|(target, (own, samples_direct))| {
-                let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
-                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero())
-                    || self.joined.as_ref().is_some_and(|joined| joined.found(target));
-                let reflected = own.iter().any(|sums| sums.reflected > 0);
-                (found_indirect || !reflected)
-                    && (found_direct || found_indirect || !samples_direct)
-            })
-            .collect()
-    }
-
     /// What photons gave to a target in one replicate.
     fn joined_lx(&self, replicate: usize, target: usize) -> f64 {
         self.joined.as_ref().map_or(0.0, |joined| joined.lx(replicate, target))
@@ -315,15 +300,18 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 direct_lx + sampled_lx.sum::<f64>() / replicates as f64
             })
             .collect();
+        let missed_lobes = self.missed_lobes();
+        let of_lobes = lobes::warning(missed_lobes.iter().filter(|missed| **missed).count());
         let all = SensorEstimates {
             replicate_lx: (0..replicates).map(row).collect(),
             direct_lx,
-            resolved: self.resolved(),
+            resolved: self.resolved(&missed_lobes),
+            missed_lobes,
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
         };
         let of_paths = endless::warning(work.endless, "paths", "values");
-        let warnings = photons.warning().into_iter().chain(of_paths).collect();
+        let warnings = photons.warning().into_iter().chain(of_paths).chain(of_lobes).collect();
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,

@@ -29,6 +29,7 @@ mod grid_plane;
 pub mod interval;
 mod join;
 mod lights;
+mod lobes;
 mod looks;
 mod lowest;
 mod map;

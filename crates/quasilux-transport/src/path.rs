@@ -13,6 +13,7 @@ use crate::endless::Gain;
 use crate::frame::Frame;
 use crate::gathered::Gathered;
 use crate::join::{Joining, Shares};
+use crate::lobes::Met;
 use crate::path_end::{MapEnd, Rest};
 use crate::purpose::Purpose;
 use crate::shadow::{Offer, Shadows};
@@ -251,6 +252,17 @@ impl<'p, S: Spectrum> Path<'p, S> {
             bsdf.sample(wo, at.front, Mode::Radiance, cursor)
         });
         let Some(next) = next else { return false };
+        if let (false, Some(pdf_sr)) = (bsdf.keeps_illuminance(), next.pdf_sr) {
+            self.found.lobes.meet(
+                &stage.lights.pointlikes,
+                &Met {
+                    at,
+                    transmits: bsdf.transmits(),
+                    goes_on: goes_on.luminance() * onward.everything,
+                    pdf_sr,
+                },
+            );
+        }
         let world = &stage.world;
         self.from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
         self.direction = frame.to_world(next.wi);

@@ -2,6 +2,7 @@
 
 use crate::gathered::Gathered;
 use crate::join::Joining;
+use crate::lobes::LobeSums;
 use crate::path::{Ended, Seeks, Start};
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
@@ -23,6 +24,7 @@ pub(crate) struct PathSums {
     pub(crate) terms: Vec<Sum>,
     /// Paths that came to a surface that reflects.
     pub(crate) reflected: u64,
+    pub(crate) lobes: LobeSums,
 }
 
 /// What paths cost.
@@ -114,6 +116,7 @@ impl PathSums {
         self.direct.add(found.direct.luminance(), quantum);
         self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
+        self.lobes.add(found.lobes, quantum);
         self.add_terms(found, quantum);
     }
 
@@ -135,6 +138,7 @@ impl AddAssign for PathSums {
         self.direct += other.direct;
         self.indirect += other.indirect;
         self.reflected += other.reflected;
+        self.lobes += &other.lobes;
         self.terms.resize(self.terms.len().max(other.terms.len()), Sum::default());
         for (sum, found) in self.terms.iter_mut().zip(other.terms) {
             *sum += found;

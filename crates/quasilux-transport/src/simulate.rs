@@ -278,8 +278,8 @@ fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
     }
     if estimates.unresolved_points > 0 {
         warnings.push(format!(
-            "at {} sensor points no light was found where it was looked for: they may be dark or \
-             light may be hard to find, and their values have no interval",
+            "at {} sensor points light may be that was not found: they may be dark or light may be hard to \
+             find, and their values have no interval",
             estimates.unresolved_points
         ));
     }

@@ -7,6 +7,8 @@ use crate::settings::{Settings, ToleranceOn};
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
 const LEAST_TRIES: f64 = (1 << 14) as f64;
+/// The same where narrow lobes were missed: that more paths will meet them is certain.
+const LEAST_TRIES_OF_LOBES: f64 = (1 << 20) as f64;
 
 /// How all targets stand at a checkpoint, in the order of their sensors.
 pub(crate) struct Standing {
@@ -31,7 +33,8 @@ impl Standing {
         let replicates = settings.effective_replicates();
         let is_wanted = settings.has_tolerance() && replicates >= 2;
         let tries = estimates.samples as f64 * f64::from(replicates);
-        let had_a_chance = tries >= LEAST_TRIES;
+        let had_a_chance =
+            |missed: bool| tries >= if missed { LEAST_TRIES_OF_LOBES } else { LEAST_TRIES };
         let mut standing = Self {
             relative_widths: Vec::new(),
             excess: Vec::new(),
@@ -56,16 +59,17 @@ impl Standing {
             standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
             match settings.tolerance_on {
                 ToleranceOn::Points => {
-                    for (point, resolved) in points.iter().zip(&figures.resolved) {
+                    let known = figures.resolved.iter().zip(&figures.missed_lobes);
+                    for (point, (resolved, missed)) in points.iter().zip(known) {
                         let excess = excess_of(point);
                         let done = *resolved && excess.is_some_and(|excess| excess <= 1.0);
-                        standing.add(excess, done, !resolved && had_a_chance);
+                        standing.add(excess, done, !resolved && had_a_chance(*missed));
                     }
                 }
                 ToleranceOn::Summary => {
                     let excess = excess_of(&estimates.found_average(sensor));
                     let done = excess.is_some_and(|excess| excess <= 1.0)
-                        && (unresolved == 0 || had_a_chance);
+                        && (unresolved == 0 || had_a_chance(figures.missed_lobes.contains(&true)));
                     points.iter().for_each(|_| standing.add(excess, done, false));
                 }
             }

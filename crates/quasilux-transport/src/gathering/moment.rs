@@ -14,10 +14,10 @@ use std::ops::Range;
 
 /// What a target shows after some paths, in lx; `None` where there were none to tell.
 #[derive(Clone, Copy)]
-struct Moment {
+pub(super) struct Moment {
     /// Straight from the lights, and what only mirrors and lenses lead there.
     straight_lx: Option<f64>,
-    all_lx: Option<f64>,
+    pub(super) all_lx: Option<f64>,
 }
 
 /// What all targets showed before their maps changed.
@@ -54,7 +54,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
     }
 
     /// What a target shows after so many paths of all replicates together.
-    fn moment(&self, target: usize, paths: u64) -> Moment {
+    pub(super) fn moment(&self, target: usize, paths: u64) -> Moment {
         let replicates = self.replicates as usize;
         let own = &self.sums[target * replicates..][..replicates];
         let sum_lx = |sum: fn(&PathSums) -> Sum| -> f64 {

@@ -43,6 +43,21 @@ impl<'a> PointLikes<'a> {
         intensity_cd(self.0[index as usize], direction)
     }
 
+    /// Illuminance in lx of each that is not behind the side `n` of a place, or of all where both sides count, if nothing
+    /// stands in the way; and how far off it is, in m.
+    pub(crate) fn unshadowed(
+        &self,
+        place: DVec3,
+        n: DVec3,
+        takes_both_sides: bool,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        let sides = [Some(n), takes_both_sides.then_some(-n)].into_iter().flatten();
+        let incidences = sides.flat_map(move |n| {
+            self.0.iter().filter_map(move |light| Incidence::new(light, place, n))
+        });
+        incidences.map(|incidence| (incidence.illuminance_lx, incidence.distance_m))
+    }
+
     /// What all of them give, every one tested: tells `receive` who gets how much. One light comes
     /// after the other, so that rays toward the same light are neighbours.
     pub(crate) fn all<S: Spectrum>(

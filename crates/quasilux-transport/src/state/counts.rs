@@ -61,18 +61,20 @@ impl Stored for PhotonCounts {
 
 impl Stored for PathSums {
     fn put(&self, out: &mut Writer) {
-        let Self { direct, indirect, terms, reflected } = self;
+        let Self { direct, indirect, terms, reflected, lobes } = self;
         direct.put(out);
         indirect.put(out);
         out.u64(*reflected);
+        lobes.put(out);
         terms.as_slice().put(out);
     }
 
     fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let Self { direct, indirect, terms, reflected } = self;
+        let Self { direct, indirect, terms, reflected, lobes } = self;
         direct.take_in(from)?;
         indirect.take_in(from)?;
         from.add_u64(reflected)?;
+        lobes.take_in(from)?;
         let listed = from.length(Sum::BYTES)?;
         if terms.is_empty() {
             // Before its first path a target has none.

@@ -148,10 +148,11 @@ struct Shape {
 }
 
 fn put_sensor(sensor: &SensorEstimates, out: &mut Writer) {
-    let SensorEstimates { replicate_lx, direct_lx, resolved, samples, terms } = sensor;
+    let SensorEstimates { replicate_lx, direct_lx, resolved, missed_lobes, samples, terms } =
+        sensor;
     put_rows(replicate_lx, out);
     out.f64s(direct_lx);
-    resolved.iter().for_each(|resolved| out.bool(*resolved));
+    [resolved, missed_lobes].into_iter().flatten().for_each(|flag| out.bool(*flag));
     samples.iter().for_each(|samples| out.u64(*samples));
     out.u64(terms.len() as u64);
     for TermEstimates { replicate_lx, resolved } in terms {
@@ -162,18 +163,19 @@ fn put_sensor(sensor: &SensorEstimates, out: &mut Writer) {
 
 fn read_sensor(shape: &Shape, from: &mut Reader<'_>) -> Result<SensorEstimates, StateError> {
     let Shape { points, replicates: _, terms } = *shape;
-    let flags = |from: &mut Reader<'_>| (0..points).map(|_| from.bool()).collect();
+    let flags = |from: &mut Reader<'_>| -> Result<Vec<bool>, StateError> {
+        (0..points).map(|_| from.bool()).collect()
+    };
     let replicate_lx = read_rows(shape, from)?;
     let direct_lx = read_row(points, from)?;
-    let resolved: Result<Vec<bool>, StateError> = flags(from);
-    let resolved = resolved?;
+    let (resolved, missed_lobes) = (flags(from)?, flags(from)?);
     let samples = (0..points).map(|_| from.u64()).collect::<Result<_, _>>()?;
     from.expect_length(terms)?;
     let term = |from: &mut Reader<'_>| {
         Ok(TermEstimates { replicate_lx: read_rows(shape, from)?, resolved: flags(from)? })
     };
     let terms = (0..terms).map(|_| term(from)).collect::<Result<_, _>>()?;
-    Ok(SensorEstimates { replicate_lx, direct_lx, resolved, samples, terms })
+    Ok(SensorEstimates { replicate_lx, direct_lx, resolved, missed_lobes, samples, terms })
 }
 
 fn put_rows(rows: &[Vec<f64>], out: &mut Writer) {
@@ -210,6 +212,7 @@ mod tests {
                 replicate_lx: vec![vec![1.0; 2]; rows],
                 direct_lx: vec![0.5; 2],
                 resolved: vec![true; 2],
+                missed_lobes: vec![false; 2],
                 samples: vec![16; 2],
                 terms: vec![term; terms],
             };

@@ -24,6 +24,7 @@ mod measured;
 mod measured_known;
 mod measured_odd;
 mod mirrored_light;
+mod narrow_lobes;
 mod scenes;
 mod snapshots;
 mod spotlight;
