@@ -6,14 +6,18 @@
 //!
 //! How many have met it is foreseen from all paths that come to such surfaces. A direction that a surface draws with the density
 //! p stands for a solid angle of about `1 / p`, the part `1 / k` of a hemisphere, with `k = 2 pi p`: about 1 on Lambertian
-//! surfaces. Toward a light at a distance b the lobe's bright place is smaller, as seen from a
+//! surfaces. Where directions are not drawn as the surface scatters, k is what it gives to the mirror direction or straight
+//! on, over what a Lambertian surface would. Toward a light at a distance b the lobe's bright place is smaller, as seen from a
 //! distance a, than toward one far away, by `(b / (a + b))^2`. So of n paths about `n / mean(k (a + b)^2 / b^2)` met it.
 
+use crate::bsdf::{Bsdf, Mode};
 use crate::lights::PointLikes;
+use crate::spectrum::Spectrum;
 use crate::state::{Reader, StateError, Stored, Writer};
 use crate::tally::{Quantum, Sum};
 use crate::world::Interaction;
-use std::f64::consts::{FRAC_1_PI, TAU};
+use glam::DVec3;
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use std::ops::AddAssign;
 
 /// So many paths, of all replicates, must have been where a lobe is bright.
@@ -40,8 +44,8 @@ pub(crate) struct Met<'a> {
     pub(crate) transmits: bool,
     /// What a lux there counts where the path starts, were the surface Lambertian, times pi.
     pub(crate) goes_on: f64,
-    /// Density in sr^-1 of the direction that it drew.
-    pub(crate) pdf_sr: f64,
+    /// See [`sharpness`].
+    pub(crate) sharpness: f64,
 }
 
 /// The same of many paths.
@@ -55,7 +59,7 @@ pub(crate) struct LobeSums {
 impl Lobes {
     /// Adds a surface that scatters into lobes.
     pub(crate) fn meet(&mut self, lights: &PointLikes<'_>, met: &Met<'_>) {
-        let Met { at, transmits, goes_on, pdf_sr } = *met;
+        let Met { at, transmits, goes_on, sharpness } = *met;
         let (mut all_lx, mut weighed) = (0.0, 0.0);
         for (lx, distance_m) in lights.unshadowed(at.position, at.n, transmits) {
             let turn = (at.distance_m + distance_m) / distance_m;
@@ -63,12 +67,23 @@ impl Lobes {
             weighed += lx * turn * turn;
         }
         if all_lx > 0.0 {
-            let sharpness = 1.0 + (TAU * pdf_sr - 1.0).max(0.0) * weighed / all_lx;
+            let sharpness = 1.0 + (sharpness - 1.0).max(0.0) * weighed / all_lx;
             self.surfaces += 1;
             self.sharpness += sharpness.ceil().clamp(1.0, SHARPEST) as u64;
             self.even_lx += goes_on * FRAC_1_PI * all_lx;
         }
     }
+}
+
+/// k of the module, for a path that arrived along `-wo` and drew a direction with this density.
+pub(crate) fn sharpness<S: Spectrum>(bsdf: &Bsdf<S>, wo: DVec3, front: bool, pdf_sr: f64) -> f64 {
+    let albedo = bsdf.albedo(wo, front, Mode::Radiance).luminance();
+    let over_lambert = |wi: DVec3| {
+        let f_sr = bsdf.evaluate(wo, wi, front, Mode::Radiance).luminance();
+        if f_sr > 0.0 { PI * f_sr / albedo } else { 0.0 }
+    };
+    let mirrored = DVec3::new(-wo.x, -wo.y, wo.z);
+    over_lambert(mirrored).max(over_lambert(-wo)).max(TAU * pdf_sr)
 }
 
 impl LobeSums {

@@ -13,7 +13,7 @@ use crate::endless::Gain;
 use crate::frame::Frame;
 use crate::gathered::Gathered;
 use crate::join::{Joining, Shares};
-use crate::lobes::Met;
+use crate::lobes::{self, Met};
 use crate::path_end::{MapEnd, Rest};
 use crate::purpose::Purpose;
 use crate::shadow::{Offer, Shadows};
@@ -259,7 +259,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
                     at,
                     transmits: bsdf.transmits(),
                     goes_on: goes_on.luminance() * onward.everything,
-                    pdf_sr,
+                    sharpness: lobes::sharpness(bsdf, wo, at.front, pdf_sr),
                 },
             );
         }

@@ -35,7 +35,7 @@ fn tree(alpha: f64, log_side: usize) -> Distribution {
 }
 
 /// Incidences `90 / parts` degrees apart; offsets from the mirror direction grow from a share of the lobe's width.
-fn lobes(alpha: f64, parts: u32) -> Distribution {
+pub(crate) fn lobes(alpha: f64, parts: u32) -> Distribution {
     let step_rad = FRAC_PI_2 / f64::from(parts);
     let theta_rad: Vec<f64> = (0..=parts).map(|i| f64::from(i) * step_rad).collect();
     let mut offsets_rad = vec![0.0];

@@ -1,8 +1,11 @@
 //! Point lamps over surfaces with narrow lobes: what paths hardly ever meet is not called known.
 
 use crate::images::{add_panel, empty};
+use crate::measured::measured;
+use crate::measured_known::lobes;
 use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
+use quasilux_photometry::bsdf::{Side, Way};
 use quasilux_scene::{Bsdf, Rgb, Scene, bsdf};
 use quasilux_transport::{Estimates, Scattering, Settings, simulate};
 
@@ -76,6 +79,20 @@ fn what_few_paths_meet_has_no_interval() {
         "{} +- {half_width_lx}, expected {expected_lx}",
         known.value
     );
+}
+
+/// A sheet that lets light through in narrow lobes, of which the file knows the side with the lamp alone: paths do not
+/// draw their directions from it.
+#[test]
+fn lobes_that_paths_do_not_draw_from_are_missed_too() {
+    let sheet = measured([(Side::Front, Way::Transmission, lobes(0.03, 16))]);
+    let mut scene = empty();
+    let corner = DVec3::new(-1.0, 1.0, -1.0);
+    add_panel(&mut scene, corner, DVec3::X * 2.0, DVec3::Z * 2.0, sheet);
+    scene.lights.push(point_light(DVec3::new(0.1, 0.0, 0.2), INTENSITY_CD));
+    scene.sensors.push(points("behind", &[(DVec3::Y * 3.0, DVec3::NEG_Y)]));
+    let few = run(&scene, 128);
+    assert!(is_told(&few) && few.point_intervals(0)[0].half_width.is_none());
 }
 
 /// Broad lobes, and narrow ones that bring next to nothing, keep nobody waiting.
