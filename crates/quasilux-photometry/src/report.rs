@@ -165,7 +165,7 @@ pub enum Deviation {
     Foreword,
     /// WINDOW: there are several optical layers. The first is read.
     SeveralLayers,
-    /// WINDOW: the thickness has no known unit, or is no number. It is left out: nothing depends on it.
+    /// WINDOW: the thickness has no known unit, or is no number from 0 on. It is left out: nothing depends on it.
     UnknownThickness,
     /// WINDOW: there are data of the solar spectrum alone. They are read as if they were visible.
     SolarOnly,
@@ -190,8 +190,26 @@ pub enum Deviation {
     Resampled,
     /// MERL: values are negative, which means that nothing was measured. Their neighbours stand for them.
     MissingValues,
-    /// ASTM E1392: polar angles are too large for radians. All angles are read as degrees.
+    /// ASTM E1392: polar angles or azimuths are too large for radians. All angles are read as degrees.
     AnglesInDegrees,
+    /// ASTM E1392: a pair of directions is given several times, with other values. The first one is read.
+    RepeatedDirection,
+    /// ASTM E1392: a colour is more saturated than BT.709 can be. It is made less so, its luminance is kept.
+    OutOfGamut,
+    /// Surfaces: measured azimuths leave a gap wider than 45 degrees. Values are interpolated across it.
+    AzimuthGap,
+    /// Surfaces: light was measured from one polar angle alone. What comes from elsewhere is scattered like it.
+    OneIncidence,
+    /// DDR: the first angle from the specular direction is not 0. Up to there f is as at that angle.
+    SpecularMissing,
+    /// DDR and DDT: the name does not tell whether it is reflection or transmission. It is read as reflection.
+    UnknownWay,
+    /// WINDOW: a side that light passes has no reflection. It reflects nothing.
+    MissingReflection,
+    /// WINDOW: data of single layers stand beside those of the system. They are left out.
+    LayersLeftOut,
+    /// WINDOW: an angular basis ends before the horizon. Light beyond is neither taken nor sent.
+    BasisEndsEarly,
     /// Surfaces: more light is scattered than arrives. The table is used as it is.
     EnergyNotConserved,
     /// Surfaces: exchanging both directions changes the value by more than 1 % in the mean. The table is used

@@ -60,7 +60,7 @@ fn eight_bit<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Cow<'a, str> {
 }
 
 /// The lines of a text; line feed, carriage return and both together end a line.
-pub(crate) fn lines(text: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = &str> + Clone {
     let mut rest = (!text.is_empty()).then_some(text);
     std::iter::from_fn(move || {
         let current = rest?;

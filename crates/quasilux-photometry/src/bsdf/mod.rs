@@ -34,6 +34,7 @@ mod ddr;
 mod defects;
 mod distribution;
 mod from_function;
+mod gaps;
 mod gridded;
 mod klems;
 mod merl;

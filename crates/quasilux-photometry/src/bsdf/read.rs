@@ -2,10 +2,10 @@
 
 use super::{MeasuredBsdf, Way, astm, merl};
 use super::{read_astm, read_bsdf_xml, read_ddr, read_merl};
-use crate::report::Position;
-use crate::{ReadError, Warning, text};
+use crate::report::{Position, Warnings, quoted};
+use crate::{Deviation, ReadError, Warning};
 
-/// The mark of a format stands within so many bytes.
+/// The mark of a format stands within so many bytes, those of comments before it not counted.
 const SEARCHED: usize = 1 << 14;
 
 /// The formats of measured surfaces.
@@ -47,21 +47,15 @@ impl BsdfFormat {
     }
 }
 
-/// Reads a measured surface of any known format, told by the content; that of a DDR file is reflection, see
+/// Reads a measured surface of any known format, told by the content; that of a DDR file is reflection, with a warning, see
 /// [`read_bsdf_named`]. Total: any bytes give a surface or an error with its place, in memory bounded by
 /// [`most_bsdf_memory_bytes`](crate::most_bsdf_memory_bytes).
 pub fn read_bsdf(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
-    read_as(bytes, Way::Reflection)
+    read_bsdf_named("", bytes)
 }
 
-/// The same with the name of the file, which tells transmission by its extension `.ddt`.
+/// The same with the name of the file, whose extension tells reflection, `.ddr`, from transmission, `.ddt`.
 pub fn read_bsdf_named(name: &str, bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
-    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
-    let is_transmission = extension.eq_ignore_ascii_case("ddt");
-    read_as(bytes, if is_transmission { Way::Transmission } else { Way::Reflection })
-}
-
-fn read_as(bytes: &[u8], way_of_ddr: Way) -> Result<ReadBsdf, ReadError> {
     if merl::counts(bytes).is_some() {
         return read_merl(bytes);
     }
@@ -70,16 +64,57 @@ fn read_as(bytes: &[u8], way_of_ddr: Way) -> Result<ReadBsdf, ReadError> {
     if start.starts_with(b"<") || is_wide || contains(bytes, b"<WindowElement") {
         return read_bsdf_xml(bytes);
     }
-    let searched = String::from_utf8_lossy(&bytes[..bytes.len().min(SEARCHED)]);
-    if text::lines(&searched).any(astm::names_columns) {
+    let searched = behind_comments(start);
+    let searched = &searched[..searched.len().min(SEARCHED)];
+    let has_line = |is_mark: fn(&[u8]) -> bool| lines(searched).any(is_mark);
+    if has_line(astm::names_columns) {
         return read_astm(bytes);
     }
-    let words = |line: &str| line.split_whitespace().next().unwrap_or("").to_ascii_lowercase();
-    let begins_ddr = |line| matches!(words(line).as_str(), "typesym" | "typecolormodel" | "sigma");
-    if text::lines(&searched).any(begins_ddr) {
-        return read_ddr(bytes, way_of_ddr);
+    if has_line(begins_ddr) { read_ddr_named(name, bytes) } else { Err(unknown(bytes)) }
+}
+
+/// The content of DDR and DDT files does not tell which it is.
+fn read_ddr_named(name: &str, bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    let is = |known: &str| extension.eq_ignore_ascii_case(known);
+    let way = if is("ddt") { Way::Transmission } else { Way::Reflection };
+    let mut read = read_ddr(bytes, way)?;
+    if !is("ddt") && !is("ddr") {
+        let mut warnings = Warnings::default();
+        let at = Position { line: 1, column: 1 };
+        let found = if name.is_empty() {
+            "no name".to_owned()
+        } else {
+            format!("the name {}", quoted(name))
+        };
+        let expected =
+            "a name in .ddr for reflection, or .ddt for transmission (read as reflection)";
+        warnings.push(Deviation::UnknownWay, at, found, expected);
+        read.warnings.splice(..0, warnings.into_vec());
     }
-    Err(unknown(bytes))
+    Ok(read)
+}
+
+/// A line that only the head of a DDR file has.
+fn begins_ddr(line: &[u8]) -> bool {
+    let word = line.split(u8::is_ascii_whitespace).find(|word| !word.is_empty());
+    let is = |known: &&[u8]| word.is_some_and(|word| word.eq_ignore_ascii_case(known));
+    [&b"typesym"[..], b"typecolormodel", b"sigma"].iter().any(is)
+}
+
+/// What follows after lines that are empty or comments.
+fn behind_comments(bytes: &[u8]) -> &[u8] {
+    let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
+    let mut rest = bytes.trim_ascii_start();
+    while let [b';' | b'#', ..] = rest {
+        let end = rest.iter().position(is_end).unwrap_or(rest.len());
+        rest = rest[end..].trim_ascii_start();
+    }
+    rest
+}
+
+fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    bytes.split(|byte| matches!(byte, b'\n' | b'\r'))
 }
 
 /// Why a file of no known format is refused: what it seems to be.

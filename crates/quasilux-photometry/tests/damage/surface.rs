@@ -49,11 +49,11 @@ pub(crate) fn samples() -> Vec<Vec<u8>> {
     let of_colour =
         |name: &str| format!("{name} kbdf 0.5 0.4\n def {} enddef\n", "1 0.5 ".repeat(6));
     let rgb = colours.to_owned() + &of_colour("red") + &of_colour("gre") + &of_colour("blu");
-    let angles = ["0,0,0.2,0", "0,0,0.2,3", "0,0,1,0", "0,0,1,3", "1,0,0.5,0", "1,0,0.5,2"];
-    let lines: String = angles.iter().map(|angles| format!("{angles},0.2\n")).collect();
-    let astm = "NUM_POINTS 6\nVARS theta_i,phi_i,theta_s,phi_s,BRDF\n".to_owned() + &lines;
-    let coloured =
-        "VARS theta_i,phi_i,theta_s,phi_s,R,G,B\n0.5 3 0.1 0 1 0.5 0.2\n0.5 3 0.1 2 0 0 0\n";
+    let half = |angles: &str| ["0", "1.5708", "3.1416"].map(|phi| format!("{angles},{phi},0.2\n"));
+    let lines: String = ["0,0,0.2", "0,0,1", "1,0,0.5", "1,0,2"].map(half).concat().concat();
+    let astm = "NUM_POINTS 12\nVARS theta_i,phi_i,theta_s,phi_s,BRDF\n".to_owned() + &lines;
+    let coloured = "VARS theta_i,phi_i,theta_s,phi_s,X,Y,Z\n0.5 3 0.1 0 1 0.5 0.2\n0.5 3 0.1 1.5 1 0 0\n\
+                    0.5 3 0.1 3 0.2 0.2 0.2\n0.5 3 0.1 4.6 0 0.1 0\n";
     let texts = [
         xml("Columns", &basis, &matrix),
         xml("TensorTree3", "", &rank_3),

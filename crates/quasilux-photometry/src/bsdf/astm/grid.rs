@@ -1,219 +1,135 @@
 //! Records in any order to lobes on full grids.
 
-use super::Record;
-use crate::bsdf::gridded::{ExitKnots, GriddedTable, Lobe, MOST_INCIDENCES};
-use crate::report::Position;
-use crate::{ReadError, Symmetry};
-use std::collections::BTreeMap;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// Steps of angles in a radian: closer ones are the same.
-const STEPS: f64 = 1e5;
-
-/// Widest gaps between polar angles of exits, from the best on.
-const WIDEST_RAD: [f64; 3] = [PI / 72.0, PI / 36.0, PI / 18.0];
+use super::exits::Exits;
+use super::records::{Beginning, Key, Records, angle, too_many};
+use crate::bsdf::Way;
+use crate::bsdf::gaps::{self, Gap};
+use crate::bsdf::gridded::{GriddedTable, Lobe, MOST_INCIDENCES};
+use crate::report::{Position, Warnings};
+use crate::{Deviation, ReadError};
+use std::f64::consts::FRAC_PI_2;
 
 /// Exit directions of all lobes together, or as many as values where those are more.
 const LEAST_DIRECTIONS: usize = 1 << 18;
 
-/// An angle as a number that can be compared.
-type Key = i64;
-
-/// f by polar angle and azimuth of the exit direction.
-type Exits = BTreeMap<(Key, Key), [f64; 3]>;
-
-fn key(angle_rad: f64) -> Key {
-    (angle_rad * STEPS).round() as Key
-}
-
-/// An azimuth, a whole turn being none.
-fn azimuth_key(angle_rad: f64) -> Key {
-    key(angle_rad.rem_euclid(TAU)) % key(TAU)
-}
-
-fn angle(key: Key) -> f64 {
-    key as f64 / STEPS
-}
-
-/// The table. Each incidence must have a full grid of exits, and each azimuth the same polar angles.
-pub(super) fn table(
-    records: Vec<Record>,
-    is_coloured: bool,
+/// The incident directions of one way, each azimuth with the same polar angles.
+struct Incidences {
+    /// Of the first one.
     at: Position,
-) -> Result<GriddedTable, ReadError> {
-    let azimuths: Vec<Key> = planes(&records);
-    let normal = records.iter().filter(|record| key(record.angles_rad[0]) == 0).count();
-    if azimuths.len().saturating_mul(normal) > 4 * records.len() {
-        let found = format!("{} incident azimuths with few lines each", azimuths.len());
-        return Err(ReadError::new(at, found, "a full grid of exits for each incident direction"));
-    }
-    let mut incidences: BTreeMap<(Key, Key), (usize, Exits)> = BTreeMap::new();
-    for record in &records {
-        let [theta_i, phi_i, theta_s, phi_s] = record.angles_rad;
-        let exit = |plane_rad: f64| (key(theta_s), azimuth_key(phi_s - plane_rad));
-        let mut add = |plane: Key, plane_rad: f64| {
-            let of_plane = incidences.entry((plane, key(theta_i)));
-            let (_, exits) = of_plane.or_insert_with(|| (record.line, Exits::new()));
-            exits.insert(exit(plane_rad), record.f);
-        };
-        // Along the normal light belongs to all planes of incidence.
-        if key(theta_i) == 0 {
-            azimuths.iter().for_each(|&plane| add(plane, angle(plane)));
-        } else {
-            add(azimuth_key(phi_i), phi_i);
+    planes: Vec<Key>,
+    thetas: Vec<Key>,
+}
+
+/// The table of one way, `None` where the file has no such line. Each incidence must have a full grid of exits, and each azimuth the same
+/// polar angles.
+pub(super) fn table<const N: usize>(
+    records: &Records<N>,
+    way: Way,
+    warnings: &mut Warnings,
+) -> Result<Option<GriddedTable>, ReadError> {
+    let Some(incidences) = Incidences::of(records, way)? else {
+        return Ok(None);
+    };
+    let Incidences { at, ref planes, ref thetas } = incidences;
+    let all = || {
+        let of_plane = |plane: Key| thetas.iter().map(move |&theta| (plane, theta));
+        planes.iter().flat_map(move |&plane| of_plane(plane))
+    };
+    // First whether all of it can be used: that takes a moment, and lobes many.
+    let is_isotropic = planes.len() == 1;
+    for (plane, theta) in all() {
+        let exits = incidences.exits(records, way, plane, theta)?;
+        // Along the normal an isotropic surface has the same in all azimuths.
+        if !(is_isotropic && theta == 0) {
+            exits.check_gaps(warnings)?;
         }
     }
-    drop(records);
-
-    if incidences.len() > MOST_INCIDENCES {
-        let found = format!("{} incident directions", incidences.len());
-        return Err(ReadError::new(at, found, format_args!("no more than {MOST_INCIDENCES}")));
-    }
-    let mut thetas: Vec<Key> = incidences.keys().map(|(_, theta)| *theta).collect();
-    thetas.sort_unstable();
-    thetas.dedup();
-    if incidences.len() < thetas.len() * azimuths.len() {
-        let (count, azimuths) = (incidences.len(), azimuths.len());
-        let found = format!("{count} incident directions");
-        let expected = format!("{} polar angles for each of {azimuths} azimuths", thetas.len());
-        return Err(ReadError::new(at, found, expected));
-    }
-    let values: usize = incidences.values().map(|(_, exits)| exits.len()).sum();
-    let most = values.max(LEAST_DIRECTIONS) / incidences.len();
-    let mut lobes = Vec::with_capacity(incidences.len());
-    for (line, exits) in incidences.values() {
-        let at = Position { line: *line, column: 1 };
-        let lobe = rows(exits, at)?.refined(most).lobe(is_coloured);
-        lobes.push(lobe.ok_or_else(|| {
+    incidences.warn(warnings);
+    let values: usize = all()
+        .filter_map(|(plane, theta)| Some(records.count(records.beginning(way, plane, theta)?)))
+        .sum();
+    let most = values.max(LEAST_DIRECTIONS) / (planes.len() * thetas.len());
+    let lobe = |(plane, theta)| {
+        let exits = incidences.exits(records, way, plane, theta)?;
+        exits.lobe(most, N).ok_or_else(|| {
             ReadError::new(at, "exit directions that make no grid", "ascending angles")
-        })?);
-    }
-    let theta_rad: Vec<f64> = thetas.into_iter().map(|theta| angle(theta).min(FRAC_PI_2)).collect();
+        })
+    };
+    let lobes: Vec<Lobe> = all().map(lobe).collect::<Result<_, ReadError>>()?;
+    let theta_rad: Vec<f64> = thetas.iter().map(|&theta| angle(theta).min(FRAC_PI_2)).collect();
     let phi_rad =
-        if azimuths.len() == 1 { vec![0.0] } else { azimuths.into_iter().map(angle).collect() };
-    GriddedTable::new(theta_rad.clone(), phi_rad, theta_rad, lobes).ok_or_else(|| {
+        if is_isotropic { vec![0.0] } else { planes.iter().copied().map(angle).collect() };
+    let table = GriddedTable::new(theta_rad.clone(), phi_rad, theta_rad, lobes);
+    table.map(Some).ok_or_else(|| {
         ReadError::new(at, "incident directions that make no grid", "ascending angles")
     })
 }
 
-/// The azimuths of incidence; along the normal there is none.
-fn planes(records: &[Record]) -> Vec<Key> {
-    let tilted = records.iter().filter(|record| key(record.angles_rad[0]) != 0);
-    let mut planes: Vec<Key> = tilted.map(|record| azimuth_key(record.angles_rad[1])).collect();
-    planes.sort_unstable();
-    planes.dedup();
-    if planes.is_empty() {
-        planes.push(records.first().map_or(0, |record| azimuth_key(record.angles_rad[1])));
-    }
-    planes
-}
-
-/// The azimuth on the other side of the plane of incidence.
-fn opposite(azimuth: Key) -> Key {
-    (key(TAU) - azimuth) % key(TAU)
-}
-
-/// f at a grid of exit directions.
-struct Rows {
-    knots: ExitKnots,
-    /// All azimuths of the first polar angle, then of the next.
-    f: Vec<Vec<[f64; 3]>>,
-}
-
-impl Rows {
-    /// The same with f linear in between at narrower polar angles, as many directions as there may be: a lobe is linear in
-    /// f times the cosine.
-    fn refined(self, most: usize) -> Self {
-        let Self { knots, f } = self;
-        let columns = knots.phi_rad.len();
-        let parts =
-            |pair: &[f64], widest_rad: f64| ((pair[1] - pair[0]) / widest_rad).ceil().max(1.0);
-        let count = |widest_rad: f64| -> f64 {
-            knots.theta_rad.windows(2).map(|pair| parts(pair, widest_rad)).sum()
+impl Incidences {
+    fn of<const N: usize>(records: &Records<N>, way: Way) -> Result<Option<Self>, ReadError> {
+        let all = || records.incidences(way);
+        let Some(first) = all().map(|(_, beginning)| beginning.line).min() else {
+            return Ok(None);
         };
-        let fits = |widest_rad: &f64| count(*widest_rad) * columns as f64 <= most as f64;
-        let Some(widest_rad) = WIDEST_RAD.into_iter().find(fits) else {
-            return Self { knots, f };
+        let at = Position { line: first, column: 1 };
+        let sorted = |mut keys: Vec<Key>| {
+            keys.sort_unstable();
+            keys.dedup();
+            keys
         };
-        let (mut theta_rad, mut finer) = (vec![], vec![]);
-        for (pair, ends) in knots.theta_rad.windows(2).zip(f.windows(2)) {
-            let parts = parts(pair, widest_rad);
-            for part in 0..parts as u32 {
-                let t = f64::from(part) / parts;
-                theta_rad.push((1.0 - t) * pair[0] + t * pair[1]);
-                let between = |(a, b): (&[f64; 3], &[f64; 3])| {
-                    [0, 1, 2].map(|channel| (1.0 - t) * a[channel] + t * b[channel])
-                };
-                finer.push(ends[0].iter().zip(&ends[1]).map(between).collect());
-            }
+        let tilted = || all().filter(|(incidence, _)| incidence.theta != 0);
+        let mut planes = sorted(tilted().map(|(incidence, _)| incidence.plane).collect());
+        let normal = records.beginning(way, 0, 0);
+        if let Some(normal) = normal.filter(|_| planes.is_empty()) {
+            planes.push(normal.phi);
         }
-        theta_rad.extend(knots.theta_rad.last());
-        finer.extend(f.last().cloned());
-        Self { knots: ExitKnots { theta_rad, ..knots }, f: finer }
-    }
-
-    fn lobe(&self, is_coloured: bool) -> Option<Lobe> {
-        let channel = |channel: usize| self.f.iter().flatten().map(|f| f[channel]).collect();
-        let channels: Vec<Vec<f64>> = (0..if is_coloured { 3 } else { 1 }).map(channel).collect();
-        Lobe::new(&self.knots, &channels)
-    }
-}
-
-/// A full grid of exits, whose azimuths are counted from the incident one.
-fn rows(exits: &Exits, at: Position) -> Result<Rows, ReadError> {
-    let mut thetas: Vec<Key> = exits.keys().map(|(theta, _)| *theta).collect();
-    thetas.dedup();
-    let tilted = exits.keys().filter(|(theta, _)| *theta != 0);
-    let mut phis: Vec<Key> = tilted.map(|(_, phi)| *phi).collect();
-    phis.sort_unstable();
-    phis.dedup();
-    if phis.is_empty() {
-        phis.push(0);
-    }
-    // The azimuths of half a turn stand for both halves; one alone for all.
-    let is_other_half = phis[0] == 0 && phis.len() > 2 && phis[1] >= key(PI) - 1;
-    if is_other_half && phis[phis.len() - 1] > key(PI) + 10 {
-        let mirrored = |(&(theta, phi), f): (&(Key, Key), &[f64; 3])| ((theta, opposite(phi)), *f);
-        return rows(&exits.iter().map(mirrored).collect(), at);
-    }
-    let is_half = phis[0] == 0 && (phis[phis.len() - 1] - key(PI)).abs() <= 1;
-    let mut phi_rad: Vec<f64> = phis.iter().map(|&phi| angle(phi)).collect();
-    let symmetry = match phi_rad.len() {
-        1 => Symmetry::Rotational,
-        last if is_half => {
-            phi_rad[last - 1] = PI;
-            Symmetry::Bilateral
+        // Along the normal light belongs to all planes of incidence.
+        let exits: usize = all().map(|(_, beginning)| records.count(beginning)).sum();
+        let along_normal = normal.map_or(0, |normal| records.count(normal));
+        if planes.len().saturating_mul(along_normal) > 4 * exits {
+            let found = format!("{} incident azimuths with few lines each", planes.len());
+            let expected = "a full grid of exits for each incident direction";
+            return Err(ReadError::new(at, found, expected));
         }
-        _ => Symmetry::Open,
-    };
-    let mut f: Vec<Vec<[f64; 3]>> = Vec::with_capacity(thetas.len() + 2);
-    for &theta in &thetas {
-        let pole = || exits.range((0, 0)..(1, 0)).next().map(|(_, f)| *f);
-        let value = |&phi: &Key| {
-            let given = exits.get(&(theta, phi)).copied();
-            // At the pole all azimuths are one direction.
-            given.or_else(|| if theta == 0 { pole() } else { None })
-        };
-        let row: Option<Vec<[f64; 3]>> = phis.iter().map(value).collect();
-        f.push(row.ok_or_else(|| {
-            let found = format!("{} exit directions for an incident one", exits.len());
-            let (rows, columns) = (thetas.len(), phis.len());
-            ReadError::new(
-                at,
-                found,
-                format_args!("a full grid of {rows} polar angles by {columns} azimuths"),
-            )
-        })?);
+        let thetas = sorted(all().map(|(incidence, _)| incidence.theta).collect());
+        let rows = thetas.len() - usize::from(normal.is_some());
+        if tilted().count() < rows * planes.len() {
+            let found = format!("{} incident directions", all().count());
+            let azimuths = planes.len();
+            let expected = format!("{} polar angles for each of {azimuths} azimuths", thetas.len());
+            return Err(ReadError::new(at, found, expected));
+        }
+        if thetas.len() * planes.len() > MOST_INCIDENCES {
+            return Err(too_many(at));
+        }
+        Ok(Some(Self { at, planes, thetas }))
     }
-    let mut theta_rad: Vec<f64> = thetas.iter().map(|&theta| angle(theta).min(FRAC_PI_2)).collect();
-    // f goes on to the normal and to the horizon as at the nearest polar angle.
-    if theta_rad[0] > 0.0 {
-        theta_rad.insert(0, 0.0);
-        f.insert(0, f[0].clone());
+
+    fn exits<const N: usize>(
+        &self,
+        records: &Records<N>,
+        way: Way,
+        plane: Key,
+        theta: Key,
+    ) -> Result<Exits<N>, ReadError> {
+        let none = || ReadError::new(self.at, "a missing incidence", "all polar angles");
+        let beginning: &Beginning = records.beginning(way, plane, theta).ok_or_else(none)?;
+        let turn = (theta == 0).then_some(plane);
+        Exits::new(records.exits(beginning, turn), beginning.line)
     }
-    if theta_rad[theta_rad.len() - 1] < FRAC_PI_2 {
-        theta_rad.push(FRAC_PI_2);
-        f.push(f[f.len() - 1].clone());
+
+    /// Tells where incident directions are far apart.
+    fn warn(&self, warnings: &mut Warnings) {
+        let azimuths: Vec<f64> = self.planes.iter().map(|&plane| angle(plane)).collect();
+        let widest_rad = gaps::around(&azimuths);
+        if self.planes.len() > 1 && gaps::judge(widest_rad) != Gap::Narrow {
+            gaps::warn_of_incidence(widest_rad, self.at, warnings);
+        }
+        if let [only] = self.thetas[..] {
+            let found =
+                format!("one incident polar angle, {:.1} degrees", angle(only).to_degrees());
+            let expected = "several (light from elsewhere is scattered as from there)";
+            warnings.push(Deviation::OneIncidence, self.at, found, expected);
+        }
     }
-    Ok(Rows { knots: ExitKnots { theta_rad, phi_rad, symmetry }, f })
 }
