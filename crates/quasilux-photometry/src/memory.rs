@@ -20,11 +20,16 @@ pub const fn most_read_memory_bytes(file_bytes: usize) -> usize {
 /// Bytes for the grids that values of a surface are resampled to, however few those are.
 const BYTES_OF_GRIDS: usize = 128 << 20;
 
+/// Bytes of readers of measured surfaces for each byte of a file. The greediest known take 45: XML of empty elements.
+const BYTES_PER_BYTE_OF_SURFACES: usize = 56;
+
 /// The same for readers of measured surfaces: they may resample values to finer grids.
 ///
-/// It is a bound for any bytes. Matrices and trees as programs write them, some ten bytes a value, take 4 to 8 bytes a
-/// byte: one of 200 MB less than 1.7 GB.
+/// It is a bound for any bytes. Tables as programs write them take 1 to 7 bytes a byte, whatever the format: one of 200 MB less than
+/// 1.6 GB, the file included (`docs/memory.md`, `examples/surface_memory.rs`).
 #[must_use]
 pub const fn most_bsdf_memory_bytes(file_bytes: usize) -> usize {
-    most_read_memory_bytes(file_bytes).saturating_add(BYTES_OF_GRIDS)
+    BYTES_PER_BYTE_OF_SURFACES
+        .saturating_mul(file_bytes)
+        .saturating_add(BYTES_BESIDES + BYTES_OF_GRIDS)
 }

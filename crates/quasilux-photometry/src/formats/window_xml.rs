@@ -12,7 +12,8 @@
 //! | `Material` / `Name`, `Manufacturer`, `Thickness` | facts; `unit` is `meter` (also if missing), `centimeter`, `millimeter`, `inch` or `foot` |
 //! | `DataDefinition` / `IncidentDataStructure` | `Columns`, `Rows`: a matrix; `TensorTree3`, `TensorTree4`: a tree of that rank |
 //! | .. `AngleBasis` | a basis of the matrix: bands `AngleBasisBlock` with `ThetaBounds` and `nPhis`; not needed for `LBNL/Klems Full` (145 patches), `Half` (73) and `Quarter` (41) |
-//! | `WavelengthData` / `Wavelength` | `Visible` is read; `Solar` if there is nothing else |
+//! | `WavelengthData` / `LayerNumber` | `System`, if there is one, else that of the first data |
+//! | .. `Wavelength` | `Visible` is read; `Solar` if there is nothing else |
 //! | .. `WavelengthDataBlock` / `WavelengthDataDirection` | `Transmission Front`, `Transmission Back`, `Reflection Front`, `Reflection Back`: what light that arrives on that side does |
 //! | .. `ColumnAngleBasis`, `RowAngleBasis` | the incident and the exit basis of a matrix |
 //! | .. `AngleBasis` | of a tree: `LBNL/Shirley-Chiu` |
@@ -20,6 +21,12 @@
 //!
 //! `ScatteringDataType`, spectra of source and detector, and the geometry are not used. Blanks, tabs, line ends and
 //! commas separate numbers alike.
+//!
+//! # How the sheet is mounted
+//! `Front` faces outdoors and `Back` faces the room: `Transmission Front` is what light from outdoors does. A scene has the front on the front of
+//! the facets, so the normals of a window's facets point outdoors, and `up` is the vertical of the file, its `y` axis. Radiance is the other way
+//! round: there the normal of a surface with a BSDF points into the room. Facets of a scene made for
+//! Radiance must be turned over.
 //!
 //! # Matrices
 //! `Columns`: each row of the text is one exit patch, each column one incident patch; `Rows`: the other way round. Patches
@@ -40,7 +47,7 @@
 //! |---|---|---|
 //! | [`Foreword`] | left out | `1:1: found "Recover using: genBSDF"; expected XML from the first line on (left out)` |
 //! | [`SeveralLayers`] | the first is read | `90:3: found another Layer; expected one layer (the first is read)` |
-//! | [`UnknownThickness`] | left out: nothing depends on it | `9:5: found a thickness of "1" "mil"; expected a number in meter, ... (left out)` |
+//! | [`UnknownThickness`] | left out: nothing depends on it | `9:5: found a thickness of "1" "mil"; expected a number from 0 on, in meter, ... (left out)` |
 //! | [`SolarOnly`] | read as if it were visible | `40:2: found Solar data alone; expected Visible (read as if it were)` |
 //! | [`ColourLeftOut`] | the luminance counts | `40:2: found data of the colour; expected Visible alone (the colour is left out)` |
 //! | [`UnknownDirection`] | left out | `50:3: found "Absorptance Front"; expected Transmission or Reflection, ... (left out)` |
@@ -49,6 +56,9 @@
 //! | [`NegativeScattering`] | read as 0 | `60:9: found "-0.001"; expected no negative value (read as 0)` |
 //! | [`ByReciprocity`] | f'(wi, wo) = f(wo, wi), from the other side | `50:3: found no Transmission back; expected both directions (taken from the other one by reciprocity)` |
 //! | [`OneWayTransmission`] | nothing passes from that side | `50:3: found no Transmission back; expected both directions (this table cannot be turned round: nothing passes)` |
+//! | [`MissingReflection`] | nothing is reflected there | `50:3: found no Reflection back; expected the reflection of both sides (nothing is reflected)` |
+//! | [`LayersLeftOut`] | left out | `90:3: found LayerNumber "1"; expected "System" alone (the data of other layers are left out)` |
+//! | [`BasisEndsEarly`] | light beyond the last band is absorbed, and none goes there | `50:3: found the basis "b" that ends 80.0 degrees from the normal; expected bands to 90 degrees (...)` |
 //! | [`EnergyNotConserved`] | used as it is | `50:3: found 101.3 % of the light scattered at 82.5 degrees on the front; expected no more than 100 % (used as it is)` |
 //! | [`NotReciprocal`] | used as it is | `50:3: found reflection front that differs from that of exchanged directions by 7.0 % in the mean; expected the same both ways round (used as it is)` |
 //!
@@ -65,3 +75,6 @@
 //! [`OneWayTransmission`]: crate::Deviation::OneWayTransmission
 //! [`EnergyNotConserved`]: crate::Deviation::EnergyNotConserved
 //! [`NotReciprocal`]: crate::Deviation::NotReciprocal
+//! [`MissingReflection`]: crate::Deviation::MissingReflection
+//! [`LayersLeftOut`]: crate::Deviation::LayersLeftOut
+//! [`BasisEndsEarly`]: crate::Deviation::BasisEndsEarly

@@ -12,7 +12,7 @@ mod surface;
 
 pub(crate) use mutator::mutate;
 use peak_alloc::PeakAlloc;
-use quasilux_photometry::bsdf::{ReadBsdf, read_bsdf};
+use quasilux_photometry::bsdf::{ReadBsdf, read_bsdf_named};
 use quasilux_photometry::{
     Read, ReadError, Warning, most_bsdf_memory_bytes, most_read_memory_bytes, read_ies, read_ldt,
     read_tm33,
@@ -61,7 +61,7 @@ impl Format {
             Self::Ies => read_ies(bytes).map(Answer::Luminaire),
             Self::Ldt => read_ldt(bytes).map(Answer::Luminaire),
             Self::Tm33 => read_tm33(bytes).map(Answer::Luminaire),
-            Self::Bsdf => read_bsdf(bytes).map(Answer::Surface),
+            Self::Bsdf => read_bsdf_named(surface::name(bytes), bytes).map(Answer::Surface),
         }
     }
 

@@ -71,9 +71,18 @@ pub(crate) fn samples() -> Vec<Vec<u8>> {
     files
 }
 
-/// Samples, densities and shares are numbers that fit each other.
+/// The name to read a file by: the content of DDR and DDT files does not tell which it is.
+pub(crate) fn name(bytes: &[u8]) -> &'static str {
+    if bytes.len().is_multiple_of(2) { "surface.ddr" } else { "surface.ddt" }
+}
+
+/// Samples, densities and shares are numbers that fit each other, also of the tables that paths draw from: those with both directions
+/// exchanged.
 pub(crate) fn check(bsdf: &MeasuredBsdf, random: &mut Random) {
-    for (side, way, distribution) in bsdf.distributions() {
+    let exchanged = bsdf
+        .distributions()
+        .filter_map(|(side, way, _)| Some((side, way, bsdf.exchanged(side, way)?)));
+    for (side, way, distribution) in bsdf.distributions().chain(exchanged) {
         let place = format!("{} {}", way.name(), side.name());
         let mut uniform = || random.uniform();
         let angles = Angles { theta_rad: 1.5 * uniform(), phi_rad: 6.0 * uniform() };

@@ -44,7 +44,8 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
         header.psi_rad[..header.planes()].to_vec(),
         header.specular_rad.clone(),
         lobes,
-    )?;
+    )?
+    .following_the_mirror();
     let error = error(&table, header, blocks, &factors);
     Some((table, error))
 }

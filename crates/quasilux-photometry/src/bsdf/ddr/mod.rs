@@ -4,6 +4,7 @@
 
 mod header;
 mod lobes;
+mod oddities;
 
 use super::defects::warn_of_defects;
 use super::pieces::{self, Pieces, Style};
@@ -46,6 +47,7 @@ pub fn read_ddr(bytes: &[u8], way: Way) -> Result<ReadBsdf, ReadError> {
     let expected =
         format!("spherical angles (resampled; off by {:.2} % in the mean{between})", 100.0 * error);
     warnings.push(Deviation::Resampled, header.at, found, expected);
+    oddities::warn(&header, &mut warnings);
 
     let facts = BsdfFacts {
         format: BsdfFormat::Ddr,

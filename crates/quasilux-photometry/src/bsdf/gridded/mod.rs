@@ -49,7 +49,7 @@ pub struct GriddedTable {
     specular_rad: Vec<f64>,
     /// The same as directions.
     mirrors: Vec<Mirror>,
-    /// How lobes move between each polar angle and the next.
+    /// How lobes move between each polar angle and the next; of one polar angle alone, how its lobes move, if they do.
     motions: Vec<Motion>,
     /// All polar angles of the first azimuth, then of the next.
     lobes: Vec<Lobe>,
@@ -79,6 +79,16 @@ impl GriddedTable {
         let motions = (1..table.theta_rad.len()).map(|above| table.motion([above - 1, above]));
         table.motions = motions.collect();
         Some(table)
+    }
+
+    /// The same table, whose lobes follow the mirror direction also where there is but one incident polar angle, with no neighbour to
+    /// tell: those of files that count angles from there. They keep their light, and their width in the plane of incidence.
+    #[must_use]
+    pub(super) fn following_the_mirror(mut self) -> Self {
+        if self.theta_rad.len() == 1 {
+            self.motions = vec![Motion::Square];
+        }
+        self
     }
 
     /// How lobes had better move between two incident polar angles.
@@ -192,7 +202,9 @@ impl GriddedTable {
         let off_rad = theta_rad - self.theta_rad[low];
         let motion = motion.copied().filter(|_| off_rad != 0.0).unwrap_or(Motion::Still);
         let mirror = Mirror::new((self.specular_rad[low] + off_rad).max(0.0));
-        (motion, mirror.near(self.mirrors[low]))
+        // From one incidence alone lobes go all the way.
+        let is_alone = self.theta_rad.len() == 1;
+        (motion, if is_alone { mirror } else { mirror.near(self.mirrors[low]) })
     }
 }
 

@@ -18,6 +18,13 @@ impl TreeBuilder {
         Self { incident_axes, nodes: vec![Node::default()], height: 0 }
     }
 
+    /// The same with room for so many nodes, and no more.
+    fn with_room(incident_axes: usize, nodes: usize) -> Self {
+        let mut builder = Self::new(incident_axes);
+        builder.nodes.reserve_exact(nodes);
+        builder
+    }
+
     /// Axes of the tree.
     pub(in crate::bsdf) fn axes(&self) -> usize {
         self.incident_axes + 2
@@ -46,6 +53,15 @@ impl TreeBuilder {
         values: &[f64],
         log_side: usize,
     ) -> Option<()> {
+        // All boxes of all sizes: less than twice the values.
+        let (mut boxes, mut nodes) = (values.len(), 0_usize);
+        while boxes > 1 {
+            nodes += boxes;
+            boxes >>= self.axes();
+        }
+        if nodes > 2 * self.nodes.capacity() {
+            self.nodes.reserve_exact(nodes);
+        }
         self.part(node, level, Part { values, log_side, log_size: log_side, start: 0 })
     }
 
@@ -96,7 +112,7 @@ impl TensorTree {
         if self.is_isotropic() {
             return None;
         }
-        let mut builder = TreeBuilder::new(self.incident_axes);
+        let mut builder = TreeBuilder::with_room(self.incident_axes, self.nodes.len());
         self.reverse_into(&mut builder, [0, 0], 0)?;
         builder.finish()
     }

@@ -44,7 +44,7 @@ pub(super) fn select<'e, 't>(
     warnings: &mut Warnings,
 ) -> Result<Vec<Block<'e, 't>>, ReadError> {
     let data: Vec<(Spectrum, &Element<'_>)> =
-        layer.all("WavelengthData").map(|data| (Spectrum::of(data), data)).collect();
+        of_one_layer(layer, warnings).into_iter().map(|data| (Spectrum::of(data), data)).collect();
     let of_spectrum = |wanted: Spectrum| data.iter().find(|(spectrum, _)| *spectrum == wanted);
     if let Some((_, colour)) = of_spectrum(Spectrum::Colour) {
         let expected = "Visible alone (the colour is left out)";
@@ -78,6 +78,41 @@ pub(super) fn select<'e, 't>(
         }
     }
     if blocks.is_empty() { Err(no_data(layer, &data)) } else { Ok(blocks) }
+}
+
+/// The data of the system, or of the first layer that has any.
+fn of_one_layer<'e, 't>(layer: &'e Element<'t>, warnings: &mut Warnings) -> Vec<&'e Element<'t>> {
+    let number =
+        |data: &&'e Element<'t>| data.child("LayerNumber").map_or("", |number| number.text());
+    let is_system = |data: &&'e Element<'t>| number(data).eq_ignore_ascii_case("System");
+    let mut data: Vec<&'e Element<'t>> = layer.all("WavelengthData").collect();
+    let Some(read) = data.iter().find(|data| is_system(data)).or(data.first()).map(number) else {
+        return data;
+    };
+    let is_read = |data: &&'e Element<'t>| number(data).eq_ignore_ascii_case(read);
+    if let Some(other) = data.iter().find(|data| !is_read(data)) {
+        let found = format!("LayerNumber {}", quoted(number(other)));
+        let expected = format!("{} alone (the data of other layers are left out)", quoted(read));
+        warnings.push(Deviation::LayersLeftOut, other.at, found, expected);
+    }
+    data.retain(is_read);
+    data
+}
+
+/// Tells where light that arrives on a side can pass, but no reflection is known. An opaque sample measured from one side lacks
+/// nothing.
+pub(super) fn warn_of_missing_reflection(blocks: &[Block<'_, '_>], warnings: &mut Warnings) {
+    let Some(passing) = blocks.iter().find(|block| block.way == Way::Transmission) else {
+        return;
+    };
+    for side in Side::ALL {
+        let is_given = |block: &Block<'_, '_>| block.side == side && block.way == Way::Reflection;
+        if !blocks.iter().any(is_given) {
+            let found = format!("no Reflection {}", side.name());
+            let expected = "the reflection of both sides (nothing is reflected)";
+            warnings.push(Deviation::MissingReflection, passing.element.at, found, expected);
+        }
+    }
 }
 
 /// `Transmission Front` and the like; others are left out.

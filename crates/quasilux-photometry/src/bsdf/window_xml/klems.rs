@@ -7,9 +7,13 @@ use crate::bsdf::{AngleBasis, KlemsTable};
 use crate::report::{Warnings, quoted};
 use crate::xml::Element;
 use crate::{Deviation, ReadError};
+use std::f64::consts::FRAC_PI_2;
 
 /// Bands of one basis, and bases of one file: far above what any file has.
 const MOST_BANDS: usize = 256;
+
+/// A basis may end so far from the horizon by rounding.
+const ROUNDING_RAD: f64 = 1e-4;
 
 /// The bases that the file defines.
 pub(super) fn bases(layer: &Element<'_>) -> Result<Vec<AngleBasis>, ReadError> {
@@ -62,6 +66,18 @@ pub(super) fn read(
 ) -> Result<KlemsTable, ReadError> {
     let incident = basis_of(block, "ColumnAngleBasis", bases)?;
     let exit = basis_of(block, "RowAngleBasis", bases)?;
+    for basis in [&incident, &exit] {
+        let last_rad = basis.bands().last().map_or(0.0, |band| band.upper_rad);
+        if last_rad < FRAC_PI_2 - ROUNDING_RAD {
+            let found = format!(
+                "the basis {} that ends {:.1} degrees from the normal",
+                quoted(basis.name()),
+                last_rad.to_degrees()
+            );
+            let expected = "bands to 90 degrees (light beyond is neither taken nor sent)";
+            warnings.push(Deviation::BasisEndsEarly, block.element.at, found, expected);
+        }
+    }
     let Some(data) = block.element.child("ScatteringData") else {
         let found = "no element ScatteringData";
         return Err(ReadError::new(block.element.at, found, "the values of the block"));

@@ -54,6 +54,7 @@ pub fn read_bsdf_xml(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
         bsdf.set(block.side, block.way, distribution);
     }
     reciprocity::fill_transmission(&mut bsdf, &blocks, &mut warnings);
+    block::warn_of_missing_reflection(&blocks, &mut warnings);
     defects::warn_of_defects(&bsdf, blocks[0].element.at, &mut warnings);
     Ok(ReadBsdf { bsdf, warnings: warnings.into_vec() })
 }
@@ -148,10 +149,11 @@ fn thickness_m(element: &Element<'_>, warnings: &mut Warnings) -> Option<f64> {
     let metres = units.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(unit));
     let number = number_of(element);
     match (metres, number) {
-        (Some((_, metres)), Ok(number)) => Some(metres * number.value),
+        (Some((_, metres)), Ok(number)) if number.value >= 0.0 => Some(metres * number.value),
         _ => {
             let found = format!("a thickness of {} {}", quoted(element.text()), quoted(unit));
-            let expected = "a number in meter, centimeter, millimeter, inch or foot (left out)";
+            let expected =
+                "a number from 0 on, in meter, centimeter, millimeter, inch or foot (left out)";
             warnings.push(Deviation::UnknownThickness, element.at, found, expected);
             None
         }

@@ -191,3 +191,85 @@ fn what_is_no_ddr_file_is_refused_with_its_place() {
         assert!(error.expected().contains(expected), "{text:?}: {error}");
     }
 }
+
+const NARROW: &str = "TypeSym AxiSymmetrical\nTypeColorModel BW\nsigma 1 0\nphi 1 0\n\
+    theta 8 0 2 4 6 8 10 20 90\nbw kbdf 1 def\n40 35 21 10 3 0.8 0.05 0.05\nenddef\n";
+
+/// Angles count from the mirror direction: light from elsewhere has its peak there, and the same light in all.
+#[test]
+fn a_lobe_of_one_incidence_follows_the_mirror_direction() {
+    for way in Way::ALL {
+        let read = read_ddr(NARROW.as_bytes(), way).unwrap();
+        let table = read.bsdf.scattering(Side::Front, way).unwrap();
+        let along_normal = table.albedo(DVec3::Z)[0];
+        for theta_deg in [10.0, 45.0, 60.0] {
+            let wi = direction(theta_deg, 0.0);
+            let at = |i: i32| table.evaluate(wi, direction(0.1 * f64::from(i), 180.0))[0];
+            let peak = (-899..900).max_by(|&a, &b| at(a).total_cmp(&at(b))).unwrap();
+            // The cosine in what is moved shifts the peak by less than the lobe's width.
+            assert!((0.1 * f64::from(peak) - theta_deg).abs() < 3.0, "{peak} for {theta_deg}");
+            let off = table.albedo(wi)[0] / along_normal - 1.0;
+            assert!(off.abs() < 1e-9, "{off} at {theta_deg}");
+        }
+        let last = read.warnings.iter().find(|w| w.deviation() == Deviation::OneIncidence);
+        assert!(last.unwrap().found().contains("one incident polar angle, 0.0 degrees"));
+    }
+}
+
+#[test]
+fn what_angles_leave_open_is_told() {
+    let file = |symmetry: &str, head: &str, values: usize| {
+        let values = "1 ".repeat(values);
+        format!("TypeSym {symmetry}\nTypeColorModel BW\n{head}\nbw def {values} enddef")
+    };
+    let half = "sigma 2 0 40 phi 5 0 45 90 135 180 theta 2 0 180";
+    let turn = "sigma 2 0 40 phi 9 0 45 90 135 180 225 270 315 360 theta 2 0 180";
+    for (text, deviation, words) in [
+        (file("PlaneSymmetrical", half, 20), None, ""),
+        (file("ASymmetrical", turn, 36), None, ""),
+        (file("AxiSymmetrical", "sigma 2 0 40 phi 1 0 theta 2 0 180", 4), None, ""),
+        (
+            file("PlaneSymmetrical", "sigma 2 0 40 phi 3 0 45 90 theta 2 0 180", 12),
+            Some(Deviation::AzimuthGap),
+            "phi that leave a gap of 180 degrees",
+        ),
+        (
+            file("ASymmetrical", "sigma 2 0 40 phi 2 0 180 theta 2 0 180", 8),
+            Some(Deviation::AzimuthGap),
+            "phi that leave a gap of 180 degrees",
+        ),
+        (
+            file("PlaneSymmetrical", &format!("psi 3 0 90 180 {half}"), 60),
+            Some(Deviation::AzimuthGap),
+            "incident azimuths that leave a gap of 180 degrees",
+        ),
+        (
+            file("PlaneSymmetrical", &half.replace("theta 2 0", "theta 2 5"), 20),
+            Some(Deviation::SpecularMissing),
+            "theta from 5.0 degrees on",
+        ),
+    ] {
+        let read = read_ddr(text.as_bytes(), Way::Reflection).unwrap();
+        let odd = [Deviation::AzimuthGap, Deviation::SpecularMissing, Deviation::OneIncidence];
+        let found = read.warnings.iter().find(|w| odd.contains(&w.deviation()));
+        assert_eq!(found.map(|w| w.deviation()), deviation, "{text}");
+        assert!(found.is_none_or(|w| w.found().contains(words)), "{found:?}");
+    }
+}
+
+/// Pages of comments before the head.
+#[test]
+fn a_long_foreword_of_comments_is_skipped() {
+    let text = ";; measured somewhere, by somebody\n".repeat(1000) + NARROW;
+    let read = read_bsdf_named("long.ddr", text.as_bytes()).unwrap();
+    assert_eq!(read.bsdf.facts().format, BsdfFormat::Ddr);
+}
+
+#[test]
+fn a_name_that_does_not_tell_the_way_is_told() {
+    for (name, is_told) in [("a.ddr", false), ("a.DDT", false), ("stdin", true), ("", true)] {
+        let read = read_bsdf_named(name, NARROW.as_bytes()).unwrap();
+        let warning = read.warnings.iter().find(|w| w.deviation() == Deviation::UnknownWay);
+        assert_eq!(warning.is_some(), is_told, "{name}");
+    }
+}

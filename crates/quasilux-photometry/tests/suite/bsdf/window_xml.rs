@@ -216,6 +216,7 @@ fn what_is_odd_is_told() {
             Deviation::TrailingValues,
         ),
         (file("Columns", &matrix("Reflection Front", &negative)), Deviation::NegativeScattering),
+        (plain.replace(">2</Thick", ">-2</Thick"), Deviation::UnknownThickness),
         (file("Columns", &matrix("Reflection Front", &ones)), Deviation::EnergyNotConserved),
     ];
     for (text, deviation) in cases {
@@ -268,4 +269,53 @@ fn tables_are_checked() {
     assert!(KlemsTable::new(basis(), basis(), vec![1.0; 3]).is_none());
     assert!(KlemsTable::new(basis(), basis(), vec![1.0, f64::NAN, 1.0, 1.0]).is_none());
     assert!(KlemsTable::new(basis(), basis(), vec![1.0, -1.0, 1.0, 1.0]).is_none());
+}
+
+fn messages(read: &ReadBsdf, deviation: Deviation) -> Vec<String> {
+    let meant = read.warnings.iter().filter(|warning| warning.deviation() == deviation);
+    meant.map(|warning| warning.message()).collect()
+}
+
+/// Data of the system count, not those of a layer behind them.
+#[test]
+fn layers_of_a_system_are_left_out() {
+    let of_layer = |number: &str, values: &str| {
+        let data = matrix("Reflection Front", values);
+        data.replace("<Wavelength>", &format!("<LayerNumber>{number}</LayerNumber><Wavelength>"))
+    };
+    let (system, layer) = (of_layer("System", &places()), of_layer("1", &"0.2 ".repeat(25)));
+    for both in [system.clone() + &layer, layer.clone() + &system] {
+        let read = read(&file("Columns", &both));
+        let front = scattering(&read, Side::Front, Way::Reflection);
+        assert_eq!(front.evaluate(DVec3::Z, DVec3::Z)[0], 0.11);
+        let found = messages(&read, Deviation::LayersLeftOut);
+        assert!(found.len() == 1 && found[0].starts_with("found LayerNumber \"1\""), "{found:?}");
+        assert!(messages(&read, Deviation::RepeatedBlock).is_empty());
+    }
+    assert!(messages(&read(&file("Columns", &layer)), Deviation::LayersLeftOut).is_empty());
+}
+
+/// Something passes, so the sheet has two sides; an opaque sample lacks nothing.
+#[test]
+fn a_missing_reflection_is_told() {
+    let [reflected, passed] =
+        ["Reflection Front", "Transmission Front"].map(|direction| matrix(direction, &places()));
+    let opaque = read(&file("Columns", &reflected));
+    assert!(messages(&opaque, Deviation::MissingReflection).is_empty());
+    let found =
+        messages(&read(&file("Columns", &(reflected + &passed))), Deviation::MissingReflection);
+    assert!(found.len() == 1 && found[0].starts_with("found no Reflection back;"), "{found:?}");
+    let found = messages(&read(&file("Columns", &passed)), Deviation::MissingReflection);
+    assert!(
+        found[0].starts_with("found no Reflection front;") && found[0].ends_with("(and 1 more)")
+    );
+}
+
+#[test]
+fn a_basis_that_ends_early_is_told() {
+    let whole = file("Columns", &matrix("Reflection Front", &places()));
+    assert!(messages(&read(&whole), Deviation::BasisEndsEarly).is_empty());
+    let cut = read(&whole.replace("<UpperTheta>90", "<UpperTheta>80"));
+    let found = messages(&cut, Deviation::BasisEndsEarly);
+    assert!(found[0].starts_with("found the basis \"five\" that ends 80.0 degrees"), "{found:?}");
 }
