@@ -119,7 +119,7 @@ impl Distribution {
     }
 
     /// The incident directions that the table is stored for: centres of cells or knots of a grid, along the
-    /// half-plane of positive `x` where the table is isotropic. Trees finer than 32 cells a side are shown at that
+    /// half-plane of positive `x` where a grid or a tree is isotropic. Trees finer than 32 cells a side are shown at that
     /// resolution.
     #[must_use]
     pub fn incidences(&self) -> Vec<DVec3> {
@@ -145,7 +145,7 @@ impl Distribution {
     #[must_use]
     pub fn is_isotropic(&self) -> bool {
         match self {
-            Self::Klems(_) => false,
+            Self::Klems(table) => table.is_isotropic(),
             Self::TensorTree(tree) => tree.is_isotropic(),
             Self::ExchangedTree(_) => true,
             Self::Gridded(table) => table.is_isotropic(),

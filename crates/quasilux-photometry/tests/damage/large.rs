@@ -62,7 +62,7 @@ pub(crate) fn surface(structure: &str, basis: &str, of_block: &str, data: &str) 
     .into_bytes()
 }
 
-/// Whole degrees and one digit: 890 incidences, a thousand would be the most, some 13 bytes a line.
+/// Whole degrees and one digit: up to 890 incidences, a thousand would be the most, some 13 bytes a line.
 fn grey_astm(bytes: usize) -> Vec<u8> {
     astm(bytes, 13, "f", "1")
 }
@@ -73,25 +73,19 @@ fn coloured_astm(bytes: usize) -> Vec<u8> {
 }
 
 fn astm(bytes: usize, of_line: usize, columns: &str, f: &str) -> Vec<u8> {
-    let exits = bytes / of_line / 890;
-    let thetas = 46.min(exits / 8);
-    let phis = exits / thetas;
+    let thetas = 46;
+    let of_plane = bytes / of_line / 89 / thetas;
+    // Azimuths of exits in whole degrees.
+    let planes = (of_plane / 90).clamp(1, 10);
+    let phis = (of_plane / planes).clamp(8, 360);
     let mut text = String::with_capacity(bytes + bytes / 8);
     writeln!(text, "VARS theta_i,phi_i,theta_s,phi_s,{columns}").unwrap();
-    for plane in 0..10 {
+    for plane in 0..planes {
         for theta_i in 1..90 {
             for theta_s in 0..thetas {
                 for phi in 0..phis {
-                    // Whole degrees where there are no more than 360.
-                    let phi_s =
-                        if phis > 360 { phi as f64 * 360.0 / phis as f64 } else { phi as f64 };
-                    let phi_s = if phis < 360 { (phi * 360 / phis) as f64 } else { phi_s };
-                    writeln!(
-                        text,
-                        "{theta_i},{plane},{theta_s},{phi_s:.*},{f}",
-                        usize::from(phis > 360)
-                    )
-                    .unwrap();
+                    let phi_s = phi * 360 / phis;
+                    writeln!(text, "{theta_i},{plane},{theta_s},{phi_s},{f}").unwrap();
                 }
             }
         }

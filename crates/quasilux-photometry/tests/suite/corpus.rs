@@ -67,7 +67,10 @@ pub(crate) fn published_files() -> Option<Vec<PathBuf>> {
 pub(crate) fn published_files_of(extension: &str) -> Option<Vec<PathBuf>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(extension);
     let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!("no published .{extension} files at {}: nothing compared", folder.display());
+        let folder = folder.display();
+        crate::missing::tell(&format!(
+            "no published .{extension} files at {folder}: nothing compared"
+        ));
         return None;
     };
     let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));

@@ -54,7 +54,8 @@ fn published_tm33_files_load_or_are_refused_for_a_known_reason() {
 fn published() -> Option<Vec<PathBuf>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ies/tm33");
     let Ok(entries) = std::fs::read_dir(&folder) else {
-        println!("no published TM-33 files at {}: nothing compared", folder.display());
+        let folder = folder.display();
+        crate::missing::tell(&format!("no published TM-33 files at {folder}: nothing compared"));
         return None;
     };
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();

@@ -204,7 +204,10 @@ fn photons_and_paths_agree_on_sheets_that_break_reciprocity() {
 fn photons_and_paths_agree_on_published_sheets() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
     if !folder.exists() {
-        println!("no published surfaces in {}: skipped", folder.display());
+        // Past the test harness, which keeps what passing tests print to itself.
+        use std::io::Write;
+        let line = format!("no published surfaces at {}: nothing compared", folder.display());
+        writeln!(std::io::stderr(), "{line}").expect("a place for messages");
         return;
     }
     for name in ["klems-2011-SA1.xml", "klems-room-blinds.xml", "tt-room-blindsT3.xml"] {

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct BsdfArguments {
-    /// Files of measured surfaces (WINDOW XML, MERL, ASTM E1392, DDR and DDT), told apart by their content; - is
-    /// stdin
+    /// Files of measured surfaces (WINDOW XML, MERL, ASTM E1392, DDR and DDT), told apart by their content, only DDT
+    /// from DDR by the name; - is stdin, where both count as DDR
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
     /// Incident directions to report and draw: degrees from the normal, or from the normal and around it from x

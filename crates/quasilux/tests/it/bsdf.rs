@@ -75,6 +75,12 @@ fn a_document_has_all_incidences() {
         assert!((number(incidence, "/share") - 0.2).abs() < 1e-9, "{incidence}");
     }
     assert!((number(surface, "/energy/0/normal_reflectance") - 0.4).abs() < 1e-9);
+    let asked = ["--json", "sheet.xml", "--incidence", "45,90"];
+    let document = parsed(&bsdf(&folder, &asked, 0).stdout);
+    let light = &document["files"][0]["surface"]["energy"][1]["incidences"][0];
+    assert_eq!([number(light, "/theta_deg"), number(light, "/phi_deg")], [45.0, 90.0]);
+    assert!((number(light, "/reflectance") - 0.4).abs() < 1e-9, "{light}");
+    assert!((number(light, "/transmittance") - 0.2).abs() < 1e-9, "{light}");
     assert!(number(surface, "/reciprocity/2/mean_defect") < 1e-9);
 }
 
@@ -128,7 +134,14 @@ fn a_project_uses_the_table() {
     assert!(formula > 1.0 && a + b < 0.05 * formula, "{table} {a}, {formula} {b}");
     assert!((table - formula).abs() < a + b, "{table} {a}, {formula} {b}");
 
-    folder.write("turned.toml", project("kind = \"bsdf\"\nfile = \"sheet.xml\""));
+    // No azimuth matters: without "up" the sheet is the same.
+    folder.write("any.toml", project("kind = \"bsdf\"\nfile = \"sheet.xml\""));
+    let [any, c] = lux("any.toml");
+    assert!((any - formula).abs() < c + b, "{any} {c}, {formula} {b}");
+
+    let uneven = sheet().replacen(",\n", ",\n0.9", 1);
+    folder.write("uneven.xml", uneven);
+    folder.write("turned.toml", project("kind = \"bsdf\"\nfile = \"uneven.xml\""));
     let run = folder.quasilux(&["run", "turned.toml"]);
     assert_eq!(run.code, Some(2));
     assert!(

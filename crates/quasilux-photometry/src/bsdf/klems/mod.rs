@@ -23,6 +23,8 @@ pub struct KlemsTable {
     values: Vec<f64>,
     /// The sums of f W before each exit patch, and of all, for each incident patch.
     share_before: Vec<f64>,
+    /// Whether f is the same in all patches of a band, of incidence and of exit.
+    is_isotropic: bool,
 }
 
 impl KlemsTable {
@@ -47,7 +49,13 @@ impl KlemsTable {
                 }
             }
         }
-        Some(Self { incident, exit, values, share_before })
+        let is_isotropic = is_isotropic(&incident, &exit, &values);
+        Some(Self { incident, exit, values, share_before, is_isotropic })
+    }
+
+    /// Whether f does not depend on azimuths at all. Patches are too coarse for any other table to be the same however it is turned.
+    pub(super) fn is_isotropic(&self) -> bool {
+        self.is_isotropic
     }
 
     /// The patches of incident directions.
@@ -175,6 +183,20 @@ impl KlemsTable {
         let columns = self.exit.patches() + 1;
         &self.share_before[row * columns..(row + 1) * columns]
     }
+}
+
+fn is_isotropic(incident: &AngleBasis, exit: &AngleBasis, values: &[f64]) -> bool {
+    let columns = exit.patches();
+    incident.bands().iter().all(|band_in| {
+        let first = &values[band_in.first * columns..][..columns];
+        let has_even_bands = exit.bands().iter().all(|band| {
+            let of_band = &first[band.first..band.first + band.patches];
+            of_band.iter().all(|value| *value == of_band[0])
+        });
+        let mut rows =
+            values[band_in.first * columns..].chunks_exact(columns).take(band_in.patches);
+        has_even_bands && rows.all(|row| row == first)
+    })
 }
 
 /// Not too near to the edges of a patch.

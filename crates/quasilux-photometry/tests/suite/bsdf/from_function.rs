@@ -48,15 +48,16 @@ fn lambert_is_itself_in_any_table() {
     }
 }
 
-/// f is constant in boxes: its mean difference is of first order in their width. Between lobes it is of second.
+/// f is constant in boxes: its mean difference is of first order in their width. Between lobes it is of second order in the gap between
+/// incidences, as long as that is much wider than the gaps between exits, which are 2.5 degrees at most and stay so.
 #[test]
 fn tables_approach_the_function_at_the_expected_order() {
     type Maker = Box<dyn Fn(u32) -> Distribution>;
     let makers: [(&str, f64, Maker); 4] = [
-        ("Klems", 0.8, Box::new(|level| klems(rough, 4 << level))),
-        ("rank 3", 0.7, Box::new(|level| tree(rough, true, 3 + level as usize))),
-        ("rank 4", 0.7, Box::new(|level| tree(rough, false, 2 + level as usize))),
-        ("lobes", 0.8, Box::new(|level| lobes(rough, 9 << level))),
+        ("Klems", 0.9, Box::new(|level| klems(rough, 4 << level))),
+        ("rank 3", 0.9, Box::new(|level| tree(rough, true, 3 + level as usize))),
+        ("rank 4", 0.9, Box::new(|level| tree(rough, false, 2 + level as usize))),
+        ("lobes", 1.6, Box::new(|level| lobes(rough, 5 << level))),
     ];
     for (name, least, maker) in makers {
         let offs = [0, 1, 2].map(|level| mean_difference(rough, &maker(level)));

@@ -20,7 +20,8 @@ use std::path::{Path, PathBuf};
 fn folder() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
     if !folder.is_dir() {
-        println!("no published surfaces at {}: nothing compared", folder.display());
+        let folder = folder.display();
+        crate::missing::tell(&format!("no published surfaces at {folder}: nothing compared"));
         return None;
     }
     Some(folder)

@@ -319,3 +319,20 @@ fn a_basis_that_ends_early_is_told() {
     let found = messages(&cut, Deviation::BasisEndsEarly);
     assert!(found[0].starts_with("found the basis \"five\" that ends 80.0 degrees"), "{found:?}");
 }
+
+/// The same in all patches of a band, whatever differs between bands: such a sheet may be turned.
+#[test]
+fn a_matrix_without_azimuths_is_isotropic() {
+    // Incident patches are columns: the cap, then a band of four; so are exit patches in rows.
+    let row = |cap: f64, band: f64| format!("{cap} {band} {band} {band} {band}\n");
+    let even = row(0.1, 0.2) + &row(0.3, 0.4).repeat(4);
+    for (values, expected) in [
+        (even.clone(), true),
+        (row(0.1, 0.2) + &row(0.3, 0.4).repeat(3) + &row(0.3, 0.5), false),
+        (even.replacen("0.2\n", "0.25\n", 1), false),
+        (places(), false),
+    ] {
+        let read = read(&file("Columns", &matrix("Reflection Front", &values)));
+        assert_eq!(read.bsdf.is_isotropic(), expected, "{values}");
+    }
+}

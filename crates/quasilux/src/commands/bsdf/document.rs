@@ -6,6 +6,7 @@
 //! the x axis towards y, up.
 
 use super::input::{Input, Surface};
+use super::summary::share;
 use crate::arguments::Incidence;
 use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
 use quasilux_measure::json;
@@ -16,8 +17,9 @@ use serde::Serialize;
 const FORMAT: &str = "quasilux-bsdf/1";
 
 /// The document, ending in a line feed.
-pub(super) fn document(inputs: &[Input]) -> String {
-    json::text(&Document { format: FORMAT, files: inputs.iter().map(FileEntry::of).collect() })
+pub(super) fn document(inputs: &[Input], incidences: &[Incidence]) -> String {
+    let files = inputs.iter().map(|input| FileEntry::of(input, incidences)).collect();
+    json::text(&Document { format: FORMAT, files })
 }
 
 #[derive(Serialize)]
@@ -67,12 +69,23 @@ struct IncidenceEntry {
 #[derive(Serialize)]
 struct EnergyEntry {
     side: &'static str,
+    /// Those that `--incidence` asks for.
+    incidences: Vec<LightEntry>,
     normal_reflectance: f64,
     normal_transmittance: f64,
     diffuse_reflectance: f64,
     diffuse_transmittance: f64,
     most_scattered: f64,
     most_scattered_at_deg: [f64; 2],
+}
+
+/// Light from one direction.
+#[derive(Serialize)]
+struct LightEntry {
+    theta_deg: f64,
+    phi_deg: f64,
+    reflectance: f64,
+    transmittance: f64,
 }
 
 #[derive(Serialize)]
@@ -84,24 +97,26 @@ struct ReciprocityEntry {
 }
 
 impl<'a> FileEntry<'a> {
-    fn of(input: &'a Input) -> Self {
+    fn of(input: &'a Input, incidences: &[Incidence]) -> Self {
         let surface = input.surface.as_ref();
         let warnings = surface.map_or(&[][..], |surface| &surface.warnings);
         Self {
             file: &input.name,
             error: surface.err().map(Failure::entry),
-            surface: surface.ok().map(SurfaceEntry::of),
+            surface: surface.ok().map(|surface| SurfaceEntry::of(surface, incidences)),
             warnings: warnings.iter().map(WarningEntry::of).collect(),
         }
     }
 }
 
 impl<'a> SurfaceEntry<'a> {
-    fn of(Surface { bsdf, .. }: &'a Surface) -> Self {
+    fn of(surface: &'a Surface, incidences: &[Incidence]) -> Self {
+        let bsdf = &surface.bsdf;
         let analysis = bsdf.analysis();
         let facts = bsdf.facts();
         let table =
             |(side, way, table): (Side, Way, &Distribution)| TableEntry::of(side, way, table);
+        let energy = |balance: &EnergyBalance| EnergyEntry::of(balance, surface, incidences);
         Self {
             format: facts.format.name(),
             name: &facts.name,
@@ -110,7 +125,7 @@ impl<'a> SurfaceEntry<'a> {
             is_isotropic: bsdf.is_isotropic(),
             is_coloured: bsdf.is_coloured(),
             tables: bsdf.distributions().map(table).collect(),
-            energy: analysis.energy.iter().map(EnergyEntry::of).collect(),
+            energy: analysis.energy.iter().map(energy).collect(),
             reciprocity: analysis.reciprocity.iter().map(ReciprocityEntry::of).collect(),
         }
     }
@@ -132,9 +147,16 @@ impl TableEntry {
 }
 
 impl EnergyEntry {
-    fn of(balance: &EnergyBalance) -> Self {
+    fn of(balance: &EnergyBalance, surface: &Surface, incidences: &[Incidence]) -> Self {
+        let light = |&incidence: &Incidence| {
+            let [theta_deg, phi_deg] = incidence.degrees();
+            let [reflectance, transmittance] =
+                Way::ALL.map(|way| share(surface, balance.side, way, incidence));
+            LightEntry { theta_deg, phi_deg, reflectance, transmittance }
+        };
         Self {
             side: balance.side.name(),
+            incidences: incidences.iter().map(light).collect(),
             normal_reflectance: balance.normal[0],
             normal_transmittance: balance.normal[1],
             diffuse_reflectance: balance.diffuse[0],

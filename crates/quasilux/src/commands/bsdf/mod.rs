@@ -29,7 +29,7 @@ pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, Refusal> {
     }
     let incidences = &arguments.incidences;
     if arguments.json {
-        print(&document::document(&inputs))?;
+        print(&document::document(&inputs, incidences))?;
     } else {
         let summary = |(input, surface)| summary::summary(input, surface, incidences);
         print(&read(&inputs).map(summary).collect::<Vec<String>>().join("\n"))?;
