@@ -21,7 +21,7 @@ pub const fn most_read_memory_bytes(file_bytes: usize) -> usize {
 const BYTES_OF_GRIDS: usize = 128 << 20;
 
 /// Bytes of readers of measured surfaces for each byte of a file. The greediest known take 45: XML of empty elements.
-const BYTES_PER_BYTE_OF_SURFACES: usize = 56;
+const BYTES_PER_BYTE_OF_SURFACES: usize = 48;
 
 /// The same for readers of measured surfaces: they may resample values to finer grids.
 ///

@@ -84,7 +84,8 @@ pub(super) fn read(
     };
     let expected = incident.patches().saturating_mul(exit.patches());
     let mut pieces = Pieces::new(data.text(), data.text_at, Style::Plain);
-    let mut values = Vec::new();
+    // A value takes two bytes at least.
+    let mut values = Vec::with_capacity(expected.min(data.text().len() / 2 + 1));
     for piece in pieces.by_ref().take(expected) {
         values.push(pieces::value(piece, warnings)?);
     }
