@@ -182,7 +182,7 @@ pub enum Deviation {
     /// Surfaces: transmission is given from one side only. That from the other side is taken from it by
     /// reciprocity.
     ByReciprocity,
-    /// Surfaces: transmission is given from one side only, in a table that cannot be turned round.
+    /// Surfaces: transmission is given from one side only, in a table that is not turned round.
     /// Nothing passes from the other side.
     OneWayTransmission,
     /// Surfaces: values are given in angles that samples cannot be drawn in. They are resampled; the warning says how
@@ -196,7 +196,7 @@ pub enum Deviation {
     RepeatedDirection,
     /// ASTM E1392: a colour is more saturated than BT.709 can be. It is made less so, its luminance is kept.
     OutOfGamut,
-    /// Surfaces: measured azimuths leave a gap wider than 45 degrees. Values are interpolated across it.
+    /// Surfaces: measured azimuths leave a gap wider than 90 degrees, exits of ASTM E1392 one wider than 45. Values are interpolated across it.
     AzimuthGap,
     /// Surfaces: light was measured from one polar angle alone. What comes from elsewhere is scattered like it.
     OneIncidence,

@@ -1,6 +1,6 @@
 //! Warnings of tables that break energy conservation or reciprocity.
 
-use super::{MeasuredBsdf, Reciprocity};
+use super::{MeasuredBsdf, Reciprocity, Side, Way};
 use crate::Deviation;
 use crate::report::{Position, Warnings};
 
@@ -9,6 +9,15 @@ const ENERGY_TOLERANCE: f64 = 1e-3;
 
 /// Mean relative differences below need no word.
 const RECIPROCITY_TOLERANCE: f64 = 0.01;
+
+/// Says that what was measured from the front alone lets light through from there alone.
+pub(super) fn warn_of_one_way(bsdf: &MeasuredBsdf, at: Position, warnings: &mut Warnings) {
+    let passes = |side| bsdf.scattering(side, Way::Transmission).is_some();
+    if passes(Side::Front) && !passes(Side::Back) {
+        let expected = "both sides (nothing passes from the back)";
+        warnings.push(Deviation::OneWayTransmission, at, "transmission of the front", expected);
+    }
+}
 
 /// Says by how much tables break energy conservation and reciprocity.
 pub(super) fn warn_of_defects(bsdf: &MeasuredBsdf, at: Position, warnings: &mut Warnings) {

@@ -3,7 +3,8 @@
 //! Between azimuths values are interpolated. How much scattered light leaves the plane of incidence shows a quarter turn away from that
 //! plane: over wider gaps nothing tells, and a narrow lobe would be smeared over all of it. Of an isotropic surface, whose lobes are
 //! mirrored in the plane of incidence, harmonics up to the second are told apart by azimuths a quarter turn apart; an eighth of a turn
-//! leaves room for what a smooth lobe has besides.
+//! leaves room for what a smooth lobe has besides. Azimuths *about* the mirror direction smear no lobe, however wide: a quarter turn is narrow
+//! enough there, and between azimuths of incidence.
 
 use crate::Deviation;
 use crate::report::{Position, Warnings};
@@ -55,10 +56,14 @@ pub(super) fn mirrored(azimuths_rad: &[f64]) -> f64 {
     between(azimuths_rad).max(at_ends)
 }
 
+/// Warns of an open gap between azimuths of incidence.
 pub(super) fn warn_of_incidence(gap_rad: f64, at: Position, warnings: &mut Warnings) {
+    if judge(gap_rad) != Gap::Open {
+        return;
+    }
     let degrees = gap_rad.to_degrees();
     let found = format!("incident azimuths that leave a gap of {degrees:.0} degrees");
-    let expected = "gaps of 45 degrees at most (lobes are mixed across it)";
+    let expected = "gaps of 90 degrees at most (lobes are mixed across it)";
     warnings.push(Deviation::AzimuthGap, at, found, expected);
 }
 

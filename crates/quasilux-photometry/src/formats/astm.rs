@@ -31,10 +31,10 @@
 //! | [`AnglesInDegrees`] | all angles are read as degrees | `9:1: found a polar angle of 80; expected radians, pi at most (all angles are read as degrees)` |
 //! | [`RepeatedDirection`] | the first one is read; equal values, such as those at 0 and 360 degrees, need no word | `30:1: found other values for the directions of line 12; expected each pair of directions once (the first one is read)` |
 //! | [`OutOfGamut`] | goes towards white until no channel is below 0; Y stays | `9:1: found X 0.016, Y 0.08, Z 0.006; expected a colour of BT.709 (made less saturated, its luminance is kept)` |
-//! | [`AzimuthGap`] | linear across the gap | `9:1: found exit azimuths that leave a gap of 60 degrees; expected gaps of 45 degrees at most (f is linear across it)` |
+//! | [`AzimuthGap`] | linear across the gap; between incident azimuths it is told over 90 degrees | `9:1: found exit azimuths that leave a gap of 60 degrees; expected gaps of 45 degrees at most (f is linear across it)` |
 //! | [`OneIncidence`] | light from elsewhere is scattered as from there | `9:1: found one incident polar angle, 5.0 degrees; expected several (light from elsewhere is scattered as from there)` |
 //!
-//! As in WINDOW files: `NegativeScattering`, `EnergyNotConserved`, `NotReciprocal`; as in LM-63: `Encoding`.
+//! As in WINDOW files: `OneWayTransmission`, `NegativeScattering`, `EnergyNotConserved`, `NotReciprocal`; as in LM-63: `Encoding`.
 //!
 //! [`AnglesInDegrees`]: crate::Deviation::AnglesInDegrees
 //! [`RepeatedDirection`]: crate::Deviation::RepeatedDirection

@@ -31,12 +31,12 @@
 //! | rule | what is made of it | for example |
 //! |---|---|---|
 //! | [`Resampled`] | always: f is taken to a grid about the normal, with knots where those of the file are | `9:1: found values around the specular direction, 37 by 91; expected spherical angles (resampled; off by 0.21 % in the mean at incidences of the file, by about 1.30 % between them)` |
-//! | [`AzimuthGap`] | linear across the gap; `PlaneSymmetrical` goes on beyond its ends as there | `9:1: found azimuths phi that leave a gap of 180 degrees; expected 0 to 180 with gaps of 45 degrees at most (...)` |
+//! | [`AzimuthGap`] | linear across the gap; `PlaneSymmetrical` goes on beyond its ends as there | `9:1: found azimuths phi that leave a gap of 180 degrees; expected 0 to 180 with gaps of 90 degrees at most (...)` |
 //! | [`SpecularMissing`] | f is constant up to the first angle | `9:1: found theta from 5.0 degrees on; expected angles from 0 on, the specular direction (f is as at the first one)` |
 //! | [`OneIncidence`](crate::Deviation::OneIncidence) | the lobe follows the specular direction | `9:1: found one incident polar angle, 0.0 degrees; expected several (the lobe follows the specular direction and keeps its light)` |
 //! | [`UnknownWay`] | reflection, such as from standard input | `1:1: found the name "stdin"; expected a name in .ddr for reflection, or .ddt for transmission (read as reflection)` |
 //!
-//! As in WINDOW files: `NegativeScattering`, `TrailingValues`, `EnergyNotConserved`, `NotReciprocal`; as in LM-63: `Encoding`.
+//! As in WINDOW files: `OneWayTransmission`, `NegativeScattering`, `TrailingValues`, `EnergyNotConserved`, `NotReciprocal`; as in LM-63: `Encoding`.
 //!
 //! [`Resampled`]: crate::Deviation::Resampled
 //! [`AzimuthGap`]: crate::Deviation::AzimuthGap

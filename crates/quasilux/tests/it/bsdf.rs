@@ -139,7 +139,7 @@ fn a_project_uses_the_table() {
     let [any, c] = lux("any.toml");
     assert!((any - formula).abs() < c + b, "{any} {c}, {formula} {b}");
 
-    let uneven = sheet().replacen(",\n", ",\n0.9", 1);
+    let uneven = sheet().replacen(",\n0.", ",\n0.9", 1);
     folder.write("uneven.xml", uneven);
     folder.write("turned.toml", project("kind = \"bsdf\"\nfile = \"uneven.xml\""));
     let run = folder.quasilux(&["run", "turned.toml"]);

@@ -3,7 +3,7 @@
 use super::exits::Exits;
 use super::records::{Beginning, Key, Records, angle, too_many};
 use crate::bsdf::Way;
-use crate::bsdf::gaps::{self, Gap};
+use crate::bsdf::gaps;
 use crate::bsdf::gridded::{GriddedTable, Lobe, MOST_INCIDENCES};
 use crate::report::{Position, Warnings};
 use crate::{Deviation, ReadError};
@@ -122,7 +122,7 @@ impl Incidences {
     fn warn(&self, warnings: &mut Warnings) {
         let azimuths: Vec<f64> = self.planes.iter().map(|&plane| angle(plane)).collect();
         let widest_rad = gaps::around(&azimuths);
-        if self.planes.len() > 1 && gaps::judge(widest_rad) != Gap::Narrow {
+        if self.planes.len() > 1 {
             gaps::warn_of_incidence(widest_rad, self.at, warnings);
         }
         if let [only] = self.thetas[..] {

@@ -8,7 +8,7 @@ mod grid;
 mod lines;
 mod records;
 
-use super::defects::warn_of_defects;
+use super::defects::{warn_of_defects, warn_of_one_way};
 use super::pieces::{Pieces, Style};
 use super::read::{BsdfFormat, ReadBsdf};
 use super::{BsdfFacts, Distribution, GriddedTable, MeasuredBsdf, Side, Way};
@@ -60,6 +60,7 @@ pub fn read_astm(bytes: &[u8]) -> Result<ReadBsdf, ReadError> {
     for (way, table) in tables {
         bsdf.set(Side::Front, way, Distribution::Gridded(table));
     }
+    warn_of_one_way(&bsdf, at, &mut warnings);
     warn_of_defects(&bsdf, at, &mut warnings);
     Ok(ReadBsdf { bsdf, warnings: warnings.into_vec() })
 }

@@ -6,7 +6,7 @@ mod header;
 mod lobes;
 mod oddities;
 
-use super::defects::warn_of_defects;
+use super::defects::{warn_of_defects, warn_of_one_way};
 use super::pieces::{self, Pieces, Style};
 use super::read::{BsdfFormat, ReadBsdf};
 use super::{BsdfFacts, Distribution, MeasuredBsdf, Side, Way};
@@ -57,6 +57,7 @@ pub fn read_ddr(bytes: &[u8], way: Way) -> Result<ReadBsdf, ReadError> {
     };
     let mut bsdf = MeasuredBsdf::new(facts);
     bsdf.set(Side::Front, way, Distribution::Gridded(table));
+    warn_of_one_way(&bsdf, header.at, &mut warnings);
     warn_of_defects(&bsdf, header.at, &mut warnings);
     Ok(ReadBsdf { bsdf, warnings: warnings.into_vec() })
 }

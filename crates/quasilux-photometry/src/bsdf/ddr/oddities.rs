@@ -16,20 +16,20 @@ pub(super) fn warn(header: &Header, warnings: &mut Warnings) {
         SpecularSymmetry::Plane => gaps::mirrored(&header.phi_rad),
         SpecularSymmetry::None => gaps::around(&without_closing(&header.phi_rad)),
     };
-    if gaps::judge(exits_rad) != Gap::Narrow {
+    if gaps::judge(exits_rad) == Gap::Open {
         let degrees = exits_rad.to_degrees();
         let found = format!("azimuths phi that leave a gap of {degrees:.0} degrees");
         let expected = match header.symmetry {
             SpecularSymmetry::Plane => {
-                "0 to 180 with gaps of 45 degrees at most (f is linear \
+                "0 to 180 with gaps of 90 degrees at most (f is linear \
                                         across it, or as at the nearest end)"
             }
-            _ => "gaps of 45 degrees at most (f is linear across it)",
+            _ => "gaps of 90 degrees at most (f is linear across it)",
         };
         warnings.push(Deviation::AzimuthGap, at, found, expected);
     }
     let incident_rad = gaps::around(&header.psi_rad[..header.planes()]);
-    if header.planes() > 1 && gaps::judge(incident_rad) != Gap::Narrow {
+    if header.planes() > 1 {
         gaps::warn_of_incidence(incident_rad, at, warnings);
     }
     let first_rad = header.theta_rad[0];

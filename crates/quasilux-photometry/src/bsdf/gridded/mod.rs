@@ -4,7 +4,8 @@
 //! cos(theta), over exit directions, bilinear in spherical angles. Between incidences g = f cos(theta) is the linear mixture of theirs, two
 //! by polar angle and, where the surface is not isotropic, two by azimuth, each turned about the normal so that its
 //! plane of incidence is that of `wi`. What is above the least value follows the mirror direction where neighbours have more
-//! in common so (`motion.rs`), without loss: the albedo is the mixture of the integrals. The difference from the surface is of second
+//! in common so (`motion.rs`), without loss: the albedo is the mixture of the integrals; and where a file that counts angles from there
+//! has but one incidence. The difference from the surface is of second
 //! order in the gap between incidences; [`GriddedTable::error_between`] estimates it from the table itself.
 //!
 //! Files with lobes measure one side, the front, and count azimuths counterclockwise as seen from there. In the frame of the
