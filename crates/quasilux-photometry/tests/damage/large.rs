@@ -109,7 +109,7 @@ fn ddr(bytes: usize, model: &str, blocks: &[&str]) -> Vec<u8> {
         (0..count).map(|i| format!("{:.5} ", last * i as f64 / (count - 1) as f64)).collect()
     };
     let mut text = String::with_capacity(bytes + bytes / 8);
-    write!(text, "TypeSym PlaneSymmetrical TypeColorModel {model} TypeData Luminance Absolute\n")
+    writeln!(text, "TypeSym PlaneSymmetrical TypeColorModel {model} TypeData Luminance Absolute")
         .unwrap();
     writeln!(text, "sigma {sigmas} {}", list(sigmas, 85.0)).unwrap();
     writeln!(text, "phi {phis} {}", list(phis, 180.0)).unwrap();
