@@ -87,8 +87,8 @@ mod tests {
                 assert!((mirrored(&angles).to_degrees() - half).abs() < 1e-9, "{angles:?}");
             }
         }
-        assert_eq!(judge(FRAC_PI_4 + 1e-6), Gap::Narrow);
-        assert_eq!(judge(FRAC_PI_2 + 1e-5), Gap::Wide);
+        assert_eq!(judge(FRAC_PI_4), Gap::Narrow);
+        assert_eq!(judge(FRAC_PI_2), Gap::Wide);
         assert_eq!(judge(1.6), Gap::Open);
     }
 }

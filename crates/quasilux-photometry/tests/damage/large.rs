@@ -2,8 +2,11 @@
 
 use std::fmt::Write;
 
-/// A file of each kind, of about so many bytes, with its name.
-pub(crate) const KINDS: [(&str, fn(usize) -> Vec<u8>); 7] = [
+/// The name of a file, and what makes one of about so many bytes.
+type Kind = (&'static str, fn(usize) -> Vec<u8>);
+
+/// A file of each kind.
+pub(crate) const KINDS: [Kind; 7] = [
     ("matrix.xml", matrix),
     ("tree.xml", tree),
     ("grey.astm", grey_astm),
@@ -37,7 +40,7 @@ fn matrix(bytes: usize) -> Vec<u8> {
 /// Sixteen grids of rank 4, 11 bytes a value.
 fn tree(bytes: usize) -> Vec<u8> {
     let of_block = "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>";
-    let log_side = (1..).take_while(|log: &u32| 16 * 11 << (4 * log) <= 2 * bytes).last();
+    let log_side = (1..).take_while(|log: &u32| (16 * 11) << (4 * log) <= 2 * bytes).last();
     let of_grid = 1_usize << (4 * log_side.unwrap_or(1));
     let mut data = String::with_capacity(bytes);
     for grid in 0..16 {
