@@ -2,7 +2,7 @@
 //! the mean of all.
 
 use super::closed_box::CELLS;
-use super::gain::Gain;
+use super::contrast::Contrast;
 use quasilux_sampling::{
     DimensionHistogram, PointSet, Randomization, SampleCursor, Sequence, stream_key,
 };
@@ -123,8 +123,8 @@ impl Error {
     }
 
     /// How many times this error is another one.
-    pub(super) fn over(&self, other: &Self) -> Gain {
-        Gain::of_squares(&self.squares, &other.squares)
+    pub(super) fn over(&self, other: &Self) -> Contrast {
+        Contrast::gain(&self.squares, &other.squares)
     }
 }
 

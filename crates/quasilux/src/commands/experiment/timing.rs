@@ -2,10 +2,10 @@
 //! of them alike.
 
 /// Rounds, each with one run of each kind.
-const ROUNDS: usize = 25;
+const ROUNDS: usize = 15;
 
 /// Rays of a short run, all replicates together.
-pub(super) const SHORT_RAYS: f64 = 2e6;
+pub(super) const SHORT_RAYS: f64 = 1e6;
 
 /// Seconds that a ray of each kind takes. `short_run` makes a run of a kind, by its number, and says what a ray took in it.
 ///
@@ -37,7 +37,7 @@ mod tests {
         let runs = Cell::new(0);
         let seconds = seconds_of_a_ray(2, |kind| {
             let run = runs.replace(runs.get() + 1);
-            let is_busy = run / 2 % 4 == 3 || run == 21;
+            let is_busy = run / 2 % 4 == 3 || run == 17;
             [1.0, 1.5][kind] * if is_busy { 3.0 } else { 1.0 }
         });
         assert!(

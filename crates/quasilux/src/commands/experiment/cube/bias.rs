@@ -5,6 +5,7 @@
 //! found by leaving out one replicate after the other (the jackknife, J. W. Tukey 1958).
 
 use super::curve::Task;
+use crate::commands::experiment::claim::largest;
 
 /// The squared relative L2 norm of the bias.
 #[derive(Clone, Copy, Debug)]
@@ -27,12 +28,13 @@ impl Bias {
 
     /// The norm itself, 0 where nothing is left.
     pub(super) fn norm(self) -> f64 {
-        self.squared.max(0.0).sqrt()
+        // No number stays none.
+        self.squared.clamp(0.0, f64::INFINITY).sqrt()
     }
 
     /// The standard error of the norm.
     pub(super) fn error_of_norm(self) -> f64 {
-        0.5 * self.standard_error / self.norm().max(self.standard_error.sqrt())
+        0.5 * self.standard_error / largest([self.norm(), self.standard_error.sqrt()])
     }
 }
 

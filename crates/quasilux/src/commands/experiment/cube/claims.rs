@@ -1,19 +1,28 @@
 //! What the figures bear out.
 
 use super::Findings;
-use super::compare::{Column, SIGNIFICANCE, Table};
-use super::curve::Curve;
+use super::compare::{Column, Duel, Round, Table};
+use super::curve::{Currency, Curve};
 use super::floor::Floor;
 use super::paper;
 use super::scene::{CLASSES, inset, luminance_cd_m2};
 use super::truth::Truth;
-use crate::commands::experiment::claim::Claim;
+use crate::commands::experiment::claim::{Claim, largest, smallest};
+use crate::commands::experiment::significance::{SIGNIFICANCE, each_of};
 use quasilux_transport::interval::t_quantile_for;
 
 /// The truth is known to this, in cd/m^2.
 const AGREEMENT_CD_M2: f64 = 0.01;
 /// What our own form is to get below.
 const BELOW: f64 = 0.0005;
+/// Which columns are claimed to beat which.
+pub(super) const CLAIMED: [[Column; 2]; 3] = [
+    [Column::Pseudo2, Column::Quasi2],
+    [Column::Pseudo, Column::Quasi],
+    [Column::Pseudo, Column::Quasi2],
+];
+/// How wide intervals may be, to each side, of luminances of 388 to 893 cd/m^2.
+const KNOWN_CD_M2: f64 = 0.5;
 /// The confidence of all intervals of the six luminances together.
 const CONFIDENCE: f64 = 0.99;
 
@@ -28,15 +37,14 @@ pub(super) struct Luminance {
 /// All of them.
 pub(super) fn all(findings: &Findings) -> Vec<Claim> {
     let Findings { replicates, truth: solved, floors: all_floors, deep, table, .. } = findings;
-    vec![
-        truth(solved),
-        duel(table, Column::Pseudo2, Column::Quasi2),
-        duel(table, Column::Pseudo, Column::Quasi),
-        duel(table, Column::Pseudo, Column::Quasi2),
+    let mut claims = vec![truth(solved)];
+    claims.extend(duels(table, &CLAIMED));
+    claims.extend([
         floors(all_floors, *replicates),
         own_is_below(deep, BELOW),
-        places(deep, solved),
-    ]
+        places(deep, solved, KNOWN_CD_M2),
+    ]);
+    claims
 }
 
 /// The luminances at the six classes of places, right at the edges.
@@ -47,40 +55,52 @@ pub(super) fn solved_cd_m2(truth: &Truth) -> [f64; 6] {
 pub(super) fn truth(truth: &Truth) -> Claim {
     let differences = solved_cd_m2(truth);
     let differences = differences.iter().zip(paper::SOLVED_CD_M2).map(|(a, b)| (a - b).abs());
-    let largest = differences.fold(0.0, f64::max);
-    Claim {
-        text: format!(
-            "The solution by collocation agrees with one by radiosity and one by a spectral method to {largest:.3} cd/m2 at \
+    let difference = largest(differences);
+    Claim::new(
+        format!(
+            "The solution by collocation agrees with one by radiosity and one by a spectral method to {difference:.3} cd/m2 at \
              all six places, which is within {AGREEMENT_CD_M2} cd/m2"
         ),
-        holds: largest < AGREEMENT_CD_M2,
-    }
+        [difference],
+        difference < AGREEMENT_CD_M2,
+    )
 }
 
-pub(super) fn duel(table: &Table, worse: Column, better: Column) -> Claim {
-    let duel = table.duel(worse, better);
-    let [low, high] = duel.range(|round| round.ratio);
-    let [least, most] = duel.range(|round| round.compared);
-    let compared = if duel.has_same_floor {
-        format!("; about the same floor it spreads {least:.2} to {most:.2} times less")
-    } else {
-        String::new()
+/// All duels together at one significance.
+pub(super) fn duels(table: &Table, pairs: &[[Column; 2]]) -> Vec<Claim> {
+    let duels: Vec<Duel> =
+        pairs.iter().map(|[worse, better]| table.duel(*worse, *better)).collect();
+    let tests = duels.iter().map(|duel| duel.rounds.len()).sum();
+    duels.iter().map(|duel| won(duel, table.currency, tests)).collect()
+}
+
+fn won(duel: &Duel, currency: Currency, tests: usize) -> Claim {
+    let Duel { worse, better, has_same_floor, rounds } = duel;
+    let of = |figure: fn(&Round) -> f64| {
+        let all = || rounds.iter().map(figure);
+        [smallest(all()), largest(all())]
     };
-    let (rounds, won) = (duel.rounds.len(), duel.won());
-    Claim {
-        text: format!(
-            "At equal {}, {} beats {} at {won} of {rounds} costs, from the first on: its error is {low:.2} to {high:.2} \
-             times smaller{compared}; mean logarithms are {:.1} standard errors apart or more ({:.1} are significant: Welch, \
-             all costs together at {} %)",
-            table.currency.name(),
+    let [low, high] = of(|round| round.ratio);
+    let [least, most] = of(|round| round.compared.ratio);
+    let [least_t, _] = of(|round| round.compared.t());
+    let compared = match has_same_floor {
+        true => format!("; about the same floor it spreads {least:.2} to {most:.2} times less"),
+        false => String::new(),
+    };
+    let won = duel.won(each_of(tests));
+    Claim::new(
+        format!(
+            "At equal {}, {} beats {} at {won} of {} costs, from the first on: its error is {low:.2} to {high:.2} times \
+             smaller{compared}; t = {least_t:.1} or more (significance {} % for all {tests} comparisons of columns together)",
+            currency.name(),
             better.name(),
             worse.name(),
-            duel.least_t(),
-            duel.critical,
+            rounds.len(),
             100.0 * SIGNIFICANCE,
         ),
-        holds: duel.is_won_throughout(),
-    }
+        [low, high, least, most, least_t],
+        won == rounds.len() && won > 0,
+    )
 }
 
 /// That each smaller element has a lower floor, in both forms.
@@ -92,13 +112,13 @@ pub(super) fn floors(floors: &[Floor], replicates: u32) -> Claim {
     };
     let elements: Vec<String> = floors.iter().map(|floor| floor.element_m.to_string()).collect();
     let of_photons = Floor::least_step(floors, |floor| &floor.photons);
-    let least = of_photons.min(Floor::least_step(floors, |floor| &floor.map));
+    let least = smallest([of_photons, Floor::least_step(floors, |floor| &floor.map)]);
     // One-sided, all steps of both forms together (Bonferroni).
     let steps = 2 * floors.len().saturating_sub(1).max(1);
     let critical = t_quantile_for(replicates as usize, 2.0 * SIGNIFICANCE / steps as f64);
     let critical = critical.unwrap_or(f64::INFINITY);
-    Claim {
-        text: format!(
+    Claim::new(
+        format!(
             "The floor moves with the elements: with legs of {} m it is at {} % for quasi and {} % for quasi2, each below the \
              one before by {least:.1} standard errors of the square or more ({critical:.1} are significant: all together at \
              {} %)",
@@ -107,8 +127,9 @@ pub(super) fn floors(floors: &[Floor], replicates: u32) -> Claim {
             list(&|floor| floor.map.bias.norm()),
             100.0 * SIGNIFICANCE,
         ),
-        holds: least > critical,
-    }
+        [least, critical],
+        least > critical,
+    )
 }
 
 /// That a replicate's error is below this at the end, beyond chance.
@@ -120,8 +141,8 @@ pub(super) fn own_is_below(own: &Curve, below: f64) -> Claim {
     let spread: f64 = squares.iter().map(|square| (square - mean) * (square - mean)).sum();
     let t = t_quantile_for(squares.len(), 2.0 * SIGNIFICANCE).unwrap_or(f64::INFINITY);
     let highest = (mean + t * (spread / (n * (n - 1.0))).sqrt()).sqrt();
-    Claim {
-        text: format!(
+    Claim::new(
+        format!(
             "Our own form goes through the floor: with {} paths from each place its error is {:.4} %, at most {:.4} % at {} %, \
              and below {} %",
             end.paths,
@@ -130,26 +151,28 @@ pub(super) fn own_is_below(own: &Curve, below: f64) -> Claim {
             100.0 * (1.0 - SIGNIFICANCE),
             100.0 * below,
         ),
-        holds: highest < below,
-    }
+        [mean, highest],
+        highest < below,
+    )
 }
 
-/// That the intervals hold the truth.
-pub(super) fn places(own: &Curve, truth: &Truth) -> Claim {
+/// That the intervals hold the truth, and are narrow enough to say something.
+pub(super) fn places(own: &Curve, truth: &Truth, known_cd_m2: f64) -> Claim {
     let all = luminances(own, truth);
     let held = |place: &&Luminance| {
         (place.value_cd_m2 - place.truth_cd_m2).abs() <= place.half_width_cd_m2
     };
     let held = all.iter().filter(held).count();
-    let widest = all.iter().map(|place| place.half_width_cd_m2).fold(0.0, f64::max);
-    Claim {
-        text: format!(
-            "The intervals of our own form, {} % for all six together and {widest:.2} cd/m2 or less to each side, hold {held} \
+    let widest = largest(all.iter().map(|place| place.half_width_cd_m2));
+    Claim::new(
+        format!(
+            "The intervals of our own form, {} % for all six together and {widest:.2} cd/m2 or less to each side, where {known_cd_m2} are allowed, hold {held} \
              of the 6 luminances",
             100.0 * CONFIDENCE,
         ),
-        holds: held == all.len(),
-    }
+        [widest],
+        held == all.len() && widest <= known_cd_m2,
+    )
 }
 
 /// The six luminances by our own form, from one place of each class.
@@ -160,7 +183,7 @@ pub(super) fn luminances(own: &Curve, truth: &Truth) -> Vec<Luminance> {
     let intervals = last.point_intervals(0);
     let luminance = |(class, interval): (usize, &quasilux_transport::Interval)| Luminance {
         value_cd_m2: luminance_cd_m2(interval.value),
-        half_width_cd_m2: luminance_cd_m2(interval.half_width.unwrap_or(0.0)),
+        half_width_cd_m2: luminance_cd_m2(interval.half_width.unwrap_or(f64::NAN)),
         truth_cd_m2: luminance_cd_m2(truth.illuminance_lx(inset(class))),
     };
     intervals.iter().enumerate().map(luminance).collect()

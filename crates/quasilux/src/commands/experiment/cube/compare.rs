@@ -4,8 +4,8 @@
 //! two such columns the one errs less that spreads less about its mean, and that is told apart from chance even where
 //! both come near their floor. Other columns are compared by their errors.
 
-use super::curve::{Currency, Curve, root_mean_square};
-use quasilux_transport::interval::t_quantile_for;
+use super::curve::{Currency, Curve, Look, root_mean_square};
+use crate::commands::experiment::contrast::Contrast;
 
 /// A column of table 5, or our own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +40,6 @@ pub(super) struct Duel {
     pub(super) has_same_floor: bool,
     /// At each cost.
     pub(super) rounds: Vec<Round>,
-    /// What they exceed by chance at any of the costs in one case of a hundred, were the columns alike.
-    pub(super) critical: f64,
 }
 
 pub(super) struct Round {
@@ -49,14 +47,11 @@ pub(super) struct Round {
     /// Of the errors' root mean squares.
     pub(super) ratio: f64,
     /// Of those of what is compared: spreads or errors.
-    pub(super) compared: f64,
-    /// By how many standard errors their mean logarithms are apart (B. L. Welch, Biometrika 34, 1947).
-    pub(super) t: f64,
+    pub(super) compared: Contrast,
 }
 
-/// The probability that any round of a duel seems won by chance.
-pub(super) const SIGNIFICANCE: f64 = 0.01;
-/// The table begins where the error of pseudo-random photons is this: the paper's begins at 46 %.
+/// Costs begin where the error of pseudo-random photons is this, as in the paper, or where the last column begins: below,
+/// there are no errors to compare.
 const FIRST_ERROR: f64 = 0.46;
 
 impl Column {
@@ -94,14 +89,8 @@ impl Table {
         let begins = pseudo.iter().find(|[_, error]| *error <= FIRST_ERROR);
         let begins = begins.map_or(first, |[cost, _]| cost.max(first));
         let costs = std::iter::successors(Some(begins), |cost| Some(2.0 * cost));
-        let row = |cost: f64| Row {
-            cost,
-            errors: Column::ALL
-                .map(|column| curves[column as usize].at(cost, currency, |look| &look.errors)),
-            spreads: Column::ALL
-                .map(|column| curves[column as usize].at(cost, currency, |look| &look.spreads)),
-        };
-        Self { currency, rows: costs.take_while(|cost| *cost <= last).map(row).collect() }
+        let rows = costs.take_while(|cost| *cost <= last);
+        Self { currency, rows: rows.map(|cost| Row::at(curves, cost, currency)).collect() }
     }
 
     /// Whether the second beats the first, as far as both go.
@@ -112,19 +101,33 @@ impl Table {
             let [a, b] = [of(&row.errors, worse)?, of(&row.errors, better)?];
             let ratio = root_mean_square(&a) / root_mean_square(&b);
             let compared = if has_same_floor { &row.spreads } else { &row.errors };
-            let [a, b] = [of(compared, worse)?, of(compared, better)?];
-            let compared = root_mean_square(&a) / root_mean_square(&b);
-            Some(Round { cost: row.cost, ratio, compared, t: welch(&a, &b) })
+            let squares = |column| Some(of(compared, column)?.iter().map(|x| x * x).collect());
+            let [a, b]: [Vec<f64>; 2] = [squares(worse)?, squares(better)?];
+            Some(Round { cost: row.cost, ratio, compared: Contrast::gain(&a, &b) })
         };
-        let rounds: Vec<Round> = self.rows.iter().filter_map(both).collect();
-        let replicates = self.rows.iter().flat_map(|row| row.errors.iter().flatten()).map(Vec::len);
-        let miss = 2.0 * SIGNIFICANCE / rounds.len().max(1) as f64;
-        let critical = t_quantile_for(replicates.min().unwrap_or(0), miss);
-        Duel { worse, better, has_same_floor, rounds, critical: critical.unwrap_or(f64::INFINITY) }
+        Duel { worse, better, has_same_floor, rounds: self.rows.iter().filter_map(both).collect() }
+    }
+
+    /// Beside a row of the paper's table 5: the columns at the cost at which pseudo errs as much as there, `None` where it never
+    /// does.
+    pub(super) fn at_error_of_pseudo(curves: &[Curve; 5], error: f64) -> Option<Row> {
+        let pseudo = curves[Column::Pseudo as usize].by_cost(Currency::Seconds);
+        let pair = pseudo.windows(2).find(|pair| pair[0][1] >= error && error > pair[1][1])?;
+        let logs = [0, 1].map(|k| pair[k].map(libm::log));
+        let share = (libm::log(error) - logs[0][1]) / (logs[1][1] - logs[0][1]);
+        let cost = libm::exp(logs[0][0] + share * (logs[1][0] - logs[0][0]));
+        Some(Row::at(curves, cost, Currency::Seconds))
     }
 }
 
 impl Row {
+    fn at(curves: &[Curve; 5], cost: f64, currency: Currency) -> Self {
+        let of = |of_look: fn(&Look) -> &[f64]| {
+            Column::ALL.map(|column| curves[column as usize].at(cost, currency, of_look))
+        };
+        Self { cost, errors: of(|look| &look.errors), spreads: of(|look| &look.spreads) }
+    }
+
     /// Root mean square over the replicates.
     pub(super) fn rms(&self, column: Column) -> Option<f64> {
         self.errors[column as usize].as_deref().map(root_mean_square)
@@ -132,48 +135,9 @@ impl Row {
 }
 
 impl Duel {
-    /// Rounds that are won beyond chance.
-    pub(super) fn won(&self) -> usize {
-        self.rounds.iter().filter(|round| round.t > self.critical).count()
-    }
-
-    pub(super) fn is_won_throughout(&self) -> bool {
-        !self.rounds.is_empty() && self.won() == self.rounds.len()
-    }
-
-    /// Smallest and largest of the ratios.
-    pub(super) fn range(&self, of: fn(&Round) -> f64) -> [f64; 2] {
-        let ratios = || self.rounds.iter().map(of);
-        [ratios().fold(f64::INFINITY, f64::min), ratios().fold(0.0, f64::max)]
-    }
-
-    /// The smallest t.
-    pub(super) fn least_t(&self) -> f64 {
-        self.rounds.iter().map(|round| round.t).fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// By how many standard errors the mean logarithm of the first is above that of the second.
-fn welch(a: &[f64], b: &[f64]) -> f64 {
-    let moments = |values: &[f64]| {
-        let n = values.len() as f64;
-        let mean = values.iter().map(|x| libm::log(*x)).sum::<f64>() / n;
-        let squares: f64 =
-            values.iter().map(|x| (libm::log(*x) - mean) * (libm::log(*x) - mean)).sum();
-        [mean, squares / (n * (n - 1.0))]
-    };
-    let [[mean_a, square_a], [mean_b, square_b]] = [moments(a), moments(b)];
-    (mean_a - mean_b) / (square_a + square_b).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Logarithms 0, 1, 2 and 3, 4, 5: means 1 and 4, each with a variance of 1 / 3.
-    #[test]
-    fn welch_is_right_for_a_small_example() {
-        let [a, b] = [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]].map(|logs| logs.map(libm::exp));
-        assert!((welch(&a, &b) + 3.0 / (2.0_f64 / 3.0).sqrt()).abs() < 1e-12);
+    /// Rounds that are won beyond chance, at a significance for each.
+    pub(super) fn won(&self, significance: f64) -> usize {
+        let is_won = |round: &&Round| round.compared.is_above(1.0, significance);
+        self.rounds.iter().filter(is_won).count()
     }
 }

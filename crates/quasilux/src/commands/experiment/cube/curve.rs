@@ -136,8 +136,14 @@ impl Curve {
 
     /// The order of convergence.
     pub(super) fn slope(&self) -> Option<f64> {
-        let first = self.setup.form.fit_from() as f64;
-        let points: Vec<[f64; 2]> = self.by_n().into_iter().filter(|[n, _]| *n >= first).collect();
+        self.slope_up_to(u64::MAX)
+    }
+
+    /// The same of no more than this N.
+    pub(super) fn slope_up_to(&self, most: u64) -> Option<f64> {
+        let fitted = self.setup.form.fit_from() as f64..=most as f64;
+        let points: Vec<[f64; 2]> =
+            self.by_n().into_iter().filter(|[n, _]| fitted.contains(n)).collect();
         fit_power_law(&points).map(|law| law.exponent)
     }
 
@@ -157,6 +163,11 @@ impl Curve {
         let between =
             |(a, b): (&f64, &f64)| libm::exp((1.0 - share) * libm::log(*a) + share * libm::log(*b));
         Some(of_look(&pair[0]).iter().zip(of_look(&pair[1])).map(between).collect())
+    }
+
+    /// The checkpoint at this N.
+    pub(super) fn look(&self, n: u64) -> Option<&Look> {
+        self.looks.iter().find(|look| look.n == n)
     }
 
     pub(super) fn end(&self) -> &Look {
@@ -179,6 +190,14 @@ impl Look {
             spreads: rows.iter().map(|row| scale * distance(row, &mean, task)).collect(),
             bias: Bias::of(rows, task),
         }
+    }
+
+    /// Standard deviation of the logarithm of a single run's error.
+    pub(super) fn scatter(&self) -> f64 {
+        let n = self.errors.len() as f64;
+        let mean = self.errors.iter().map(|error| libm::log(*error)).sum::<f64>() / n;
+        let square = |error: &f64| (libm::log(*error) - mean) * (libm::log(*error) - mean);
+        (self.errors.iter().map(square).sum::<f64>() / (n - 1.0)).sqrt()
     }
 
     pub(super) fn rms(&self) -> f64 {

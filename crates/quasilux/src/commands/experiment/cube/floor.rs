@@ -5,6 +5,7 @@
 use super::bias::Bias;
 use super::curve::{Curve, Task};
 use super::setup::{Form, Points, Setup};
+use crate::commands::experiment::claim::smallest;
 use quasilux_sampling::quality::{PowerLaw, fit_power_law};
 
 /// Legs of the elements: 4 to 32 on a side.
@@ -51,7 +52,7 @@ impl Floor {
             let error = libm::hypot(large.standard_error, small.standard_error);
             (large.squared - small.squared) / error
         };
-        floors.windows(2).map(step).fold(f64::INFINITY, f64::min)
+        smallest(floors.windows(2).map(step))
     }
 }
 

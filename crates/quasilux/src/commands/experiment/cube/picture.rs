@@ -1,6 +1,7 @@
 //! Errors against N and time, sequences, and floors against the size of elements.
 
 use super::Findings;
+use super::claims::{Luminance, luminances, solved_cd_m2};
 use super::compare::Column;
 use super::curve::Currency;
 use super::floor::{End, Floor};
@@ -12,10 +13,19 @@ use quasilux_measure::svg::{
 
 const FLOOR: Stroke = Stroke { colour: "#767676", width_px: 1.0, dash: Dash::Dashed };
 
+/// Luminances of table 4: the paper's, and those by radiosity and the spectral method.
+const PAPER: Stroke = Stroke { colour: PALETTE[6], width_px: 2.0, dash: Dash::Dotted };
+const SOLVED: Stroke = Stroke { colour: PALETTE[6], width_px: 1.2, dash: Dash::Dashed };
+
 /// The plot as an SVG file.
 pub(super) fn svg(findings: &Findings) -> String {
-    let panels =
-        vec![by_n(findings), by_time(findings), by_points(findings), by_elements(findings)];
+    let panels = vec![
+        by_n(findings),
+        by_time(findings),
+        by_points(findings),
+        by_elements(findings),
+        by_place(findings),
+    ];
     figure(&Figure { title: "The diffuse cube".to_owned(), panels, columns: 2, legend: legend() })
 }
 
@@ -36,10 +46,10 @@ fn by_time(findings: &Findings) -> Panel {
     let of_paper = Column::OF_PAPER.iter().map(|column| {
         let point = |row: &paper::Row| [row.seconds, row.errors_percent[*column as usize]];
         let points = paper::rows().iter().map(point).collect();
-        line(points, Stroke { width_px: 2.5, dash: Dash::Dotted, ..stroke(*column) })
+        line(points, of_paper(*column))
     });
     let lines = own.chain(of_paper).collect();
-    panel("error by time (paper\u{2019}s dotted)", "s a replicate", Scale::Log(10), lines)
+    panel("error by time, and the paper\u{2019}s of 2003", "s a replicate", Scale::Log(10), lines)
 }
 
 fn by_points(findings: &Findings) -> Panel {
@@ -83,6 +93,34 @@ fn by_elements(findings: &Findings) -> Panel {
     )
 }
 
+/// The luminances of table 4 less those by collocation: the paper's, two solves made before, and the interval of our own.
+fn by_place(findings: &Findings) -> Panel {
+    let solved = solved_cd_m2(&findings.truth);
+    let own = luminances(&findings.deep, &findings.truth);
+    let less = |of: &dyn Fn(usize) -> f64, stroke| {
+        let point = |place: usize| [place as f64 + 1.0, of(place) - solved[place]];
+        line((0..solved.len()).map(point).collect(), stroke)
+    };
+    // The sensor stands a little off the edge: what it finds is taken to be off by as much as its own truth is.
+    let end = |place: usize, sign: f64| {
+        let Luminance { value_cd_m2, half_width_cd_m2, truth_cd_m2 } = own[place];
+        value_cd_m2 - truth_cd_m2 + solved[place] + sign * half_width_cd_m2
+    };
+    let lines = vec![
+        less(&|place| end(place, -1.0), stroke(Column::Own)),
+        less(&|place| end(place, 1.0), stroke(Column::Own)),
+        less(&|place| paper::SOLVED_CD_M2[place], SOLVED),
+        less(&|place| paper::LUMINANCES_CD_M2[place], PAPER),
+    ];
+    let values = lines.iter().flat_map(|line| line.points.iter().map(|[_, y]| *y));
+    Panel {
+        title: "table 4 less collocation (own: both ends)".to_owned(),
+        x: Axis::new("place A to F of table 4 as 1 to 6", Scale::Linear, [0.8, 6.2]).with_step(1.0),
+        y: Axis::around("cd/m2", Scale::Linear, values),
+        lines,
+    }
+}
+
 fn panel(title: &str, x: &str, scale: Scale, lines: Vec<Line>) -> Panel {
     let values =
         |axis: usize| lines.iter().flat_map(move |line| line.points.iter().map(move |p| p[axis]));
@@ -100,6 +138,19 @@ fn line(points: Vec<[f64; 2]>, stroke: Stroke) -> Line {
 
 fn percent(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.into_iter().map(|[x, share]| [x, 100.0 * share]).collect()
+}
+
+/// Lighter colours, other dashes.
+fn of_paper(column: Column) -> Stroke {
+    let colour = match column {
+        Column::Pseudo | Column::Quasi => PALETTE[5],
+        _ => PALETTE[4],
+    };
+    let dash = match column {
+        Column::Pseudo | Column::Pseudo2 => Dash::Dotted,
+        _ => Dash::DashDot,
+    };
+    Stroke { colour, width_px: 2.2, dash }
 }
 
 /// Colours are columns; random points are dashed.
@@ -131,7 +182,11 @@ fn legend() -> Vec<Vec<LegendEntry>> {
     let points: Vec<LegendEntry> = points.collect();
     let deep =
         entry("own, one place of each class", Stroke { dash: Dash::Dotted, ..stroke(Column::Own) });
-    let mut rows = vec![columns.into(), vec![deep]];
+    let printed = Column::OF_PAPER
+        .map(|column| entry(&format!("paper\u{2019}s {}", column.name()), of_paper(column)));
+    let fourth =
+        vec![deep, entry("table 4: paper", PAPER), entry("table 4: radiosity, spectral", SOLVED)];
+    let mut rows = vec![columns.into(), printed.into(), fourth];
     rows.extend(points.chunks(3).map(<[LegendEntry]>::to_vec));
     rows
 }

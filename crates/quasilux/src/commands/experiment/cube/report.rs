@@ -8,7 +8,7 @@ use super::floor::{End, Floor};
 use super::paper;
 use super::scene::CLASSES;
 use super::setup::Setup;
-use super::tables;
+use super::{table_5, tables};
 use crate::commands::experiment::claim::Claim;
 use quasilux_measure::number::exact;
 use std::fmt::Write;
@@ -32,6 +32,8 @@ struct Line {
     half_width: Option<f64>,
     truth: Option<f64>,
     paper: Option<f64>,
+    /// Of one run.
+    is_single: bool,
 }
 
 /// One line a measured thing.
@@ -41,9 +43,12 @@ pub(super) fn csv(findings: &Findings) -> String {
         lines.extend(of_curve(column.name(), curve));
     }
     lines.extend(findings.others.iter().flat_map(|curve| of_curve("", curve)));
+    for (column, curve) in ["quasi once", "quasi2 once"].into_iter().zip(&findings.plain) {
+        lines.extend(of_single_run(column, curve));
+    }
     lines.extend(of_curve("own at one place of each class", &findings.deep));
     lines.extend(at_equal_time(findings));
-    for duel in tables::duels(&findings.table) {
+    for duel in table_5::duels(&findings.table) {
         lines.extend(of_duel(&duel));
     }
     lines.extend(findings.floors.iter().flat_map(of_floor));
@@ -65,7 +70,7 @@ impl Line {
             self.column.clone(),
             self.setup.join(","),
             self.place.clone(),
-            replicates.to_string(),
+            if self.is_single { 1 } else { replicates }.to_string(),
             count(self.n),
             count(self.paths),
             number(self.rays),
@@ -114,21 +119,49 @@ fn of_curve(column: &str, curve: &Curve) -> Vec<Line> {
     curve.looks.iter().map(look).chain(spreads).chain(slope).collect()
 }
 
+/// Of a curve of one run: its errors alone.
+fn of_single_run(column: &'static str, curve: &Curve) -> Vec<Line> {
+    let lines = of_curve(column, curve).into_iter();
+    let errors = lines.filter(|line| line.quantity == "relative error");
+    errors.map(|line| Line { is_single: true, ..line }).collect()
+}
+
+/// Of what curves have at costs that double, and where pseudo errs as in the paper.
 fn at_equal_time(findings: &Findings) -> Vec<Line> {
-    let paper = paper::rows();
-    let rows = findings.table.rows.iter().enumerate();
-    let line = |(k, row): (usize, &Row), column: &Column| {
+    let line = |quantity: &'static str, column: Column, row: &Row| {
         Some(Line {
-            quantity: "relative error at equal time",
+            quantity,
             unit: "%",
             column: column.name().to_owned(),
             seconds: Some(row.cost),
-            value: 100.0 * row.rms(*column)?,
-            paper: paper.get(k).and_then(|row| row.errors_percent.get(*column as usize).copied()),
+            value: 100.0 * row.rms(column)?,
             ..Line::default()
         })
     };
-    rows.flat_map(|row| Column::ALL.iter().filter_map(move |column| line(row, column))).collect()
+    let mut lines = Vec::new();
+    for row in &findings.table.rows {
+        let of = |column: &Column| line("relative error at equal time", *column, row);
+        lines.extend(Column::ALL.iter().filter_map(of));
+    }
+    for (printed, own) in table_5::rows(findings) {
+        for column in Column::OF_PAPER {
+            let paper = printed.errors_percent[column as usize];
+            lines.push(Line {
+                quantity: "relative error in the paper",
+                unit: "%",
+                column: column.name().to_owned(),
+                seconds: Some(printed.seconds),
+                value: paper,
+                is_single: true,
+                ..Line::default()
+            });
+            let own = own.as_ref().and_then(|row| {
+                line("relative error where pseudo errs as in the paper", column, row)
+            });
+            lines.extend(own.map(|own| Line { paper: Some(paper), ..own }));
+        }
+    }
+    lines
 }
 
 fn of_duel(duel: &Duel) -> Vec<Line> {
@@ -144,8 +177,8 @@ fn of_duel(duel: &Duel) -> Vec<Line> {
         };
         [
             own("ratio of errors at equal time", round.ratio),
-            own("ratio of what is compared", round.compared),
-            own("standard errors apart", round.t),
+            own("ratio of what is compared", round.compared.ratio),
+            own("t of what is compared", round.compared.t()),
         ]
     };
     duel.rounds.iter().flat_map(line).collect()
@@ -202,7 +235,7 @@ fn of_places(findings: &Findings) -> Vec<Line> {
 pub(super) fn markdown(findings: &Findings, claims: &[Claim]) -> String {
     let mut text = tables::heading(findings);
     text.push_str(&tables::table_4(findings));
-    text.push_str(&tables::table_5(findings));
+    text.push_str(&table_5::markdown(findings));
     text.push_str(&tables::convergence(findings));
     text.push_str(&tables::floors(findings));
     text.push_str(&Claim::markdown(claims));

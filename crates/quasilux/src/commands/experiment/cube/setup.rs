@@ -22,6 +22,8 @@ pub(super) enum Form {
 pub(super) enum Points {
     Random,
     Halton,
+    /// As they are: a single run.
+    PlainHalton,
     Hammersley,
     Sobol,
     ScrambledSobol,
@@ -36,7 +38,7 @@ pub(super) struct Setup {
 }
 
 impl Points {
-    /// All but the random ones, which are no sequence.
+    /// All that are randomised, but the random ones, which are no sequence.
     pub(super) const SEQUENCES: [Self; 5] =
         [Self::Halton, Self::Hammersley, Self::Sobol, Self::ScrambledSobol, Self::Faure4];
 
@@ -44,6 +46,7 @@ impl Points {
         match self {
             Self::Random => "random",
             Self::Halton => "halton",
+            Self::PlainHalton => "plain halton",
             Self::Hammersley => "hammersley",
             Self::Sobol => "sobol",
             Self::ScrambledSobol => "scrambled sobol",
@@ -54,18 +57,24 @@ impl Points {
     /// What makes replicates independent: for the paper's points a rotation, which leaves them what they are.
     pub(super) fn randomization(self) -> Randomization {
         match self {
-            Self::Random => Randomization::None,
+            Self::Random | Self::PlainHalton => Randomization::None,
             Self::Halton | Self::Hammersley => Randomization::Rotation,
             Self::Sobol => Randomization::Shift,
             Self::ScrambledSobol | Self::Faure4 => Randomization::Owen,
         }
     }
 
+    /// Plain points with low indices are near 0 in all high coordinates, and such photons would never be absorbed: that of
+    /// index 0 goes to and fro between two walls. With the reflectance of the cube (2/3)^21 of the light is left out, 0.02 %.
+    pub(super) fn max_bounces(self) -> Option<u32> {
+        (self == Self::PlainHalton).then_some(20)
+    }
+
     /// The sequence of a run of so many indices.
     fn sequence(self, samples: u64) -> Sequence {
         match self {
             Self::Random => Sequence::Random,
-            Self::Halton => Sequence::Halton,
+            Self::Halton | Self::PlainHalton => Sequence::Halton,
             Self::Hammersley => Sequence::Hammersley { points: samples },
             Self::Sobol | Self::ScrambledSobol => Sequence::Sobol,
             Self::Faure4 => Sequence::Faure4,
@@ -138,6 +147,7 @@ impl Setup {
             replicates,
             seed,
             max_samples: Some(samples),
+            max_bounces: self.points.max_bounces(),
             ..Settings::default()
         };
         let of_paper = |estimator, element_m: f64| Settings {

@@ -13,12 +13,14 @@ mod room;
 mod walk;
 
 use super::Outcome;
-use super::claim::Claim;
+use super::claim::{Claim, largest, smallest};
+use super::contrast::Contrast;
 use super::flights::{Effort, Flights, LEAST};
+use super::significance::{ALIKE, each_of};
 use crate::arguments::ExperimentArguments;
 use cube::Cube;
 use quasilux_measure::number::count;
-use quasilux_sampling::Sequence;
+use quasilux_sampling::{SampleCursor, Sequence};
 use room::Room;
 use walk::{Features, Walk};
 
@@ -28,8 +30,6 @@ const REPLICATES: u32 = 64;
 const MOST: u64 = 1 << 16;
 /// The sequences that are compared, random points last.
 const SEQUENCES: [Sequence; 2] = [Sequence::Sobol, Sequence::Random];
-/// Standard errors that chance exceeds once in 16 000 comparisons.
-const ALIKE: f64 = 4.0;
 
 /// Photons with some features and points of one kind.
 struct Setup {
@@ -54,63 +54,69 @@ fn setups(effort: Effort) -> Vec<Setup> {
     let all = SEQUENCES.into_iter().flat_map(|s| Features::ALL.map(move |named| (s, named)));
     all.map(|(sequence, (name, features))| {
         let walk = Walk { room: &room, features };
-        let flights = Flights::of(|cursor, landed| walk.photon(cursor, landed), sequence, effort);
+        let photon = |cursor: &mut SampleCursor<'_>, landed: &mut dyn FnMut(usize)| {
+            walk.photon(cursor, landed);
+        };
+        let flights = Flights::of(photon, sequence, effort);
         Setup { name, features, flights }
     })
     .collect()
 }
 
+/// Those of one kind of points, the one with all features first.
+fn of(setups: &[Setup], sequence: Sequence) -> Vec<&Setup> {
+    setups.iter().filter(|setup| setup.flights.sequence == sequence).collect()
+}
+
+/// How many times the error of all features another setup has, with the same points.
+fn cost(setups: &[Setup], setup: &Setup) -> Contrast {
+    setup.flights.last().over(of(setups, setup.flights.sequence)[0].flights.last())
+}
+
 fn claims(setups: &[Setup]) -> Vec<Claim> {
-    let of = |sequence: Sequence| {
-        let own: Vec<&Setup> =
-            setups.iter().filter(|setup| setup.flights.sequence == sequence).collect();
-        own
-    };
+    let [sobol, random] = SEQUENCES.map(|sequence| of(setups, sequence));
+    let must_show: Vec<&Setup> =
+        sobol[1..].iter().copied().filter(|setup| setup.features.must_show()).collect();
+    // The last one is what Sobol' points gain.
+    let tests = must_show.len() + random[1..].len() + 1;
+    let level = each_of(tests);
+    let tested = format!("significance 1 % for all {tests} comparisons together");
+    let photons = count(sobol[0].flights.last().photons);
     let mut claims = Vec::new();
-    let sobol = of(Sequence::Sobol);
-    let (full, others) = sobol.split_first().expect("all features are the first setup");
-    let best = full.flights.last();
-    for setup in others {
-        let error = setup.flights.last();
-        let gain = error.over(best);
-        let coordinates = setup.flights.dimensions.mean() - full.flights.dimensions.mean();
-        let asked = if setup.features.must_show() {
-            ", which is more than 1 at a significance of 1 %"
-        } else {
-            ", of which nothing is asked"
-        };
-        claims.push(Claim {
-            text: format!(
-                "With Sobol' points {} costs {coordinates:.1} coordinates a photon and {} times the error at N = \
-                 {} (95 %){asked}",
+    for setup in must_show {
+        let cost = cost(setups, setup);
+        claims.push(Claim::new(
+            format!(
+                "With Sobol' points the setup \"{}\" has {} times the error of the one with all features at N = {photons}, more \
+                 than 1 ({tested})",
                 setup.name,
-                gain.text(),
-                count(error.photons),
+                cost.text(),
             ),
-            holds: coordinates > 0.0 && (gain.is_sure() || !setup.features.must_show()),
-        });
+            [cost.ratio, cost.t()],
+            cost.is_above(1.0, level),
+        ));
     }
-    let random = of(Sequence::Random);
-    let plain = random[0].flights.last();
-    let off = |setup: &&Setup| setup.flights.last().over(plain).standard_errors().abs();
-    let most = random[1..].iter().map(off).fold(0.0, f64::max);
-    claims.push(Claim {
-        text: format!(
-            "Random points do not care: no setup is further than {most:.1} standard errors from the one with all \
-             features (4 allowed)"
+    let costs: Vec<Contrast> = random[1..].iter().map(|setup| cost(setups, setup)).collect();
+    let ratios = || costs.iter().map(|cost| cost.ratio);
+    claims.push(Claim::new(
+        format!(
+            "With random points no setup has another error: {:.2} to {:.2} times that of all features, each within a tenth of \
+             1 (two one-sided tests; {tested})",
+            smallest(ratios()),
+            largest(ratios()),
         ),
-        holds: most < ALIKE,
-    });
-    let gain = plain.over(best);
-    claims.push(Claim {
-        text: format!(
-            "With all features Sobol' points divide the error of random ones by {} (95 %) at N = {}, by more than \
-             1 at a significance of 1 %",
+        costs.iter().flat_map(|cost| [cost.ratio, cost.t()]),
+        costs.iter().all(|cost| cost.is_within(ALIKE, level)),
+    ));
+    let gain = random[0].flights.last().over(sobol[0].flights.last());
+    claims.push(Claim::new(
+        format!(
+            "With all features Sobol' points divide the error of random ones by {} at N = {photons}, more than 1 ({tested})",
             gain.text(),
-            count(best.photons),
         ),
-        holds: gain.is_sure(),
-    });
+        [gain.ratio, gain.t()],
+        gain.is_above(1.0, level),
+    ));
     claims
 }
 
@@ -123,9 +129,9 @@ mod tests {
         let setups = setups(Effort { most: 1 << 12, replicates: 32, seed: 0 });
         let claims: Vec<Claim> =
             Cube::count(1 << 13, 0).claims().into_iter().chain(claims(&setups)).collect();
-        assert_eq!(claims.len(), 4 + 4 + 2);
+        assert_eq!(claims.len(), 4 + 2 + 2);
         let failed: Vec<&str> =
-            claims.iter().filter(|claim| !claim.holds).map(|claim| claim.text.as_str()).collect();
+            claims.iter().filter(|claim| !claim.holds()).map(Claim::text).collect();
         assert!(failed.is_empty(), "{failed:?}");
     }
 }

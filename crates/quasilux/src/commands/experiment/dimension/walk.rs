@@ -32,25 +32,31 @@ impl Features {
         ("no sharing at the light", Self { light: false, ..Self::FULL }),
         ("no sharing at walls", Self { event: false, ..Self::FULL }),
         ("rejection", Self { inverse: false, ..Self::FULL }),
-        ("none", Self { light: false, event: false, inverse: false }),
+        ("no sharing and rejection", Self { light: false, event: false, inverse: false }),
     ];
 
-    /// Whether turning these off must be seen in the error: what superposition saves is small beside chance.
+    /// Whether turning these off must be seen in the error; what superposition saves is small, and told without a claim.
     pub(super) fn must_show(self) -> bool {
         !self.inverse
     }
 }
 
 impl Walk<'_> {
-    /// Sends a photon, and tells of every cell that it lands in.
-    pub(super) fn photon(&self, cursor: &mut SampleCursor<'_>, landed: &mut dyn FnMut(usize)) {
+    /// Sends a photon, and tells of every cell that it lands in. Returns how many coordinates the cursor had handed out
+    /// before the event that absorbed it.
+    pub(super) fn photon(
+        &self,
+        cursor: &mut SampleCursor<'_>,
+        landed: &mut dyn FnMut(usize),
+    ) -> u32 {
         let (mut origin, mut direction) = self.start(cursor);
         loop {
             let hit = ClosedBox::hit(origin, direction);
             landed(hit.cell);
+            let before = cursor.used();
             match self.reflected(&hit, cursor) {
                 Some(on) => (origin, direction) = (hit.position, on),
-                None => return,
+                None => return before,
             }
         }
     }

@@ -40,7 +40,7 @@ fn panel(trials: &[Trial], (label, base, cost): Cost) -> Panel {
     let values =
         |axis: usize| lines.iter().flat_map(move |l| l.points.iter().map(move |p| p[axis]));
     Panel {
-        title: trials[0].room.to_owned(),
+        title: format!("{}, by {label}", trials[0].room),
         x: Axis::around(label, Scale::Log(base), values(0)),
         y: Axis::around("error of what photons bring / mean", Scale::Log(10), values(1)),
         lines: lines.clone(),

@@ -2,8 +2,10 @@
 
 use super::Effort;
 use super::rooms::Room;
+use crate::commands::experiment::claim::largest;
+use crate::commands::experiment::contrast::Contrast;
 use crate::commands::experiment::course::{Course, Stage};
-use crate::commands::experiment::gain::Gain;
+use crate::commands::experiment::significance::each_of;
 use crate::commands::experiment::timing::{SHORT_RAYS, seconds_of_a_ray};
 use quasilux_sampling::Sequence;
 use quasilux_sampling::quality::fit_power_law;
@@ -41,7 +43,7 @@ pub(super) struct Trial {
 pub(super) struct Agreement {
     /// The largest distance at a point, in standard errors of the difference.
     pub(super) worst: f64,
-    /// What it may be, all points together at a significance of 1 %.
+    /// What it may be, the points of all trials together at a significance of 1 %.
     pub(super) allowed: f64,
     /// The largest distance over the value.
     pub(super) relative: f64,
@@ -89,39 +91,43 @@ impl Trial {
     }
 
     /// By how much first shot divides the error when N is largest.
-    pub(super) fn gain(&self, part: Part) -> Gain {
+    pub(super) fn gain(&self, part: Part) -> Contrast {
         let [off, on] = self.last().map(|stage| squares(stage, part));
-        Gain::of_squares(&off, &on)
+        Contrast::gain(&off, &on)
+    }
+
+    /// For what photons bring.
+    pub(super) fn gain_of_photons(&self) -> Contrast {
+        self.gain(Part::OfPhotons)
     }
 
     /// How many times as efficient it is by rays, for what photons bring.
-    pub(super) fn gain_by_rays(&self) -> Gain {
+    pub(super) fn gain_by_rays(&self) -> Contrast {
         let [off, on] = self.last();
         self.gain(Part::OfPhotons).efficiency(off.rays / on.rays)
     }
 
     /// The same by time.
-    pub(super) fn gain_by_time(&self) -> Gain {
+    pub(super) fn gain_by_time(&self) -> Contrast {
         let [off, on] = self.last();
         self.gain(Part::OfPhotons).efficiency(off.seconds / on.seconds)
     }
 
     /// Welch's test of what photons bring at each point, by Student's t with the fewer degrees of freedom,
-    /// which is careful.
-    pub(super) fn agreement(&self) -> Agreement {
+    /// which is careful; of so many trials.
+    pub(super) fn agreement(&self, trials: usize) -> Agreement {
         let [off, on] = self.last();
         let columns = [off, on].map(|stage| columns(stage, Part::OfPhotons));
-        let (mut worst, mut relative) = (0.0_f64, 0.0_f64);
+        let (mut worst, mut relative) = (0.0, 0.0);
         for (a, b) in columns[0].iter().zip(&columns[1]) {
             let [a, b] = [a, b].map(|column| moments(column));
             let distance = (a.mean - b.mean).abs();
-            worst = worst.max(distance / (a.squared_error + b.squared_error).sqrt());
-            relative = relative.max(distance / a.mean);
+            worst = largest([worst, distance / (a.squared_error + b.squared_error).sqrt()]);
+            relative = largest([relative, distance / a.mean]);
         }
         let points = columns[0].len();
-        let one = -libm::expm1(libm::log1p(-0.01) / points as f64);
         let replicates = columns[0][0].len();
-        let allowed = t_quantile_for(replicates, one).unwrap_or(f64::NAN);
+        let allowed = t_quantile_for(replicates, each_of(trials * points)).unwrap_or(f64::NAN);
         Agreement { worst, allowed, relative }
     }
 }

@@ -3,10 +3,11 @@
 use super::pictures::Picture;
 use super::terms::{Distance, Terms};
 use super::{CUTS, room};
-use crate::commands::experiment::claim::Claim;
+use crate::commands::experiment::claim::{Claim, largest, smallest};
 use crate::commands::experiment::course::mean_interval;
 use quasilux_measure::number::{count, exact};
 use quasilux_transport::Interval;
+use quasilux_transport::interval::t_quantile_for;
 use std::fmt::Write;
 
 const COLUMNS: &str = "kind,estimator,bounces,values,mean,half_width,unit\n";
@@ -133,18 +134,20 @@ fn shown(Interval { value, half_width }: Interval, digits: usize) -> String {
     }
 }
 
-/// All claims.
-pub(super) fn claims(terms: &Terms, pictures: &[Picture]) -> Vec<Claim> {
-    vec![rises(terms, pictures), sums(terms), falls(terms), agree(terms)]
+/// All claims; ratios of terms must be known to a share.
+pub(super) fn claims(terms: &Terms, pictures: &[Picture], known: f64) -> Vec<Claim> {
+    vec![rises(terms, pictures), sums(terms), falls(terms, known), agree(terms)]
 }
 
 /// Each step by more than chance, all together at 1 %.
 fn rises(terms: &Terms, pictures: &[Picture]) -> Claim {
     let allowed = Distance::allowed(CUTS.len() - 1, terms.cut_lx[0].1.len());
-    let mut steps = terms.cut_lx.windows(2).map(|pair| {
+    let step = |pair: &[(Option<u32>, Vec<f64>)]| {
         let rises = mean_interval(&pair[1].1).value > mean_interval(&pair[0].1).value;
-        rises && Distance::between(&pair[1].1, &pair[0].1).standard_errors > allowed
-    });
+        let distance = Distance::between(&pair[1].1, &pair[0].1).standard_errors;
+        if rises { distance } else { -distance }
+    };
+    let least = smallest(terms.cut_lx.windows(2).map(step));
     let brighter =
         pictures.windows(2).all(|pair| pair[1].mean_cd_m2.value > pair[0].mean_cd_m2.value);
     let values: Vec<String> = terms
@@ -152,14 +155,15 @@ fn rises(terms: &Terms, pictures: &[Picture]) -> Claim {
         .iter()
         .map(|(_, values)| format!("{:.2}", mean_interval(values).value))
         .collect();
-    Claim {
-        text: format!(
+    Claim::new(
+        format!(
             "With n = 0, 1, 2, 4 and without end the plane gets {} lx: more each time (significance 1 % for \
              all together), and so does each pixel on average",
             values.join(", ")
         ),
-        holds: steps.all(|rises| rises) && brighter,
-    }
+        pictures.iter().map(|picture| picture.mean_cd_m2.value).chain([least, allowed]),
+        least > allowed && brighter,
+    )
 }
 
 /// Of runs that share nothing.
@@ -170,34 +174,51 @@ fn sums(terms: &Terms) -> Claim {
         .map(|(cut, values)| Distance::between(&terms.sum_lx(*cut), values))
         .collect();
     let allowed = Distance::allowed(apart.len(), terms.cut_lx[0].1.len());
-    let worst = apart.iter().map(|distance| distance.standard_errors).fold(0.0, f64::max);
+    let worst = largest(apart.iter().map(|distance| distance.standard_errors));
     let converged = apart.last().map_or(f64::NAN, |distance| distance.relative);
-    Claim {
-        text: format!(
+    Claim::new(
+        format!(
             "The terms of one run sum to what others find that are cut there or not at all, {worst:.2} \
              standard errors apart at the worst where {allowed:.2} are allowed (significance 1 % for all \
              together); all of them to {:.3} % of the converged value",
             100.0 * converged,
         ),
-        holds: worst <= allowed,
-    }
+        [worst, allowed, converged],
+        worst <= allowed,
+    )
 }
 
-fn falls(terms: &Terms) -> Claim {
+/// No two of the settled ratios differ by more than is granted, beyond chance: all pairs together at 1 %. The ratios must be known
+/// to a share, lest nothing known is taken for likeness.
+fn falls(terms: &Terms, known: f64) -> Claim {
     let settled = &terms.ratios()[SETTLED..];
-    let low = settled.iter().map(|ratio| ratio.value).fold(f64::INFINITY, f64::min);
-    let high = settled.iter().map(|ratio| ratio.value).fold(0.0, f64::max);
-    let noise = settled.iter().filter_map(Interval::relative_half_width).fold(0.0, f64::max);
-    Claim {
-        text: format!(
+    let values = || settled.iter().map(|ratio| ratio.value);
+    let (low, high) = (smallest(values()), largest(values()));
+    let share = |ratio: &Interval| ratio.relative_half_width().unwrap_or(f64::NAN);
+    let noise = largest(settled.iter().map(share));
+    let runs = terms.landing_lm[0].len();
+    let t = t_quantile_for(runs, 0.05).unwrap_or(f64::NAN);
+    let beyond = |(a, b): (&Interval, &Interval)| {
+        let apart = libm::log(a.value / b.value).abs() - libm::log1p(GEOMETRIC);
+        apart * t / libm::hypot(share(a), share(b))
+    };
+    let pairs = settled.iter().enumerate();
+    let pairs = pairs.flat_map(|(k, a)| settled[k + 1..].iter().map(move |b| (a, b)));
+    let worst = largest(pairs.clone().map(beyond));
+    let allowed = Distance::allowed(pairs.count(), runs);
+    Claim::new(
+        format!(
             "From {SETTLED} bounces on the flux that lands falls geometrically: each term is {low:.4} to \
-             {high:.4} of the one before, {:.1} % apart, within {} % and twice the noise of {:.2} %",
-            100.0 * (high / low - 1.0),
-            100.0 * GEOMETRIC,
+             {high:.4} of the one before, all known to {:.2} % (95 %), which is within {:.0} %, and what two of them differ \
+             by is {worst:.1} standard errors or less beyond the {} % granted, where {allowed:.2} are allowed \
+             (significance 1 % for all pairs together)",
             100.0 * noise,
+            100.0 * known,
+            100.0 * GEOMETRIC,
         ),
-        holds: high / low - 1.0 <= GEOMETRIC + 2.0 * noise && high < 1.0,
-    }
+        [low, high, noise, worst, allowed],
+        worst <= allowed && noise <= known && high < 1.0,
+    )
 }
 
 fn agree(terms: &Terms) -> Claim {
@@ -205,14 +226,15 @@ fn agree(terms: &Terms) -> Claim {
     // The light of no bounce may be exact, up to rounding.
     let apart: Vec<Distance> = pairs.map(|(a, b)| Distance::between(a, b)).collect();
     let allowed = Distance::allowed(apart.len(), terms.by_paths_lx[0].len());
-    let worst = apart.iter().map(|distance| distance.standard_errors).fold(0.0, f64::max);
-    let relative = apart.iter().map(|distance| distance.relative).fold(0.0, f64::max);
-    Claim {
-        text: format!(
+    let worst = largest(apart.iter().map(|distance| distance.standard_errors));
+    let relative = largest(apart.iter().map(|distance| distance.relative));
+    Claim::new(
+        format!(
             "Paths and photons agree about the flux of each term, to {:.2} % of it, {worst:.2} standard errors \
              apart at the worst where {allowed:.2} are allowed (significance 1 % for all together)",
             100.0 * relative,
         ),
-        holds: worst <= allowed,
-    }
+        [worst, allowed, relative],
+        worst <= allowed,
+    )
 }

@@ -6,6 +6,7 @@
 
 use super::{CUTS, Effort, room};
 use crate::commands::experiment::course::mean_interval;
+use crate::commands::experiment::significance::each_of;
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::{Estimates, Estimator, Interval, Settings, Switch, simulate};
 
@@ -99,7 +100,11 @@ impl Distance {
         };
         let apart = (x.value - y.value).abs();
         Self {
-            standard_errors: apart / libm::hypot(error(x, a), error(y, b)),
+            // Both may be exact.
+            standard_errors: match apart == 0.0 {
+                true => 0.0,
+                false => apart / libm::hypot(error(x, a), error(y, b)),
+            },
             relative: apart / y.value.abs(),
         }
     }
@@ -107,8 +112,7 @@ impl Distance {
     /// What is allowed for all of a family together at a significance of 1 %, by Sidak (1967) and Student's t
     /// with the degrees of one.
     pub(super) fn allowed(family: usize, values: usize) -> f64 {
-        let one = -libm::expm1(libm::log1p(-0.01) / family as f64);
-        t_quantile_for(values, one).unwrap_or(f64::NAN)
+        t_quantile_for(values, each_of(family)).unwrap_or(f64::NAN)
     }
 }
 

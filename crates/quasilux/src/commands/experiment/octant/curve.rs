@@ -22,7 +22,8 @@ const FITTED_OURS: u64 = 1 << 6;
 pub(super) enum Way {
     /// Pseudo-random numbers.
     Pseudo,
-    /// Halton's points, scrambled anew in each randomisation.
+    /// Halton's points, Owen-scrambled anew in each randomisation; a rotation keeps them nearer to what they are, and the cube
+    /// uses one.
     Quasi,
     /// Halton's points as they are: one run, as in the paper.
     QuasiOnce,
@@ -52,7 +53,7 @@ impl Way {
     fn name(self) -> &'static str {
         match self {
             Self::Pseudo => "photons, pseudo",
-            Self::Quasi => "photons, Halton",
+            Self::Quasi => "photons, scrambled Halton",
             Self::QuasiOnce => "photons, plain Halton",
         }
     }

@@ -95,7 +95,8 @@ mod tests {
 
     /// Seed 0, 16 randomisations of few paths, every statement at a significance of 1 %: where the full run claims
     /// that 95 % intervals hold the paper's values, intervals here are of 99 %, so that bits may change. A sphere
-    /// that reflected 2 % too much would be found: these are at most 1 % of the values wide on either side.
+    /// that reflected 2 % too much would be found: these are at most 1 % of the values wide on either side, and those at
+    /// other places 2 %.
     #[test]
     fn the_octant_is_what_the_paper_says() {
         let effort = Effort { randomisations: 16, photons: 0, paths: 1 << 8, seed: 0, limit: None };
@@ -110,8 +111,10 @@ mod tests {
             assert!(half_width < 0.01 * paper_lx, "{found:?}");
             assert!((found.value - paper_lx).abs() <= half_width, "{found:?}");
         }
-        for claim in [claims::direct(&ladder), claims::order(&ladder), claims::uniform(&ladder)] {
-            assert!(claim.holds, "{}", claim.text);
+        for claim in
+            [claims::direct(&ladder), claims::order(&ladder), claims::uniform(&ladder, 0.02)]
+        {
+            assert!(claim.holds(), "{}", claim.text());
         }
     }
 }

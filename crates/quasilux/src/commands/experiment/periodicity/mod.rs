@@ -11,7 +11,7 @@ mod picture;
 mod report;
 
 use super::Outcome;
-use super::claim::Claim;
+use super::claim::{Claim, largest};
 use crate::arguments::ExperimentArguments;
 use inverse::Inverse;
 use quasilux_sampling::{CoherentGroups, PointSet, Randomization, Sequence, stream_key};
@@ -95,32 +95,35 @@ fn width(sequence: &'static str, points: &PointSet, groups: &CoherentGroups, cou
 }
 
 fn claims(inverse: &Inverse, widths: &[Width]) -> Vec<Claim> {
-    let most = widths.iter().map(|width| width.of_bound).fold(0.0, f64::max);
+    let most = largest(widths.iter().map(|width| width.of_bound));
     let finest = widths.iter().max_by_key(|width| width.groups);
     let narrower = widths.iter().all(|width| width.mean < width.consecutive);
     let gain = finest.map_or(f64::NAN, |width| width.consecutive / width.mean);
-    let largest = finest.map_or(0, |width| width.groups);
+    let groups = finest.map_or(0, |width| width.groups);
     vec![
-        Claim {
-            text: format!(
+        Claim::new(
+            format!(
                 "The radical inverses of i and i + n b^k differ by less than b^-k: {} pairs of indices in bases 2, 3, 5, 7, 10 \
                  and 11, the largest difference {:.6} b^-k",
                 inverse.pairs, inverse.largest
             ),
-            holds: inverse.pairs > 0 && inverse.largest < 1.0,
-        },
-        Claim {
-            text: format!(
+            [inverse.largest],
+            inverse.pairs > 0 && inverse.largest < 1.0,
+        ),
+        Claim::new(
+            format!(
                 "No group is wider than the bound that its shared digits promise: the widest takes {most:.6} of it"
             ),
-            holds: !widths.is_empty() && most < 1.0,
-        },
-        Claim {
-            text: format!(
-                "Groups are narrower than runs of consecutive indices at every size: {gain:.1} times with {largest} groups"
+            [most],
+            !widths.is_empty() && most < 1.0,
+        ),
+        Claim::new(
+            format!(
+                "Groups are narrower than runs of consecutive indices at every size: {gain:.1} times with {groups} groups"
             ),
-            holds: narrower,
-        },
+            widths.iter().flat_map(|width| [width.mean, width.consecutive]),
+            narrower,
+        ),
     ]
 }
 

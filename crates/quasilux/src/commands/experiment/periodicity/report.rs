@@ -46,8 +46,8 @@ pub(super) fn markdown(
     write!(
         text,
         "\n{} pairs of indices that are multiples of a power of the base apart were compared.\n\n\
-         How wide groups of {count} photons are in coordinates {} to {} (mean over groups and coordinates), beside as many \
-         runs of consecutive indices:\n\n\
+         {count} photons are divided among groups: how wide groups are in coordinates {} to {} (mean over groups and coordinates), \
+         beside as many runs of consecutive indices:\n\n\
          | sequence | groups | largest of the three bounds | mean width | runs of consecutive indices |\n|---|---:|---:|---:|---:|\n",
         inverse.pairs,
         DIMENSIONS[0],

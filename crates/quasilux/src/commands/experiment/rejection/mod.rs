@@ -7,16 +7,15 @@
 //! photons' directions.
 
 mod claims;
-mod contrast;
 mod floor;
 mod picture;
 mod report;
 
 use super::Outcome;
 use super::batwing::Luminaire;
+use super::contrast::Contrast;
 use super::emission::Method;
 use crate::arguments::ExperimentArguments;
-use contrast::Contrast;
 use floor::Floor;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_sampling::{
