@@ -30,6 +30,8 @@ pub(crate) struct Expectation {
     #[serde(default)]
     sensors: Vec<String>,
     figure: FigureName,
+    /// Of an indirect flux: what comes straight from the lights and is taken off.
+    direct_lm: Option<f64>,
     /// Every point where not given.
     point: Option<usize>,
     pub(crate) value: f64,
@@ -49,6 +51,7 @@ enum FigureName {
     MaximumLx,
     Uniformity,
     FluxLm,
+    IndirectFluxLm,
 }
 
 /// What came of one expectation.
@@ -87,17 +90,26 @@ impl Case {
 impl Expectation {
     /// Judges a report; one verdict a point.
     pub(crate) fn judge(&self, report: &Report) -> Result<Vec<Verdict>, Refusal> {
-        match (&self.sensor, self.sensors.as_slice(), self.figure) {
-            (None, [_, ..], FigureName::FluxLm) => {
+        let direct_lm = match (self.figure, self.direct_lm) {
+            (FigureName::FluxLm, None) => Some(0.0),
+            (FigureName::IndirectFluxLm, Some(direct_lm)) => Some(direct_lm),
+            (FigureName::IndirectFluxLm, None) | (_, Some(_)) => {
+                return Err(Refusal::new(
+                    "an `indirect_flux_lm`, and nothing else, has `direct_lm`",
+                ));
+            }
+            _ => None,
+        };
+        match (&self.sensor, self.sensors.as_slice(), direct_lm) {
+            (None, [_, ..], Some(direct_lm)) => {
                 let grids = self.sensors.iter().map(|name| sensor(report, name));
-                let flux_lm = flux_lm(&grids.collect::<Result<Vec<_>, _>>()?)?;
+                let Figure { value, half_width } = flux_lm(&grids.collect::<Result<Vec<_>, _>>()?)?;
+                let flux_lm = Figure { value: value.map(|all_lm| all_lm - direct_lm), half_width };
                 Ok(vec![self.verdict(self.sensors.join(" + "), flux_lm)])
             }
-            (Some(name), [], figure) if figure != FigureName::FluxLm => {
-                self.judge_sensor(sensor(report, name)?)
-            }
+            (Some(name), [], None) => self.judge_sensor(sensor(report, name)?),
             _ => Err(Refusal::new(
-                "an expectation has one `sensor`; one of `flux_lm` has `sensors`, a list of grids",
+                "an expectation has one `sensor`; one of `flux_lm` or `indirect_flux_lm` has `sensors`, a list of grids",
             )),
         }
     }
@@ -182,6 +194,7 @@ impl FigureName {
             Self::MaximumLx => "maximum_lx",
             Self::Uniformity => "uniformity",
             Self::FluxLm => "flux_lm",
+            Self::IndirectFluxLm => "indirect_flux_lm",
         }
     }
 }

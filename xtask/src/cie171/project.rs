@@ -55,6 +55,8 @@ pub(super) struct Expectation {
     /// One or, for a flux, several.
     pub(super) sensors: Vec<&'static str>,
     pub(super) figure: &'static str,
+    /// Of an indirect flux: what comes straight from the lights.
+    pub(super) direct_lm: Option<f64>,
     pub(super) point: Option<usize>,
     pub(super) value: f64,
     pub(super) why: String,
@@ -126,9 +128,10 @@ impl Expectation {
             [one] => format!("sensor = \"{one}\""),
             several => format!("sensors = {several:?}"),
         };
+        let direct = self.direct_lm.map_or_else(String::new, |lm| format!("direct_lm = {lm}\n"));
         let point = self.point.map_or_else(String::new, |point| format!("point = {point}\n"));
         format!(
-            "\n[[expect]]\n{sensor}\nfigure = \"{}\"\n{point}value = {}\ntolerance_rel = {TOLERANCE}\nwhy = \"{}\"\n",
+            "\n[[expect]]\n{sensor}\nfigure = \"{}\"\n{direct}{point}value = {}\ntolerance_rel = {TOLERANCE}\nwhy = \"{}\"\n",
             self.figure,
             six_digits(self.value),
             self.why
