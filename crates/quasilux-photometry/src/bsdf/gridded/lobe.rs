@@ -6,6 +6,9 @@ use crate::{Grid, SphericalTable};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+/// Less than this counts as nothing, as in tables of what is above it: shares of such values would lose digits to underflow.
+const SMALLEST_VALUE: f64 = 1e-100;
+
 /// What one incident direction is scattered to, its azimuth being 0: f is the least of its values, as of Lambert's surface, and what
 /// there is above that.
 #[derive(Clone, Debug)]
@@ -31,7 +34,7 @@ impl Lobe {
         let least = |values: &Vec<f64>| {
             let above = values.iter().enumerate().filter(|(index, _)| cosine(*index) > 0.0);
             let least = above.map(|(_, f)| *f).fold(f64::INFINITY, f64::min);
-            if least.is_finite() { least.max(0.0) } else { 0.0 }
+            if least.is_finite() && least >= SMALLEST_VALUE { least } else { 0.0 }
         };
         let g = |values: &Vec<f64>, least: f64| -> Vec<f64> {
             let g = |(index, f): (usize, &f64)| match cosine(index) {

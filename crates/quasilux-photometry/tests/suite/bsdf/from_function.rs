@@ -93,3 +93,13 @@ fn what_is_no_table_is_none() {
     assert!(GriddedTable::from_function(&[1.6], &[0.1], lambert).is_none());
     assert!(GriddedTable::from_function(&[0.0], &[f64::NAN], lambert).is_none());
 }
+
+/// Values that f64 has only a few digits of are nothing, and no sample is drawn from them.
+#[test]
+fn tiny_values_are_nothing() {
+    let tiny = |_, _| 5e-320;
+    let lobes = GriddedTable::from_function(&[0.0, 0.5], &[0.1], tiny).unwrap();
+    let table = Distribution::Gridded(lobes);
+    assert_eq!(table.albedo(direction(20.0, 0.0)), [0.0; 3]);
+    assert!(table.sample(direction(20.0, 0.0), [0.5; 2]).is_none());
+}
