@@ -46,7 +46,7 @@ mod tests {
         let at = Position { line: 1, column: 1 };
         for (xyz, is_outside) in [
             ([0.05, 0.25, 0.02], true),
-            ([0.4, 0.2, 0.9], true),
+            ([0.5, 0.2, 0.9], true),
             ([0.95, 1.0, 1.09], false),
             ([0.3, 0.3, 0.3], false),
         ] {
