@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release -p quasilux-photometry --example mutate -- 1000000
 //!
-//! The numbers of the files go on from a second argument (0 without it), so that runs can share the
-//! work. A panic names the file.
+//! The numbers of the files go on from a second argument (0 without it), and a third one names a format (Ies, Ldt, Tm33 or Bsdf), so
+//! that runs can share the work. A panic names the file.
 
 #[path = "../tests/damage/mod.rs"]
 mod damage;
@@ -12,14 +12,18 @@ use damage::{Format, Outcome, Seeds, examine_damaged};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments: Result<Vec<u64>, _> = std::env::args().skip(1).map(|a| a.parse()).collect();
-    let Ok(arguments) = arguments else {
-        eprintln!("usage: mutate [FILES [FIRST]]");
+    let numbers = std::env::args().skip(1).take(2);
+    let arguments: Result<Vec<u64>, _> = numbers.map(|a| a.parse()).collect();
+    let format = std::env::args().nth(3);
+    let is_meant = |known: &Format| format.as_ref().is_none_or(|f| *f == format!("{known:?}"));
+    let formats: Vec<Format> = Format::ALL.into_iter().filter(is_meant).collect();
+    let Some(arguments) = arguments.ok().filter(|_| !formats.is_empty()) else {
+        eprintln!("usage: mutate [FILES [FIRST [FORMAT]]]");
         return ExitCode::from(2);
     };
     let count = arguments.first().copied().unwrap_or(1_000_000);
     let first = arguments.get(1).copied().unwrap_or(0);
-    for format in Format::ALL {
+    for format in formats {
         run(format, first..first + count);
     }
     ExitCode::SUCCESS
