@@ -50,6 +50,7 @@ fn contestants() -> Vec<Contestant> {
         (Sequence::Faure4, Randomization::Owen),
         (Sequence::Random, Randomization::None),
         (Sequence::Halton, Randomization::None),
+        (Sequence::Halton, Randomization::Rotation),
         (Sequence::Halton, Randomization::Shift),
         (Sequence::Halton, Randomization::Owen),
     ];

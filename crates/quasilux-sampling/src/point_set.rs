@@ -5,9 +5,7 @@ use crate::randomization::{
     OwenKey, nested_radical_inverse, rotate_unit, rotate_word, shift, shifted_radical_inverse,
     shuffle_index,
 };
-use crate::sequence::{
-    BinaryMatrices, faure4, halton, hammersley, radical_inverse, random_digits, sobol,
-};
+use crate::sequence::{BinaryMatrices, Radix, faure4, halton, hammersley, random_digits, sobol};
 use crate::unit::{unit_from_digits, unit_from_word};
 use crate::variation::Variation;
 use crate::{Randomization, Sequence};
@@ -29,7 +27,7 @@ pub(crate) enum Generator {
     /// A matrix over bits for each dimension.
     Binary(&'static BinaryMatrices),
     /// A base for each dimension, after `steps` dimensions of equal steps (none or one).
-    Radical { bases: &'static [u32], steps: Option<u64> },
+    Radical { bases: &'static [Radix], steps: Option<u64> },
     /// A hash.
     Random,
     /// Other coordinates in some dimensions.
@@ -123,9 +121,11 @@ impl PointSet {
     pub(crate) fn digit_base(&self, dimension: u32) -> Option<u32> {
         match self.generator {
             Generator::Binary(matrices) => (dimension < matrices.dimensions()).then_some(2),
-            Generator::Radical { bases, steps: None } => bases.get(dimension as usize).copied(),
+            Generator::Radical { bases, steps: None } => {
+                bases.get(dimension as usize).map(Radix::base)
+            }
             Generator::Radical { bases, .. } => {
-                bases.get(dimension.checked_sub(1)? as usize).copied()
+                bases.get(dimension.checked_sub(1)? as usize).map(Radix::base)
             }
             Generator::Random | Generator::Varied(_) => None,
         }
@@ -164,7 +164,7 @@ impl PointSet {
     #[inline(never)]
     fn radical_coordinate(
         &self,
-        bases: &[u32],
+        bases: &[Radix],
         steps: Option<u64>,
         index: u64,
         dimension: u32,
@@ -176,15 +176,13 @@ impl PointSet {
             Some(_) => dimension - 1,
             None => dimension,
         };
-        let Some(base) = bases.get(place as usize).copied() else {
+        let Some(radix) = bases.get(place as usize) else {
             return unit_from_word(random_digits(self.padding_key(), index, dimension));
         };
-        let key = dimension_key(self.key, dimension);
+        let (base, key) = (radix.base(), dimension_key(self.key, dimension));
         match self.randomization {
-            Randomization::None => radical_inverse(base, index),
-            Randomization::Rotation => {
-                rotate_unit(radical_inverse(base, index), self.key, dimension)
-            }
+            Randomization::None => radix.inverse(index),
+            Randomization::Rotation => rotate_unit(radix.inverse(index), self.key, dimension),
             // In base 2 the index is its own row of digits.
             Randomization::Shift if base == 2 => unit_from_digits(index ^ key),
             Randomization::Owen if base == 2 => unit_from_digits(OwenKey::new(key).scramble(index)),

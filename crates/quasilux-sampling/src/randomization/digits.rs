@@ -64,7 +64,7 @@ fn below(word: u64, bound: u32) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sequence::halton;
+    use crate::sequence::{Radix, halton};
 
     /// The places of a coordinate: the fewest that tell 2^53 numbers apart, or else as many as leave
     /// all numbers below 2^64.
@@ -135,8 +135,8 @@ mod tests {
     /// The periods of all bases: 7151^4 = 2^51.2 is the shortest.
     #[test]
     fn coordinates_do_not_repeat_within_2_to_the_51() {
-        let period = |base: &u32| u128::from(*base).pow(places(*base));
-        let shortest = halton::bases().iter().map(period).min();
+        let period = |base: u32| u128::from(base).pow(places(base));
+        let shortest = halton::bases().iter().map(Radix::base).map(period).min();
         assert_eq!(shortest, Some(7151_u128.pow(4)));
         assert!(shortest > Some(1 << 51));
     }

@@ -5,14 +5,16 @@
 //! dimensions the bases are large, and fewer points than the product of two bases leave diagonals
 //! in their plane: use [`Randomization::Owen`](crate::Randomization::Owen) there, or Sobol'.
 
+use super::Radix;
 use std::sync::LazyLock;
 
 /// How many dimensions have a base: all primes to 8161.
 pub(crate) const DIMENSIONS: u32 = 1024;
 
 /// The base of each dimension.
-pub(crate) fn bases() -> &'static [u32; DIMENSIONS as usize] {
-    static BASES: LazyLock<[u32; DIMENSIONS as usize]> = LazyLock::new(first_primes);
+pub(crate) fn bases() -> &'static [Radix] {
+    static BASES: LazyLock<Vec<Radix>> =
+        LazyLock::new(|| first_primes().into_iter().map(Radix::new).collect());
     &BASES
 }
 
@@ -27,7 +29,7 @@ mod tests {
 
     #[test]
     fn bases_are_the_first_primes() {
-        let bases = bases();
+        let bases: Vec<_> = bases().iter().map(Radix::base).collect();
         assert_eq!(bases[..10], [2, 3, 5, 7, 11, 13, 17, 19, 23, 29]);
         assert_eq!(bases[1023], 8161);
     }

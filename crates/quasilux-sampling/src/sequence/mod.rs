@@ -5,11 +5,13 @@ pub(crate) mod faure4;
 pub(crate) mod halton;
 pub(crate) mod hammersley;
 mod radical_inverse;
+mod radix;
 mod random;
 pub(crate) mod sobol;
 
 pub(crate) use binary::BinaryMatrices;
 pub use radical_inverse::radical_inverse;
+pub(crate) use radix::Radix;
 pub(crate) use random::random_digits;
 
 /// A sequence of points in the unit cube.
