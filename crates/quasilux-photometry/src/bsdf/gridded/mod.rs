@@ -118,9 +118,10 @@ impl GriddedTable {
 
     pub(super) fn sample(&self, wi: DVec3, u: [f64; 2]) -> Option<ScatterSample> {
         let (mixture, turn) = self.mixture(wi);
-        let direction = mixture.sample(u)?;
-        let pdf_sr = mixture.pdf_sr(direction);
-        Some(ScatterSample { wo: turned(direction, turn), pdf_sr })
+        let wo = turned(mixture.sample(u)?, turn);
+        // That of the direction as it is rounded: beside a peak the last bits may be much.
+        let pdf_sr = mixture.pdf_sr(turned(wo, turn));
+        Some(ScatterSample { wo, pdf_sr })
     }
 
     pub(super) fn pdf_sr(&self, wi: DVec3, wo: DVec3) -> f64 {
