@@ -43,17 +43,24 @@ fn page(root: &Path) -> Result<String, Failure> {
 
 /// All of what the experiment wrote but its title, headings a level lower.
 fn tables(markdown: &str, csv: &str) -> Result<String, Failure> {
-    let digest: String = Sha256::digest(csv).iter().map(|byte| format!("{byte:02x}")).collect();
-    if !markdown.contains(&digest) {
+    let (text, digests) = markdown.split_once("\n<!-- ").ok_or("no digests end the tables")?;
+    if !digests.contains(&digest(csv)) {
         return Err("the tables were not written together with the CSV file".into());
     }
-    let lines =
-        markdown.lines().filter(|line| !line.starts_with("# ") && !line.starts_with("<!--"));
+    if !digests.contains(&digest(text)) {
+        return Err("the tables are not as they were written".into());
+    }
+    let lines = text.lines().filter(|line| !line.starts_with("# "));
     let lowered = lines.map(|line| match line.starts_with("## ") {
         true => format!("#{line}\n"),
         false => format!("{line}\n"),
     });
     Ok(lowered.collect::<String>().trim().to_owned())
+}
+
+/// SHA-256 in hexadecimal.
+fn digest(text: &str) -> String {
+    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Where a figure is, and how it is written.
@@ -145,9 +152,10 @@ mod tests {
 
     #[test]
     fn tables_belong_to_their_figures() {
-        let digest: String = Sha256::digest(CSV).iter().map(|byte| format!("{byte:02x}")).collect();
-        let markdown = format!("# Title\n\nText.\n\n## Claims\n\n- one\n\n<!-- {digest} -->\n");
+        let text = "# Title\n\nText.\n\n## Claims\n\n- one\n";
+        let markdown = format!("{text}\n<!-- {}, {} -->\n", digest(CSV), digest(text));
         assert_eq!(tables(&markdown, CSV), Ok("Text.\n\n### Claims\n\n- one".into()));
         assert!(tables(&markdown, "method\n").is_err());
+        assert!(tables(&markdown.replace("one", "two"), CSV).is_err());
     }
 }

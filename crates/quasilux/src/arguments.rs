@@ -151,8 +151,8 @@ pub(crate) struct ExperimentArguments {
     /// Largest number of photons or points compared [default: the experiment's own]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(64..=1 << 30))]
     pub(crate) max_n: Option<u64>,
-    /// Runs of each setup, where the experiment has such [default: the experiment's own]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Runs of each setup, where the experiment has such, 2 or more [default: the experiment's own]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub(crate) seeds: Option<u32>,
     /// Time for one setup at the most, like 60s or 5m, where errors are shown against time [default: the
     /// experiment's own]

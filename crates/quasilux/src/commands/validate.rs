@@ -6,8 +6,8 @@ use crate::cases::{Case, Verdict};
 use crate::exit::{Exit, Refusal};
 use crate::print::print;
 use crate::{interrupt, project};
-use quasilux_measure::Report;
-use quasilux_measure::number::{exact, figure_text};
+use quasilux_measure::number::{brief, exact, figure_text};
+use quasilux_measure::{Figure, Report};
 use std::path::PathBuf;
 
 /// Runs the cases; exit code 1 when one fails. An interrupted run is no verdict.
@@ -71,9 +71,17 @@ fn print_verdict(report: &Report, verdict: &Verdict) -> Result<(), Refusal> {
         report.run.settings.estimator.name(),
         what,
         &exact(*expected),
-        &figure_text(*got).joined(),
+        &got_text(*got),
         &judged,
     ])
+}
+
+/// A figure with its half-width; one that has none, or none but of rounding, with the digits that a closed form may differ in.
+fn got_text(got: Figure) -> String {
+    let is_exact =
+        |value: &f64| got.half_width.is_none_or(|half_width| half_width <= 1e-9 * value.abs());
+    let exact = got.value.filter(is_exact);
+    exact.map_or_else(|| figure_text(got).joined(), |value| brief(value, 7))
 }
 
 fn print_row([estimator, figure, expected, got, verdict]: [&str; 5]) -> Result<(), Refusal> {

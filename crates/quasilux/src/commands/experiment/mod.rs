@@ -154,9 +154,13 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     let outcome = (experiment.run)(arguments);
     let file = |ending: &str| -> PathBuf { folder.join(format!("{name}.{ending}")) };
     results::write_whole(&file("csv"), outcome.csv.as_bytes())?;
-    // So that tables and figures are known to belong together.
-    let csv_sha256 = digest::sha256_hex(outcome.csv.as_bytes());
-    let tables = format!("{}\n<!-- SHA-256 of {name}.csv: {csv_sha256} -->\n", outcome.markdown);
+    // So that tables and figures are known to belong together, and to be as they were written.
+    let [csv, text] =
+        [&outcome.csv, &outcome.markdown].map(|text| digest::sha256_hex(text.as_bytes()));
+    let tables = format!(
+        "{}\n<!-- SHA-256 of {name}.csv: {csv}, of the text before: {text} -->\n",
+        outcome.markdown
+    );
     results::write_whole(&file("md"), tables.as_bytes())?;
     results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
     for (what, png) in &outcome.pictures {

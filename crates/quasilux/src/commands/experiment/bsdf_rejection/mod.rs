@@ -37,7 +37,7 @@ struct Setup {
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let effort = Effort {
         most: arguments.max_n.unwrap_or(MOST).max(LEAST),
-        replicates: arguments.seeds.unwrap_or(REPLICATES).max(2),
+        replicates: arguments.seeds.unwrap_or(REPLICATES),
         seed: arguments.seed,
     };
     let glossy = Glossy::new();

@@ -134,16 +134,11 @@ impl Curve {
         self.looks.iter().map(|look| [look.cost.of(currency), look.rms()]).collect()
     }
 
-    /// The order of convergence.
-    pub(super) fn slope(&self) -> Option<f64> {
-        self.slope_up_to(u64::MAX)
-    }
-
-    /// The same of no more than this N.
-    pub(super) fn slope_up_to(&self, most: u64) -> Option<f64> {
-        let fitted = self.setup.form.fit_from() as f64..=most as f64;
+    /// The order of convergence of errors or spreads, of no more than this N.
+    pub(super) fn slope(&self, most: u64, of_look: fn(&Look) -> &[f64]) -> Option<f64> {
+        let fitted = self.looks.iter().filter(|look| look.n <= most);
         let points: Vec<[f64; 2]> =
-            self.by_n().into_iter().filter(|[n, _]| fitted.contains(n)).collect();
+            fitted.map(|look| [look.n as f64, root_mean_square(of_look(look))]).collect();
         fit_power_law(&points).map(|law| law.exponent)
     }
 

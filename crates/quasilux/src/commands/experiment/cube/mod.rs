@@ -78,7 +78,7 @@ struct Findings {
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let truth = Truth::solve();
     let mut task = Task::at(Places::all(), &truth);
-    task.replicates = arguments.seeds.unwrap_or(REPLICATES).max(2);
+    task.replicates = arguments.seeds.unwrap_or(REPLICATES);
     task.seed = arguments.seed;
     task.most = arguments.max_n.unwrap_or(MOST);
     task.limit = Some(arguments.seconds_per_point.unwrap_or(SECONDS));

@@ -184,8 +184,7 @@ fn legend() -> Vec<Vec<LegendEntry>> {
         entry("own, one place of each class", Stroke { dash: Dash::Dotted, ..stroke(Column::Own) });
     let printed = Column::OF_PAPER
         .map(|column| entry(&format!("paper\u{2019}s {}", column.name()), of_paper(column)));
-    let fourth =
-        vec![deep, entry("table 4: paper", PAPER), entry("table 4: two solves", SOLVED)];
+    let fourth = vec![deep, entry("table 4: paper", PAPER), entry("table 4: two solves", SOLVED)];
     let mut rows = vec![columns.into(), printed.into(), fourth];
     rows.extend(points.chunks(3).map(<[LegendEntry]>::to_vec));
     rows

@@ -114,9 +114,12 @@ fn of_curve(column: &str, curve: &Curve) -> Vec<Line> {
         paths: Some(look.paths),
         ..own("relative spread", "%", 100.0 * root_mean_square(&look.spreads))
     };
-    let slope = curve.slope().map(|slope| own("slope", "1", slope));
+    let slope =
+        |quantity, of_look| curve.slope(u64::MAX, of_look).map(|slope| own(quantity, "1", slope));
+    let slopes =
+        [slope("slope", |look| &look.errors), slope("slope of spread", |look| &look.spreads)];
     let spreads = curve.looks.iter().map(spread);
-    curve.looks.iter().map(look).chain(spreads).chain(slope).collect()
+    curve.looks.iter().map(look).chain(spreads).chain(slopes.into_iter().flatten()).collect()
 }
 
 /// Of a curve of one run: its errors alone.

@@ -121,14 +121,6 @@ impl Form {
         }
     }
 
-    /// Slopes are fitted from this N on: below, elements are empty or paths too few to be even.
-    pub(super) fn fit_from(self) -> u64 {
-        match self {
-            Self::Photons { .. } | Self::Map { .. } => 1 << 14,
-            Self::Own { .. } => 1 << 6,
-        }
-    }
-
     /// Indices of a run up to this N.
     pub(super) fn samples(self, n: u64) -> u64 {
         (n / self.photons_per_index()).max(1)

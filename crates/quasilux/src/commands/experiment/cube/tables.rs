@@ -73,23 +73,30 @@ fn common_look(findings: &Findings, curve: &Curve) -> u64 {
 pub(super) fn convergence(findings: &Findings) -> String {
     let mut text = "\n## Sequences\n\n\
          All of a form at one N: photons of a replicate, for our own form paths from a place. Seconds are of short runs of all\n\
-         rows in turn. Slopes of the error against N up to this one, its floor included.\n\n\
-         | form | points | randomisation | N | paths a place | s | error in % | slope |\n|---|---|---|---:|---:|---:|---:|---:|\n"
+         rows in turn. Slopes against N are of the error, its floor included, and of the spread about the mean, which has none; of\n\
+         all N up to this one, and of our own form up to its last.\n\n\
+         | form | points | randomisation | N | paths a place | s | error in % | slope | of the spread |\n|---|---|---|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for curve in by_form(findings) {
         let n = common_look(findings, curve);
         let Some(look) = curve.look(n) else { continue };
         let setup = curve.setup;
-        let slope = curve.slope_up_to(n).map_or("-".to_owned(), |slope| format!("{slope:.2}"));
+        let most = if matches!(setup.form, Form::Own { .. }) { u64::MAX } else { n };
+        let slope = |of_look| match curve.slope(most, of_look) {
+            Some(slope) => format!("{slope:.2}"),
+            None => "-".to_owned(),
+        };
         writeln!(
             text,
-            "| {} | {} | {} | {n} | {} | {} | {} | {slope} |",
+            "| {} | {} | {} | {n} | {} | {} | {} | {} | {} |",
             setup.form.name(),
             setup.points.name(),
             setup.points.randomization().name(),
             look.paths,
             digits(look.cost.seconds),
             digits(100.0 * look.rms()),
+            slope(|look| &look.errors),
+            slope(|look| &look.spreads),
         )
         .expect("strings grow");
     }

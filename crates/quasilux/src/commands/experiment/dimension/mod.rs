@@ -40,7 +40,7 @@ struct Setup {
 
 /// Traces all setups, and counts coordinates in the cube.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
-    let replicates = arguments.seeds.unwrap_or(REPLICATES).max(2);
+    let replicates = arguments.seeds.unwrap_or(REPLICATES);
     let most = arguments.max_n.unwrap_or(MOST).max(LEAST);
     let setups = setups(Effort { most, replicates, seed: arguments.seed });
     let cube = Cube::count(most, arguments.seed);

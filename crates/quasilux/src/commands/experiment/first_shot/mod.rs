@@ -37,7 +37,7 @@ struct Effort {
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let effort = Effort {
         // A spread needs two.
-        replicates: arguments.seeds.unwrap_or(REPLICATES).max(2),
+        replicates: arguments.seeds.unwrap_or(REPLICATES),
         samples: arguments.max_n.unwrap_or(MOST),
         seed: arguments.seed,
         limit: arguments.seconds_per_point,

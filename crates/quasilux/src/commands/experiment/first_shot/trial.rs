@@ -19,7 +19,7 @@ const ELEMENT_M: f64 = 0.5;
 /// Light of no and of one bounce is found by paths alone; photons bring the rest, which is the third term then.
 const TERMS_OF_PATHS: u32 = 2;
 /// Slopes are fitted from here on.
-const FIT_FROM: u64 = 256;
+pub(super) const FIT_FROM: u64 = 256;
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,8 +109,13 @@ impl Trial {
 
     /// The same by time.
     pub(super) fn gain_by_time(&self) -> Contrast {
+        self.gain_of_part_by_time(Part::OfPhotons)
+    }
+
+    /// The same of a part of the light.
+    pub(super) fn gain_of_part_by_time(&self, part: Part) -> Contrast {
         let [off, on] = self.last();
-        self.gain(Part::OfPhotons).efficiency(off.seconds / on.seconds)
+        self.gain(part).efficiency(off.seconds / on.seconds)
     }
 
     /// Welch's test of what photons bring at each point, by Student's t with the fewer degrees of freedom,

@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let photons = arguments.max_n.unwrap_or(MOST);
     let findings = Findings::new(&Effort {
         // An interval needs two.
-        randomisations: arguments.seeds.unwrap_or(RANDOMISATIONS).max(2),
+        randomisations: arguments.seeds.unwrap_or(RANDOMISATIONS),
         photons,
         paths: (photons / FEWER).max(1),
         seed: arguments.seed,

@@ -209,7 +209,8 @@ fn errors(findings: &Findings, randomisations: usize) -> String {
          of Halton's points as they are. Photons are counted by \
          an element of a map, a triangle of {:.3} m2 around the place on the mesh of {} facets along an edge. \
          N is photons, and for our estimator paths and photons on each of the two finest meshes, whose limit \
-         is taken; seconds are those of one randomisation on this machine, ours for {} places. Slopes are \
+         is taken; seconds are those of one randomisation on this machine, ours for {} places; randomisations share their start, which \
+         plain Halton points, a single run, bear alone. Slopes are \
          those of the spread, which no element bends; in the last line, what element and mesh leave when N is \
          largest, with the noise of the mean. The last column has how many times smaller the error of scrambled \
          Halton points is than that of pseudo-random ones, with 95 % intervals.\n\n",
