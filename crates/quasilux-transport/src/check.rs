@@ -49,6 +49,22 @@ pub enum CheckError {
         /// Name of the estimator.
         estimator: &'static str,
     },
+    /// No photon of these is split or ended.
+    #[error(
+        "steering = \"on\" is for photons that sensors count or join, or that fill growing maps: there are none with \
+         the estimator \"{estimator}\" and joining = \"{joining}\""
+    )]
+    NothingToSteer {
+        /// Name of the estimator.
+        estimator: &'static str,
+        /// Name of the switch.
+        joining: &'static str,
+    },
+    /// Joined photons leave the lights.
+    #[error(
+        "first_shot = \"on\" is for the photons of illumination maps, and joining = \"on\" leaves none"
+    )]
+    FirstShotOfJoined,
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -67,6 +83,22 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
         matches!(settings.estimator, Estimator::Bidirectional | Estimator::BidirectionalMap);
     if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
+    }
+    if settings.first_shot == Switch::On && settings.joining == Switch::On {
+        return Err(CheckError::FirstShotOfJoined);
+    }
+    let is_steerable = match settings.estimator {
+        Estimator::Path => false,
+        Estimator::Bidirectional => settings.joins().is_none_or(|joins| joins),
+        Estimator::Photon | Estimator::BidirectionalMap => true,
+    };
+    if settings.steering == Switch::On && !is_steerable {
+        let joining =
+            if settings.first_shot == Switch::On { Switch::Off } else { settings.joining };
+        return Err(CheckError::NothingToSteer {
+            estimator: settings.estimator.name(),
+            joining: joining.name(),
+        });
     }
     if settings.joining == Switch::On && settings.estimator != Estimator::Bidirectional {
         return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
@@ -134,11 +166,16 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 );
             }
         }
-        Estimator::BidirectionalMap => caveats.push(
-            "the estimator \"bidirectional-map\" reads means over map elements; the intervals leave \
-             out this bias"
-                .to_owned(),
-        ),
+        Estimator::BidirectionalMap => {
+            caveats.push(
+                "the estimator \"bidirectional-map\" reads means over map elements; the intervals leave \
+                 out this bias"
+                    .to_owned(),
+            );
+            caveats.extend(settings.map_dimensions.map(|most| {
+                format!("photons that took more than {most} coordinates are left out of maps: values are too low")
+            }));
+        }
         Estimator::Path | Estimator::Bidirectional => {}
     }
     caveats

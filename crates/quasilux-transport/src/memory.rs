@@ -123,7 +123,7 @@ fn elements(scene: &Scene, settings: &Settings) -> u64 {
 fn cells_bytes(settings: &Settings, points: u64) -> u64 {
     let photons = settings.estimator != Estimator::Path;
     let guides = if photons && settings.steering != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
-    if settings.estimator != Estimator::Bidirectional || settings.joining == Switch::Off {
+    if settings.estimator != Estimator::Bidirectional || settings.joins() == Some(false) {
         return guides;
     }
     let slots = 1 + u64::from(settings.list_terms.max(1));

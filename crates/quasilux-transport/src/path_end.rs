@@ -171,7 +171,7 @@ impl<S: Spectrum> PathEnd<S> {
         let wanted = (PHOTONS_PER_ELEMENT * layout.len() as u64).next_power_of_two();
         let photons = wanted.clamp(*PLAN_PHOTONS.start(), *PLAN_PHOTONS.end());
         let tally = MapTally::new(&layout, source.usual_weight(), layers(stage, PASSES));
-        let receiver = MapReceiver::up_to(most_bounces, &layout, &tally);
+        let receiver = MapReceiver::up_to(most_bounces, stage.map_dimensions, &layout, &tally);
         counts += source.counted(plan(photons, source, Some(receiver), watch));
         (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
     }

@@ -145,6 +145,10 @@ pub struct Settings {
     /// Photons of each map that grows for every path of a sensor point, at least 1: with many sensor points,
     /// one each is few beside the paths.
     pub map_photons: u32,
+    /// Coordinates that a photon may have used when it lands on a map that paths end on, the balance of Voloboy, Dmitriev and Kopylov
+    /// (2003): later events, which quasi-random points do least for, are left out. [`Estimator::Bidirectional`] finds
+    /// their light by its correction, [`Estimator::BidirectionalMap`] goes without; `None` leaves nothing out.
+    pub map_dimensions: Option<u32>,
     /// How many plane mirrors, one after the other, images of point-like lights are followed through;
     /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
@@ -152,7 +156,7 @@ pub struct Settings {
     /// helps the sensors; else they keep equal flux.
     pub steering: Switch,
     /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; else
-    /// these end on a frozen map, which is corrected.
+    /// these end on a frozen map, which is corrected. A first shot that is to be on leaves `Auto` the map alone.
     pub joining: Switch,
 }
 
@@ -161,6 +165,17 @@ impl Settings {
     #[must_use]
     pub fn has_tolerance(&self) -> bool {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
+    }
+
+    /// Whether [`Estimator::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
+    /// that are to leave lit places are those of maps.
+    #[must_use]
+    pub fn joins(&self) -> Option<bool> {
+        match (self.joining, self.first_shot) {
+            (Switch::On, _) => Some(true),
+            (Switch::Off, _) | (Switch::Auto, Switch::On) => Some(false),
+            (Switch::Auto, _) => None,
+        }
     }
 
     /// The half-width in lx that is enough for this value.
@@ -201,6 +216,7 @@ impl Default for Settings {
             map_adaptive: true,
             map_reconstruction: Reconstruction::Linear,
             map_photons: 1,
+            map_dimensions: None,
             image_depth: None,
             steering: Switch::Auto,
             joining: Switch::Auto,

@@ -242,7 +242,8 @@ pub(crate) fn look<S: Spectrum>(
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
     estimates.warnings.extend(stage.warning.clone());
-    if let (Some(ways), true) = (&stage.hides, settings.estimator != Estimator::Photon) {
+    let sees_hidden = settings.estimator != Estimator::Photon && settings.max_bounces != Some(0);
+    if let (Some(ways), true) = (&stage.hides, sees_hidden) {
         estimates.biased = true;
         estimates.warnings.push(format!(
             "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \

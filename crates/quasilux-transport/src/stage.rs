@@ -20,6 +20,8 @@ pub(crate) struct Stage<'a, S> {
     /// What light of points and luminaires only photons find, in words.
     pub(crate) hides: Option<String>,
     pub(crate) max_bounces: Option<u32>,
+    /// Coordinates that photons on maps may have used.
+    pub(crate) map_dimensions: Option<u32>,
     /// Terms of the Neumann series to keep apart; 0 for none.
     pub(crate) listed_terms: u32,
     /// What a reader of the results must know of the lights' places.
@@ -111,6 +113,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             images,
             hides,
             max_bounces: settings.max_bounces,
+            map_dimensions: settings.map_dimensions,
             listed_terms: settings.list_terms,
             warning,
             stopwatch: None,

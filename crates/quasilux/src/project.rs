@@ -144,6 +144,7 @@ pub(crate) fn settings(
         settings.map_reconstruction = names::in_project(section, "reconstruction", name, known)?;
     }
     settings.map_photons = section.map_photons.as_ref().map_or(defaults.map_photons, |at| at.value);
+    settings.map_dimensions = section.map_dimensions.as_ref().map(|at| at.value);
     settings.image_depth = section.image_depth.as_ref().map(|at| at.value);
     settings.replicates = section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
     settings.seed =

@@ -8,7 +8,7 @@
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `image_depth`, `steering`, `joining`, `first_shot`),
+//! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`, `steering`, `joining`, `first_shot`),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for,
@@ -136,6 +136,8 @@ struct RunEntry<'a> {
     map_adaptive: bool,
     map_reconstruction: &'static str,
     map_photons: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map_dimensions: Option<u32>,
     image_depth: Option<u32>,
     steering: &'a str,
     joining: &'a str,
@@ -255,6 +257,7 @@ impl<'a> RunEntry<'a> {
             map_adaptive: run.settings.map_adaptive,
             map_reconstruction: run.settings.map_reconstruction.name(),
             map_photons: run.settings.map_photons,
+            map_dimensions: run.settings.map_dimensions,
             image_depth: run.settings.image_depth,
             steering: run.settings.steering.name(),
             joining: run.settings.joining.name(),

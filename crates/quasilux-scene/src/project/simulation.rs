@@ -6,7 +6,7 @@
 use super::document::{Section, Value};
 use crate::{LoadError, Placed};
 
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "estimator",
     "sequence",
     "randomization",
@@ -24,6 +24,7 @@ const KEYS: [&str; 20] = [
     "map_adaptive",
     "map_reconstruction",
     "map_photons",
+    "map_dimensions",
     "image_depth",
     "steering",
     "joining",
@@ -80,6 +81,8 @@ pub struct SimulationSection {
     pub map_reconstruction: Option<Placed<String>>,
     /// Photons of a map that grows for every path of a sensor point, at least 1.
     pub map_photons: Option<Placed<u32>>,
+    /// Coordinates that a photon on a map may have used, at least 1.
+    pub map_dimensions: Option<Placed<u32>>,
     /// Mirrors, one after the other, that images of point-like lights are followed through.
     pub image_depth: Option<Placed<u32>>,
     /// Whether photons are steered, by name.
@@ -151,6 +154,10 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         map_photons: placed(&section, "map_photons", |value| {
             let expected = format!("an integer from 1 to {MAX_MAP_PHOTONS}");
             value.integer(&expected, 1..=MAX_MAP_PHOTONS).map(|n| n as u32)
+        })?,
+        map_dimensions: placed(&section, "map_dimensions", |value| {
+            let expected = format!("an integer from 1 to {}", u32::MAX);
+            value.integer(&expected, 1..=u64::from(u32::MAX)).map(|n| n as u32)
         })?,
         image_depth: placed(&section, "image_depth", |value| {
             let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");

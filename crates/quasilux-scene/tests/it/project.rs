@@ -110,7 +110,7 @@ fn simulation_values_keep_their_places() {
     let project = PROJECT.to_owned()
         + "[simulation]\nestimator = \"pat\"\nrel_tol = 0.02\nconfidence = 0.9\nreplicates = 8\n\
            seed = 0xff\nmax_bounces = \"unlimited\"\nlist_terms = 4\nmap_element_m = 1\n\
-           map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\nmap_photons = 9\nimage_depth = 3\n\
+           map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\nmap_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
            steering = \"on\"\njoining = \"off\"\nfirst_shot = \"off\"\n\
            abs_tol = 0.5\ntolerance_on = \"summary\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
@@ -125,6 +125,7 @@ fn simulation_values_keep_their_places() {
     assert_eq!(simulation.map_adaptive.as_ref().map(|v| v.value), Some(false));
     assert_eq!(simulation.map_reconstruction.as_ref().map(|v| &*v.value), Some("linear"));
     assert_eq!(simulation.map_photons.as_ref().map(|v| v.value), Some(9));
+    assert_eq!(simulation.map_dimensions.as_ref().map(|v| v.value), Some(7));
     assert_eq!(simulation.image_depth.as_ref().map(|v| v.value), Some(3));
     assert_eq!(simulation.steering.as_ref().map(|v| &*v.value), Some("on"));
     assert_eq!(simulation.joining.as_ref().map(|v| &*v.value), Some("off"));

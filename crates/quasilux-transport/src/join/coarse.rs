@@ -138,7 +138,7 @@ struct CellReceiver<'a, S> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
-    fn follow(&mut self, _index: u64) {}
+    fn follow(&mut self, _index: u64, _dimension: u32) {}
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 

@@ -73,7 +73,7 @@ pub(crate) fn decide<S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Decision {
     let is_possible = settings.estimator == Estimator::Bidirectional
-        && settings.joining != Switch::Off
+        && settings.joins() != Some(false)
         && settings.max_bounces != Some(0)
         && !targets.is_empty();
     if !is_possible {
@@ -123,7 +123,7 @@ pub(crate) fn decide<S: Spectrum>(
     let missed = wanted.shortfall(found_alone_lx, noise);
     let of_alone: Vec<f64> = wanted.variances(&alone).iter().map(|v| v + missed).collect();
     let pays = |best: &Best| best.cost < wanted.cost.rays(&of_alone, alone.rays, 0.0);
-    let best = best.filter(|(best, _)| settings.joining == Switch::On || pays(best));
+    let best = best.filter(|(best, _)| settings.joins() == Some(true) || pays(best));
     let joined = best.map(|(Best { photons, coarse_photons, .. }, way)| {
         let joining = Joining { photons, coarse_photons, ..way.joining };
         let replicates = 0..settings.effective_replicates();

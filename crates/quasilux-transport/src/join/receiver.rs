@@ -171,7 +171,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
-    fn follow(&mut self, index: u64) {
+    fn follow(&mut self, index: u64, _dimension: u32) {
         if self.photon.as_ref().is_none_or(|photon| photon.index != index) {
             let mut cursor = SampleCursor::new(&self.points, index);
             cursor.skip_to(PLACE_DIMENSION);

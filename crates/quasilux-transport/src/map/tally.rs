@@ -43,6 +43,10 @@ pub(crate) struct MapReceiver<'a, S> {
     tally: &'a MapTally<S>,
     /// Photons with more bounces are left out: their light bounces once more before a sensor.
     most_bounces: u32,
+    /// So are photons that took more coordinates.
+    most_dimensions: u32,
+    /// Whether that which it sees did.
+    is_deep: bool,
 }
 
 impl<S: Spectrum> MapTally<S> {
@@ -137,12 +141,18 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
 
 impl<'a, S: Spectrum> MapReceiver<'a, S> {
     pub(crate) fn new(stage: &Stage<'_, S>, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
-        Self::up_to(most_bounces(stage), layout, tally)
+        Self::up_to(most_bounces(stage), stage.map_dimensions, layout, tally)
     }
 
-    /// Leaves out photons with more bounces than these.
-    pub(crate) fn up_to(most_bounces: u32, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
-        Self { layout, tally, most_bounces }
+    /// Leaves out photons with more bounces than these, and landings after more coordinates.
+    pub(crate) fn up_to(
+        most_bounces: u32,
+        most_dimensions: Option<u32>,
+        layout: &'a MapLayout,
+        tally: &'a MapTally<S>,
+    ) -> Self {
+        let most_dimensions = most_dimensions.unwrap_or(u32::MAX);
+        Self { layout, tally, most_bounces, most_dimensions, is_deep: false }
     }
 }
 
@@ -152,11 +162,15 @@ pub(super) fn most_bounces<S>(stage: &Stage<'_, S>) -> u32 {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
+    fn follow(&mut self, _index: u64, dimension: u32) {
+        self.is_deep = dimension > self.most_dimensions;
+    }
+
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         // Light straight from the lights is never read from the map.
-        if (1..=self.most_bounces).contains(&bounces) {
+        if !self.is_deep && (1..=self.most_bounces).contains(&bounces) {
             self.tally.add(&self.layout.locate(at), weight, bounces);
         }
     }

@@ -152,4 +152,33 @@ fn estimators_without_maps_refuse_it() {
         let estimator = estimator.name();
         assert_eq!(check(&scene, &settings), Err(CheckError::FirstShotWithoutMap { estimator }));
     }
+    let joined =
+        Settings { estimator: Estimator::Bidirectional, joining: Switch::On, ..map(Switch::On, 1) };
+    assert_eq!(check(&scene, &joined), Err(CheckError::FirstShotOfJoined));
+}
+
+/// A switch that is on is heeded or refused.
+#[test]
+fn what_is_switched_on_is_not_passed_over() {
+    let [(_, scene), ..] = rooms();
+    let steered = Settings { steering: Switch::On, first_shot: Switch::Auto, ..map(Switch::On, 1) };
+    let with = |estimator, joining| Settings { estimator, joining, ..steered.clone() };
+    for settings in [
+        with(Estimator::Path, Switch::Auto),
+        with(Estimator::Bidirectional, Switch::Off),
+        Settings { first_shot: Switch::On, ..with(Estimator::Bidirectional, Switch::Auto) },
+    ] {
+        let refused = check(&scene, &settings);
+        assert!(matches!(refused, Err(CheckError::NothingToSteer { .. })), "{refused:?}");
+    }
+    for joining in [Switch::Auto, Switch::On] {
+        assert_eq!(check(&scene, &with(Estimator::Bidirectional, joining)), Ok(()));
+    }
+    // On the corrected map photons leave lit places, or not: other numbers.
+    let few = |first_shot| {
+        let estimator = Estimator::Bidirectional;
+        let max_samples = Some(64);
+        run(&scene, Settings { estimator, max_samples, ..map(first_shot, 1) }).sensors
+    };
+    assert!(few(Switch::On) != few(Switch::Off));
 }

@@ -19,6 +19,7 @@ mod furnace;
 mod hall;
 mod images;
 mod joining;
+mod map_dimensions;
 mod materials;
 mod measured;
 mod measured_known;

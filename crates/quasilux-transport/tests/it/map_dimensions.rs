@@ -1,0 +1,65 @@
+//! Maps without photons that took many coordinates: the paper's balance of dimensions.
+
+use crate::scenes::points;
+use glam::DVec3;
+use quasilux_scene::Scene;
+use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
+
+/// A closed room, with points on the floor, the ceiling and a wall.
+fn scene() -> Scene {
+    let mut scene = crate::dozen_scenes::closed(0.6);
+    let places = [
+        (DVec3::new(0.3, 0.2, 0.0), DVec3::Z),
+        (DVec3::new(3.0, 2.0, 2.5), DVec3::NEG_Z),
+        (DVec3::new(4.0, 1.0, 0.5), DVec3::NEG_X),
+    ];
+    scene.sensors = vec![points("points", &places)];
+    scene
+}
+
+fn run(estimator: Estimator, map_dimensions: Option<u32>) -> Estimates {
+    let settings = Settings {
+        estimator,
+        map_dimensions,
+        joining: Switch::Off,
+        steering: Switch::Off,
+        rel_tol: 0.0,
+        max_samples: Some(1 << 10),
+        ..Settings::default()
+    };
+    simulate(&scene(), &settings, &mut ())
+}
+
+fn values_lx(estimates: &Estimates) -> Vec<f64> {
+    estimates.point_intervals(0).iter().map(|interval| interval.value).collect()
+}
+
+/// The more coordinates photons may have used, the more of the light is on the map, up to all of it.
+#[test]
+fn the_paper_s_map_goes_without_what_is_left_out() {
+    let of = |most| run(Estimator::BidirectionalMap, most);
+    let all = of(None);
+    let ascending = [Some(1), Some(6), Some(12), None].map(|most| values_lx(&of(most)));
+    for pair in ascending.windows(2) {
+        let found = format!("{pair:?}");
+        assert!(pair[0].iter().zip(&pair[1]).all(|(less, more)| *less < 0.98 * more), "{found}");
+    }
+    assert_eq!(of(Some(10_000)).sensors, all.sensors);
+    let says = |estimates: &Estimates| estimates.warnings.iter().any(|w| w.contains("too low"));
+    assert!(says(&of(Some(6))) && !says(&all));
+}
+
+/// Paths that correct the map find what is not on it.
+#[test]
+fn the_corrected_map_finds_it() {
+    let path = run(Estimator::Path, None).point_intervals(0);
+    for most in [1, 8] {
+        let corrected = run(Estimator::Bidirectional, Some(most));
+        assert!(!corrected.biased);
+        for (a, b) in corrected.point_intervals(0).iter().zip(&path) {
+            let joint = libm::hypot(a.half_width.unwrap(), b.half_width.unwrap());
+            let found = format!("{most}: {a:?}, by paths {b:?}");
+            assert!((a.value - b.value).abs() < 1.5 * joint && joint < 0.03 * b.value, "{found}");
+        }
+    }
+}
