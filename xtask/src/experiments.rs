@@ -3,7 +3,7 @@
 //! `docs/experiments/page.md` is the text. In it `{{table NAME}}` stands for the tables and claims that the experiment
 //! wrote, and `{{NAME: COLUMN where KEY=VALUE, KEY=VALUE as DIGITS}}` for one figure of its CSV file, in the one row
 //! where all keys have these values; `as DIGITS %` makes a share per cent. What an experiment writes for people names
-//! the CSV file written with it by its SHA-256: with another one beside it nothing is generated.
+//! the CSV file written with it, and itself, by their SHA-256: with other files nothing is generated.
 
 use crate::Failure;
 use sha2::{Digest, Sha256};

@@ -181,7 +181,11 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
             lost_lm: 0.0,
             cut_lm: 0.0,
         },
-        dimensions: Dimensions { photon: photon_dimensions(), path: DimensionHistogram::new() },
+        dimensions: Dimensions {
+            photon: photon_dimensions(),
+            photon_events: 6,
+            path: DimensionHistogram::new(),
+        },
         invalid_contributions: 0,
         confidence: 0.95,
         miss_probability: 0.025,

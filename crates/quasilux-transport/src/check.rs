@@ -51,20 +51,30 @@ pub enum CheckError {
     },
     /// No photon of these is split or ended.
     #[error(
-        "steering = \"on\" is for photons that sensors count or join, or that fill growing maps: there are none with \
-         the estimator \"{estimator}\" and joining = \"{joining}\""
+        "steering = \"on\" is for photons that sensors count, that are joined to them, or that fill growing maps: there \
+         are none with the estimator \"{estimator}\"{why}"
     )]
     NothingToSteer {
         /// Name of the estimator.
         estimator: &'static str,
-        /// Name of the switch.
-        joining: &'static str,
+        /// What else keeps photons from being joined.
+        why: &'static str,
     },
     /// Joined photons leave the lights.
     #[error(
         "first_shot = \"on\" is for the photons of illumination maps, and joining = \"on\" leaves none"
     )]
     FirstShotOfJoined,
+    /// Nothing can be left out of a map that is not there.
+    #[error(
+        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" and joining = \"{joining}\""
+    )]
+    NoMapToLeaveOutOf {
+        /// Name of the estimator.
+        estimator: &'static str,
+        /// Name of the switch.
+        joining: &'static str,
+    },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -87,18 +97,29 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     if settings.first_shot == Switch::On && settings.joining == Switch::On {
         return Err(CheckError::FirstShotOfJoined);
     }
+    let has_map = match settings.estimator {
+        Estimator::Path | Estimator::Photon => false,
+        Estimator::Bidirectional => settings.joining != Switch::On,
+        Estimator::BidirectionalMap => true,
+    };
+    if settings.map_dimensions.is_some() && !has_map {
+        return Err(CheckError::NoMapToLeaveOutOf {
+            estimator: settings.estimator.name(),
+            joining: settings.joining.name(),
+        });
+    }
     let is_steerable = match settings.estimator {
         Estimator::Path => false,
         Estimator::Bidirectional => settings.joins().is_none_or(|joins| joins),
         Estimator::Photon | Estimator::BidirectionalMap => true,
     };
     if settings.steering == Switch::On && !is_steerable {
-        let joining =
-            if settings.first_shot == Switch::On { Switch::Off } else { settings.joining };
-        return Err(CheckError::NothingToSteer {
-            estimator: settings.estimator.name(),
-            joining: joining.name(),
-        });
+        let why = match settings.joining {
+            _ if settings.estimator == Estimator::Path => "",
+            Switch::Off => " and joining = \"off\"",
+            _ => " on a map that first_shot or map_dimensions ask for",
+        };
+        return Err(CheckError::NothingToSteer { estimator: settings.estimator.name(), why });
     }
     if settings.joining == Switch::On && settings.estimator != Estimator::Bidirectional {
         return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
@@ -173,7 +194,7 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                     .to_owned(),
             );
             caveats.extend(settings.map_dimensions.map(|most| {
-                format!("photons that took more than {most} coordinates are left out of maps: values are too low")
+                format!("photons that took more than {most} coordinates are left out of maps: values may be too low")
             }));
         }
         Estimator::Path | Estimator::Bidirectional => {}

@@ -53,7 +53,7 @@ pub struct Convergence {
     /// Rays of the whole run up to there.
     pub rays: Option<u64>,
     /// Half-widths over what was foretold for them two checkpoints before with a measured slope: the geometric mean
-    /// over checkpoints, each as often as it had targets that grew.
+    /// over checkpoints, each as often as it had targets with one before and after that grew.
     pub against_prediction: Option<f64>,
 }
 
@@ -168,12 +168,16 @@ impl History {
         Ok(Self { checkpoints, outcomes, widths, samples: last.samples, rays: last.rays })
     }
 
-    /// Adds a checkpoint to the chain, or begins a new one where nothing can be compared with the last. `noise` is the
+    /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one that has not begun begins here, and
+    /// one that has is at its end: what others told stands for targets that had nothing before. `noise` is the
     /// variance of logarithms of half-widths by chance. The exponent that is foretold with from now on.
     fn chain(&mut self, now: &[(Option<f64>, u64)], samples: u64, noise: f64) -> Option<f64> {
         let change = self.change(now, noise);
         let width = match (&change, self.checkpoints.last()) {
-            (Some(change), Some(last)) => last.width * libm::exp(change.mean),
+            (Some(change), Some(last)) if last.samples == self.samples => {
+                last.width * libm::exp(change.mean)
+            }
+            (_, Some(last)) if self.checkpoints.len() > 1 => return last.exponent,
             _ => {
                 self.checkpoints.clear();
                 1.0
@@ -373,6 +377,11 @@ mod tests {
         assert_eq!(record(256, Some(1.0)), None);
         assert_eq!(record(512, Some(0.5)), None);
         assert!((record(1024, Some(0.25)).unwrap() + 1.0).abs() < 1e-9);
+        // Nor do targets that nothing is found at when all others are done, or those that are found then.
+        for (samples, width) in [(2048, None), (4096, None), (8192, Some(3.0)), (16_384, Some(2.0))]
+        {
+            assert!((record(samples, width).unwrap() + 1.0).abs() < 1e-9);
+        }
     }
 
     /// Three checkpoints of one target and 16 replicates, v = 1/30, say about as much of its slope as slopes of other scenes do;

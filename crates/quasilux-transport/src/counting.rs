@@ -193,6 +193,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
             flux: self.photons.balance(self.stage.lights.flux_lm),
             dimensions: Dimensions {
                 photon: self.photons.dimensions.clone(),
+                photon_events: self.photons.events,
                 ..Dimensions::default()
             },
             biased: self.photons.endless > 0,

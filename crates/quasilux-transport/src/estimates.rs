@@ -90,6 +90,8 @@ pub struct FluxBalance {
 pub struct Dimensions {
     /// Of the photons.
     pub photon: DimensionHistogram,
+    /// Surfaces that all these photons came to.
+    pub photon_events: u64,
     /// Of the paths from sensors.
     pub path: DimensionHistogram,
 }

@@ -319,7 +319,11 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             flux: photons.balance(self.stage.lights.flux_lm),
             biased: work.endless + photons.trapped > 0,
             warnings,
-            dimensions: Dimensions { photon: photons.dimensions, path: work.dimensions },
+            dimensions: Dimensions {
+                photon: photons.dimensions,
+                photon_events: photons.events,
+                path: work.dimensions,
+            },
             invalid_contributions: self.invalid_points
                 + self.joined.as_ref().map_or(0, Joined::invalid)
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),

@@ -38,6 +38,8 @@ pub(crate) enum PathEnd<S> {
         tally: MapTally<S>,
         /// Flux of a photon.
         flux_lm: f64,
+        /// Whether its photons left lit places.
+        first_shot: bool,
     },
     /// A map for each replicate that grows with it.
     Own {
@@ -173,7 +175,8 @@ impl<S: Spectrum> PathEnd<S> {
         let tally = MapTally::new(&layout, source.usual_weight(), layers(stage, PASSES));
         let receiver = MapReceiver::up_to(most_bounces, stage.map_dimensions, &layout, &tally);
         counts += source.counted(plan(photons, source, Some(receiver), watch));
-        (Self::Plan { layout, tally, flux_lm: stage.lights.flux_lm / photons as f64 }, counts)
+        let flux_lm = stage.lights.flux_lm / photons as f64;
+        (Self::Plan { layout, tally, flux_lm, first_shot: lit_cells.is_some() }, counts)
     }
 
     /// Photons of each map that grows, from those so far to those that so many paths of a sensor point ask for;
@@ -191,9 +194,11 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn facts(&self) -> MapFacts {
         match self {
             Self::Nothing => MapFacts::default(),
-            Self::Plan { layout, .. } => {
-                MapFacts { elements: Some(layout.len() as u64), ..MapFacts::default() }
-            }
+            Self::Plan { layout, first_shot, .. } => MapFacts {
+                elements: Some(layout.len() as u64),
+                first_shot: *first_shot,
+                is_steered: false,
+            },
             Self::Own { layout, lit_cells, windows, .. } => MapFacts {
                 elements: Some(layout.len() as u64),
                 first_shot: lit_cells.is_some(),
@@ -206,10 +211,11 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         match self {
             Self::Nothing => {}
-            Self::Plan { layout, tally, flux_lm } => {
+            Self::Plan { layout, tally, flux_lm, first_shot } => {
                 layout.put(out);
                 tally.put(out);
                 out.f64(*flux_lm);
+                out.bool(*first_shot);
             }
             Self::Own { layout, lit_cells, windows, .. } => {
                 layout.put(out);
@@ -257,7 +263,7 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn rest(&self, stage: &Stage<'_, S>, replicate: u32) -> Rest<'_, S> {
         match self {
             Self::Nothing => Rest::Path,
-            Self::Plan { layout, tally, flux_lm } => {
+            Self::Plan { layout, tally, flux_lm, .. } => {
                 let map = tally.read(*flux_lm);
                 Rest::Map(MapEnd { layout, map, passes: PASSES, corrected: true })
             }

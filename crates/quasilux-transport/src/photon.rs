@@ -42,6 +42,8 @@ pub(crate) struct PhotonCounts {
     pub(crate) rays: u64,
     /// Rays among them that join photons to sensors.
     pub(crate) joins: u64,
+    /// Surfaces that photons came to.
+    pub(crate) events: u64,
     /// Coordinates that each of them used, children of splits by themselves.
     pub(crate) dimensions: DimensionHistogram,
 }
@@ -305,6 +307,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             counts.lost += self.quanta();
             return counts.end(&self);
         };
+        counts.events += 1;
         let (bsdf, frame) = (stage.world.bsdf(at), stage.world.frame(at));
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
@@ -396,8 +399,8 @@ impl PhotonCounts {
     /// What they cost, without where their flux went: those from lit cells do not carry all of it.
     pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
-        let Self { rays, joins, dimensions, .. } = self;
-        Self { trapped, rays, joins, dimensions, ..Self::default() }
+        let Self { rays, joins, events, dimensions, .. } = self;
+        Self { trapped, rays, joins, events, dimensions, ..Self::default() }
     }
 
     /// Records a photon that ended.
@@ -428,6 +431,7 @@ impl AddAssign for PhotonCounts {
         self.trapped += other.trapped;
         self.rays += other.rays;
         self.joins += other.joins;
+        self.events += other.events;
         self.dimensions.merge(&other.dimensions);
     }
 }

@@ -156,7 +156,7 @@ pub struct Settings {
     /// helps the sensors; else they keep equal flux.
     pub steering: Switch,
     /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; else
-    /// these end on a frozen map, which is corrected. A first shot that is to be on leaves `Auto` the map alone.
+    /// these end on a frozen map, which is corrected. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone.
     pub joining: Switch,
 }
 
@@ -168,13 +168,14 @@ impl Settings {
     }
 
     /// Whether [`Estimator::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
-    /// that are to leave lit places are those of maps.
+    /// that are to leave lit places, or to be left out, are those of maps.
     #[must_use]
     pub fn joins(&self) -> Option<bool> {
-        match (self.joining, self.first_shot) {
-            (Switch::On, _) => Some(true),
-            (Switch::Off, _) | (Switch::Auto, Switch::On) => Some(false),
-            (Switch::Auto, _) => None,
+        let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();
+        match self.joining {
+            Switch::On => Some(true),
+            Switch::Off => Some(false),
+            Switch::Auto => asks_for_map.then_some(false),
         }
     }
 

@@ -10,7 +10,7 @@
 //! run repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
 //! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`, `steering`, `joining`, `first_shot`),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
-//! coordinates, in one list each, all of more than 1023 together at its end. A point that reached its
+//! coordinates, in one list each, all of more than 1023 together at its end, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for,
 //! `explain` says which coordinates carry the variance.
 
@@ -25,7 +25,7 @@ use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
-use quasilux_transport::DimensionHistogram;
+use quasilux_transport::{DimensionHistogram, Dimensions};
 use serde::{Serialize, Serializer};
 use terms::TermEntry;
 
@@ -143,6 +143,7 @@ struct RunEntry<'a> {
     joining: &'a str,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
+    mean_events: MeanEventsEntry,
     #[serde(serialize_with = "finite_or_null")]
     flux_emitted_lm: f64,
     #[serde(serialize_with = "finite_or_null")]
@@ -158,6 +159,12 @@ struct RunEntry<'a> {
 struct MeanDimensionEntry {
     photon: Option<f64>,
     path: Option<f64>,
+}
+
+/// Surfaces on the way of a photon, on average.
+#[derive(Serialize)]
+struct MeanEventsEntry {
+    photon: Option<f64>,
 }
 
 /// How many photons and paths used 0, 1, 2, .. coordinates.
@@ -269,6 +276,7 @@ impl<'a> RunEntry<'a> {
                 photon: run.dimensions.photon.counts(),
                 path: run.dimensions.path.counts(),
             },
+            mean_events: MeanEventsEntry { photon: mean_events(&run.dimensions) },
             flux_emitted_lm: run.flux.emitted_lm,
             flux_absorbed_lm: run.flux.absorbed_lm,
             flux_lost_lm: run.flux.lost_lm,
@@ -281,6 +289,11 @@ impl<'a> RunEntry<'a> {
 /// The mean number of coordinates; `None` where nothing was traced.
 fn mean(dimensions: &DimensionHistogram) -> Option<f64> {
     (dimensions.samples() > 0).then(|| dimensions.mean())
+}
+
+fn mean_events(dimensions: &Dimensions) -> Option<f64> {
+    let photons = dimensions.photon.samples();
+    (photons > 0).then(|| dimensions.photon_events as f64 / photons as f64)
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
@@ -344,6 +357,7 @@ mod tests {
         assert_eq!(document["run"]["scene_sha256"], "c0ffee");
         assert_eq!(document["run"]["mean_dimension"]["photon"], 3.0);
         assert_eq!(document["run"]["mean_dimension"]["path"], Value::Null);
+        assert_eq!(document["run"]["mean_events"]["photon"], 2.0);
         let counts = serde_json::json!({"photon": [0, 0, 2, 0, 0, 1], "path": []});
         assert_eq!(document["run"]["dimension_counts"], counts);
         assert_eq!(document["run"]["max_bounces"], Value::Null);

@@ -44,15 +44,39 @@ impl Stored for WorkCounts {
 
 impl Stored for PhotonCounts {
     fn put(&self, out: &mut Writer) {
-        let Self { emitted, absorbed, lost, cut, endless, trapped, rays, joins, dimensions } = self;
-        [emitted, endless, trapped, rays, joins].into_iter().for_each(|count| out.u64(*count));
+        let Self {
+            emitted,
+            absorbed,
+            lost,
+            cut,
+            endless,
+            trapped,
+            rays,
+            joins,
+            events,
+            dimensions,
+        } = self;
+        [emitted, endless, trapped, rays, joins, events]
+            .into_iter()
+            .for_each(|count| out.u64(*count));
         [absorbed, lost, cut].into_iter().for_each(|quanta| out.i64(*quanta));
         dimensions.put(out);
     }
 
     fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let Self { emitted, absorbed, lost, cut, endless, trapped, rays, joins, dimensions } = self;
-        let counts = [emitted, endless, trapped, rays, joins];
+        let Self {
+            emitted,
+            absorbed,
+            lost,
+            cut,
+            endless,
+            trapped,
+            rays,
+            joins,
+            events,
+            dimensions,
+        } = self;
+        let counts = [emitted, endless, trapped, rays, joins, events];
         counts.into_iter().try_for_each(|count| from.add_u64(count))?;
         [absorbed, lost, cut].into_iter().try_for_each(|quanta| from.add_i64(quanta))?;
         dimensions.take_in(from)

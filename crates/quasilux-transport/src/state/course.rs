@@ -81,7 +81,7 @@ fn put_estimates(estimates: &Estimates, out: &mut Writer) {
         warnings,
     } = estimates;
     let FluxBalance { emitted_lm, absorbed_lm, lost_lm, cut_lm } = flux;
-    let Dimensions { photon, path } = dimensions;
+    let Dimensions { photon, photon_events, path } = dimensions;
     sensors.iter().for_each(|sensor| put_sensor(sensor, out));
     for count in [samples, rays, invalid_contributions, unresolved_points] {
         out.u64(*count);
@@ -97,6 +97,7 @@ fn put_estimates(estimates: &Estimates, out: &mut Writer) {
     out.option(*rays, Writer::u64);
     out.option(*against_prediction, Writer::f64);
     photon.put(out);
+    out.u64(*photon_events);
     path.put(out);
     out.u64(warnings.len() as u64);
     warnings.iter().for_each(|warning| out.text(warning));
@@ -134,6 +135,7 @@ fn read_estimates(
         against_prediction: from.option(Reader::f64)?,
     };
     estimates.dimensions.photon.take_in(from)?;
+    estimates.dimensions.photon_events = from.u64()?;
     estimates.dimensions.path.take_in(from)?;
     let warnings = from.length(size_of::<u64>())?;
     estimates.warnings = (0..warnings).map(|_| from.text()).collect::<Result<_, _>>()?;

@@ -73,6 +73,8 @@ fn photons_use_seven_coordinates() {
         rel_tol: 0.0,
         ..Settings::default()
     };
-    let dimension = run(&settings, &KNOWN[..1]).dimensions.photon.mean();
-    assert!((dimension - 7.0).abs() < 0.02, "{dimension}");
+    let dimensions = run(&settings, &KNOWN[..1]).dimensions;
+    let events = dimensions.photon_events as f64 / dimensions.photon.samples() as f64;
+    let dimension = dimensions.photon.mean();
+    assert!((dimension - 7.0).abs() < 0.02 && (events - 3.0).abs() < 0.01, "{dimension} {events}");
 }

@@ -3,7 +3,7 @@
 use crate::scenes::points;
 use glam::DVec3;
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
+use quasilux_transport::{CheckError, Estimates, Estimator, Settings, Switch, check, simulate};
 
 /// A closed room, with points on the floor, the ceiling and a wall.
 fn scene() -> Scene {
@@ -45,7 +45,8 @@ fn the_paper_s_map_goes_without_what_is_left_out() {
         assert!(pair[0].iter().zip(&pair[1]).all(|(less, more)| *less < 0.98 * more), "{found}");
     }
     assert_eq!(of(Some(10_000)).sensors, all.sensors);
-    let says = |estimates: &Estimates| estimates.warnings.iter().any(|w| w.contains("too low"));
+    let says =
+        |estimates: &Estimates| estimates.warnings.iter().any(|w| w.contains("may be too low"));
     assert!(says(&of(Some(6))) && !says(&all));
 }
 
@@ -62,4 +63,23 @@ fn the_corrected_map_finds_it() {
             assert!((a.value - b.value).abs() < 1.5 * joint && joint < 0.03 * b.value, "{found}");
         }
     }
+}
+
+#[test]
+fn it_is_refused_where_there_is_no_map() {
+    let of = |estimator, joining| {
+        let settings =
+            Settings { estimator, joining, map_dimensions: Some(8), ..Settings::default() };
+        check(&scene(), &settings)
+    };
+    for (estimator, joining) in [
+        (Estimator::Path, Switch::Auto),
+        (Estimator::Photon, Switch::Auto),
+        (Estimator::Bidirectional, Switch::On),
+    ] {
+        let refused = of(estimator, joining);
+        assert!(matches!(refused, Err(CheckError::NoMapToLeaveOutOf { .. })), "{refused:?}");
+    }
+    assert_eq!(of(Estimator::Bidirectional, Switch::Auto), Ok(()));
+    assert_eq!(of(Estimator::BidirectionalMap, Switch::Auto), Ok(()));
 }

@@ -9,7 +9,7 @@
 use super::{analytic, ddr, direction, merl, surface};
 use crate::tables::Generator;
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Distribution, Side, Way, read_merl};
+use quasilux_photometry::bsdf::{Distribution, GriddedTable, Side, Way, read_merl};
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 use quasilux_stats::{CellCount, chi_square_test, sidak, sphere_jacobian};
@@ -313,6 +313,31 @@ fn sample_density_and_inverse_belong_together() {
                 let stretch = sphere_jacobian(map, u, STEP) * pdf_sr;
                 assert!((stretch - 1.0).abs() < 1e-4, "{name} at {u:?}: {stretch}");
             }
+        }
+    }
+}
+
+/// The same of lobes that are sampled by one map: at an incidence of the file, where no other mixes with it, and of a surface with
+/// directions to which it gives nothing, so that Lambert has no part.
+#[test]
+fn the_map_of_a_lobe_stretches_by_its_density() {
+    const STEP: f64 = 1e-7;
+    let theta_rad = [0.0, 0.6, 1.2];
+    let peak = |wi: DVec3, wo: DVec3| {
+        let mirrored = DVec3::new(-wi.x, -wi.y, wi.z);
+        (wo.dot(mirrored) - 0.3).max(0.0) * (1.0 + 0.3 * wo.y * wo.y)
+    };
+    let table = GriddedTable::from_function(&theta_rad, &[0.1, 0.3], peak).unwrap();
+    let distribution = Distribution::Gridded(table);
+    let mut generator = Generator(5);
+    for wi in distribution.incidences() {
+        for _ in 0..500 {
+            let mut u = || 2.0 * STEP + (1.0 - 4.0 * STEP) * generator.uniform();
+            let u = [u(), u()];
+            let map = |u| distribution.sample(wi, u).unwrap().wo.to_array();
+            let sample = distribution.sample(wi, u).unwrap();
+            let stretch = sphere_jacobian(map, u, STEP) * sample.pdf_sr;
+            assert!((stretch - 1.0).abs() < 1e-3, "{wi} at {u:?}: {stretch}");
         }
     }
 }

@@ -36,7 +36,6 @@ struct Effort {
 /// Runs both rooms.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let effort = Effort {
-        // A spread needs two.
         replicates: arguments.seeds.unwrap_or(REPLICATES),
         samples: arguments.max_n.unwrap_or(MOST),
         seed: arguments.seed,

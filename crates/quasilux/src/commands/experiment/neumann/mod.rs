@@ -48,7 +48,6 @@ struct Effort {
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let photons = arguments.max_n.unwrap_or(PHOTONS);
     let effort = Effort {
-        // An interval needs two.
         replicates: arguments.seeds.unwrap_or(REPLICATES),
         photons,
         paths: (photons / FEWER).max(1),

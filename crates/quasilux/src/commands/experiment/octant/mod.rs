@@ -51,7 +51,6 @@ struct Findings {
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let photons = arguments.max_n.unwrap_or(MOST);
     let findings = Findings::new(&Effort {
-        // An interval needs two.
         randomisations: arguments.seeds.unwrap_or(RANDOMISATIONS),
         photons,
         paths: (photons / FEWER).max(1),
