@@ -99,7 +99,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     let has_map = match settings.estimator {
         Estimator::Path | Estimator::Photon => false,
-        Estimator::Bidirectional => settings.joining != Switch::On,
+        Estimator::Bidirectional => settings.joins() != Some(true),
         Estimator::BidirectionalMap => true,
     };
     if settings.map_dimensions.is_some() && !has_map {
@@ -110,7 +110,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     let is_steerable = match settings.estimator {
         Estimator::Path => false,
-        Estimator::Bidirectional => settings.joins().is_none_or(|joins| joins),
+        Estimator::Bidirectional => settings.joins() != Some(false),
         Estimator::Photon | Estimator::BidirectionalMap => true,
     };
     if settings.steering == Switch::On && !is_steerable {

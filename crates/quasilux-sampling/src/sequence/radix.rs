@@ -6,7 +6,7 @@ use crate::ONE_BELOW;
 /// Digits are taken in groups with at most so many values.
 const MOST_VALUES: u32 = 256;
 
-/// A base from 3 on, with what its radical inverses take: a table of mirrored groups of digits, and a factor in place of the
+/// A base with what its radical inverses take, but for base 2, where bits are reversed: a table of mirrored groups of digits, and a factor in place of the
 /// division by their number (D. Lemire, O. Kaser and N. Kurz, "Faster remainder by direct computation", Software: Practice and Experience 49, 2019).
 #[derive(Debug)]
 pub(crate) struct Radix {

@@ -60,7 +60,7 @@ fn error_in_room(reconstruction: Reconstruction, element_m: f64, known: &[Interv
 }
 
 /// A room without symmetry, and points in a corner, on the ceiling and on a wall.
-fn room_with_points() -> Scene {
+pub(crate) fn room_with_points() -> Scene {
     let mut scene = crate::dozen_scenes::closed(0.6);
     let places = [
         (DVec3::new(0.3, 0.2, 0.0), DVec3::Z),

@@ -1,21 +1,7 @@
 //! Maps without photons that took many coordinates: the paper's balance of dimensions.
 
-use crate::scenes::points;
-use glam::DVec3;
-use quasilux_scene::Scene;
+use crate::element_size::room_with_points;
 use quasilux_transport::{CheckError, Estimates, Estimator, Settings, Switch, check, simulate};
-
-/// A closed room, with points on the floor, the ceiling and a wall.
-fn scene() -> Scene {
-    let mut scene = crate::dozen_scenes::closed(0.6);
-    let places = [
-        (DVec3::new(0.3, 0.2, 0.0), DVec3::Z),
-        (DVec3::new(3.0, 2.0, 2.5), DVec3::NEG_Z),
-        (DVec3::new(4.0, 1.0, 0.5), DVec3::NEG_X),
-    ];
-    scene.sensors = vec![points("points", &places)];
-    scene
-}
 
 fn run(estimator: Estimator, map_dimensions: Option<u32>) -> Estimates {
     let settings = Settings {
@@ -27,7 +13,7 @@ fn run(estimator: Estimator, map_dimensions: Option<u32>) -> Estimates {
         max_samples: Some(1 << 10),
         ..Settings::default()
     };
-    simulate(&scene(), &settings, &mut ())
+    simulate(&room_with_points(), &settings, &mut ())
 }
 
 fn values_lx(estimates: &Estimates) -> Vec<f64> {
@@ -70,7 +56,7 @@ fn it_is_refused_where_there_is_no_map() {
     let of = |estimator, joining| {
         let settings =
             Settings { estimator, joining, map_dimensions: Some(8), ..Settings::default() };
-        check(&scene(), &settings)
+        check(&room_with_points(), &settings)
     };
     for (estimator, joining) in [
         (Estimator::Path, Switch::Auto),
