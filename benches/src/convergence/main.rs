@@ -1,7 +1,7 @@
 //! cargo run --release -p quasilux-benches --bin convergence [WORD...]
 //!
 //! Words: `cube`, `office`, `spotlights`, `wall`; names of estimators; `2^N` indices; `random`;
-//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`.
+//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`; `joining=` the same, for `bidirectional`.
 //!
 //! How the error falls, and at what price. At each checkpoint: indices per replicate, rays, processor
 //! seconds so far, the relative error of one replicate (from the spread of 16, root mean square over all
@@ -33,10 +33,12 @@ fn main() {
     let limit = words.iter().find_map(|word| word.strip_prefix("2^")?.parse().ok()).unwrap_or(12);
     let max_bounces = words.iter().find_map(|word| word.strip_prefix("bounces=")?.parse().ok());
     let map_element_m = words.iter().find_map(|word| word.strip_prefix("element=")?.parse().ok());
-    let first_shot = Switch::NAMES
-        .iter()
-        .find(|(name, _)| given(&format!("first_shot={name}")))
-        .map_or(Switch::Auto, |named| named.1);
+    let switch = |key: &str| {
+        let mut names = Switch::NAMES.iter();
+        let named = names.find(|(name, _)| given(&format!("{key}={name}")));
+        named.map_or(Switch::Auto, |named| named.1)
+    };
+    let (first_shot, joining) = (switch("first_shot"), switch("joining"));
     let sequence = if given("random") { Sequence::Random } else { Sequence::Sobol };
     let chosen: Vec<Estimator> =
         Estimator::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
@@ -48,10 +50,11 @@ fn main() {
         let scene = scene(name);
         for &estimator in &estimators {
             println!(
-                "{name}, {}, {}, first shot {}",
+                "{name}, {}, {}, first shot {}, joining {}",
                 estimator.name(),
                 sequence.name(),
-                first_shot.name()
+                first_shot.name(),
+                joining.name()
             );
             println!(
                 "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
@@ -63,6 +66,7 @@ fn main() {
                 max_bounces,
                 map_element_m,
                 first_shot,
+                joining: if estimator == Estimator::Bidirectional { joining } else { Switch::Auto },
                 rel_tol: 0.0,
                 max_samples: Some(1 << limit),
                 ..Settings::default()

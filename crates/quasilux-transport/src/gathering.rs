@@ -5,9 +5,10 @@ mod moment;
 mod resolved;
 mod state;
 
+use crate::choice::{Decision, decide};
 use crate::endless;
 use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
-use crate::join::{self, Decision, Joined};
+use crate::join::Joined;
 use crate::lobes;
 use crate::path_end::PathEnd;
 use crate::path_wave::PathWave;
@@ -110,10 +111,10 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
         let hidden = HiddenLight::new(stage, settings, &targets);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let Decision { joined, rays } =
-            join::decide(stage, settings, &targets, &exact, quantum, watch);
+        let Decision { joined, frozen, rays } =
+            decide(stage, settings, (&targets, &exact), quantum, watch);
         work.rays += rays;
-        let (end, photons) = PathEnd::prepare(stage, settings, &targets, joined.is_some(), watch);
+        let (end, photons) = PathEnd::prepare(stage, settings, &targets, frozen, watch);
         Self {
             stage,
             scene,
@@ -167,7 +168,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             number: number as usize,
             target: self.targets[target],
             points: self.stage.points(replicate, Stream::Paths(target as u64)),
-            rest: self.end.rest(self.stage, replicate),
+            rest: self.end.rest(self.stage, replicate, target),
             hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
             joining: self.joined.as_ref().map(|joined| &joined.joining),
             indices,

@@ -16,7 +16,9 @@
 
 mod bsdf;
 mod check;
+mod choice;
 pub mod convergence;
+mod correction;
 mod counting;
 mod endless;
 pub mod estimates;

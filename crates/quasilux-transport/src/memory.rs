@@ -4,7 +4,11 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
 //! element of its own, cells of surveys as if all were there.
 
-use crate::map::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MOST_NEW_ELEMENTS, Reconstruction};
+use crate::correction::{MOST_LAYERS, MOST_PHOTONS};
+use crate::map::{
+    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MOST_NEW_ELEMENTS,
+    Reconstruction,
+};
 use crate::sections::PathSums;
 use crate::settings::{Estimator, Settings, Switch};
 use crate::simulate::is_grey;
@@ -42,7 +46,7 @@ pub struct MemoryNeed {
     pub sums_bytes: u64,
     /// Cells of surveys, at most.
     pub cells_bytes: u64,
-    /// Illumination maps that are full.
+    /// Illumination maps that are full, or one that is frozen.
     pub maps_bytes: u64,
     /// What a sample adds to them at most, while they are not.
     pub maps_bytes_a_sample: u64,
@@ -67,18 +71,36 @@ impl MemoryNeed {
             pictures_bytes: total(pixels).saturating_mul(PIXEL_BYTES),
             ..Self::default()
         };
-        if settings.estimator != Estimator::BidirectionalMap {
-            return need;
-        }
+        let maps = match settings.estimator {
+            Estimator::BidirectionalMap => u64::from(settings.effective_replicates()),
+            Estimator::Bidirectional if settings.joins() != Some(true) => 1,
+            Estimator::Photon | Estimator::Path | Estimator::Bidirectional => return need,
+        };
         let channels = if is_grey(scene) { f64::CHANNELS } else { Rgb::CHANNELS } as u64;
         let moments = if settings.map_reconstruction == Reconstruction::Linear { 3 } else { 1 };
         let layers = u64::from(settings.list_terms.max(1));
-        let replicates = u64::from(settings.effective_replicates());
-        let sides = elements(scene, settings).saturating_mul(2);
-        let landings = LANDINGS * u64::from(settings.map_photons) * COUNTERS_OF_A_LANDING;
+        let of_landing = product([LANDINGS, COUNTERS_OF_A_LANDING, channels, COUNTER_BYTES]);
+        let full = |sides: u64, layers: u64| {
+            product([sides, moments, channels, layers, COUNTER_BYTES, maps])
+        };
+        if settings.estimator == Estimator::Bidirectional {
+            // Frozen before the first sample.
+            let layers = settings
+                .max_bounces
+                .map_or(layers, |most| layers.max(most.min(MOST_LAYERS).into()));
+            let across = COARSEST_ELEMENTS_ACROSS;
+            let full = full(elements(scene, settings, across, 0).saturating_mul(2), layers);
+            let maps_bytes = full.min(of_landing.saturating_mul(MOST_PHOTONS));
+            return Self { maps_bytes, maps_bytes_a_sample: maps_bytes, ..need };
+        }
+        let (across, split) = match settings.map_adaptive {
+            true => (COARSE_ELEMENTS_ACROSS, MOST_NEW_ELEMENTS),
+            false => (ELEMENTS_ACROSS, 0),
+        };
+        let sides = elements(scene, settings, across, split).saturating_mul(2);
         Self {
-            maps_bytes: product([sides, moments, channels, layers, COUNTER_BYTES, replicates]),
-            maps_bytes_a_sample: product([landings, channels, COUNTER_BYTES, replicates]),
+            maps_bytes: full(sides, layers),
+            maps_bytes_a_sample: product([of_landing, settings.map_photons.into(), maps]),
             ..need
         }
     }
@@ -101,9 +123,9 @@ fn point_bytes(settings: &Settings) -> u64 {
     replicates.saturating_mul(sums + values * VALUE_BYTES)
 }
 
-/// Elements of a map on one side of all triangles at most, as [`crate::map::MapLayout`] cuts them.
-fn elements(scene: &Scene, settings: &Settings) -> u64 {
-    let across = if settings.map_adaptive { COARSE_ELEMENTS_ACROSS } else { ELEMENTS_ACROSS };
+/// Elements of a map on one side of all triangles at most, as [`crate::map::MapLayout`] cuts them, so many to a
+/// scene's size, and splits them.
+fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 {
     let mesh = &scene.mesh;
     let size_m = mesh.bounds().map_or(0.0, |[low, high]| (high - low).length());
     let element_m = settings.map_element_m.unwrap_or(size_m / across);
@@ -115,7 +137,6 @@ fn elements(scene: &Scene, settings: &Settings) -> u64 {
     };
     let triangles = mesh.triangles.len() as u64;
     let cut: f64 = (0..triangles as u32).map(elements).sum();
-    let split = if settings.map_adaptive { MOST_NEW_ELEMENTS } else { 0 };
     (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
 }
 

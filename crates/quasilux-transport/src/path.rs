@@ -7,13 +7,19 @@
 //! the map's value stands for the rest. Where the map is to be corrected, those that survive Russian
 //! roulette go on and take the difference to the map with them, weighted by how few they are: the map
 //! is a control variate, its elements cause no bias, and no light is lost with those that end.
+//!
+//! Read on at `asking` for what lights are asked.
+
+mod asking;
 
 use crate::bsdf::Mode;
+use crate::correction::{FrozenEnd, Note};
 use crate::endless::Gain;
 use crate::frame::Frame;
 use crate::gathered::Gathered;
 use crate::join::{Joining, Shares};
 use crate::lobes::{self, Met};
+use crate::map::{IlluminationMap, Place};
 use crate::path_end::{MapEnd, Rest};
 use crate::purpose::Purpose;
 use crate::shadow::{Offer, Shadows};
@@ -31,11 +37,18 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
 
+/// Those that note where they might have ended go on for certain while so much is left.
+const NOTED: f64 = 0.03125;
+
 /// A path that is over.
 pub(crate) struct Ended<S> {
     pub(crate) found: Gathered<S>,
     /// How many coordinates it used.
     pub(crate) dimensions: u32,
+    /// Where it might have ended on a map, if it was to note that.
+    pub(crate) notes: Vec<Note<S>>,
+    /// Its rays, but for those that ask for light.
+    pub(crate) flights: u32,
 }
 
 /// Where a path starts, and on what.
@@ -82,8 +95,6 @@ pub(crate) struct Path<'p, S> {
     beta: S,
     /// The same for what the next surface emits itself.
     beta_emitted: S,
-    /// Surfaces that keep illuminance to pass before it may end on a map.
-    passes: u32,
     /// Bounces behind the light that its last vertex asks for.
     bounces_asked: u32,
     gain: Gain,
@@ -92,6 +103,8 @@ pub(crate) struct Path<'p, S> {
     /// From the point-like lights at its start.
     pointlikes: S,
     found: Gathered<S>,
+    notes: Vec<Note<S>>,
+    flights: u32,
 }
 
 /// What the paths that travel together ask of the lights, with working space.
@@ -130,16 +143,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) -> Self {
         let Start { from, seeks, rest, hidden, joining, mut cursor } = start;
-        let (direction, pdf_sr, beta, passes) = match seeks {
+        let (direction, pdf_sr, beta) = match seeks {
             Seeks::Illuminance { n, .. } => {
                 let u = stage.draw(&mut cursor, Purpose::FirstDirection, SampleCursor::next_2d);
                 let first = DVec3::from_array(sample_cosine_hemisphere(u));
                 let direction = Frame::around(n).to_world(first);
-                (direction, Some(first.z * FRAC_1_PI), S::white() * PI, rest.passes())
+                (direction, Some(first.z * FRAC_1_PI), S::white() * PI)
             }
-            Seeks::Luminance { direction } => {
-                (direction, None, S::white(), rest.passes().saturating_add(1))
-            }
+            Seeks::Luminance { direction } => (direction, None, S::white()),
         };
         let mut path = Self {
             number,
@@ -153,12 +164,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             pdf_sr,
             beta,
             beta_emitted: beta,
-            passes,
             bounces_asked: 0,
             gain: Gain::NONE,
             arrived: S::black(),
             pointlikes: S::black(),
             found: Gathered::default(),
+            notes: Vec::new(),
+            flights: 0,
         };
         if let Seeks::Illuminance { n, tests_pointlikes } = seeks {
             path.found.list_terms(stage.listed_terms);
@@ -207,8 +219,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) -> bool {
         self.add_arrived();
+        self.flights += 1;
+        if let Some(at) = at {
+            self.add_emitted(stage, bounces, at);
+        }
+        if let Some(note) = self.notes.last_mut() {
+            note.begin(self.found.indirect);
+        }
         let Some(at) = at else { return false };
-        self.add_emitted(stage, bounces, at);
         let bsdf = stage.world.bsdf(at);
         let frame = stage.world.frame(at);
         let wo = frame.to_local(-self.direction);
@@ -237,10 +255,18 @@ impl<'p, S: Spectrum> Path<'p, S> {
             return false;
         }
         let from_map = match self.rest {
-            Rest::Map(end) if bsdf.keeps_illuminance() => {
-                self.end_on(end, stage, bounces, at, albedo)
+            Rest::Map(end) if bsdf.keeps_illuminance() => self.end_on(end, stage, bounces, at),
+            Rest::Frozen(end) if bsdf.keeps_illuminance() => {
+                self.end_on_frozen(end, stage, bounces, at)
             }
-            _ => None,
+            // What it finds after that is noisy, and little.
+            Rest::Noted if bsdf.keeps_illuminance() && self.gain.left() > NOTED => {
+                let alone = if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) };
+                let (weight, flights) = (self.weight(stage, at), self.flights);
+                self.notes.push(Note::new(at, weight, alone, (bounces, flights)));
+                None
+            }
+            Rest::Path | Rest::Noted | Rest::Map(_) | Rest::Frozen(_) => None,
         };
         let onward = from_map.unwrap_or_else(|| self.survive(stage, bounces, albedo));
         let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
@@ -277,7 +303,15 @@ impl<'p, S: Spectrum> Path<'p, S> {
     pub(crate) fn end(mut self) -> Ended<S> {
         self.add_arrived();
         self.found.add(0, self.pointlikes);
-        Ended { found: self.found, dimensions: self.cursor.used() }
+        for note in &mut self.notes {
+            note.end(self.found.indirect);
+        }
+        Ended {
+            found: self.found,
+            dimensions: self.cursor.used(),
+            notes: self.notes,
+            flights: self.flights,
+        }
     }
 
     /// Gives it up on its way.
@@ -285,40 +319,65 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.found.endless = true;
     }
 
-    /// Takes the light that a map keeps here, where the path may end on it: how it goes on then.
+    /// What a lux at a diffuse surface that it meets counts at its start.
+    fn weight(&self, stage: &Stage<'_, S>, at: &Interaction) -> S {
+        Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n)
+    }
+
+    /// Ends it on the light that a map keeps here, where it may.
     fn end_on(
         &mut self,
         end: &MapEnd<'_, S>,
         stage: &Stage<'_, S>,
         bounces: u32,
         at: &Interaction,
-        albedo: f64,
     ) -> Option<Onward> {
-        if self.passes > 0 {
-            self.passes -= 1;
+        if stage.max_bounces.is_some() && bounces > 0 {
+            // The light on the map has more bounces than are left.
             return None;
         }
-        if stage.max_bounces.is_some() {
-            // The light on the map has as many bounces as are left after so many.
-            self.passes = u32::MAX;
-            if bounces != end.passes {
-                return None;
-            }
-        }
-        let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
-        let correction = Purpose::Correction { surface: bounces + 1 };
-        let everything =
-            stage.draw(&mut self.cursor, correction, |cursor| end.goes_on(albedo, cursor));
-        let share = |lx: S| to_start * lx * (1.0 - everything);
-        self.found.indirect += share(end.illuminance_lx(at));
-        if stage.listed_terms > 0 {
-            for (photon_bounces, lx) in end.terms_lx(at) {
-                self.found.add_to_term(bounces + 1 + photon_bounces, share(lx));
-            }
-        }
+        let place = end.layout.locate(at);
+        self.take(&end.map, &place, (bounces, u32::MAX), self.weight(stage, at));
         // The direction to a light that the next surface emits is part of the direct light here, so
         // it counts in every path.
+        Some(Onward { emitted: 1.0, everything: 0.0 })
+    }
+
+    /// The same on a map that is corrected: those that go on take the difference to it along.
+    fn end_on_frozen(
+        &mut self,
+        end: &FrozenEnd<'_, S>,
+        stage: &Stage<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+    ) -> Option<Onward> {
+        let most_bounces = end.bounces_left(stage.max_bounces, bounces)?;
+        let weight = self.weight(stage, at);
+        let place = end.layout.locate(at);
+        let light = weight * end.map.illuminance_lx(&place, most_bounces);
+        let chance = end.chance(&place, weight.luminance(), light.luminance());
+        let correction = Purpose::Correction { surface: bounces + 1 };
+        let everything =
+            stage.draw(&mut self.cursor, correction, |cursor| survival_factor(chance, cursor));
+        self.take(&end.map, &place, (bounces, most_bounces), weight * (1.0 - everything));
         Some(Onward { emitted: 1.0, everything })
+    }
+
+    /// Adds what a map says of the light at a surface that it came to after `bounces`, of photons with so many bounces
+    /// at most.
+    fn take(
+        &mut self,
+        map: &IlluminationMap<'_, S>,
+        place: &Place,
+        (bounces, most_bounces): (u32, u32),
+        weight: S,
+    ) {
+        self.found.indirect += weight * map.illuminance_lx(place, most_bounces);
+        if !self.found.terms.is_empty() {
+            for (photon_bounces, lx) in map.terms_lx(*place, most_bounces) {
+                self.found.add_to_term(bounces + 1 + photon_bounces, weight * lx);
+            }
+        }
     }
 
     /// The parts of the light at its first surface that it is to find beside photons.
@@ -334,7 +393,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     fn add_hidden(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
         let Some(hidden) = self.hidden else { return };
         let most = stage.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
-        let to_start = Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n);
+        let to_start = self.weight(stage, at);
         let share = if bounces == 0 { self.shares.rest } else { 1.0 };
         for (hidden_bounces, lx) in hidden.illuminances_lx(&stage.world, at, most) {
             let lx = lx * share;
@@ -350,96 +409,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             let Shares { first, rest } = self.shares;
             return Onward { emitted: first, everything: rest };
         }
-        if bounces < CERTAIN_BOUNCES {
+        let is_noted = matches!(self.rest, Rest::Noted);
+        if bounces < CERTAIN_BOUNCES || (is_noted && self.gain.left() > NOTED) {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
         let factor = stage.draw(&mut self.cursor, bounce, |cursor| survival_factor(albedo, cursor));
         Onward { emitted: factor, everything: factor }
-    }
-
-    /// Asks for the light of all kinds of lights on a surface.
-    fn ask_all(
-        &mut self,
-        stage: &Stage<'_, S>,
-        bounces: u32,
-        at: &Interaction,
-        work: &mut PathWork<S>,
-    ) {
-        let vertex = Vertex::surface(&stage.world, at, self.direction, self.beta);
-        work.shadows.most_bounces = stage.max_bounces.map_or(u32::MAX, |most| most - bounces);
-        self.ask_area_luminaires(stage, &vertex, work);
-        self.ask_pointlikes(stage, &vertex, work);
-        self.ask_images(stage, &vertex, bounces, work);
-        self.ask_emitters(stage, &vertex, work);
-    }
-
-    /// Asks for the light of point-like lights in mirrors, after this many bounces.
-    fn ask_images(
-        &mut self,
-        stage: &Stage<'_, S>,
-        vertex: &Vertex<'_, S>,
-        bounces: u32,
-        work: &mut PathWork<S>,
-    ) {
-        if !stage.images.is_empty() {
-            let choice = Purpose::Image { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
-            let PathWork { shadows, images, .. } = work;
-            stage.images.ask_some(stage, (self.number, vertex), bounces, u, (images, shadows));
-        }
-    }
-
-    /// Asks for the light of one point on the area lights.
-    fn ask_emitters(
-        &mut self,
-        stage: &Stage<'_, S>,
-        vertex: &Vertex<'_, S>,
-        work: &mut PathWork<S>,
-    ) {
-        if let Some(emitters) = &stage.lights.emitters {
-            let place = Purpose::AreaLight { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, place, SampleCursor::next_2d);
-            self.ask(emitters.offer(&stage.world, vertex, u), vertex, work);
-        }
-    }
-
-    /// Asks for the light of one place on the luminaires with an area.
-    fn ask_area_luminaires(
-        &mut self,
-        stage: &Stage<'_, S>,
-        vertex: &Vertex<'_, S>,
-        work: &mut PathWork<S>,
-    ) {
-        let lights = &stage.lights.area_luminaires;
-        if !lights.is_empty() {
-            let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, place, SampleCursor::next_2d);
-            self.ask(lights.offer(vertex, u, &mut work.weights), vertex, work);
-        }
-    }
-
-    /// Asks for the light of one point-like light.
-    fn ask_pointlikes(
-        &mut self,
-        stage: &Stage<'_, S>,
-        vertex: &Vertex<'_, S>,
-        work: &mut PathWork<S>,
-    ) {
-        let lights = &stage.lights.pointlikes;
-        if !lights.is_empty() {
-            let choice = Purpose::PointLike { surface: self.bounces_asked };
-            // A single light is no choice, and takes no coordinate.
-            let draw = || stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
-            let u = (lights.len() > 1).then(draw).unwrap_or_default();
-            self.ask(lights.offer(vertex, u, &mut work.offers), vertex, work);
-        }
-    }
-
-    fn ask(&self, offer: Option<Offer<S>>, vertex: &Vertex<'_, S>, work: &mut PathWork<S>) {
-        if let Some(offer) = offer {
-            work.shadows.ask(self.number, vertex, &offer);
-        }
     }
 
     /// Adds what the last vertex was waiting for.

@@ -1,9 +1,9 @@
 //! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
 
+use crate::correction::{FrozenEnd, FrozenMap, of_plan};
 use crate::first_shot::{LitCells, decide};
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
 use crate::observer::Snapshot;
-use crate::path::survival_factor;
 use crate::photon::{PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::settings::{Estimator, Settings};
@@ -14,18 +14,8 @@ use crate::steering::{self, Plan, Windows};
 use crate::targets::Target;
 use crate::trial::Way;
 use crate::watch::Watch;
-use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
 use std::ops::Range;
 
-/// Surfaces that paths pass before they end on a map that is corrected: the light that comes from the
-/// first two is most of the light, and maps are too coarse for it.
-const PASSES: u32 = 2;
-/// Photons for each element side of such a map. It has few elements, which many photons make smooth: the
-/// correction takes out their bias, and would have to take out their noise.
-const PHOTONS_PER_ELEMENT: u64 = 64;
-/// Bounds on the photons of such a map.
-const PLAN_PHOTONS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 19;
 /// Photons that only balance the flux, where the estimator needs none.
 const BALANCE_PHOTONS: u64 = 1 << 12;
 
@@ -33,14 +23,7 @@ const BALANCE_PHOTONS: u64 = 1 << 12;
 pub(crate) enum PathEnd<S> {
     Nothing,
     /// One map, frozen before the first path, whose error is corrected.
-    Plan {
-        layout: MapLayout,
-        tally: MapTally<S>,
-        /// Flux of a photon.
-        flux_lm: f64,
-        /// Whether its photons left lit places.
-        first_shot: bool,
-    },
+    Frozen(FrozenMap<S>),
     /// A map for each replicate that grows with it.
     Own {
         layout: MapLayout,
@@ -56,22 +39,22 @@ pub(crate) enum PathEnd<S> {
     },
 }
 
-/// Where the light at the first diffuse surface comes from, but for the direct light.
+/// Where the light at a diffuse surface comes from, but for the direct light.
 pub(crate) enum Rest<'m, S> {
     /// From the path itself.
     Path,
-    /// From the map.
+    /// The same, and the path notes where it might have ended on a map.
+    Noted,
+    /// From a map.
     Map(MapEnd<'m, S>),
+    /// From a map that is corrected.
+    Frozen(FrozenEnd<'m, S>),
 }
 
-/// How paths end on a map.
+/// How paths end on a map that is not corrected.
 pub(crate) struct MapEnd<'m, S> {
     pub(crate) layout: &'m MapLayout,
     pub(crate) map: IlluminationMap<'m, S>,
-    /// Surfaces that keep illuminance to pass before.
-    pub(crate) passes: u32,
-    /// Whether survivors go on to correct the map.
-    corrected: bool,
 }
 
 /// What is to know of what the paths end on.
@@ -103,87 +86,63 @@ impl<S: Spectrum> GrowingMaps<'_, S> {
             return None;
         }
         let place = self.layout.locate(&at);
-        let map_lx = |tally: &MapTally<S>| tally.read(self.photon_lm).illuminance_lx(&place);
+        let map_lx =
+            |tally: &MapTally<S>| tally.read(self.photon_lm).illuminance_lx(&place, u32::MAX);
         Some(self.tallies.iter().map(|tally| map_lx(tally).luminance()).sum())
     }
 }
 
 impl<S: Spectrum> PathEnd<S> {
-    /// Traces the photons that come before all paths. Where others are joined to the sensors, hardly a path
-    /// goes far enough for a map, and so there is none.
+    /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the photons that come
+    /// before all paths.
     pub(crate) fn prepare(
         stage: &Stage<'_, S>,
         settings: &Settings,
         targets: &[Target],
-        is_joined: bool,
+        frozen: Option<(FrozenMap<S>, PhotonCounts)>,
         watch: &mut Watch<'_>,
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
-        let plan = |photons: u64,
-                    source: Source<'_>,
-                    receiver: Option<MapReceiver<'_, S>>,
-                    watch: &mut Watch<'_>| {
-            let batch = PhotonBatch {
-                stream: Stream::PlanPhotons,
-                replicates: 0..1,
-                indices: 0..photons,
-                way: Way::CoherentWaves,
-                source,
-                windows: None,
-                certain_weight: f64::INFINITY,
-            };
-            trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default()
+        let balance = |watch: &mut Watch<'_>| {
+            let batch = of_plan(Source::Lights, 0..BALANCE_PHOTONS);
+            let none: Option<MapReceiver<'_, S>> = None;
+            trace_photons(stage, &batch, |_| none, watch).unwrap_or_default()
         };
-        let is_path = match settings.estimator {
-            Estimator::Path => true,
-            Estimator::Bidirectional => is_joined,
-            Estimator::Photon | Estimator::BidirectionalMap => false,
-        };
-        if is_path || settings.max_bounces == Some(0) {
-            return (Self::Nothing, plan(BALANCE_PHOTONS, Source::Lights, None, watch));
+        if let Some((map, mut counts)) = frozen {
+            if map.facts().first_shot {
+                // Photons of the lit cells do not say where the flux of the lights goes.
+                counts += balance(watch);
+            }
+            return (Self::Frozen(map), counts);
+        }
+        if settings.estimator != Estimator::BidirectionalMap || settings.max_bounces == Some(0) {
+            return (Self::Nothing, balance(watch));
         }
         let mut counts = PhotonCounts::default();
         let lit_cells = decide(stage, settings, &mut counts);
         if lit_cells.is_some() {
-            // Those of the lit cells do not say where the flux of the lights goes.
-            counts += plan(BALANCE_PHOTONS, Source::Lights, None, watch);
+            counts += balance(watch);
         }
         let source = Source::of(lit_cells.as_ref());
-        if settings.estimator == Estimator::BidirectionalMap {
-            let (layout, pilots) = refined(stage, settings, watch);
-            counts += pilots;
-            let Plan { windows, rays, .. } = steering::plan(stage, targets, settings.steering);
-            counts.rays += rays;
-            let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
-            let replicates = 0..settings.effective_replicates();
-            let tallies =
-                replicates.map(|_| MapTally::new(&layout, lightest, layers(stage, 0))).collect();
-            let photons_per_path = u64::from(settings.map_photons.max(1));
-            let own =
-                Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
-            return (own, counts);
-        }
-        // Of wanted bounces, the first are found by the paths.
-        let most_bounces = match stage.max_bounces {
-            None => u32::MAX,
-            Some(most) if most > PASSES + 1 => most - 1 - PASSES,
-            Some(_) => return (Self::Nothing, plan(BALANCE_PHOTONS, Source::Lights, None, watch)),
-        };
-        let layout = MapLayout::coarsest(&stage.world, settings);
-        let wanted = (PHOTONS_PER_ELEMENT * layout.len() as u64).next_power_of_two();
-        let photons = wanted.clamp(*PLAN_PHOTONS.start(), *PLAN_PHOTONS.end());
-        let tally = MapTally::new(&layout, source.usual_weight(), layers(stage, PASSES));
-        let receiver = MapReceiver::up_to(most_bounces, stage.map_dimensions, &layout, &tally);
-        counts += source.counted(plan(photons, source, Some(receiver), watch));
-        let flux_lm = stage.lights.flux_lm / photons as f64;
-        (Self::Plan { layout, tally, flux_lm, first_shot: lit_cells.is_some() }, counts)
+        let (layout, pilots) = refined(stage, settings, watch);
+        counts += pilots;
+        let Plan { windows, rays, .. } = steering::plan(stage, targets, settings.steering);
+        counts.rays += rays;
+        let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
+        let replicates = 0..settings.effective_replicates();
+        // Light of b bounces on the map has b + 1 at the sensor.
+        let layers = stage.listed_terms.saturating_sub(1).max(1);
+        let tallies = replicates.map(|_| MapTally::new(&layout, lightest, layers)).collect();
+        let photons_per_path = u64::from(settings.map_photons.max(1));
+        let own = Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
+        (own, counts)
     }
 
     /// Photons of each map that grows, from those so far to those that so many paths of a sensor point ask for;
     /// `None` where no map grows.
     pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
         match self {
-            Self::Nothing | Self::Plan { .. } => None,
+            Self::Nothing | Self::Frozen(_) => None,
             Self::Own { photons, photons_per_path, .. } => {
                 Some(*photons..samples.saturating_mul(*photons_per_path))
             }
@@ -194,11 +153,7 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn facts(&self) -> MapFacts {
         match self {
             Self::Nothing => MapFacts::default(),
-            Self::Plan { layout, first_shot, .. } => MapFacts {
-                elements: Some(layout.len() as u64),
-                first_shot: *first_shot,
-                is_steered: false,
-            },
+            Self::Frozen(map) => map.facts(),
             Self::Own { layout, lit_cells, windows, .. } => MapFacts {
                 elements: Some(layout.len() as u64),
                 first_shot: lit_cells.is_some(),
@@ -211,12 +166,7 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         match self {
             Self::Nothing => {}
-            Self::Plan { layout, tally, flux_lm, first_shot } => {
-                layout.put(out);
-                tally.put(out);
-                out.f64(*flux_lm);
-                out.bool(*first_shot);
-            }
+            Self::Frozen(map) => map.put(out),
             Self::Own { layout, lit_cells, windows, .. } => {
                 layout.put(out);
                 lit_cells.iter().for_each(|cells| cells.put(out));
@@ -259,18 +209,15 @@ impl<S: Spectrum> PathEnd<S> {
         Some(source.counted(counts))
     }
 
-    /// Where the paths of one replicate end.
-    pub(crate) fn rest(&self, stage: &Stage<'_, S>, replicate: u32) -> Rest<'_, S> {
+    /// Where the paths of one target in one replicate end.
+    pub(crate) fn rest(&self, stage: &Stage<'_, S>, replicate: u32, target: usize) -> Rest<'_, S> {
         match self {
             Self::Nothing => Rest::Path,
-            Self::Plan { layout, tally, flux_lm, .. } => {
-                let map = tally.read(*flux_lm);
-                Rest::Map(MapEnd { layout, map, passes: PASSES, corrected: true })
-            }
+            Self::Frozen(map) => Rest::Frozen(map.end(target)),
             Self::Own { layout, tallies, photons, .. } => {
                 let flux_lm = stage.lights.flux_lm / *photons as f64;
                 let map = tallies[replicate as usize].read(flux_lm);
-                Rest::Map(MapEnd { layout, map, passes: 0, corrected: false })
+                Rest::Map(MapEnd { layout, map })
             }
         }
     }
@@ -287,44 +234,11 @@ impl<S> Stored for PathEnd<S> {
 
     fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         match self {
-            Self::Nothing | Self::Plan { .. } => Ok(()),
+            Self::Nothing | Self::Frozen(_) => Ok(()),
             Self::Own { tallies, photons, .. } => {
                 from.add_u64(photons)?;
                 tallies.as_mut_slice().take_in(from)
             }
         }
     }
-}
-
-impl<S: Spectrum> MapEnd<'_, S> {
-    /// Illuminance in lx that the map has at a place.
-    pub(crate) fn illuminance_lx(&self, at: &Interaction) -> S {
-        self.map.illuminance_lx(&self.layout.locate(at))
-    }
-
-    /// The parts of it by the number of bounces of the photons, the last of so many and more.
-    pub(crate) fn terms_lx(&self, at: &Interaction) -> impl Iterator<Item = (u32, S)> {
-        self.map.terms_lx(self.layout.locate(at))
-    }
-
-    /// How many times what lies beyond a surface of this albedo counts, 0 for paths that end here.
-    pub(crate) fn goes_on(&self, albedo: f64, cursor: &mut SampleCursor<'_>) -> f64 {
-        if self.corrected { survival_factor(albedo, cursor) } else { 0.0 }
-    }
-}
-
-impl<S> Rest<'_, S> {
-    /// Surfaces that keep illuminance to pass before the first that a path may end on.
-    pub(crate) fn passes(&self) -> u32 {
-        match self {
-            Self::Path => u32::MAX,
-            Self::Map(end) => end.passes,
-        }
-    }
-}
-
-/// Layers of a map that tell the listed terms apart, for paths that end on it after this many surfaces
-/// or more: light of b bounces on the map has b + 1 more than these.
-fn layers<S>(stage: &Stage<'_, S>, passes: u32) -> u32 {
-    stage.listed_terms.saturating_sub(1 + passes).max(1)
 }

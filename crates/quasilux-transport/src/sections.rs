@@ -65,15 +65,27 @@ pub(crate) fn trace_sections<S: Spectrum>(
     quantum: Quantum,
     wave: &mut PathWave<S>,
 ) -> Piece {
+    trace_and_look(stage, sections, quantum, wave, |_| ())
+}
+
+/// The same, and shows each path that is over.
+pub(crate) fn trace_and_look<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    sections: &[Section<'_, S>],
+    quantum: Quantum,
+    wave: &mut PathWave<S>,
+    mut look: impl FnMut(&mut Ended<S>),
+) -> Piece {
     let starts = sections.iter().flat_map(|section| section.starts(stage));
     let mut paths = wave.trace(stage, starts).into_iter();
     let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
     let mut add = |section: &Section<'_, S>| {
         let mut sums = PathSums::default();
         for path in paths.by_ref().take(section.len()) {
-            let path = path.end();
+            let mut path = path.end();
             sums.add(&path, quantum);
             work.add(&path);
+            look(&mut path);
         }
         sums
     };

@@ -11,7 +11,7 @@ pub enum Estimator {
     /// Paths from the sensors with next-event estimation.
     Path,
     /// Paths from the sensors beside photons that are joined to them, or paths that end on a frozen
-    /// illumination map, corrected so that its elements cause no bias: what a pilot finds better.
+    /// illumination map, corrected so that its elements cause no bias, or paths alone: what pilots find best.
     Bidirectional,
     /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
     /// elements leave a bias.
@@ -155,8 +155,9 @@ pub struct Settings {
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where that
     /// helps the sensors; else they keep equal flux.
     pub steering: Switch,
-    /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; else
-    /// these end on a frozen map, which is corrected. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone.
+    /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; with `Off` these end on a
+    /// frozen map, which is corrected. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone, and
+    /// `steering` that is to be on the joined photons.
     pub joining: Switch,
 }
 
@@ -168,14 +169,15 @@ impl Settings {
     }
 
     /// Whether [`Estimator::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
-    /// that are to leave lit places, or to be left out, are those of maps.
+    /// that are to leave lit places, or to be left out, are those of maps; those that are to be steered are joined.
     #[must_use]
     pub fn joins(&self) -> Option<bool> {
         let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();
         match self.joining {
             Switch::On => Some(true),
             Switch::Off => Some(false),
-            Switch::Auto => asks_for_map.then_some(false),
+            Switch::Auto if asks_for_map => Some(false),
+            Switch::Auto => (self.steering == Switch::On).then_some(true),
         }
     }
 

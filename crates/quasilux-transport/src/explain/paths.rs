@@ -1,8 +1,9 @@
 //! Paths as a pilot sees them: what each finds at some of the sensor points.
 
 use super::{Pilot, Points, Walk, WalkKind};
-use crate::gathering::{Exact, exact};
-use crate::join::{self, Joined};
+use crate::choice::{Decision, decide};
+use crate::gathering::exact;
+use crate::join::Joined;
 use crate::path_end::PathEnd;
 use crate::path_wave::{PathWave, WAVE};
 use crate::sections::Section;
@@ -60,7 +61,13 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
         let exact = exact(stage, &all, &mut 0);
-        let joined = Self::joined(stage, &one, (&all, &exact), &mut watch);
+        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
+        let Decision { mut joined, frozen, .. } =
+            decide(stage, &one, (&all, &exact), quantum, &mut watch);
+        if let Some(joined) = &mut joined {
+            // As many photons as say how much light they find.
+            joined.grow(stage, JOINED_SAMPLES, &mut watch);
+        }
         let targets = numbers.map(|number| PathTarget {
             number: number as u64,
             target: all[number],
@@ -68,30 +75,17 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
                 + joined.as_ref().map_or(0.0, |joined| joined.lx(0, number)),
         });
         let targets: Vec<PathTarget> = targets.collect();
-        let (mut end, _) = PathEnd::prepare(stage, &one, &all, joined.is_some(), &mut watch);
+        let (mut end, _) = PathEnd::prepare(stage, &one, &all, frozen, &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(stage, photons, |_| None, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);
         let kind = match settings.estimator {
             Estimator::Path => WalkKind::Paths,
             _ if joined.is_some() => WalkKind::PathsBesidePhotons,
+            _ if matches!(end, PathEnd::Nothing) => WalkKind::Paths,
             _ => WalkKind::PathsOnMap,
         };
         Self { stage, targets, end, hidden, joined, kind }
-    }
-
-    /// Photons that find a part of the light, as many as say how much that is.
-    fn joined(
-        stage: &Stage<'_, S>,
-        settings: &Settings,
-        (targets, exact): (&[Target], &[Exact]),
-        watch: &mut Watch<'_>,
-    ) -> Option<Joined> {
-        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let decision = join::decide(stage, settings, targets, exact, quantum, watch);
-        let mut joined = decision.joined?;
-        joined.grow(stage, JOINED_SAMPLES, watch)?;
-        Some(joined)
     }
 
     /// Light that only photons find, as far as paths read it.
@@ -141,7 +135,7 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
                 number: 0,
                 target: target.target,
                 points: points(Stream::Paths(target.number).id()),
-                rest: self.end.rest(self.stage, 0),
+                rest: self.end.rest(self.stage, 0, target.number as usize),
                 joining: self.joined.as_ref().map(|joined| &joined.joining),
                 hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),
                 indices: first..(first + WAVE).min(samples),

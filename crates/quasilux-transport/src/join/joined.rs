@@ -39,7 +39,7 @@ pub(crate) struct Joined {
     /// What each group of targets sees of the survey's cells, and the photons counted there.
     coarse: Option<(Vec<Outlook>, Coarse)>,
     /// Rays that it took to find out what targets see.
-    pub(super) rays: u64,
+    pub(crate) rays: u64,
     replicates: Range<u32>,
     /// Indices so far.
     samples: u64,

@@ -35,20 +35,19 @@
 //! Operations Research 56(3), 2008. Deviations from the expected that are small beside what the sensor gets are left
 //! to chance, and what survives counts more, so that rays are not spent on them.
 //!
-//! How many photons of each kind come on a path, and whether any, is found out by a [`pilot`].
+//! How many photons of each kind come on a path, and whether any, is found out by trials ([`ways`]).
 
 mod coarse;
-mod cost;
 mod joined;
 mod leaving;
 mod outlook;
-mod pilot;
 mod place;
 mod receiver;
 mod view;
+mod ways;
 
 pub(crate) use joined::Joined;
-pub(crate) use pilot::{Decision, decide};
+pub(crate) use ways::Ways;
 
 use crate::state::Writer;
 use crate::steering::{Density, Landings, Windows};

@@ -14,7 +14,7 @@ pub(crate) const ELEMENTS_ACROSS: f64 = 64.0;
 /// The same where pilot photons decide which of them are split.
 pub(crate) const COARSE_ELEMENTS_ACROSS: f64 = 16.0;
 /// The same where light is to be smooth, and finer would be noise.
-const COARSEST_ELEMENTS_ACROSS: f64 = 5.0;
+pub(crate) const COARSEST_ELEMENTS_ACROSS: f64 = 5.0;
 /// Marks what is split in a tree.
 const SPLIT: u32 = 1 << 31;
 /// Most elements on one side of all facets.

@@ -19,7 +19,9 @@ mod refine;
 mod subdivision;
 mod tally;
 
-pub(crate) use layout::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout};
+pub(crate) use layout::{
+    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout, Place,
+};
 pub use reconstruction::Reconstruction;
 pub(crate) use refine::{MOST_NEW_ELEMENTS, refined};
 pub(crate) use tally::{IlluminationMap, MapReceiver, MapTally, QUANTA_PER_PHOTON};

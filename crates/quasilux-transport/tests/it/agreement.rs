@@ -140,7 +140,8 @@ fn a_path_finds_alone_what_it_finds_in_company() {
         alone.sensors = vec![first.clone()];
         let mut company = room.clone();
         company.sensors = vec![first, points("others", &places), room.sensors[0].clone()];
-        for (estimator, seeds) in [(Estimator::Path, 64), (Estimator::Bidirectional, 4)] {
+        // What a pilot makes of a map that is corrected depends on all targets.
+        for (estimator, seeds) in [(Estimator::Path, 64), (Estimator::BidirectionalMap, 4)] {
             for seed in 0..seeds {
                 let first_lx = |scene: &Scene, replicates| {
                     let max_samples = Some(1);
@@ -149,7 +150,7 @@ fn a_path_finds_alone_what_it_finds_in_company() {
                         seed,
                         replicates,
                         max_samples,
-                        joining: Switch::Off,
+                        steering: Switch::Off,
                         ..Settings::default()
                     };
                     simulate(scene, &settings, &mut ()).sensors[0].replicate_lx[0][0]

@@ -1,7 +1,7 @@
 //! The diffuse cube, whose luminance is known from two independent solves.
 
-use crate::scenes::{diffuse_cube, wall_grid};
-use quasilux_transport::{Estimates, Estimator, Settings, simulate};
+use crate::scenes::{GATHERERS, diffuse_cube, wall_grid};
+use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
 use std::f64::consts::PI;
 
 /// Luminance in cd/m^2 at interior places of a wall, in units of the half side: radiosity with
@@ -23,18 +23,20 @@ fn run(settings: &Settings, known: &[((f64, f64), f64)]) -> Estimates {
 
 #[test]
 fn known_luminances_lie_in_the_intervals() {
-    for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap] {
+    let map = (Estimator::BidirectionalMap, Switch::Auto);
+    for (estimator, joining) in GATHERERS.into_iter().chain([map]) {
         // Next to an edge a point sees a few map elements, which a map without correction leaves
         // noisy for very long.
         let known = if estimator == Estimator::BidirectionalMap { &KNOWN[..3] } else { &KNOWN[..] };
-        let settings = Settings { estimator, rel_tol: 0.005, ..Settings::default() };
+        let settings = Settings { estimator, joining, rel_tol: 0.005, ..Settings::default() };
         let estimates = run(&settings, known);
         assert!(estimates.tolerance_reached && estimates.invalid_contributions == 0);
         assert_eq!(estimates.biased, estimator == Estimator::BidirectionalMap);
         for (interval, (place, luminance)) in estimates.point_intervals(0).iter().zip(known) {
             let wanted = luminance * PI * 1.5;
             let allowed = interval.half_width.unwrap() + 0.003 * wanted;
-            let found = format!("{estimator:?} {place:?}: {interval:?}, wanted {wanted}");
+            let found =
+                format!("{estimator:?} {joining:?} {place:?}: {interval:?}, wanted {wanted}");
             assert!((interval.value - wanted).abs() < allowed, "{found}");
         }
     }

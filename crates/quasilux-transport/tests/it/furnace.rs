@@ -1,6 +1,6 @@
 //! A closed room of emitting walls has the same light everywhere: pi L / (1 - r).
 
-use crate::scenes::{all_walls_emit, diffuse, point_light, points, room};
+use crate::scenes::{GATHERERS, all_walls_emit, diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;
@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
-        for estimator in [Estimator::Path, Estimator::Bidirectional] {
+        for (estimator, joining) in GATHERERS {
             let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(reflectance));
             all_walls_emit(&mut scene, 100.0);
             scene.sensors.push(points(
@@ -23,13 +23,14 @@ fn illuminance_is_pi_l_over_one_minus_r() {
                     (DVec3::new(1.0, 0.0, 1.0), DVec3::Y),
                 ],
             ));
-            let settings = Settings { estimator, rel_tol: 0.02, ..Settings::default() };
+            let settings = Settings { estimator, joining, rel_tol: 0.02, ..Settings::default() };
             let estimates = simulate(&scene, &settings, &mut ());
             assert!(estimates.tolerance_reached);
             let wanted = PI * 100.0 / (1.0 - reflectance);
             for interval in estimates.point_intervals(0) {
-                let found = format!("{estimator:?} {reflectance}: {interval:?}, wanted {wanted}");
-                // 36 points: half as wide again, or right programs would fail now and then.
+                let found =
+                    format!("{estimator:?} {joining:?} {reflectance}: {interval:?}, {wanted}");
+                // 48 points: half as wide again, or right programs would fail now and then.
                 let allowed = 1.5 * interval.half_width.unwrap() + 0.003 * wanted;
                 assert!((interval.value - wanted).abs() <= allowed, "{found}");
             }

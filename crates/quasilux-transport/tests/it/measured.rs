@@ -10,7 +10,7 @@ use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Light, Rgb, Scene};
 use quasilux_stats::{sidak, student_t_quantile};
-use quasilux_transport::{Estimates, Estimator, Settings, check, simulate};
+use quasilux_transport::{Estimates, Estimator, Settings, Switch, check, simulate};
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::path::Path;
 use std::sync::Arc;
@@ -62,8 +62,10 @@ pub(crate) fn measured(tables: impl IntoIterator<Item = (Side, Way, Distribution
 }
 
 pub(crate) fn estimates(scene: &Scene, estimator: Estimator, samples: u64) -> Vec<Mean> {
+    let is_joined = estimator == Estimator::Bidirectional;
     let settings = Settings {
         estimator,
+        joining: if is_joined { Switch::On } else { Switch::Auto },
         replicates: REPLICATES,
         max_samples: Some(samples),
         rel_tol: 0.0,

@@ -1,0 +1,73 @@
+//! What is to be known, and how well.
+
+use super::cost::{Budget, Promise};
+use super::trial::Trial;
+use crate::settings::Settings;
+
+/// A shortfall of so many times the variance of means may be by chance.
+const BY_CHANCE: f64 = 4.0;
+
+/// What is to be known, and how well.
+pub(crate) struct Wanted {
+    budget: Budget,
+    /// The illuminance at each target that is looked at, as far as known.
+    means_lx: Vec<f64>,
+    /// What an error is compared with there: the tolerance, or the value where there is none.
+    scales_lx: Vec<f64>,
+}
+
+impl Wanted {
+    pub(crate) fn new(settings: &Settings, means_lx: Vec<f64>) -> Self {
+        let scale_lx = |mean_lx: &f64| match settings.has_tolerance() {
+            true => settings.tolerance_lx(*mean_lx),
+            false => *mean_lx,
+        };
+        let scales_lx = means_lx.iter().map(scale_lx).collect();
+        Self { budget: Budget::of(settings), means_lx, scales_lx }
+    }
+
+    /// How many targets are looked at.
+    pub(crate) fn targets(&self) -> usize {
+        self.means_lx.len()
+    }
+
+    /// Those where there is light.
+    pub(crate) fn seen(&self) -> impl Iterator<Item = usize> {
+        (0..self.means_lx.len()).filter(|target| self.means_lx[*target] > 0.0)
+    }
+
+    /// What a lux counts at a target; nothing where there is none.
+    pub(crate) fn worth_per_lx(&self, target: usize) -> f64 {
+        let scale_lx = self.scales_lx[target];
+        if self.means_lx[target] > 0.0 && scale_lx > 0.0 { 1.0 / scale_lx } else { 0.0 }
+    }
+
+    /// Of what a trial finds, over the scales squared; one for each target that is seen.
+    pub(crate) fn variances(&self, trial: &Trial) -> Vec<f64> {
+        let relative = |target: usize| {
+            let scale_lx = self.scales_lx[target];
+            trial.moments(target).variance / (scale_lx * scale_lx)
+        };
+        self.seen().map(relative).collect()
+    }
+
+    /// How much a trial is short of the means, over the scales and squared, mean over the targets: as far as it
+    /// cannot be by chance, where means have this variance.
+    pub(crate) fn shortfall(&self, found_lx: impl Fn(usize) -> f64, noise: f64) -> f64 {
+        let (sum, count) = self.seen().fold((0.0, 0.0), |(sum, count), target| {
+            let missing = (self.means_lx[target] - found_lx(target)) / self.scales_lx[target];
+            (sum + missing * missing, count + 1.0)
+        });
+        if count > 0.0 { (sum / count - BY_CHANCE * noise).max(0.0) } else { 0.0 }
+    }
+
+    /// What a promise costs, see [`Budget::effort`].
+    pub(crate) fn effort(&self, promise: &Promise<'_>) -> f64 {
+        self.budget.effort(promise)
+    }
+
+    /// Rays of a whole run, see [`Budget::rays`].
+    pub(crate) fn rays(&self, plain: &Promise<'_>, promise: &Promise<'_>) -> f64 {
+        self.budget.rays(plain, promise)
+    }
+}

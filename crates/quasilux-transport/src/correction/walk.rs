@@ -1,0 +1,131 @@
+//! What paths that were traced to their ends would have cost, had they ended on the map by chance.
+
+use super::Survival;
+use super::survival::Finding;
+
+/// A path as it was traced, and the surfaces where it might have ended.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Walk {
+    /// Rays up to the first of them.
+    pub(super) flights: u32,
+    pub(super) steps: Vec<Step>,
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    pub(super) finding: Finding,
+    /// Rays from there to the next of them, or to the path's end.
+    pub(super) flights: u32,
+    /// With what probability a path that ends on no map goes on.
+    pub(super) alone: f64,
+}
+
+/// How a walk ends by chance.
+#[derive(Clone, Copy)]
+pub(super) enum Ending<'s> {
+    /// On nothing.
+    Alone,
+    /// On the map, which stands for what is left out.
+    OnMap(&'s Survival),
+}
+
+/// What a walk would have cost on average over all chances.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Price {
+    /// What the chances add to the variance.
+    pub(super) variance: f64,
+    pub(super) flights: f64,
+}
+
+impl Walk {
+    /// For a start where a unit is worth so much.
+    pub(super) fn price(&self, ending: Ending<'_>, worth: f64, chances: &mut Vec<f64>) -> Price {
+        chances.clear();
+        // Those that are left count more and more.
+        let mut factor = worth;
+        for Step { finding, alone, .. } in &self.steps {
+            let Finding { element, weight, light, .. } = *finding;
+            let chance = match ending {
+                Ending::Alone => *alone,
+                Ending::OnMap(map) => map.chance(element, factor * weight, factor * light),
+            };
+            chances.push(chance);
+            factor /= chance;
+        }
+        let mut price = Price::default();
+        for (Step { finding, flights, .. }, chance) in self.steps.iter().zip(&*chances).rev() {
+            let instead = match ending {
+                Ending::Alone => 0.0,
+                Ending::OnMap(_) => finding.light,
+            };
+            let off = worth * (finding.beyond - instead);
+            price.variance = (price.variance + off * off * (1.0 - chance)) / chance;
+            price.flights = chance * (f64::from(*flights) + price.flights);
+        }
+        Price { flights: price.flights + f64::from(self.flights), ..price }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A walk of three surfaces, and what it finds with all chances played through: mean, variance and rays.
+    fn played(walk: &Walk, survival: &Survival, worth: f64) -> [f64; 3] {
+        // What it takes along to a surface is the part that counts there, of the light beyond all of them.
+        fn on(
+            steps: &[Step],
+            beyond: f64,
+            factor: f64,
+            survival: &Survival,
+            out: &mut Vec<[f64; 3]>,
+            (p, sum, flights): (f64, f64, f64),
+        ) {
+            let Some((step, rest)) = steps.split_first() else {
+                // What lies beyond the last surface is found, less what the one before said of it.
+                out.push([p, sum + factor * beyond, flights]);
+                return;
+            };
+            let Finding { element, weight, light, beyond: own } = step.finding;
+            // Light between the last surface and this one is found by all that come here.
+            let sum = sum + factor * (beyond - own);
+            let chance = survival.chance(element, factor * weight, factor * light);
+            out.push([p * (1.0 - chance), sum + factor * light, flights]);
+            let survivor = factor / chance;
+            let sum = sum + factor * light * (1.0 - 1.0 / chance);
+            let flights = flights + f64::from(step.flights);
+            on(rest, own, survivor, survival, out, (p * chance, sum, flights));
+        }
+        let mut out = Vec::new();
+        let first = walk.steps[0].finding.beyond;
+        let begin = (1.0, 0.0, f64::from(walk.flights));
+        on(&walk.steps, first, worth, survival, &mut out, begin);
+        let mean = |f: &dyn Fn(&[f64; 3]) -> f64| -> f64 { out.iter().map(|o| o[0] * f(o)).sum() };
+        let value = mean(&|o| o[1]);
+        [value, mean(&|o| (o[1] - value) * (o[1] - value)), mean(&|o| o[2])]
+    }
+
+    #[test]
+    fn a_price_is_what_all_chances_together_cost() {
+        let finding = |element, weight, light, beyond| Finding { element, weight, light, beyond };
+        let steps = [
+            (finding(4, 0.6, 30.0, 41.0), 2),
+            (finding(9, 0.4, 20.0, 13.0), 1),
+            (finding(4, 0.2, 11.0, 3.0), 3),
+        ];
+        let steps = steps.map(|(finding, flights)| Step { finding, flights, alone: 1.0 }).to_vec();
+        let walk = Walk { flights: 1, steps };
+        let survival = Survival::of(walk.steps.iter().map(|step| step.finding));
+        for (sureness, worth) in [(0.5, 0.01), (2.0, 0.02), (1e-9, 1.0), (1e9, 1.0)] {
+            let survival = survival.with_sureness(sureness);
+            let price = walk.price(Ending::OnMap(&survival), worth, &mut Vec::new());
+            let [mean, variance, flights] = played(&walk, &survival, worth);
+            assert!((mean - worth * 41.0).abs() < 1e-9 * mean, "biased: {mean}");
+            assert!((price.variance - variance).abs() <= 1e-9 * variance, "{price:?} {variance}");
+            assert!((price.flights - flights).abs() < 1e-9 * flights, "{price:?} {flights}");
+        }
+        let certain = walk.price(Ending::Alone, 1.0, &mut Vec::new());
+        assert_eq!(certain, Price { variance: 0.0, flights: 7.0 });
+    }
+}
