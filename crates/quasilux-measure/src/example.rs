@@ -4,7 +4,7 @@ use crate::{Figure, Report, RunFacts, TermReport};
 use glam::DVec3;
 use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
-    CameraEstimates, Convergence, DimensionHistogram, Dimensions, Estimates, Estimator,
+    CameraEstimates, Convergence, Decisions, DimensionHistogram, Dimensions, Estimates, Estimator,
     FluxBalance, Pixel, SensorEstimates, Settings,
 };
 
@@ -175,6 +175,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         cameras: Vec::new(),
         samples: 65_536,
         rays: 187_654_321,
+        decisions: Decisions { joined_photons: Some(8), ..Decisions::default() },
         flux: FluxBalance {
             emitted_lm: 21_600.0,
             absorbed_lm: 21_600.0,

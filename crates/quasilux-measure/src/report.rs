@@ -8,8 +8,8 @@ use crate::CameraReport;
 use glam::DVec3;
 use quasilux_scene::{Grid, Scene, SensorShape};
 use quasilux_transport::{
-    Convergence, Dimensions, Estimates, Explanation, FluxBalance, Interval, SensorEstimates,
-    Settings,
+    Convergence, Decisions, Dimensions, Estimates, Explanation, FluxBalance, Interval,
+    SensorEstimates, Settings,
 };
 
 /// What the program that ran the simulation knows and the simulation does not.
@@ -142,6 +142,8 @@ pub struct Run {
     pub confidence: f64,
     /// Whether every sensor point, or every average, reached the wanted tolerance.
     pub tolerance_reached: bool,
+    /// What surveys and pilots decided before the first sample.
+    pub decisions: Decisions,
     /// How half-widths shrank, and what that foretells.
     pub convergence: Convergence,
     /// Numbers of coordinates that photons and paths used.
@@ -191,6 +193,7 @@ impl Report {
                 expected_bytes: facts.expected_bytes,
                 confidence: estimates.confidence,
                 tolerance_reached: estimates.tolerance_reached,
+                decisions: estimates.decisions.clone(),
                 convergence: estimates.convergence,
                 dimensions: estimates.dimensions.clone(),
                 flux: estimates.flux,

@@ -5,6 +5,7 @@ use crate::convergence::Convergence;
 use crate::interval::t_quantile_for;
 use crate::lowest::{lowest, ratios};
 use crate::picture::CameraEstimates;
+use crate::state::Decisions;
 use quasilux_sampling::DimensionHistogram;
 use std::ops::Range;
 
@@ -20,6 +21,8 @@ pub struct Estimates {
     pub samples: u64,
     /// Rays traced so far, all kinds and replicates together.
     pub rays: u64,
+    /// What was decided before the first of them.
+    pub decisions: Decisions,
     /// Where the photons' flux went.
     pub flux: FluxBalance,
     /// Numbers of coordinates that photons and paths used.

@@ -107,15 +107,16 @@ fn put_together<S: Spectrum>(
 ) -> Result<Estimates, MergeError> {
     let stage = Stage::<S>::new(scene, settings);
     let mut estimation = estimation(&stage, scene, settings, watch);
-    let digest = estimation.decisions().digest;
+    let decisions = estimation.decisions();
     let mut served = None;
     for (number, part) in parts.iter().enumerate() {
-        add(estimation.as_mut(), part, &digest, &mut served)
+        add(estimation.as_mut(), part, &decisions.digest, &mut served)
             .map_err(|error| MergeError { part: number, error })?;
     }
     estimation.complete_at(samples);
     let (mut estimates, _) =
         look(&stage, scene, settings, estimation.as_ref(), 1.0 - settings.confidence);
+    estimates.decisions = decisions;
     drop(estimation);
     add_pictures(&stage, scene, settings, &mut estimates, watch);
     Ok(estimates)

@@ -160,7 +160,8 @@ fn run<S: Spectrum>(
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
     let mut course = Course::new(Schedule::new(first, limit));
-    let digest = estimation.decisions().digest;
+    let decisions = estimation.decisions();
+    let digest = decisions.digest;
     if let Some(state) = state {
         let mut from = Reader::new(state);
         if from.bytes(digest.len())? != digest {
@@ -197,6 +198,7 @@ fn run<S: Spectrum>(
         }
         let (mut estimates, standing) =
             look(stage, scene, settings, estimation.as_ref(), miss_probability);
+        estimates.decisions = decisions.clone();
         let is_look = may_end && course.schedule.is_look();
         let is_enough = is_look && standing.may_end;
         if is_look && !is_enough {
@@ -217,6 +219,8 @@ fn run<S: Spectrum>(
     }
     drop(estimation);
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
+    // The last checkpoint may have come from a state.
+    estimates.decisions = decisions;
     add_pictures(stage, scene, settings, &mut estimates, &mut watch);
     Ok(estimates)
 }

@@ -9,6 +9,8 @@
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
 //! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`, `steering`, `joining`, `first_shot`),
+//! `decisions`, what pilots made of those (photons that are joined for each path, whether photons are `steered` and leave lit places, sides of elements
+//! of the map that paths end on, photons for each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for,
@@ -25,7 +27,7 @@ use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
-use quasilux_transport::{DimensionHistogram, Dimensions};
+use quasilux_transport::{Decisions, DimensionHistogram, Dimensions};
 use serde::{Serialize, Serializer};
 use terms::TermEntry;
 
@@ -141,6 +143,7 @@ struct RunEntry<'a> {
     image_depth: Option<u32>,
     steering: &'a str,
     joining: &'a str,
+    decisions: DecisionsEntry,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
     mean_events: MeanEventsEntry,
@@ -153,6 +156,16 @@ struct RunEntry<'a> {
     #[serde(serialize_with = "finite_or_null")]
     flux_cut_lm: f64,
     invalid_contributions: u64,
+}
+
+/// What `auto` came to, as in a plan.
+#[derive(Serialize)]
+struct DecisionsEntry {
+    joined_photons: Option<u64>,
+    steered: bool,
+    first_shot: bool,
+    map_elements: Option<u64>,
+    hidden_photons: Option<u64>,
 }
 
 #[derive(Serialize)]
@@ -197,6 +210,20 @@ impl<'a> SensorEntry<'a> {
             points: (0..sensor.points.len()).map(|p| PointEntry::of(sensor, p, run)).collect(),
             summary: SummaryEntry::of(sensor),
         }
+    }
+}
+
+impl DecisionsEntry {
+    fn of(decisions: &Decisions) -> Self {
+        let Decisions {
+            joined_photons,
+            is_steered: steered,
+            first_shot,
+            map_elements,
+            hidden_photons,
+            digest: _,
+        } = *decisions;
+        Self { joined_photons, steered, first_shot, map_elements, hidden_photons }
     }
 }
 
@@ -268,6 +295,7 @@ impl<'a> RunEntry<'a> {
             image_depth: run.settings.image_depth,
             steering: run.settings.steering.name(),
             joining: run.settings.joining.name(),
+            decisions: DecisionsEntry::of(&run.decisions),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

@@ -12,7 +12,7 @@ use crate::interval::t_quantile_for;
 use crate::schedule::LEAST_SAMPLES;
 use crate::settings::{Settings, ToleranceOn};
 
-/// Samples of a run that is ended by nothing that is known beforehand.
+/// Samples that a run is taken to have where no tolerance says how many it needs.
 const EXPECTED_SAMPLES: f64 = 256.0;
 
 /// How variances become costs.
@@ -24,18 +24,14 @@ enum Cost {
     ForAll,
 }
 
-/// How long a run is.
+/// How long a run is. Limits on samples or rays have no part in it: they only say which checkpoint is the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Budget {
     cost: Cost,
-    /// Trials of all targets for each unit of variance, where a tolerance ends the run.
+    /// Trials of all targets for each unit of variance, where there is a tolerance.
     trials_for_variance: Option<f64>,
-    /// The most trials of all targets.
-    most_trials: Option<f64>,
-    /// And of rays.
-    most_rays: Option<f64>,
-    /// Trials that are made however small the error is.
-    least_trials: f64,
+    /// Trials of all targets: those that are made however small the error is, or all where there is no tolerance.
+    trials: f64,
 }
 
 /// What a way to estimate promises, by a trial.
@@ -68,16 +64,10 @@ impl Budget {
         // The half-width `t sqrt(variance / replicates)` is to be one, in units of the tolerance.
         let t = t_quantile_for(replicates as usize, 1.0 - settings.confidence).unwrap_or(2.0);
         let share = f64::from(replicates) / REPLICATES.len() as f64;
-        let given = settings.max_samples.map(|most| most as f64);
-        let usual = (!is_tolerance && settings.max_rays.is_none()).then_some(EXPECTED_SAMPLES);
-        let most_samples = given.or(usual);
-        let least_samples = most_samples.unwrap_or(f64::INFINITY).min(LEAST_SAMPLES as f64);
         Self {
             cost: if for_points { Cost::UntilEachIsDone } else { Cost::ForAll },
             trials_for_variance: is_tolerance.then(|| t * t / f64::from(replicates) * share),
-            most_trials: most_samples.map(trials),
-            most_rays: settings.max_rays.map(|most| most as f64),
-            least_trials: trials(least_samples),
+            trials: trials(if is_tolerance { LEAST_SAMPLES as f64 } else { EXPECTED_SAMPLES }),
         }
     }
 
@@ -87,20 +77,17 @@ impl Budget {
         self.cost.rays(variances, of_paths, of_photons)
     }
 
-    /// Rays to as small an error as the tolerance, or as plain paths would have with all that a limit allows.
+    /// Rays to an error as small as the tolerance, or to that of plain paths.
     pub(crate) fn rays(&self, plain: &Promise<'_>, promise: &Promise<'_>) -> f64 {
-        let [mean, of_plain] = [promise, plain].map(|p| Cost::ForAll.rays(p.variances, 1.0, 0.0));
         let each = promise.of_paths + promise.of_photons;
-        let at_tolerance = self.trials_for_variance.map(|trials| trials * self.effort(promise));
-        let with_all = if of_plain > 0.0 { mean / of_plain } else { 1.0 };
-        let at_samples = self.most_trials.map(|trials| trials * with_all * each);
-        let at_rays = self.most_rays.map(|rays| {
-            let plain = self.effort(plain);
-            if plain > 0.0 { rays * self.effort(promise) / plain } else { rays }
-        });
-        let ends = [at_tolerance, at_samples, at_rays].into_iter().flatten();
-        let end = ends.fold(f64::INFINITY, f64::min);
-        end.max(self.least_trials * each) + promise.beforehand
+        let sampled = if let Some(trials) = self.trials_for_variance {
+            (trials * self.effort(promise)).max(self.trials * each)
+        } else {
+            let [mean, of_plain] =
+                [promise, plain].map(|p| Cost::ForAll.rays(p.variances, 1.0, 0.0));
+            self.trials * each * if of_plain > 0.0 { mean / of_plain } else { 1.0 }
+        };
+        sampled + promise.beforehand
     }
 }
 
@@ -159,9 +146,9 @@ mod tests {
         assert!((rays(&open, 1000.0) / all - 1.0).abs() < 1e-4, "{}", rays(&open, 1000.0));
         // 128 samples at least.
         assert_eq!(rays(&open, 1e-9), 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
-        let given = Settings { max_samples: Some(64), rel_tol: 0.0, ..open.clone() };
-        assert_eq!(rays(&given, 1000.0), 64.0 * 16.0 * 800.0 / 128.0 + 1000.0);
-        let limited = Settings { max_rays: Some(5000), rel_tol: 0.0, ..open };
-        assert_eq!(rays(&limited, 1000.0), 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
+        // Without a tolerance 256 samples, or as many as leave the error of 256 plain ones; limits do not matter.
+        let given = Settings { max_samples: Some(64), rel_tol: 0.0, ..open };
+        assert_eq!(rays(&given, 1000.0), 256.0 * 16.0 * 800.0 / 128.0 + 1000.0);
+        assert_eq!(rays(&given, 500.0), 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
     }
 }

@@ -96,7 +96,9 @@ pub(crate) fn decide<S: Spectrum>(
         let ways = join::Ways::try_all(stage, settings, targets, (exact, &sample), quantum, watch);
         rays += ways.rays;
         let of_noted = wanted.rays(&plain, &noted);
-        let part = if of_noted > 0.0 { best / of_noted } else { 1.0 };
+        // What paths do not find, a map seems to do without.
+        let is_known = alone.finds_light() && of_noted > 0.0;
+        let part = if is_known { best / of_noted } else { 1.0 };
         if let Some(joined) = ways.choose(stage, settings, (&alone, part), targets, quantum) {
             rays += joined.rays + choice.map_or(0, |choice: Choice<S>| choice.rays_so_far());
             return Decision { joined: Some(joined), frozen: None, rays };

@@ -62,13 +62,14 @@ impl Course {
     }
 }
 
-/// Cameras have no place in it: pictures come after the last checkpoint.
+/// Cameras have no place in it: pictures come after the last checkpoint. Decisions are made again.
 fn put_estimates(estimates: &Estimates, out: &mut Writer) {
     let Estimates {
         sensors,
         cameras: _,
         samples,
         rays,
+        decisions: _,
         flux,
         dimensions,
         invalid_contributions,
