@@ -37,8 +37,9 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
 
-/// Those that note where they might have ended go on for certain while so much is left.
-const NOTED: f64 = 0.03125;
+/// Those that note where they might have ended go on for certain while so much is left, and up to so many notes.
+const NOTED: f64 = 1.0 / 32.0;
+const MOST_NOTES: usize = 32;
 
 /// A path that is over.
 pub(crate) struct Ended<S> {
@@ -259,8 +260,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             Rest::Frozen(end) if bsdf.keeps_illuminance() => {
                 self.end_on_frozen(end, stage, bounces, at)
             }
-            // What it finds after that is noisy, and little.
-            Rest::Noted if bsdf.keeps_illuminance() && self.gain.left() > NOTED => {
+            Rest::Noted if bsdf.keeps_illuminance() && self.is_noted() => {
                 let alone = if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) };
                 let (weight, flights) = (self.weight(stage, at), self.flights);
                 self.notes.push(Note::new(at, weight, alone, (bounces, flights)));
@@ -317,6 +317,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// Gives it up on its way.
     pub(crate) fn cut(&mut self) {
         self.found.endless = true;
+    }
+
+    /// Whether it notes where it might have ended: what it finds later is noisy, and little.
+    fn is_noted(&self) -> bool {
+        self.gain.left() > NOTED && self.notes.len() < MOST_NOTES
     }
 
     /// What a lux at a diffuse surface that it meets counts at its start.
@@ -409,8 +414,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
             let Shares { first, rest } = self.shares;
             return Onward { emitted: first, everything: rest };
         }
-        let is_noted = matches!(self.rest, Rest::Noted);
-        if bounces < CERTAIN_BOUNCES || (is_noted && self.gain.left() > NOTED) {
+        let is_noted = matches!(self.rest, Rest::Noted) && self.is_noted();
+        if bounces < CERTAIN_BOUNCES || is_noted {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };

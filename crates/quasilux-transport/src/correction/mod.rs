@@ -18,12 +18,14 @@
 
 mod pilot;
 mod survival;
+#[cfg(test)]
+mod tests;
 mod trips;
 mod walk;
 
 pub(crate) use pilot::{Choice, MOST_PHOTONS, of_plan};
 pub(crate) use survival::Survival;
-pub(crate) use trips::Walks;
+pub(crate) use trips::{Outcome, Walks};
 
 use crate::map::{IlluminationMap, MapLayout, MapTally, Place};
 use crate::path_end::MapFacts;
@@ -153,17 +155,4 @@ fn bounces_left(max_bounces: Option<u32>, bounces: u32) -> Option<u32> {
     let Some(most) = max_bounces else { return Some(u32::MAX) };
     let left = most.saturating_sub(bounces + 1);
     (left > 0 && (most <= MOST_LAYERS || bounces == 0)).then_some(left)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bounces_left;
-
-    #[test]
-    fn light_on_the_map_fits_into_the_bounces_that_are_left() {
-        assert_eq!(bounces_left(None, 7), Some(u32::MAX));
-        assert_eq!([0, 1, 2].map(|b| bounces_left(Some(3), b)), [Some(2), Some(1), None]);
-        assert_eq!([0, 1].map(|b| bounces_left(Some(100), b)), [Some(99), None]);
-        assert_eq!(bounces_left(Some(1), 0), None);
-    }
 }

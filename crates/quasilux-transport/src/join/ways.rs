@@ -68,8 +68,7 @@ impl Ways {
     pub(crate) fn try_all<S: Spectrum>(
         stage: &Stage<'_, S>,
         settings: &Settings,
-        targets: &[Target],
-        (exact, sample): (&[Exact], &Sample),
+        (targets, exact, sample): (&[Target], &[Exact], &Sample),
         quantum: Quantum,
         watch: &mut Watch<'_>,
     ) -> Self {

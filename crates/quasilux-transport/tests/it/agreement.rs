@@ -79,6 +79,33 @@ fn photons_and_paths_agree_bounce_by_bounce() {
     }
 }
 
+/// A map that is corrected knows bounces apart, where few are wanted, and else only how many it left out in all: either way
+/// paths that end on it find what they find alone.
+#[test]
+fn a_map_that_is_corrected_keeps_to_the_wanted_bounces() {
+    let scene = coloured_room_with_mirror();
+    for max_bounces in [Some(2), Some(3), Some(4), Some(17)] {
+        let found = |estimator, seed| {
+            let joining = if estimator == Estimator::Path { Switch::Auto } else { Switch::Off };
+            let settings = Settings {
+                estimator,
+                joining,
+                max_bounces,
+                seed,
+                rel_tol: 0.003,
+                ..Settings::default()
+            };
+            let estimates = simulate(&scene, &settings, &mut ());
+            let is_mapped = estimates.decisions.map_elements.is_some();
+            assert_eq!(is_mapped, estimator == Estimator::Bidirectional);
+            estimates
+        };
+        let [alone, mapped] = [(Estimator::Path, 1), (Estimator::Bidirectional, 2)]
+            .map(|(estimator, seed)| found(estimator, seed));
+        assert_agree(&alone, &mapped, &format!("{max_bounces:?}"));
+    }
+}
+
 /// The first bounces make a known difference, so the test above can tell them apart.
 #[test]
 fn each_bounce_adds_light() {

@@ -6,7 +6,8 @@
 //! were they independent, fewer would come once in 1000 choices of the seeds. Intervals that are
 //! 30 % too narrow cover about 89 %; the test shows that it would notice them.
 
-use crate::scenes::{GATHERERS, diffuse_cube};
+use crate::gatherers::GATHERERS;
+use crate::scenes::diffuse_cube;
 use quasilux_transport::{Settings, simulate};
 use std::f64::consts::PI;
 

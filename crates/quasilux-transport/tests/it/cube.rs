@@ -1,6 +1,7 @@
 //! The diffuse cube, whose luminance is known from two independent solves.
 
-use crate::scenes::{GATHERERS, diffuse_cube, wall_grid};
+use crate::gatherers::GATHERERS;
+use crate::scenes::{diffuse_cube, wall_grid};
 use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
 use std::f64::consts::PI;
 

@@ -1,6 +1,7 @@
 //! A closed room of emitting walls has the same light everywhere: pi L / (1 - r).
 
-use crate::scenes::{GATHERERS, all_walls_emit, diffuse, point_light, points, room};
+use crate::gatherers::GATHERERS;
+use crate::scenes::{all_walls_emit, diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;

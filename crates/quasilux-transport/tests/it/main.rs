@@ -16,6 +16,7 @@ mod explain;
 mod few;
 mod first_shot;
 mod furnace;
+mod gatherers;
 mod hall;
 mod images;
 mod joining;

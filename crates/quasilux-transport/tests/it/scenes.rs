@@ -6,14 +6,6 @@ use quasilux_scene::light::{AreaLight, PointLight};
 use quasilux_scene::{
     Bsdf, Grid, Light, Material, Mesh, Quantity, Rgb, Scene, Sensor, SensorPoint, SensorShape,
 };
-use quasilux_transport::{Estimator, Switch};
-
-/// The ways in which paths gather light, none of which is biased.
-pub(crate) const GATHERERS: [(Estimator, Switch); 3] = [
-    (Estimator::Path, Switch::Auto),
-    (Estimator::Bidirectional, Switch::On),
-    (Estimator::Bidirectional, Switch::Off),
-];
 
 /// A closed box from the origin to `size`, its normals inward, of one material.
 pub(crate) fn room(size: DVec3, bsdf: Bsdf) -> Scene {

@@ -1,15 +1,16 @@
 //! The terms of the Neumann series one by one: their sum, their closed form, and who agrees.
 
 use crate::agreement::coloured_room_with_mirror;
+use crate::gatherers::GATHERERS;
 use crate::scenes::{all_walls_emit, diffuse, level_grid, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimates, Estimator, Reconstruction, Settings, check, simulate};
+use quasilux_transport::{Estimates, Estimator, Reconstruction, Settings, Switch, check, simulate};
 use std::f64::consts::PI;
 
 /// Terms that are told apart in a furnace, where later ones are small.
 const FURNACE_TERMS: u32 = 4;
-/// Terms that are told apart elsewhere: a map under paths that passed two surfaces still has two layers.
+/// Terms that are told apart elsewhere: a map has three layers of its own, and one for the rest.
 const LISTED: u32 = 5;
 
 fn run(scene: &Scene, settings: &Settings) -> Estimates {
@@ -76,10 +77,11 @@ fn estimators_agree_term_by_term() {
     let mut point = panel.clone();
     point.lights.push(point_light(DVec3::new(2.5, 1.2, 1.5), 400.0));
     for (scene, image_depth) in [(&panel, 2), (&point, 8), (&point, 0)] {
-        let listed = |estimator, seed| {
+        let listed = |(estimator, joining), seed| {
             let (list_terms, image_depth) = (LISTED, Some(image_depth));
             let settings = Settings {
                 estimator,
+                joining,
                 list_terms,
                 image_depth,
                 seed,
@@ -88,18 +90,18 @@ fn estimators_agree_term_by_term() {
             };
             run(scene, &settings)
         };
-        let paths = listed(Estimator::Path, 1);
-        for estimator in [Estimator::Photon, Estimator::Bidirectional, Estimator::BidirectionalMap]
-        {
-            let others = listed(estimator, 2);
+        let [alone, gatherers @ ..] = GATHERERS;
+        let paths = listed(alone, 1);
+        let counted = [Estimator::Photon, Estimator::BidirectionalMap];
+        for way in counted.map(|counted| (counted, Switch::Auto)).into_iter().chain(gatherers) {
+            let others = listed(way, 2);
             for term in 0..=LISTED as usize {
                 let terms = [&others, &paths].map(|estimates| estimates.term_intervals(0, term));
                 let [x, y] = terms;
                 for (x, y) in x.into_iter().zip(y) {
                     let [a, b] = [x, y].map(|value| value.half_width.expect("light was found"));
-                    let found = format!(
-                        "{estimator:?}, depth {image_depth}, term {term}: {x:?} against {y:?}"
-                    );
+                    let found =
+                        format!("{way:?}, depth {image_depth}, term {term}: {x:?} against {y:?}");
 
                     assert!(a.max(b) < 0.15 * y.value, "{found}");
                     assert!((x.value - y.value).abs() <= 1.5 * (a + b), "{found}");
@@ -116,10 +118,13 @@ fn estimators_agree_term_by_term() {
 #[test]
 fn terms_add_up_and_disturb_nothing() {
     let scene = coloured_room_with_mirror();
-    for estimator in Estimator::NAMES.map(|named| named.1) {
-        for max_bounces in [None, Some(1)] {
+    let others = [Estimator::Photon, Estimator::BidirectionalMap];
+    let others = others.map(|other| (other, Switch::Auto));
+    for (estimator, joining) in GATHERERS.into_iter().chain(others) {
+        for max_bounces in [None, Some(1), Some(3), Some(17)] {
             let limited = |list_terms| Settings {
                 estimator,
+                joining,
                 max_bounces,
                 list_terms,
                 max_samples: Some(256),
