@@ -4,7 +4,7 @@ use crate::state::Writer;
 
 /// Paths go on with this probability at least, so that no survivor counts too much.
 const LEAST: f64 = 1.0 / 64.0;
-/// Where the map has less than this part of its mean, it is taken as if it had so much: it may have missed something.
+/// Where the map has less than this part of the mean, it is taken as if it had so much: it may have missed something.
 const DIM: f64 = 0.1;
 /// What is known of one element counts as much as this many paths of the others.
 const PRIOR: f64 = 16.0;
@@ -14,7 +14,7 @@ const PRIOR: f64 = 16.0;
 pub(crate) struct Survival {
     /// Probability for each unit of what would be lost.
     sureness: f64,
-    /// Of the map, where paths come to it.
+    /// Illuminance where paths come to the map: what they find, or what it has where that is more.
     mean_lx: f64,
     /// Root mean square of what paths find beyond a surface less what the map has, over what it has.
     usual_off: f64,
@@ -48,8 +48,11 @@ impl Survival {
         // In this order, sums are the same whoever found what first.
         findings.sort_by_key(|finding| finding.element);
         let count = findings.len().max(1) as f64;
-        let light_lx = |finding: &Finding| finding.light / finding.weight;
-        let mean_lx = findings.iter().map(light_lx).sum::<f64>().max(0.0) / count;
+        let [on_map, found] = findings.iter().fold([0.0, 0.0], |[on_map, found], finding| {
+            let Finding { weight, light, beyond, .. } = finding;
+            [on_map + light / weight, found + beyond / weight]
+        });
+        let mean_lx = on_map.max(found).max(0.0) / count;
         let mut survival = Self { sureness: 0.0, mean_lx, usual_off: 1.0, off: Vec::new() };
         // What is off counts as variances do: by its square.
         let squares = |of_some: &[Finding]| {
@@ -85,6 +88,10 @@ impl Survival {
 
     /// With what probability it goes on.
     pub(super) fn chance(&self, element: usize, weight: f64, light: f64) -> f64 {
+        if self.mean_lx == 0.0 {
+            // Neither found anything.
+            return 1.0;
+        }
         (self.sureness * self.loss(element, weight, light)).clamp(LEAST, 1.0)
     }
 
@@ -133,9 +140,19 @@ mod tests {
         assert_eq!(survival.chance(3, 1.0, f64::NAN), survival.chance(3, 1.0, 0.0));
     }
 
+    /// A map that is empty says nothing of how much is lost where paths end on it.
+    #[test]
+    fn paths_go_on_where_an_empty_map_ends_them() {
+        let missed = Finding { element: 2, weight: 0.5, light: 0.0, beyond: 10.0 };
+        let survival = Survival::of([missed; 9].into_iter()).with_sureness(0.05);
+        // All of it is off: 10 beside a tenth of that.
+        assert!((survival.loss(2, 0.5, 0.0) - 10.0).abs() < 1e-12);
+        assert_eq!(survival.chance(2, 0.5, 0.0), 0.5);
+    }
+
     #[test]
     fn nothing_found_is_no_panic() {
         let survival = Survival::of(std::iter::empty()).with_sureness(1.0);
-        assert_eq!(survival.chance(0, 1.0, 0.0), LEAST);
+        assert_eq!(survival.chance(0, 1.0, 0.0), 1.0);
     }
 }

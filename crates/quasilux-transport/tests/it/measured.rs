@@ -144,7 +144,7 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
     for (estimator, samples) in [
         (Estimator::Path, 1 << 12),
         (Estimator::Photon, 1 << 15),
-        (Estimator::Bidirectional, 1 << 10),
+        (Estimator::Bidirectional, 1 << 12),
     ] {
         let found = estimates(&scene, estimator, samples);
         let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
