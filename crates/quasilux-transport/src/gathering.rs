@@ -112,7 +112,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let hidden = HiddenLight::new(stage, settings, &targets);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
         let Decision { joined, frozen, rays } =
-            decide(stage, settings, (&targets, &exact), quantum, watch);
+            decide(stage, (settings, replicates), (&targets, &exact), quantum, watch);
         work.rays += rays;
         let (end, photons) = PathEnd::prepare(stage, settings, &targets, frozen, watch);
         Self {

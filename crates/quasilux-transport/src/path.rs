@@ -13,7 +13,7 @@
 mod asking;
 
 use crate::bsdf::Mode;
-use crate::correction::{FrozenEnd, Note};
+use crate::correction::{FrozenEnd, Note, bounces_left};
 use crate::endless::Gain;
 use crate::frame::Frame;
 use crate::gathered::Gathered;
@@ -260,11 +260,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
             Rest::Frozen(end) if bsdf.keeps_illuminance() => {
                 self.end_on_frozen(end, stage, bounces, at)
             }
-            Rest::Noted if bsdf.keeps_illuminance() && self.is_noted() => {
-                let alone = if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) };
-                let (weight, flights) = (self.weight(stage, at), self.flights);
-                self.notes.push(Note::new(at, weight, alone, (bounces, flights)));
-                None
+            Rest::Noted if self.gain.left() > NOTED && self.notes.len() < MOST_NOTES => {
+                self.note(stage, bounces, at, albedo);
+                Some(Onward { emitted: 1.0, everything: 1.0 })
             }
             Rest::Path | Rest::Noted | Rest::Map(_) | Rest::Frozen(_) => None,
         };
@@ -319,9 +317,18 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.found.endless = true;
     }
 
-    /// Whether it notes where it might have ended: what it finds later is noisy, and little.
-    fn is_noted(&self) -> bool {
-        self.gain.left() > NOTED && self.notes.len() < MOST_NOTES
+    /// Notes that it might have ended here.
+    fn note(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction, albedo: f64) {
+        let keeps_illuminance = stage.world.bsdf(at).keeps_illuminance();
+        self.notes.push(Note {
+            at: *at,
+            weight: keeps_illuminance.then(|| self.weight(stage, at)),
+            alone: if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) },
+            bounces,
+            flights: self.flights,
+            before: None,
+            beyond: S::black(),
+        });
     }
 
     /// What a lux at a diffuse surface that it meets counts at its start.
@@ -341,14 +348,16 @@ impl<'p, S: Spectrum> Path<'p, S> {
             // The light on the map has more bounces than are left.
             return None;
         }
-        let place = end.layout.locate(at);
-        self.take(&end.map, &place, (bounces, u32::MAX), self.weight(stage, at));
+        let (place, weight) = (end.layout.locate(at), self.weight(stage, at));
+        self.found.indirect += weight * end.map.illuminance_lx(&place, u32::MAX);
+        self.take_terms(&end.map, &place, (bounces, u32::MAX), weight);
         // The direction to a light that the next surface emits is part of the direct light here, so
         // it counts in every path.
         Some(Onward { emitted: 1.0, everything: 0.0 })
     }
 
-    /// The same on a map that is corrected: those that go on take the difference to it along.
+    /// The same on a map that is corrected: those that go on take the difference to it along. Where nothing is known of the
+    /// map, there is none.
     fn end_on_frozen(
         &mut self,
         end: &FrozenEnd<'_, S>,
@@ -356,28 +365,29 @@ impl<'p, S: Spectrum> Path<'p, S> {
         bounces: u32,
         at: &Interaction,
     ) -> Option<Onward> {
-        let most_bounces = end.bounces_left(stage.max_bounces, bounces)?;
+        let most_bounces = bounces_left(stage.max_bounces, bounces)?;
         let weight = self.weight(stage, at);
         let place = end.layout.locate(at);
-        let light = weight * end.map.illuminance_lx(&place, most_bounces);
-        let chance = end.chance(&place, weight.luminance(), light.luminance());
+        let lx = end.map.illuminance_lx(&place, most_bounces);
+        let chance = end.chance(&place, weight.luminance(), (weight * lx).luminance())?;
         let correction = Purpose::Correction { surface: bounces + 1 };
         let everything =
             stage.draw(&mut self.cursor, correction, |cursor| survival_factor(chance, cursor));
-        self.take(&end.map, &place, (bounces, most_bounces), weight * (1.0 - everything));
+        let weight = weight * (1.0 - everything);
+        self.found.indirect += weight * lx;
+        self.take_terms(&end.map, &place, (bounces, most_bounces), weight);
         Some(Onward { emitted: 1.0, everything })
     }
 
-    /// Adds what a map says of the light at a surface that it came to after `bounces`, of photons with so many bounces
-    /// at most.
-    fn take(
+    /// Adds the terms of what a map says of the light at a surface that it came to after `bounces`, of photons with so
+    /// many bounces at most.
+    fn take_terms(
         &mut self,
         map: &IlluminationMap<'_, S>,
         place: &Place,
         (bounces, most_bounces): (u32, u32),
         weight: S,
     ) {
-        self.found.indirect += weight * map.illuminance_lx(place, most_bounces);
         if !self.found.terms.is_empty() {
             for (photon_bounces, lx) in map.terms_lx(*place, most_bounces) {
                 self.found.add_to_term(bounces + 1 + photon_bounces, weight * lx);
@@ -414,8 +424,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             let Shares { first, rest } = self.shares;
             return Onward { emitted: first, everything: rest };
         }
-        let is_noted = matches!(self.rest, Rest::Noted) && self.is_noted();
-        if bounces < CERTAIN_BOUNCES || is_noted {
+        if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };

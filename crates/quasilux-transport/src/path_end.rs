@@ -119,7 +119,7 @@ impl<S: Spectrum> PathEnd<S> {
             return (Self::Nothing, balance(watch));
         }
         let mut counts = PhotonCounts::default();
-        let lit_cells = decide(stage, settings, &mut counts);
+        let lit_cells = decide(stage, settings, u64::MAX, &mut counts);
         if lit_cells.is_some() {
             counts += balance(watch);
         }

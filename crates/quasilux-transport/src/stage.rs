@@ -122,6 +122,13 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         }
     }
 
+    /// The same of a few points of a trial: those of a set with a fixed number of points are no sample of it.
+    pub(crate) fn points_of_trial(&self, replicate: u32, stream: Stream) -> PointSet {
+        let Settings { sequence, randomization, seed, .. } = *self.settings;
+        let sequence = if sequence.points().is_some() { Sequence::Halton } else { sequence };
+        PointSet::new(sequence, randomization, stream_key(seed, replicate, stream.id()))
+    }
+
     /// The randomised point set of one stream in one replicate.
     pub(crate) fn points(&self, replicate: u32, stream: Stream) -> PointSet {
         let Settings { mut sequence, randomization, seed, .. } = *self.settings;

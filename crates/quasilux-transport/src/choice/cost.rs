@@ -13,7 +13,7 @@ use crate::schedule::LEAST_SAMPLES;
 use crate::settings::{Settings, ToleranceOn};
 
 /// Samples that a run is taken to have where no tolerance says how many it needs.
-const EXPECTED_SAMPLES: f64 = 256.0;
+const EXPECTED_SAMPLES: f64 = 4096.0;
 
 /// How variances become costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,10 +28,12 @@ enum Cost {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Budget {
     cost: Cost,
-    /// Trials of all targets for each unit of variance, where there is a tolerance.
+    /// Trials for each unit of variance, where a tolerance ends the run.
     trials_for_variance: Option<f64>,
-    /// Trials of all targets: those that are made however small the error is, or all where there is no tolerance.
+    /// Trials that are made however small the error is, or all where no tolerance ends the run.
     trials: f64,
+    /// Targets for each that is in the trial.
+    targets: f64,
 }
 
 /// What a way to estimate promises, by a trial.
@@ -54,20 +56,25 @@ impl<'v> Promise<'v> {
 }
 
 impl Budget {
-    /// As these settings end a run.
-    pub(crate) fn of(settings: &Settings) -> Self {
-        let is_tolerance = settings.has_tolerance();
+    /// As these settings end a run, with so many targets for each that is in the trial.
+    pub(crate) fn of(settings: &Settings, targets: f64) -> Self {
+        let fixed = settings.sequence.points();
+        let is_tolerance = settings.has_tolerance() && fixed.is_none();
         let for_points = is_tolerance && settings.tolerance_on == ToleranceOn::Points;
         let replicates = settings.effective_replicates();
-        let in_trial = REPLICATES.len() as f64 * SAMPLES as f64;
-        let trials = |samples: f64| samples * f64::from(replicates) / in_trial;
+        let samples = match fixed {
+            Some(points) => points as f64,
+            None if is_tolerance => LEAST_SAMPLES as f64,
+            None => EXPECTED_SAMPLES,
+        };
         // The half-width `t sqrt(variance / replicates)` is to be one, in units of the tolerance.
         let t = t_quantile_for(replicates as usize, 1.0 - settings.confidence).unwrap_or(2.0);
-        let share = f64::from(replicates) / REPLICATES.len() as f64;
+        let in_trial = REPLICATES.len() as f64;
         Self {
             cost: if for_points { Cost::UntilEachIsDone } else { Cost::ForAll },
-            trials_for_variance: is_tolerance.then(|| t * t / f64::from(replicates) * share),
-            trials: trials(if is_tolerance { LEAST_SAMPLES as f64 } else { EXPECTED_SAMPLES }),
+            trials_for_variance: is_tolerance.then_some(t * t / in_trial),
+            trials: samples / SAMPLES as f64 * f64::from(replicates) / in_trial,
+            targets,
         }
     }
 
@@ -87,7 +94,7 @@ impl Budget {
                 [promise, plain].map(|p| Cost::ForAll.rays(p.variances, 1.0, 0.0));
             self.trials * each * if of_plain > 0.0 { mean / of_plain } else { 1.0 }
         };
-        sampled + promise.beforehand
+        self.targets * sampled + promise.beforehand
     }
 }
 
@@ -123,32 +130,37 @@ mod tests {
     #[test]
     fn targets_are_done_one_by_one_only_with_a_tolerance_of_their_own() {
         let settings = Settings::default();
-        assert_eq!(Budget::of(&settings).cost, Cost::UntilEachIsDone);
+        assert_eq!(Budget::of(&settings, 1.0).cost, Cost::UntilEachIsDone);
         let summary = Settings { tolerance_on: ToleranceOn::Summary, ..settings.clone() };
         let given = Settings { rel_tol: 0.0, abs_tol_lx: 0.0, ..settings };
-        assert_eq!([summary, given].map(|settings| Budget::of(&settings).cost), [Cost::ForAll; 2]);
+        assert_eq!(
+            [summary, given].map(|settings| Budget::of(&settings, 1.0).cost),
+            [Cost::ForAll; 2]
+        );
     }
 
     /// One target, trials of 8 replicates and 16 samples that take 800 rays, 16 replicates.
     #[test]
     fn a_run_is_as_long_as_its_settings_say() {
-        let rays = |settings: &Settings, variance: f64| {
+        let rays_for = |targets: f64, settings: &Settings, variance: f64| {
             let [plain, variances] = [[1000.0], [variance]];
             let [plain, promise] = [&plain, &variances].map(|variances| Promise {
                 beforehand: 1000.0,
                 ..Promise::of_paths(variances, 800.0)
             });
-            Budget::of(settings).rays(&plain, &promise)
+            Budget::of(settings, targets).rays(&plain, &promise)
         };
+        let rays = |settings: &Settings, variance: f64| rays_for(1.0, settings, variance);
         let open = Settings::default();
         // t is 2.131, and the variance of 16 samples falls to 16 / t^2 after 16 * 1000 t^2 / 16 samples.
         let all = 1000.0 * 2.131_45_f64 * 2.131_45 * 100.0 + 1000.0;
         assert!((rays(&open, 1000.0) / all - 1.0).abs() < 1e-4, "{}", rays(&open, 1000.0));
         // 128 samples at least.
         assert_eq!(rays(&open, 1e-9), 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
-        // Without a tolerance 256 samples, or as many as leave the error of 256 plain ones; limits do not matter.
+        assert_eq!(rays_for(3.0, &open, 1e-9), 3.0 * 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
+        // Without a tolerance 4096 samples, or as many as leave the error of 4096 plain ones; limits do not matter.
         let given = Settings { max_samples: Some(64), rel_tol: 0.0, ..open };
-        assert_eq!(rays(&given, 1000.0), 256.0 * 16.0 * 800.0 / 128.0 + 1000.0);
-        assert_eq!(rays(&given, 500.0), 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
+        assert_eq!(rays(&given, 1000.0), 4096.0 * 16.0 * 800.0 / 128.0 + 1000.0);
+        assert_eq!(rays(&given, 500.0), 2048.0 * 16.0 * 800.0 / 128.0 + 1000.0);
     }
 }

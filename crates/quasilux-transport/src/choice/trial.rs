@@ -1,6 +1,6 @@
 //! Trials: what a few samples in a few replicates find at some of the targets.
 
-use crate::correction::Walks;
+use crate::correction::{RayCounts, Walks};
 use crate::gathering::Exact;
 use crate::join::Joining;
 use crate::path_end::Rest;
@@ -22,6 +22,7 @@ const TARGETS: usize = 64;
 
 /// The targets that are looked at.
 pub(crate) struct Sample {
+    all: usize,
     /// Every so many of all.
     pub(crate) step: usize,
     pub(crate) targets: Vec<Target>,
@@ -35,6 +36,15 @@ pub(crate) struct Trial {
     pub(crate) rays: f64,
 }
 
+/// A trial of paths that go alone, and hardly end.
+pub(crate) struct PathTrial<S> {
+    pub(crate) trial: Trial,
+    pub(crate) walks: Walks<S>,
+    /// Whether most replicates found light that bounced, at every target whose paths came to surfaces that reflect: a
+    /// spread says nothing of what is hardly ever found.
+    pub(crate) finds_light: bool,
+}
+
 /// Of what the replicates found at one target.
 pub(crate) struct Moments {
     pub(crate) mean: f64,
@@ -45,7 +55,13 @@ impl Sample {
     pub(crate) fn new(targets: &[Target], exact: &[Exact]) -> Self {
         let step = targets.len().div_ceil(TARGETS).max(1);
         let exact_lx = exact.iter().step_by(step).map(Exact::sum_lx).collect();
-        Self { step, targets: targets.iter().step_by(step).copied().collect(), exact_lx }
+        let all = targets.len();
+        Self { all, step, targets: targets.iter().step_by(step).copied().collect(), exact_lx }
+    }
+
+    /// How many there are for each that is looked at.
+    pub(crate) fn targets_for_each(&self) -> f64 {
+        self.all as f64 / self.targets.len().max(1) as f64
     }
 
     /// Those that are looked at of all.
@@ -62,71 +78,86 @@ impl Trial {
         joining: &Joining,
         quantum: Quantum,
     ) -> Self {
-        Self::of_paths(stage, sample, (Some(joining), quantum)).0
+        let pieces = trace(stage, sample, (Some(joining), quantum));
+        Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
     }
 
-    /// Of paths that go alone to their ends, and where they might have ended on a map.
-    pub(crate) fn of_noted_paths<S: Spectrum>(
-        stage: &Stage<'_, S>,
-        sample: &Sample,
-        quantum: Quantum,
-    ) -> (Self, Walks<S>) {
-        Self::of_paths(stage, sample, (None, quantum))
-    }
-
-    fn of_paths<S: Spectrum>(
-        stage: &Stage<'_, S>,
-        sample: &Sample,
-        (joining, quantum): (Option<&Joining>, Quantum),
-    ) -> (Self, Walks<S>) {
-        let each = REPLICATES.len();
-        let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, Walks<S>) {
-            let target = number / each;
-            let replicate = REPLICATES.start + (number % each) as u32;
-            let section = Section {
-                number,
-                target: sample.targets[target],
-                points: stage.points(replicate, Stream::Paths(target as u64)),
-                rest: if joining.is_some() { Rest::Path } else { Rest::Noted },
-                hidden: None,
-                joining,
-                indices: 0..SAMPLES,
-            };
-            let mut walks = Walks::default();
-            let piece =
-                trace_and_look(stage, &[section], quantum, wave, |path| walks.add(target, path));
-            (piece, walks)
-        };
-        let numbers = (0..sample.targets.len() * each).into_par_iter();
-        let (pieces, walks): (Vec<Piece>, Vec<Walks<S>>) =
-            numbers.map_init(PathWave::default, trace).unzip();
+    fn of<'p>(pieces: impl Iterator<Item = &'p Piece> + Clone, quantum: Quantum) -> Self {
         let value_lx = |piece: &Piece| -> f64 {
             let sums = &piece.sums[0];
             (quantum.value(sums.direct) + quantum.value(sums.indirect)) / SAMPLES as f64
         };
-        let rays: u64 = pieces.iter().map(|piece| piece.work.rays).sum();
-        let trial = Self { lx: pieces.iter().map(value_lx).collect(), rays: rays as f64 };
-        (trial, Walks::all(walks))
+        let rays: u64 = pieces.clone().map(|piece| piece.work.rays).sum();
+        Self { lx: pieces.map(value_lx).collect(), rays: rays as f64 }
     }
 
     pub(crate) fn moments(&self, target: usize) -> Moments {
-        let values = self.values(target);
+        let each = REPLICATES.len();
+        let values = &self.lx[target * each..(target + 1) * each];
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let squares = values.iter().map(|value| (value - mean) * (value - mean));
         Moments { mean, variance: squares.sum::<f64>() / (values.len() - 1) as f64 }
     }
+}
 
-    /// In each replicate.
-    fn values(&self, target: usize) -> &[f64] {
-        let each = REPLICATES.len();
-        &self.lx[target * each..(target + 1) * each]
+impl<S: Spectrum> PathTrial<S> {
+    pub(crate) fn new(stage: &Stage<'_, S>, sample: &Sample, quantum: Quantum) -> Self {
+        let (pieces, walks): (Vec<Piece>, Vec<Walks<S>>) =
+            trace(stage, sample, (None, quantum)).into_iter().unzip();
+        let finds_light = pieces.chunks(REPLICATES.len()).all(|of_target| {
+            let sums = || of_target.iter().map(|piece| &piece.sums[0]);
+            let found = sums().filter(|sums| !sums.indirect.is_zero()).count();
+            2 * found > of_target.len() || sums().all(|sums| sums.reflected == 0)
+        });
+        let trial = Trial::of(pieces.iter(), quantum);
+        let at_start: usize =
+            sample.targets.iter().map(|target| asked_at_start(stage, target)).sum();
+        let rays = RayCounts {
+            all: trial.rays,
+            at_start: at_start as f64 * REPLICATES.len() as f64 * SAMPLES as f64,
+            // It still looks for light that the next surface emits.
+            at_end: if stage.lights.emitters.is_some() { 1.0 } else { 0.0 },
+        };
+        Self { trial, walks: Walks::all(walks, rays), finds_light }
     }
+}
 
-    /// Whether most replicates found something at every target: a spread says nothing of what is hardly ever found.
-    pub(crate) fn finds_light(&self) -> bool {
-        (0..self.lx.len() / REPLICATES.len()).all(|target| {
-            let values = self.values(target);
-            2 * values.iter().filter(|lx| **lx != 0.0).count() > values.len()
-        })
+/// Rays at most by which a path asks for light where it starts.
+fn asked_at_start<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> usize {
+    let lights = &stage.lights;
+    let areas = [lights.emitters.is_some(), !lights.area_luminaires.is_empty()];
+    let areas = areas.into_iter().filter(|is_there| *is_there).count();
+    match target {
+        Target::Point { .. } => areas,
+        Target::Cell { .. } => areas + lights.pointlikes.len(),
     }
+}
+
+/// Paths from all targets of a sample, in the order of [`Trial::lx`]: beside joined photons, or alone, and then they note
+/// where they might have ended.
+fn trace<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    sample: &Sample,
+    (joining, quantum): (Option<&Joining>, Quantum),
+) -> Vec<(Piece, Walks<S>)> {
+    let each = REPLICATES.len();
+    let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, Walks<S>) {
+        let target = number / each;
+        let replicate = REPLICATES.start + (number % each) as u32;
+        let section = Section {
+            number,
+            target: sample.targets[target],
+            points: stage.points_of_trial(replicate, Stream::Paths(target as u64)),
+            rest: if joining.is_some() { Rest::Path } else { Rest::Noted },
+            hidden: None,
+            joining,
+            indices: 0..SAMPLES,
+        };
+        let mut walks = Walks::default();
+        let piece =
+            trace_and_look(stage, &[section], quantum, wave, |path| walks.add(target, path));
+        (piece, walks)
+    };
+    let numbers = (0..sample.targets.len() * each).into_par_iter();
+    numbers.map_init(PathWave::default, trace).collect()
 }

@@ -17,13 +17,14 @@ pub(crate) struct Wanted {
 }
 
 impl Wanted {
-    pub(crate) fn new(settings: &Settings, means_lx: Vec<f64>) -> Self {
+    /// With so many targets for each that is looked at.
+    pub(crate) fn new(settings: &Settings, means_lx: Vec<f64>, targets: f64) -> Self {
         let scale_lx = |mean_lx: &f64| match settings.has_tolerance() {
             true => settings.tolerance_lx(*mean_lx),
             false => *mean_lx,
         };
         let scales_lx = means_lx.iter().map(scale_lx).collect();
-        Self { budget: Budget::of(settings), means_lx, scales_lx }
+        Self { budget: Budget::of(settings, targets), means_lx, scales_lx }
     }
 
     /// How many targets are looked at.

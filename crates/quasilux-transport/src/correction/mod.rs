@@ -25,7 +25,7 @@ mod walk;
 
 pub(crate) use pilot::{Choice, MOST_PHOTONS, of_plan};
 pub(crate) use survival::Survival;
-pub(crate) use trips::{Outcome, Walks};
+pub(crate) use trips::{Outcome, RayCounts, Walks};
 
 use crate::map::{IlluminationMap, MapLayout, MapTally, Place};
 use crate::path_end::MapFacts;
@@ -35,7 +35,7 @@ use crate::world::Interaction;
 
 /// With so many wanted bounces or fewer, the map keeps light apart by its bounces, so that paths may end on it
 /// anywhere; with more, only at the first surface.
-pub(crate) const MOST_LAYERS: u32 = 16;
+const MOST_LAYERS: u32 = 16;
 
 /// A map with what is known of how good it is.
 pub(crate) struct FrozenMap<S> {
@@ -46,7 +46,7 @@ pub(crate) struct FrozenMap<S> {
     /// Whether its photons left lit places.
     pub(super) first_shot: bool,
     pub(super) survival: Survival,
-    /// What a lux at each target counts: one over the error that matters there.
+    /// What a lux at each target counts: one over the error that matters there, 0 where that is not known.
     pub(super) worth_per_lx: Vec<f64>,
 }
 
@@ -58,54 +58,40 @@ pub(crate) struct FrozenEnd<'m, S> {
     worth_per_lx: f64,
 }
 
-/// What a path found beyond a diffuse surface.
+/// What a path found beyond a surface.
 #[derive(Clone, Debug)]
 pub(crate) struct Note<S> {
-    pub(super) at: Interaction,
-    /// What a lux there counts at the start of the path.
-    pub(super) weight: S,
-    /// With what probability a path that ends on no map goes on, where this one did for certain.
-    pub(super) alone: f64,
+    pub(crate) at: Interaction,
+    /// What a lux there counts at the start of the path; `None` where no map is.
+    pub(crate) weight: Option<S>,
+    /// With what probability a path without a map goes on, where this one did for certain.
+    pub(crate) alone: f64,
     /// Reflections before it, and rays up to it.
-    pub(super) bounces: u32,
-    pub(super) flights: u32,
-    /// What had been found by the next surface, of light that came straight from lights to this one and before; then what
-    /// was found in the end beyond that.
-    found: Option<S>,
+    pub(crate) bounces: u32,
+    pub(crate) flights: u32,
+    /// What had been found when the light was in that came to this surface straight from lights.
+    pub(crate) before: Option<S>,
+    /// What was found after that.
+    pub(crate) beyond: S,
 }
 
 impl<S: Spectrum> Note<S> {
-    pub(crate) fn new(
-        at: &Interaction,
-        weight: S,
-        alone: f64,
-        (bounces, flights): (u32, u32),
-    ) -> Self {
-        Self { at: *at, weight, alone, bounces, flights, found: None }
-    }
-
     /// All that was found so far has nothing to do with the map at its surface, unless that was said before.
     pub(crate) fn begin(&mut self, found: S) {
-        self.found.get_or_insert(found);
+        self.before.get_or_insert(found);
     }
 
     /// This is all that the path found.
     pub(crate) fn end(&mut self, found: S) {
-        let before = self.found.unwrap_or(found);
-        self.found = Some(found + before * -1.0);
-    }
-
-    /// What it found beyond, as a luminance or illuminance at its start.
-    pub(super) fn beyond(&self) -> f64 {
-        let found = self.found.map_or(0.0, |found| found.luminance());
-        // The run counts and reports what is no number.
-        if found.is_finite() { found } else { 0.0 }
+        if let Some(before) = self.before {
+            self.beyond = found + before * -1.0;
+        }
     }
 }
 
 impl<S: Spectrum> FrozenMap<S> {
     /// Layers that tell apart what is to be told apart, of which the last counts all that bounced more often.
-    pub(super) fn layers(max_bounces: Option<u32>, listed_terms: u32) -> u32 {
+    pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32) -> u32 {
         match max_bounces {
             Some(most) if most <= MOST_LAYERS => most.saturating_sub(1).max(1),
             _ => listed_terms.saturating_sub(1).max(1),
@@ -136,22 +122,17 @@ impl<S: Spectrum> FrozenMap<S> {
 }
 
 impl<S: Spectrum> FrozenEnd<'_, S> {
-    /// Most bounces of light on the map that may come to a start by a surface that was met after `bounces`; `None`
-    /// where paths do not end on it.
-    pub(crate) fn bounces_left(&self, max_bounces: Option<u32>, bounces: u32) -> Option<u32> {
-        bounces_left(max_bounces, bounces)
-    }
-
     /// With what probability a path goes on from a place where a lux counts `weight` at its start, and the map has
-    /// so much `light` by that measure.
-    pub(crate) fn chance(&self, place: &Place, weight: f64, light: f64) -> f64 {
+    /// so much `light` by that measure; `None` where nothing is known of that.
+    pub(crate) fn chance(&self, place: &Place, weight: f64, light: f64) -> Option<f64> {
         let [weight, light] = [weight, light].map(|lx| lx * self.worth_per_lx);
         self.survival.chance(place.element, weight, light)
     }
 }
 
-/// See [`FrozenEnd::bounces_left`].
-fn bounces_left(max_bounces: Option<u32>, bounces: u32) -> Option<u32> {
+/// Most bounces of light on the map that may come to a start by a surface that was met after `bounces`; `None`
+/// where paths do not end on it.
+pub(crate) fn bounces_left(max_bounces: Option<u32>, bounces: u32) -> Option<u32> {
     let Some(most) = max_bounces else { return Some(u32::MAX) };
     let left = most.saturating_sub(bounces + 1);
     (left > 0 && (most <= MOST_LAYERS || bounces == 0)).then_some(left)

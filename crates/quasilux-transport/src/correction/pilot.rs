@@ -19,7 +19,9 @@ use std::ops::Range;
 
 /// Photons of the pilot for each side of an element, and the part of the run's rays that they may be.
 const PHOTONS_PER_ELEMENT: u64 = 8;
-const RAYS_FOR_A_PHOTON: f64 = 32.0;
+const RAYS_FOR_A_PHOTON: u64 = 32;
+/// The part of its rays that it may take to find where light lands.
+const RAYS_FOR_A_RAY: u64 = 8;
 /// Bounds on them, and on those of a map.
 const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
 pub(crate) const MOST_PHOTONS: u64 = 1 << 20;
@@ -38,6 +40,8 @@ pub(crate) struct Choice<S> {
     pub(crate) rays: f64,
     /// Rays before the first path that are still to be traced.
     pub(crate) beforehand: f64,
+    /// Whether its photons found much that the paths of the trial did not.
+    pub(crate) misses_light: bool,
 }
 
 /// A map that gets its photons.
@@ -61,15 +65,16 @@ impl<S: Spectrum> Choice<S> {
         wanted: &Wanted,
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
-        let mut map = Growing::new(stage, settings)?;
+        let affordable = wanted.rays(alone, alone) as u64;
+        let mut map = Growing::new(stage, settings, affordable / RAYS_FOR_A_RAY)?;
         let before = map.counts.rays;
-        let affordable = (wanted.rays(alone, alone) / RAYS_FOR_A_PHOTON) as u64;
-        let pilots = (PHOTONS_PER_ELEMENT * map.layout.len() as u64).min(affordable);
+        let pilots = PHOTONS_PER_ELEMENT * map.layout.len() as u64;
+        let pilots = pilots.min(affordable / RAYS_FOR_A_PHOTON);
         let pilots = pilots.clamp(PILOT_PHOTONS.0, PILOT_PHOTONS.1).next_power_of_two();
         map.grow(stage, pilots, watch);
         let rays_for_photon = (map.counts.rays - before) as f64 / pilots as f64;
         let read = map.tally.read(map.photon_lm(stage));
-        let trips = walks.on(stage, (&map.layout, &read), (noted.of_paths, wanted));
+        let trips = walks.on(stage, (&map.layout, &read), wanted);
         let survival = trips.survival();
         let noise_share = trips.noise_share();
         let mut best = None;
@@ -93,7 +98,8 @@ impl<S: Spectrum> Choice<S> {
             }
         }
         let (survival, photons, variances, rays, beforehand) = best?;
-        Some(Self { map, survival, photons, variances, rays, beforehand })
+        let misses_light = trips.miss_light(wanted);
+        Some(Self { map, survival, photons, variances, rays, beforehand, misses_light })
     }
 
     /// What it promises.
@@ -132,10 +138,10 @@ fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
 }
 
 impl<S: Spectrum> Growing<S> {
-    fn new(stage: &Stage<'_, S>, settings: &Settings) -> Option<Self> {
+    fn new(stage: &Stage<'_, S>, settings: &Settings, most_rays: u64) -> Option<Self> {
         let most_bounces = bounces_left(stage.max_bounces, 0)?;
         let mut counts = PhotonCounts::default();
-        let lit_cells = decide(stage, settings, &mut counts);
+        let lit_cells = decide(stage, settings, most_rays, &mut counts);
         let layout = MapLayout::coarsest(&stage.world, settings);
         let layers = FrozenMap::<S>::layers(stage.max_bounces, stage.listed_terms);
         let lightest = Source::of(lit_cells.as_ref()).usual_weight();

@@ -86,13 +86,11 @@ impl Survival {
         off * self.light(weight, light)
     }
 
-    /// With what probability it goes on.
-    pub(super) fn chance(&self, element: usize, weight: f64, light: f64) -> f64 {
-        if self.mean_lx == 0.0 {
-            // Neither found anything.
-            return 1.0;
-        }
-        (self.sureness * self.loss(element, weight, light)).clamp(LEAST, 1.0)
+    /// With what probability it goes on; `None` where a lux counts nothing, or neither paths nor photons found any.
+    pub(super) fn chance(&self, element: usize, weight: f64, light: f64) -> Option<f64> {
+        let is_known = weight > 0.0 && self.mean_lx > 0.0;
+        let loss = is_known.then(|| self.loss(element, weight, light))?;
+        Some((self.sureness * loss).clamp(LEAST, 1.0))
     }
 
     fn light(&self, weight: f64, light: f64) -> f64 {
@@ -125,7 +123,7 @@ mod tests {
     #[test]
     fn paths_go_on_where_the_map_is_off() {
         let survival = survival();
-        let [right, wrong, unknown] = [7, 3, 5].map(|e| survival.chance(e, 0.5, 10.0));
+        let [right, wrong, unknown] = [7, 3, 5].map(|e| survival.chance(e, 0.5, 10.0).unwrap());
         assert!(right < 0.3 * wrong && right < unknown && unknown < wrong);
         // Mean squares: 1 on one, 1/2 in all, which counts as 16 more.
         let by_hand = 0.01 * 10.0 * ((200.0 + 16.0 * 0.5) / 216.0_f64).sqrt();
@@ -135,8 +133,8 @@ mod tests {
     #[test]
     fn no_survivor_counts_too_much() {
         let survival = survival();
-        assert_eq!(survival.chance(3, 1e-9, 0.0), LEAST);
-        assert_eq!(survival.chance(3, 1e9, 0.0), 1.0);
+        assert_eq!(survival.chance(3, 1e-9, 0.0), Some(LEAST));
+        assert_eq!(survival.chance(3, 1e9, 0.0), Some(1.0));
         assert_eq!(survival.chance(3, 1.0, f64::NAN), survival.chance(3, 1.0, 0.0));
     }
 
@@ -147,12 +145,13 @@ mod tests {
         let survival = Survival::of([missed; 9].into_iter()).with_sureness(0.05);
         // All of it is off: 10 beside a tenth of that.
         assert!((survival.loss(2, 0.5, 0.0) - 10.0).abs() < 1e-12);
-        assert_eq!(survival.chance(2, 0.5, 0.0), 0.5);
+        assert_eq!(survival.chance(2, 0.5, 0.0), Some(0.5));
     }
 
     #[test]
     fn nothing_found_is_no_panic() {
         let survival = Survival::of(std::iter::empty()).with_sureness(1.0);
-        assert_eq!(survival.chance(0, 1.0, 0.0), 1.0);
+        assert_eq!(survival.chance(0, 1.0, 0.0), None);
+        assert_eq!(self::survival().chance(3, 0.0, 0.0), None);
     }
 }

@@ -13,10 +13,25 @@ use rayon::prelude::*;
 /// At most this part of how far a map is off is taken for noise, which more photons would mend.
 const MOST_NOISE: f64 = 0.75;
 
+/// Paths that find less than one over this part of what the map has do not find the light.
+const MUCH_MORE: f64 = 2.0;
+
 /// Paths of a trial.
 #[derive(Debug)]
 pub(crate) struct Walks<S> {
     paths: Vec<Path<S>>,
+    rays: RayCounts,
+}
+
+/// What the paths of a trial took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RayCounts {
+    /// In all.
+    pub(crate) all: f64,
+    /// Of these, rays by which they asked for light where they started.
+    pub(crate) at_start: f64,
+    /// Rays of one path more, if it had ended on a map.
+    pub(crate) at_end: f64,
 }
 
 /// One of them.
@@ -31,7 +46,8 @@ struct Path<S> {
 pub(super) struct Trips {
     /// With what a unit is worth where each starts.
     trips: Vec<(f64, Trip)>,
-    /// Rays for each that a path takes itself, those that ask for light included.
+    rays: RayCounts,
+    /// For each that a path takes itself, those that ask for light on its way included.
     rays_for_flight: f64,
 }
 
@@ -51,7 +67,7 @@ pub(crate) struct Outcome {
 
 impl<S> Default for Walks<S> {
     fn default() -> Self {
-        Self { paths: Vec::new() }
+        Self { paths: Vec::new(), rays: RayCounts::default() }
     }
 }
 
@@ -63,14 +79,13 @@ impl<S: Spectrum> Walks<S> {
     }
 
     /// All of them together.
-    pub(crate) fn all(parts: Vec<Self>) -> Self {
-        Self { paths: parts.into_iter().flat_map(|part| part.paths).collect() }
+    pub(crate) fn all(parts: Vec<Self>, rays: RayCounts) -> Self {
+        Self { paths: parts.into_iter().flat_map(|part| part.paths).collect(), rays }
     }
 
-    /// With no map; they took so many rays in all.
-    pub(crate) fn alone(&self, rays: f64, wanted: &Wanted) -> Outcome {
-        let nothing = |_: &Note<S>| Some(Reading { element: 0, light: 0.0, noise: 0.0 });
-        self.trips(rays, wanted, nothing).outcome(Ending::Alone, wanted)
+    /// With no map.
+    pub(crate) fn alone(&self, wanted: &Wanted) -> Outcome {
+        self.trips(wanted, |_| None).outcome(Ending::Alone, wanted)
     }
 
     /// On a map.
@@ -78,28 +93,29 @@ impl<S: Spectrum> Walks<S> {
         &self,
         stage: &Stage<'_, S>,
         (layout, map): (&MapLayout, &IlluminationMap<'_, S>),
-        (rays, wanted): (f64, &Wanted),
+        wanted: &Wanted,
     ) -> Trips {
-        self.trips(rays, wanted, |note| {
+        self.trips(wanted, |note| {
+            let weight = note.weight?;
             let most_bounces = bounces_left(stage.max_bounces, note.bounces)?;
             let place = layout.locate(&note.at);
-            let light = (note.weight * map.illuminance_lx(&place, most_bounces)).luminance();
-            let noise = (note.weight * map.noise_lx(&place)).luminance();
+            let light = (weight * map.illuminance_lx(&place, most_bounces)).luminance();
+            let noise = (weight * map.noise_lx(&place, most_bounces)).luminance();
             Some(Reading { element: place.element, light, noise })
         })
     }
 
-    fn trips(
-        &self,
-        rays: f64,
-        wanted: &Wanted,
-        read: impl Fn(&Note<S>) -> Option<Reading> + Sync,
-    ) -> Trips {
+    fn trips(&self, wanted: &Wanted, read: impl Fn(&Note<S>) -> Option<Reading> + Sync) -> Trips {
         let trip = |path: &Path<S>| (wanted.worth_per_lx(path.target), path.trip(&read));
         let flights: u64 = self.paths.iter().map(|path| u64::from(path.flights)).sum();
+        let flights = flights.max(1) as f64;
+        let RayCounts { all, at_start, .. } = self.rays;
+        // Not all lights that may be asked for are before a start.
+        let at_start = at_start.min(all - flights).max(0.0);
         Trips {
             trips: self.paths.par_iter().map(trip).collect(),
-            rays_for_flight: rays / flights.max(1) as f64,
+            rays: RayCounts { at_start, ..self.rays },
+            rays_for_flight: (all - at_start) / flights,
         }
     }
 }
@@ -113,36 +129,46 @@ struct Reading {
 }
 
 impl<S: Spectrum> Path<S> {
-    /// Up to where a map says nothing.
     fn trip(&self, read: impl Fn(&Note<S>) -> Option<Reading>) -> Trip {
         let mut variance = 0.0;
         let ends = self.notes.iter().skip(1).map(|note| note.flights).chain([self.flights]);
         let step = |(note, end): (&Note<S>, u32)| {
-            let Reading { element, light, noise } = read(note)?;
+            let read = read(note);
+            let is_on_map = read.is_some();
+            let none = Reading { element: 0, light: 0.0, noise: 0.0 };
+            let Reading { element, light, noise } = read.unwrap_or(none);
             variance += noise * noise;
-            let (weight, beyond) = (note.weight.luminance(), note.beyond());
+            let [weight, beyond] = [note.weight.unwrap_or_default(), note.beyond]
+                .map(|light| light.luminance())
+                // The run counts and reports what is no number.
+                .map(|lx| if lx.is_finite() { lx } else { 0.0 });
             let finding = Finding { element, weight, light, beyond };
-            Some(Step { finding, flights: end - note.flights, alone: note.alone })
+            Step { finding, is_on_map, flights: end - note.flights, alone: note.alone }
         };
-        let steps: Vec<Step> = self.notes.iter().zip(ends).map_while(step).collect();
+        let steps: Vec<Step> = self.notes.iter().zip(ends).map(step).collect();
         let flights = self.notes.first().map_or(self.flights, |note| note.flights);
         Trip { target: self.target, walk: Walk { flights, steps }, noise: variance }
+    }
+}
+
+impl Trip {
+    /// Where it might have ended on the map.
+    fn findings(&self) -> impl Iterator<Item = Finding> {
+        self.walk.steps.iter().filter(|step| step.is_on_map).map(|step| step.finding)
     }
 }
 
 impl Trips {
     /// How far off the map is.
     pub(super) fn survival(&self) -> Survival {
-        let findings = self.trips.iter().flat_map(|(worth, trip)| {
-            trip.walk.steps.iter().map(move |step| step.finding.worth(*worth))
-        });
-        Survival::of(findings)
+        let trips = self.trips.iter();
+        Survival::of(trips.flat_map(|(worth, trip)| trip.findings().map(|f| f.worth(*worth))))
     }
 
     /// What ending on the map at their first surface would cost the trips on average.
     pub(super) fn usual_loss(&self, survival: &Survival) -> f64 {
         let loss = |(worth, trip): &(f64, Trip)| {
-            let Finding { element, weight, light, .. } = trip.walk.steps.first()?.finding;
+            let Finding { element, weight, light, .. } = trip.findings().next()?;
             Some(survival.loss(element, worth * weight, worth * light))
         };
         let losses: Vec<f64> = self.trips.iter().filter_map(loss).collect();
@@ -152,19 +178,30 @@ impl Trips {
     /// The part of how far it is off that more photons would mend.
     pub(super) fn noise_share(&self) -> f64 {
         let sums = self.trips.iter().fold([0.0, 0.0], |[noise, off], (worth, trip)| {
-            let steps = trip.walk.steps.iter().map(|step| step.finding);
-            let squares = steps.map(|f| (f.beyond - f.light) * (f.beyond - f.light));
+            let squares = trip.findings().map(|f| (f.beyond - f.light) * (f.beyond - f.light));
             [noise + worth * worth * trip.noise, off + worth * worth * squares.sum::<f64>()]
         });
         if sums[1] > 0.0 { (sums[0] / sums[1]).min(MOST_NOISE) } else { 0.0 }
     }
 
+    /// Whether the map has much more light for some target than its paths found: light that is hard for them.
+    pub(super) fn miss_light(&self, wanted: &Wanted) -> bool {
+        let mut sums = vec![[0.0; 2]; wanted.targets()];
+        for (_, trip) in &self.trips {
+            if let Some(first) = trip.findings().next() {
+                let [on_map, found] = &mut sums[trip.target];
+                *on_map += first.light;
+                *found += first.beyond;
+            }
+        }
+        sums.iter().any(|[on_map, found]| *on_map > MUCH_MORE * found)
+    }
+
     /// With these chances.
     pub(super) fn outcome(&self, ending: Ending<'_>, wanted: &Wanted) -> Outcome {
-        let price = |chances: &mut Vec<f64>, (worth, trip): &(f64, Trip)| {
-            trip.walk.price(ending, *worth, chances)
-        };
-        let prices: Vec<Price> = self.trips.par_iter().map_init(Vec::new, price).collect();
+        let at_end = self.rays.at_end / self.rays_for_flight;
+        let price = |(worth, trip): &(f64, Trip)| trip.walk.price(ending, *worth, at_end);
+        let prices: Vec<Price> = self.trips.par_iter().map(price).collect();
         let mut sums = vec![(0.0, 0.0); wanted.targets()];
         for ((_, trip), price) in self.trips.iter().zip(&prices) {
             let (sum, count) = &mut sums[trip.target];
@@ -175,6 +212,7 @@ impl Trips {
         let of_chances =
             wanted.seen().map(|target| sums[target].0 / sums[target].1 / SAMPLES as f64);
         let flights: f64 = prices.iter().map(|price| price.flights).sum();
-        Outcome { of_chances: of_chances.collect(), rays: flights * self.rays_for_flight }
+        let rays = self.rays.at_start + flights * self.rays_for_flight;
+        Outcome { of_chances: of_chances.collect(), rays }
     }
 }

@@ -11,10 +11,11 @@ pub(super) struct Walk {
     pub(super) steps: Vec<Step>,
 }
 
-/// One of them.
+/// One of them, or a surface without a map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub(super) finding: Finding,
+    pub(super) is_on_map: bool,
     /// Rays from there to the next of them, or to the path's end.
     pub(super) flights: u32,
     /// With what probability a path that ends on no map goes on.
@@ -39,29 +40,36 @@ pub(super) struct Price {
 }
 
 impl Walk {
-    /// For a start where a unit is worth so much.
-    pub(super) fn price(&self, ending: Ending<'_>, worth: f64, chances: &mut Vec<f64>) -> Price {
-        chances.clear();
+    /// For a start where a unit is worth so much; what ends on the map takes so many rays more, as far as those are
+    /// flights.
+    pub(super) fn price(&self, ending: Ending<'_>, worth: f64, at_end: f64) -> Price {
         // Those that are left count more and more.
         let mut factor = worth;
-        for Step { finding, alone, .. } in &self.steps {
-            let Finding { element, weight, light, .. } = *finding;
-            let chance = match ending {
-                Ending::Alone => *alone,
-                Ending::OnMap(map) => map.chance(element, factor * weight, factor * light),
-            };
-            chances.push(chance);
-            factor /= chance;
-        }
+        let chances: Vec<(f64, bool)> = self
+            .steps
+            .iter()
+            .map(|step| {
+                let Finding { element, weight, light, .. } = step.finding;
+                let on_map = match ending {
+                    Ending::OnMap(map) if step.is_on_map => {
+                        map.chance(element, factor * weight, factor * light)
+                    }
+                    Ending::OnMap(_) | Ending::Alone => None,
+                };
+                let chance = on_map.unwrap_or(step.alone);
+                factor /= chance;
+                (chance, on_map.is_some())
+            })
+            .collect();
         let mut price = Price::default();
-        for (Step { finding, flights, .. }, chance) in self.steps.iter().zip(&*chances).rev() {
-            let instead = match ending {
-                Ending::Alone => 0.0,
-                Ending::OnMap(_) => finding.light,
-            };
+        for (Step { finding, flights, .. }, (chance, is_on_map)) in
+            self.steps.iter().zip(chances).rev()
+        {
+            let (instead, at_end) = if is_on_map { (finding.light, at_end) } else { (0.0, 0.0) };
             let off = worth * (finding.beyond - instead);
             price.variance = (price.variance + off * off * (1.0 - chance)) / chance;
-            price.flights = chance * (f64::from(*flights) + price.flights);
+            price.flights =
+                chance * (f64::from(*flights) + price.flights) + (1.0 - chance) * at_end;
         }
         Price { flights: price.flights + f64::from(self.flights), ..price }
     }
@@ -90,7 +98,7 @@ mod tests {
             let Finding { element, weight, light, beyond: own } = step.finding;
             // Light between the last surface and this one is found by all that come here.
             let sum = sum + factor * (beyond - own);
-            let chance = survival.chance(element, factor * weight, factor * light);
+            let chance = survival.chance(element, factor * weight, factor * light).unwrap();
             out.push([p * (1.0 - chance), sum + factor * light, flights]);
             let survivor = factor / chance;
             let sum = sum + factor * light * (1.0 - 1.0 / chance);
@@ -114,18 +122,28 @@ mod tests {
             (finding(9, 0.4, 20.0, 13.0), 1),
             (finding(4, 0.2, 11.0, 3.0), 3),
         ];
-        let steps = steps.map(|(finding, flights)| Step { finding, flights, alone: 1.0 }).to_vec();
+        let steps = steps
+            .map(|(finding, flights)| Step { finding, is_on_map: true, flights, alone: 1.0 })
+            .to_vec();
         let walk = Walk { flights: 1, steps };
         let survival = Survival::of(walk.steps.iter().map(|step| step.finding));
         for (sureness, worth) in [(0.5, 0.01), (2.0, 0.02), (1e-9, 1.0), (1e9, 1.0)] {
             let survival = survival.with_sureness(sureness);
-            let price = walk.price(Ending::OnMap(&survival), worth, &mut Vec::new());
+            let price = walk.price(Ending::OnMap(&survival), worth, 0.0);
             let [mean, variance, flights] = played(&walk, &survival, worth);
             assert!((mean - worth * 41.0).abs() < 1e-9 * mean, "biased: {mean}");
             assert!((price.variance - variance).abs() <= 1e-9 * variance, "{price:?} {variance}");
             assert!((price.flights - flights).abs() < 1e-9 * flights, "{price:?} {flights}");
         }
-        let certain = walk.price(Ending::Alone, 1.0, &mut Vec::new());
+        let certain = walk.price(Ending::Alone, 1.0, 0.0);
         assert_eq!(certain, Price { variance: 0.0, flights: 7.0 });
+        // Where no map is, paths end with nothing in hand; and on maps they may look for one light more.
+        let mut bare = walk.clone();
+        bare.steps.iter_mut().for_each(|step| (step.is_on_map, step.alone) = (false, 0.5));
+        let on_map = Ending::OnMap(&survival);
+        assert_eq!(bare.price(on_map, 1.0, 1.0), bare.price(Ending::Alone, 1.0, 0.0));
+        let seldom = Ending::OnMap(&survival.with_sureness(1e-9));
+        let [less, more] = [0.0, 1.0].map(|at_end| walk.price(seldom, 1.0, at_end).flights);
+        assert!(less < more && more < less + 1.0);
     }
 }

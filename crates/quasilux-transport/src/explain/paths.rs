@@ -63,7 +63,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let exact = exact(stage, &all, &mut 0);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
         let Decision { mut joined, frozen, .. } =
-            decide(stage, &one, (&all, &exact), quantum, &mut watch);
+            decide(stage, (settings, 1), (&all, &exact), quantum, &mut watch);
         if let Some(joined) = &mut joined {
             // As many photons as say how much light they find.
             joined.grow(stage, JOINED_SAMPLES, &mut watch);

@@ -43,6 +43,8 @@ use rayon::prelude::*;
 /// More pairs of a facet and a light that faces it than this are not looked at: photons leave the
 /// lights instead.
 const MOST_PAIRS: usize = 1 << 21;
+/// Rays that a pair takes, and more where light is uneven.
+const LOOKS: u64 = 6;
 /// Share of the photons that go where light would land if nothing stood in the way.
 const UNSEEN: f64 = 0.1;
 
@@ -110,15 +112,16 @@ impl LitPlace {
 }
 
 impl LitCells {
-    /// Looks where the light lands; `None` where no point-like light's goes on, and for more than
-    /// [`MOST_PAIRS`].
-    pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>) -> Option<Self> {
+    /// Looks where the light lands; `None` where no point-like light's goes on, where it would take more rays than
+    /// these, and for more than [`MOST_PAIRS`].
+    pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, most_rays: u64) -> Option<Self> {
         let beams = Beam::all(stage);
         let facets = 0..stage.world.facets.len() as u32;
         let facing = |beam: &Beam<'_, '_, S>| {
             facets.clone().filter(|&facet| beam.faces(facet).is_some()).count()
         };
-        if beams.iter().map(facing).sum::<usize>() > MOST_PAIRS {
+        let pairs = beams.iter().map(facing).sum::<usize>();
+        if pairs > MOST_PAIRS || pairs as u64 * LOOKS > most_rays {
             return None;
         }
         let (mut lit, mut rays) = (Vec::new(), 0);

@@ -29,18 +29,22 @@ struct Weights {
     squares: f64,
 }
 
-/// The lit cells that photons leave from where that is asked for, or pays; adds what it took.
+/// The lit cells that photons leave from where that is asked for, or pays and takes no more rays than these to find out;
+/// adds what it took.
 pub(crate) fn decide<S: Spectrum>(
     stage: &Stage<'_, S>,
     settings: &Settings,
+    most_rays: u64,
     counts: &mut PhotonCounts,
 ) -> Option<LitCells> {
-    if settings.first_shot == Switch::Off {
+    let is_asked_for = settings.first_shot == Switch::On;
+    let most_rays = if is_asked_for { u64::MAX } else { most_rays };
+    if settings.first_shot == Switch::Off || most_rays < 2 * PILOTS {
         return None;
     }
-    let cells = LitCells::new(stage)?;
+    let cells = LitCells::new(stage, most_rays)?;
     counts.rays += cells.rays;
-    let pays = settings.first_shot == Switch::On
+    let pays = is_asked_for
         || work(stage, Source::LitCells(&cells), counts)
             < EVENNESS * work(stage, Source::Lights, counts);
     pays.then_some(cells)

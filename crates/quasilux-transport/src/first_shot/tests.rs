@@ -172,7 +172,7 @@ fn moments(values: &[f64]) -> [f64; 2] {
 fn assert_kinds_agree<S: Spectrum>(name: &str, scene: &Scene) {
     let settings = Settings::default();
     let stage = Stage::<S>::new(scene, &settings);
-    let cells = LitCells::new(&stage).expect("there is a point-like light");
+    let cells = LitCells::new(&stage, u64::MAX).expect("there is a point-like light");
     let all = |source| -> Vec<Landed> {
         (0..REPLICATES).map(|replicate| landed(&stage, source, replicate, PHOTONS)).collect()
     };
@@ -223,7 +223,7 @@ fn the_cube_has_its_indirect_flux() {
     scene.mesh.triangles.truncate(12);
     let settings = Settings::default();
     let stage = Stage::<f64>::new(&scene, &settings);
-    let cells = LitCells::new(&stage).unwrap();
+    let cells = LitCells::new(&stage, u64::MAX).unwrap();
     let Landed { shares, total } = landed(&stage, Source::LitCells(&cells), 0, 1 << 17);
     let first: f64 = shares.iter().map(|row| row[0]).sum();
     assert!((first / rho - 1.0).abs() < 1e-3, "{first}");
@@ -237,7 +237,7 @@ fn weights_are_nearly_equal() {
     for (name, scene) in [("spotlights", spotlight_room()), ("near a wall", lamp_near_a_wall())] {
         let settings = Settings::default();
         let stage = Stage::<f64>::new(&scene, &settings);
-        let cells = LitCells::new(&stage).unwrap();
+        let cells = LitCells::new(&stage, u64::MAX).unwrap();
         let points = stage.points(0, Stream::Photons);
         let (mut sum, mut squares) = (0.0, 0.0);
         for index in 0..PHOTONS {
@@ -269,7 +269,7 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
     }
     let settings = Settings::default();
     let stage = Stage::<f64>::new(scene, &settings);
-    let cells = LitCells::new(&stage).unwrap();
+    let cells = LitCells::new(&stage, u64::MAX).unwrap();
     let batch = PhotonBatch {
         source: Source::LitCells(&cells),
         stream: Stream::Photons,

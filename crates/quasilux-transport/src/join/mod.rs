@@ -47,7 +47,7 @@ mod view;
 mod ways;
 
 pub(crate) use joined::Joined;
-pub(crate) use ways::Ways;
+pub(crate) use ways::{Alone, Ways};
 
 use crate::state::Writer;
 use crate::steering::{Density, Landings, Windows};

@@ -35,9 +35,23 @@ const MOST_VIEWS: usize = 1 << 24;
 /// its neighbours end where it does.
 const JOINING_RAY: f64 = 0.25;
 
+/// Paths that find less than one over this part of the light do not find it.
+const MUCH_MORE: f64 = 2.0;
+
+/// What there is without joined photons.
+pub(crate) struct Alone<'t> {
+    /// Paths that hardly end.
+    pub(crate) trial: &'t Trial,
+    /// The part of their rays that the best way takes, and finds about what they find.
+    pub(crate) part: f64,
+    /// Whether photons say that they do not find all.
+    pub(crate) misses_light: bool,
+}
+
 /// All ways that a survey of the scene leaves.
 pub(crate) struct Ways {
     exact_lx: Vec<f64>,
+    targets_for_each: f64,
     ways: Vec<Way>,
     /// That it took to try them.
     pub(crate) rays: u64,
@@ -50,6 +64,8 @@ struct Way {
     joined: Trial,
     coarse: Trial,
     beside: Trial,
+    /// Rays that it takes to find out what all targets see.
+    beforehand: f64,
 }
 
 /// How photons are joined best in one way.
@@ -61,6 +77,7 @@ struct Best {
     variances: Vec<f64>,
     of_paths: f64,
     of_photons: f64,
+    beforehand: f64,
 }
 
 impl Ways {
@@ -101,22 +118,26 @@ impl Ways {
             let beside = Trial::of_paths_beside(stage, sample, &pilot.joining, quantum);
             rays += pilot.rays + beside.rays as u64;
             rays += counts.iter().map(|counts| counts.rays).sum::<u64>();
-            ways.push(Way { joining: pilot.joining, expected_lx, joined, coarse, beside });
+            let beforehand = pilot.rays as f64 * sample.targets_for_each();
+            let joining = pilot.joining;
+            ways.push(Way { joining, expected_lx, joined, coarse, beside, beforehand });
         }
-        Self { exact_lx: sample.exact_lx.clone(), ways, rays }
+        let targets_for_each = sample.targets_for_each();
+        Self { exact_lx: sample.exact_lx.clone(), targets_for_each, ways, rays }
     }
 
-    /// The best of them, where that is asked for, or where it promises fewer rays than other ways; of these the best takes
-    /// this part of the rays of paths alone, and finds about what they find.
+    /// The best of them, where that is asked for, or where it promises fewer rays than there are without, or finds much more
+    /// light where photons had said so before: of light that is seldom found, a spread says nothing.
     pub(crate) fn choose<S: Spectrum>(
-        self,
+        mut self,
         stage: &Stage<'_, S>,
         settings: &Settings,
-        (alone, part): (&Trial, f64),
+        alone: &Alone<'_>,
         targets: &[Target],
-        quantum: Quantum,
+        (quantum, replicates): (Quantum, u32),
     ) -> Option<Joined> {
-        let wanted = Wanted::new(settings, self.means_lx(alone));
+        let Alone { trial: alone, part, misses_light } = *alone;
+        let wanted = Wanted::new(settings, self.means_lx(alone), self.targets_for_each);
         let noise = wanted.variances(alone).iter().sum::<f64>()
             + self.ways.iter().flat_map(|way| way.variances(&wanted)).sum::<f64>();
         let noise = noise / (REPLICATES.len() * wanted.seen().count().max(1)) as f64;
@@ -124,16 +145,25 @@ impl Ways {
         let missed = wanted.shortfall(found_alone_lx, noise);
         let of_alone: Vec<f64> = wanted.variances(alone).iter().map(|v| v + missed).collect();
         let plain = Promise::of_paths(&of_alone, alone.rays);
-        let pays =
-            |best: &Best| wanted.rays(&plain, &best.promise()) < part * wanted.rays(&plain, &plain);
-        let Self { ways, exact_lx, .. } = self;
-        let tried = ways.into_iter().map(|way| (way.best(&exact_lx, &wanted, noise), way));
+        let pays = |best: &Best, way: &Way| {
+            let finds_more = |target: usize| {
+                let found_lx = self.exact_lx[target] + way.found_lx(target);
+                found_lx > MUCH_MORE * found_alone_lx(target)
+            };
+            (misses_light && wanted.seen().any(finds_more))
+                || wanted.rays(&plain, &best.promise()) < part * wanted.rays(&plain, &plain)
+        };
+        let tried = self.ways.iter().map(|way| way.best(&self.exact_lx, &wanted, noise));
         let effort = |best: &Best| wanted.effort(&best.promise());
-        let best = tried.min_by(|(a, _), (b, _)| effort(a).total_cmp(&effort(b)));
-        let best = best.filter(|(best, _)| settings.joins() == Some(true) || pays(best));
-        best.map(|(Best { photons, coarse_photons, .. }, way)| {
+        let best = tried.zip(&self.ways).enumerate();
+        let best = best.min_by(|(_, (a, _)), (_, (b, _))| effort(a).total_cmp(&effort(b)));
+        let best =
+            best.filter(|(_, (best, way))| settings.joins() == Some(true) || pays(best, way));
+        let best = best.map(|(number, (best, _))| (number, best));
+        best.map(|(number, Best { photons, coarse_photons, .. })| {
+            let way = self.ways.swap_remove(number);
             let joining = Joining { photons, coarse_photons, ..way.joining };
-            let replicates = 0..settings.effective_replicates();
+            let replicates = 0..replicates;
             let kept = (stage.listed_terms, quantum);
             Joined::new(stage, joining, targets.to_vec(), way.expected_lx, replicates, kept)
         })
@@ -182,16 +212,17 @@ impl Way {
         let joined: Vec<f64> =
             wanted.variances(&self.joined).iter().map(|v| v + shortfall).collect();
         let coarse = wanted.variances(&self.coarse);
-        let with = |of_paths: f64, photons: u64, coarse_photons: u64| {
+        let with = |part: f64, photons: u64, coarse_photons: u64| {
             let of_joined = photons as f64 / PHOTONS as f64;
             let of_coarse = coarse_photons as f64 / COARSE_PHOTONS as f64;
             let variances = beside
                 .iter()
                 .zip(joined.iter().zip(&coarse))
-                .map(|(v, (joined, coarse))| v * of_paths + joined / of_joined + coarse / of_coarse)
+                .map(|(v, (joined, coarse))| v * part + joined / of_joined + coarse / of_coarse)
                 .collect();
             let of_photons = self.joined.rays * of_joined + self.coarse.rays * of_coarse;
-            Best { photons, coarse_photons, variances, of_paths: self.beside.rays, of_photons }
+            let (of_paths, beforehand) = (self.beside.rays, self.beforehand);
+            Best { photons, coarse_photons, variances, of_paths, of_photons, beforehand }
         };
         let is_coarse = self.coarse.rays > 0.0;
         let most_coarse = if is_coarse { MOST_COARSE_PHOTONS } else { 1 };
@@ -209,9 +240,9 @@ impl Way {
 
 impl Best {
     fn promise(&self) -> Promise<'_> {
-        let Self { variances, of_paths, of_photons, .. } = self;
-        let (of_paths, of_photons) = (*of_paths, *of_photons);
-        Promise { variances, of_paths, of_photons, beforehand: 0.0 }
+        let Self { variances, of_paths, of_photons, beforehand, .. } = self;
+        let (of_paths, of_photons, beforehand) = (*of_paths, *of_photons, *beforehand);
+        Promise { variances, of_paths, of_photons, beforehand }
     }
 }
 

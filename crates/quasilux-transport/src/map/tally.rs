@@ -120,16 +120,16 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
             .map(move |layer| (layer + 1, self.of_layers_lx(&place, layer..layer + 1)))
     }
 
-    /// About the standard deviation of the illuminance, in lx, as photons without order would leave it.
+    /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order would leave it.
     ///
-    /// With N photons of flux P on an element of area A it is `sqrt(N) P / A`, for linear ones times the root mean
+    /// With N photons that all weigh the least, of flux P, on an element of area A it is `sqrt(N) P / A`, for linear ones times the root mean
     /// square of the kernel at the place: of three `k = 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre
     /// and 3 at corners, for `E[b_i b_j]` of a uniform place is 1/6 and 1/12.
-    pub(crate) fn noise_lx(&self, place: &Place) -> S {
-        let MapTally { sums, layer, layers, reconstruction, quanta_per_photon, .. } = self.tally;
+    pub(crate) fn noise_lx(&self, place: &Place, most_bounces: u32) -> S {
+        let MapTally { sums, layer, layers, reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
         let moments = reconstruction.moments();
-        let photon_lx = self.lm_per_quantum * quanta_per_photon / place.area_m2;
+        let photon_lx = self.lm_per_quantum * QUANTA_PER_PHOTON / place.area_m2;
         let kernel = match reconstruction {
             Reconstruction::Constant => 1.0,
             Reconstruction::Linear => {
@@ -140,8 +140,9 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
         S::from_channels(|channel| {
             let counters = || first + moments * channel..first + moments * (channel + 1);
             let of_layer = |number: u32| counters().map(move |at| number as usize * layer + at);
-            let quanta: u64 = (0..*layers).flat_map(of_layer).map(|at| sums.get(at)).sum();
-            (quanta as f64 / quanta_per_photon * kernel).sqrt() * photon_lx
+            let layers = 0..most_bounces.min(*layers);
+            let quanta: u64 = layers.flat_map(of_layer).map(|at| sums.get(at)).sum();
+            (quanta as f64 / QUANTA_PER_PHOTON * kernel).sqrt() * photon_lx
         })
     }
 

@@ -81,6 +81,6 @@ const KNOWN: [&str; 6] = [
     "6e836aed5ae7bb54",
     "0fa5f8e77f24593d",
     "4f51f967ae1be17a",
-    "c88f25e4fe7379bb",
+    "ab5986782a40a5d6",
     "4755db5b5da21624",
 ];

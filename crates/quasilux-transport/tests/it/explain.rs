@@ -101,7 +101,7 @@ fn coordinates_are_named_in_their_order() {
 #[test]
 fn threads_change_nothing() {
     let scene = coloured_room_with_mirror();
-    for estimator in [Estimator::Path, Estimator::Photon] {
+    for estimator in [Estimator::Path, Estimator::Photon, Estimator::Bidirectional] {
         let settings = Settings { estimator, ..Settings::default() };
         let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

@@ -6,6 +6,7 @@ mod area_luminaires;
 mod balance;
 mod bits;
 mod cameras;
+mod choice;
 mod corridor;
 mod coverage;
 mod cube;

@@ -1,0 +1,81 @@
+//! What `bidirectional` makes of a scene by itself, and what it must not.
+
+use crate::images::add_panel;
+use crate::scenes::{diffuse, diffuse_cube, point_light, points, room};
+use glam::DVec3;
+use quasilux_scene::Scene;
+use quasilux_transport::{Decisions, Estimates, Estimator, Settings, Switch, simulate};
+
+fn run(scene: &Scene, rel_tol: f64, joining: Switch) -> Estimates {
+    let settings = Settings {
+        estimator: Estimator::Bidirectional,
+        rel_tol,
+        joining,
+        max_samples: Some(128),
+        ..Settings::default()
+    };
+    simulate(scene, &settings, &mut ())
+}
+
+fn decided(scene: &Scene, rel_tol: f64) -> (Option<u64>, bool) {
+    let Decisions { joined_photons, map_elements, .. } =
+        run(scene, rel_tol, Switch::Auto).decisions;
+    (joined_photons, map_elements.is_some())
+}
+
+/// Loose tolerances are reached before a map has paid for its photons or the scene is surveyed; close ones are not.
+#[test]
+fn what_is_wanted_decides() {
+    let scene = diffuse_cube(&[(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)]);
+    let loose = run(&scene, 0.1, Switch::Auto);
+    assert_eq!(loose.decisions.joined_photons, None);
+    // The paths of the shortest run, and not many photons.
+    assert!(loose.rays < 200_000, "{}", loose.rays);
+    assert_eq!(decided(&scene, 0.005), (None, true));
+    let (joined, on_map) = decided(&scene, 0.0002);
+    assert!(joined.is_some() && !on_map);
+}
+
+/// A bright lamp behind a screen in a box with a slit of 2 cm, and a dim one that all paths find at once. Their small spread says
+/// that a short run will do; a few photons show that most of the light comes through the slit, and so photons are joined.
+#[test]
+fn light_that_is_found_at_once_hides_no_other() {
+    let mut scene = room(DVec3::new(4.0, 4.0, 3.0), diffuse(0.7));
+    let (x, y, z) = (DVec3::X * 0.5, DVec3::Y * 0.5, DVec3::Z * 0.5);
+    let corner = DVec3::new(1.8, 1.8, 1.5);
+    let walls = [(corner, y, z), (corner + x, y, z), (corner, x, z), (corner + y, x, z)];
+    let others =
+        [(corner, x, y), (corner + z, x, 0.96 * y), (corner + 0.6 * y + 0.2 * z, x, 0.8 * z)];
+    for (from, u, v) in walls.into_iter().chain(others) {
+        add_panel(&mut scene, from, u, v, diffuse(0.9));
+    }
+    scene.lights.push(point_light(DVec3::new(0.5, 0.5, 2.5), 1.0));
+    let places = [1.0, 3.0].map(|x| (DVec3::new(x, 1.0, 0.8), DVec3::Z));
+    scene.sensors.push(points("places", &places));
+    assert_eq!(decided(&scene, 0.05).0, None);
+    scene.lights.push(point_light(corner + 0.5 * (x + z) + 0.2 * y, 3000.0));
+    assert!(decided(&scene, 0.05).0.is_some());
+}
+
+/// One sensor in a sealed box that no light reaches, among others outside: its paths end like those of others.
+#[test]
+fn a_dark_box_costs_nothing() {
+    let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.85));
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    let corner = DVec3::new(3.0, 2.0, 0.5);
+    for axes in [(y, z, x), (x, z, y), (x, y, z)] {
+        for from in [corner, corner + axes.2 * 0.6] {
+            add_panel(&mut scene, from, axes.0 * 0.6, axes.1 * 0.6, diffuse(0.95));
+        }
+    }
+    scene.lights.push(point_light(DVec3::new(1.0, 1.0, 2.0), 300.0));
+    let outside = [0.5, 1.0, 1.5, 2.0].map(|x| (DVec3::new(x, 1.5, 0.5), z));
+    scene.sensors.push(points("outside", &outside));
+    let without = run(&scene, 0.01, Switch::Off);
+    scene.sensors.push(points("inside", &[(corner + DVec3::splat(0.3), z)]));
+    let with = run(&scene, 0.01, Switch::Off);
+    assert!(!with.biased, "{:?}", with.warnings);
+    assert_eq!(with.sensors[1].replicate_lx[0][0], 0.0);
+    // Sampled to the limit without ever being done, at plain prices: 20 surfaces at this reflectance.
+    assert!(with.rays < without.rays + 128 * 16 * 150, "{} {}", with.rays, without.rays);
+}
