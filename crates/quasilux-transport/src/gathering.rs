@@ -111,10 +111,10 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
         let hidden = HiddenLight::new(stage, settings, &targets);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let Decision { joined, frozen, rays } =
+        let Decision { joined, frozen, photons, rays } =
             decide(stage, (settings, replicates), (&targets, &exact), quantum, watch);
         work.rays += rays;
-        let (end, photons) = PathEnd::prepare(stage, settings, &targets, frozen, watch);
+        let (end, photons) = PathEnd::prepare(stage, settings, &targets, (frozen, photons), watch);
         Self {
             stage,
             scene,

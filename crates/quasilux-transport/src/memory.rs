@@ -4,7 +4,7 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
 //! element of its own, cells of surveys as if all were there.
 
-use crate::correction::{FrozenMap, MOST_PHOTONS};
+use crate::correction::{self, MOST_PHOTONS};
 use crate::map::{
     COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MOST_NEW_ELEMENTS,
     Reconstruction,
@@ -85,9 +85,9 @@ impl MemoryNeed {
         };
         if settings.estimator == Estimator::Bidirectional {
             // Frozen before the first sample.
-            let layers = FrozenMap::<f64>::layers(settings.max_bounces, settings.list_terms);
-            let across = COARSEST_ELEMENTS_ACROSS;
-            let full = full(elements(scene, settings, across, 0).saturating_mul(2), layers.into());
+            let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
+            let layers = correction::layers(settings.max_bounces, settings.list_terms, sides);
+            let full = full(sides, layers.into());
             let maps_bytes = full.min(of_landing.saturating_mul(MOST_PHOTONS));
             return Self { maps_bytes, maps_bytes_a_sample: maps_bytes, ..need };
         }

@@ -221,11 +221,12 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) -> bool {
         self.add_arrived();
         self.flights += 1;
+        let before = self.found.indirect;
         if let Some(at) = at {
             self.add_emitted(stage, bounces, at);
         }
         if let Some(note) = self.notes.last_mut() {
-            note.begin(self.found.indirect);
+            note.begin([before, self.found.indirect]);
         }
         let Some(at) = at else { return false };
         let bsdf = stage.world.bsdf(at);
@@ -327,7 +328,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             bounces,
             flights: self.flights,
             before: None,
-            beyond: S::black(),
+            beyond: [S::black(); 2],
         });
     }
 
@@ -365,7 +366,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         bounces: u32,
         at: &Interaction,
     ) -> Option<Onward> {
-        let most_bounces = bounces_left(stage.max_bounces, bounces)?;
+        let most_bounces = bounces_left(stage.max_bounces, bounces, end.layout.len() as u64)?;
         let weight = self.weight(stage, at);
         let place = end.layout.locate(at);
         let lx = end.map.illuminance_lx(&place, most_bounces);

@@ -94,12 +94,12 @@ impl<S: Spectrum> GrowingMaps<'_, S> {
 
 impl<S: Spectrum> PathEnd<S> {
     /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the photons that come
-    /// before all paths.
+    /// before all paths, if there are none yet that say where the flux goes.
     pub(crate) fn prepare(
         stage: &Stage<'_, S>,
         settings: &Settings,
         targets: &[Target],
-        frozen: Option<(FrozenMap<S>, PhotonCounts)>,
+        (frozen, photons): (Option<(FrozenMap<S>, PhotonCounts)>, Option<PhotonCounts>),
         watch: &mut Watch<'_>,
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
@@ -116,7 +116,7 @@ impl<S: Spectrum> PathEnd<S> {
             return (Self::Frozen(map), counts);
         }
         if settings.estimator != Estimator::BidirectionalMap || settings.max_bounces == Some(0) {
-            return (Self::Nothing, balance(watch));
+            return (Self::Nothing, photons.unwrap_or_else(|| balance(watch)));
         }
         let mut counts = PhotonCounts::default();
         let lit_cells = decide(stage, settings, u64::MAX, &mut counts);

@@ -120,7 +120,8 @@ pub struct Settings {
     pub max_bounces: Option<u32>,
     /// How many terms of the Neumann series are listed, light of 0, 1, .. bounces, beside the rest;
     /// 0 lists none. An illumination map gets one layer for each but the first two, and one for the
-    /// rest: its memory grows so many times.
+    /// rest: its memory grows so many times. One that is corrected gets one for each wanted bounce but the last, if
+    /// `max_bounces` is 16 or less and its elements are not too many.
     pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
@@ -156,7 +157,7 @@ pub struct Settings {
     /// helps the sensors; else they keep equal flux.
     pub steering: Switch,
     /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; with `Off` these end on a
-    /// frozen map, which is corrected. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone, and
+    /// frozen map, which is corrected, where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone, and
     /// `steering` that is to be on the joined photons.
     pub joining: Switch,
 }

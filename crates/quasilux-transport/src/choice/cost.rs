@@ -9,6 +9,7 @@
 
 use super::trial::{REPLICATES, SAMPLES};
 use crate::interval::t_quantile_for;
+use crate::looks::miss_probability_of_a_look;
 use crate::schedule::LEAST_SAMPLES;
 use crate::settings::{Settings, ToleranceOn};
 
@@ -34,6 +35,8 @@ pub(crate) struct Budget {
     trials: f64,
     /// Targets for each that is in the trial.
     targets: f64,
+    /// Targets whose average alone is wanted; else 1.
+    averaged: f64,
 }
 
 /// What a way to estimate promises, by a trial.
@@ -56,8 +59,8 @@ impl<'v> Promise<'v> {
 }
 
 impl Budget {
-    /// As these settings end a run, with so many targets for each that is in the trial.
-    pub(crate) fn of(settings: &Settings, targets: f64) -> Self {
+    /// As these settings end a run, with so many targets, and so many for each that is in the trial.
+    pub(crate) fn of(settings: &Settings, (all, targets): (usize, f64)) -> Self {
         let fixed = settings.sequence.points();
         let is_tolerance = settings.has_tolerance() && fixed.is_none();
         let for_points = is_tolerance && settings.tolerance_on == ToleranceOn::Points;
@@ -68,13 +71,15 @@ impl Budget {
             None => EXPECTED_SAMPLES,
         };
         // The half-width `t sqrt(variance / replicates)` is to be one, in units of the tolerance.
-        let t = t_quantile_for(replicates as usize, 1.0 - settings.confidence).unwrap_or(2.0);
+        let miss_probability = miss_probability_of_a_look(1.0 - settings.confidence, replicates);
+        let t = t_quantile_for(replicates as usize, miss_probability).unwrap_or(2.0);
         let in_trial = REPLICATES.len() as f64;
         Self {
             cost: if for_points { Cost::UntilEachIsDone } else { Cost::ForAll },
             trials_for_variance: is_tolerance.then_some(t * t / in_trial),
             trials: samples / SAMPLES as f64 * f64::from(replicates) / in_trial,
             targets,
+            averaged: if is_tolerance && !for_points { all as f64 } else { 1.0 },
         }
     }
 
@@ -88,7 +93,9 @@ impl Budget {
     pub(crate) fn rays(&self, plain: &Promise<'_>, promise: &Promise<'_>) -> f64 {
         let each = promise.of_paths + promise.of_photons;
         let sampled = if let Some(trials) = self.trials_for_variance {
-            (trials * self.effort(promise)).max(self.trials * each)
+            // Paths of different targets are independent, and photons are the same for many of them.
+            let averaged = if promise.of_photons > 0.0 { 1.0 } else { self.averaged };
+            (trials * self.effort(promise) / averaged).max(self.trials * each)
         } else {
             let [mean, of_plain] =
                 [promise, plain].map(|p| Cost::ForAll.rays(p.variances, 1.0, 0.0));
@@ -130,11 +137,11 @@ mod tests {
     #[test]
     fn targets_are_done_one_by_one_only_with_a_tolerance_of_their_own() {
         let settings = Settings::default();
-        assert_eq!(Budget::of(&settings, 1.0).cost, Cost::UntilEachIsDone);
+        assert_eq!(Budget::of(&settings, (1, 1.0)).cost, Cost::UntilEachIsDone);
         let summary = Settings { tolerance_on: ToleranceOn::Summary, ..settings.clone() };
         let given = Settings { rel_tol: 0.0, abs_tol_lx: 0.0, ..settings };
         assert_eq!(
-            [summary, given].map(|settings| Budget::of(&settings, 1.0).cost),
+            [summary, given].map(|settings| Budget::of(&settings, (1, 1.0)).cost),
             [Cost::ForAll; 2]
         );
     }
@@ -148,16 +155,19 @@ mod tests {
                 beforehand: 1000.0,
                 ..Promise::of_paths(variances, 800.0)
             });
-            Budget::of(settings, targets).rays(&plain, &promise)
+            Budget::of(settings, (9, targets)).rays(&plain, &promise)
         };
         let rays = |settings: &Settings, variance: f64| rays_for(1.0, settings, variance);
         let open = Settings::default();
-        // t is 2.131, and the variance of 16 samples falls to 16 / t^2 after 16 * 1000 t^2 / 16 samples.
-        let all = 1000.0 * 2.131_45_f64 * 2.131_45 * 100.0 + 1000.0;
+        // t of a look is 2.25, and the variance of 16 samples falls to 16 / t^2 after 16 * 1000 t^2 / 16 samples.
+        let t = t_quantile_for(16, miss_probability_of_a_look(0.05, 16)).unwrap();
+        let all = 1000.0 * t * t * 100.0 + 1000.0;
         assert!((rays(&open, 1000.0) / all - 1.0).abs() < 1e-4, "{}", rays(&open, 1000.0));
         // 128 samples at least.
         assert_eq!(rays(&open, 1e-9), 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
         assert_eq!(rays_for(3.0, &open, 1e-9), 3.0 * 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
+        let averages = Settings { tolerance_on: ToleranceOn::Summary, ..open.clone() };
+        assert!((rays(&averages, 1000.0) / (1000.0 + (all - 1000.0) / 9.0) - 1.0).abs() < 1e-9);
         // Without a tolerance 4096 samples, or as many as leave the error of 4096 plain ones; limits do not matter.
         let given = Settings { max_samples: Some(64), rel_tol: 0.0, ..open };
         assert_eq!(rays(&given, 1000.0), 4096.0 * 16.0 * 800.0 / 128.0 + 1000.0);

@@ -13,7 +13,7 @@ mod wanted;
 
 pub(crate) use cost::Promise;
 pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial};
-pub(crate) use wanted::Wanted;
+pub(crate) use wanted::{BY_CHANCE, Wanted};
 
 use crate::correction::{Choice, FrozenMap, Outcome};
 use crate::gathering::Exact;
@@ -38,13 +38,15 @@ pub(crate) struct Decision<S> {
     pub(crate) joined: Option<Joined>,
     /// With its photons.
     pub(crate) frozen: Option<(FrozenMap<S>, PhotonCounts)>,
-    /// Rays of all trials, and of what joined photons need beforehand.
+    /// Photons of a map that was not taken, if they left the lights.
+    pub(crate) photons: Option<PhotonCounts>,
+    /// Rays of all trials, and of what joined photons need beforehand; but for those of photons above.
     pub(crate) rays: u64,
 }
 
 impl<S> Default for Decision<S> {
     fn default() -> Self {
-        Self { joined: None, frozen: None, rays: 0 }
+        Self { joined: None, frozen: None, photons: None, rays: 0 }
     }
 }
 
@@ -76,27 +78,23 @@ pub(crate) fn decide<S: Spectrum>(
         let given = (targets, exact, &tried.sample);
         let ways = join::Ways::try_all(stage, settings, given, quantum, watch);
         rays += ways.rays;
-        let alone = Alone {
-            trial: &tried.paths.trial,
-            // What paths do not find, a map seems to do without.
-            part: if finds_light { tried.part(best) } else { 1.0 },
-            misses_light,
-        };
+        let alone = Alone { trial: &tried.paths.trial, part: tried.part(best), finds_light };
         let kept = (quantum, replicates);
-        if let Some(joined) = ways.choose(stage, settings, &alone, targets, kept) {
-            rays += joined.rays + choice.as_ref().map_or(0, Choice::rays_so_far);
-            return Decision { joined: Some(joined), frozen: None, rays };
+        if let Some(joined) = ways.choose(stage, settings, &tried.sample, &alone, (targets, kept)) {
+            rays += joined.rays;
+            let photons = choice.and_then(|choice| choice.give_up(&mut rays));
+            return Decision { joined: Some(joined), frozen: None, photons, rays };
         }
     }
     match choice {
         Some(choice) if joins == Some(false) || of_map < of_plain => {
-            let worth = tried.worth_per_lx(targets.len());
+            let worth = tried.worth_per_lx(stage, (targets, exact), quantum, &mut rays);
             let frozen = choice.freeze(stage, worth, watch);
-            Decision { joined: None, frozen: Some(frozen), rays }
+            Decision { frozen: Some(frozen), rays, ..Decision::default() }
         }
         unused => {
-            rays += unused.as_ref().map_or(0, Choice::rays_so_far);
-            Decision { joined: None, frozen: None, rays }
+            let photons = unused.and_then(|choice| choice.give_up(&mut rays));
+            Decision { photons, rays, ..Decision::default() }
         }
     }
 }
@@ -124,7 +122,7 @@ impl<S: Spectrum> Tried<S> {
         let trial = &paths.trial;
         let found_lx = |(target, exact_lx): (usize, &f64)| exact_lx + trial.moments(target).mean;
         let means_lx = sample.exact_lx.iter().enumerate().map(found_lx).collect();
-        let wanted = Wanted::new(settings, means_lx, sample.targets_for_each());
+        let wanted = Wanted::new(settings, &sample, means_lx);
         let later = if settings.sequence == Sequence::Random { 1.0 } else { LATER };
         let noted: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
         let Outcome { of_chances, rays } = paths.walks.alone(&wanted);
@@ -162,9 +160,20 @@ impl<S: Spectrum> Tried<S> {
         if of_noted > 0.0 { rays / of_noted } else { 1.0 }
     }
 
-    /// What a lux counts at each target: what it does at the one that was looked at before it.
-    fn worth_per_lx(&self, targets: usize) -> Vec<f64> {
-        let of = |target: usize| self.wanted.worth_per_lx(target / self.sample.step);
-        (0..targets).map(of).collect()
+    /// What a lux counts at each target, by a short look at those that are not in the trial.
+    fn worth_per_lx(
+        &self,
+        stage: &Stage<'_, S>,
+        (targets, exact): (&[Target], &[Exact]),
+        quantum: Quantum,
+        rays: &mut u64,
+    ) -> Vec<f64> {
+        if self.sample.step == 1 {
+            return (0..targets.len()).map(|target| self.wanted.worth_per_lx(target)).collect();
+        }
+        let looks = Trial::looks(stage, targets, quantum);
+        *rays += looks.rays as u64;
+        let found = exact.iter().zip(&looks.lx);
+        found.map(|(exact, lx)| self.wanted.worth_of(exact.sum_lx() + lx)).collect()
     }
 }

@@ -22,7 +22,8 @@ const TARGETS: usize = 64;
 
 /// The targets that are looked at.
 pub(crate) struct Sample {
-    all: usize,
+    /// Of which there are so many.
+    pub(crate) all: usize,
     /// Every so many of all.
     pub(crate) step: usize,
     pub(crate) targets: Vec<Target>,
@@ -40,7 +41,7 @@ pub(crate) struct Trial {
 pub(crate) struct PathTrial<S> {
     pub(crate) trial: Trial,
     pub(crate) walks: Walks<S>,
-    /// Whether most replicates found light that bounced, at every target whose paths came to surfaces that reflect: a
+    /// Whether at every target most replicates whose paths came to surfaces that reflect found light that bounced: a
     /// spread says nothing of what is hardly ever found.
     pub(crate) finds_light: bool,
 }
@@ -78,7 +79,8 @@ impl Trial {
         joining: &Joining,
         quantum: Quantum,
     ) -> Self {
-        let pieces = trace(stage, sample, (Some(joining), quantum));
+        let of_all = (&sample.targets[..], REPLICATES.len());
+        let pieces = trace(stage, of_all, false, (Some(joining), quantum));
         Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
     }
 
@@ -89,6 +91,16 @@ impl Trial {
         };
         let rays: u64 = pieces.clone().map(|piece| piece.work.rays).sum();
         Self { lx: pieces.map(value_lx).collect(), rays: rays as f64 }
+    }
+
+    /// What one short look finds at each target, paths to their ends in one replicate.
+    pub(crate) fn looks<S: Spectrum>(
+        stage: &Stage<'_, S>,
+        targets: &[Target],
+        quantum: Quantum,
+    ) -> Self {
+        let pieces = trace(stage, (targets, 1), false, (None, quantum));
+        Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
     }
 
     pub(crate) fn moments(&self, target: usize) -> Moments {
@@ -103,11 +115,16 @@ impl Trial {
 impl<S: Spectrum> PathTrial<S> {
     pub(crate) fn new(stage: &Stage<'_, S>, sample: &Sample, quantum: Quantum) -> Self {
         let (pieces, walks): (Vec<Piece>, Vec<Walks<S>>) =
-            trace(stage, sample, (None, quantum)).into_iter().unzip();
+            trace(stage, (&sample.targets, REPLICATES.len()), true, (None, quantum))
+                .into_iter()
+                .unzip();
         let finds_light = pieces.chunks(REPLICATES.len()).all(|of_target| {
-            let sums = || of_target.iter().map(|piece| &piece.sums[0]);
-            let found = sums().filter(|sums| !sums.indirect.is_zero()).count();
-            2 * found > of_target.len() || sums().all(|sums| sums.reflected == 0)
+            let sums = of_target.iter().map(|piece| &piece.sums[0]);
+            let looked = sums.filter(|sums| sums.reflected > 0);
+            let (found, all) = looked.fold((0, 0), |(found, all), sums| {
+                (found + usize::from(!sums.indirect.is_zero()), all + 1)
+            });
+            2 * found >= all
         });
         let trial = Trial::of(pieces.iter(), quantum);
         let at_start: usize =
@@ -122,7 +139,7 @@ impl<S: Spectrum> PathTrial<S> {
     }
 }
 
-/// Rays at most by which a path asks for light where it starts.
+/// Rays by which a path asks lights themselves where it starts, at most.
 fn asked_at_start<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> usize {
     let lights = &stage.lights;
     let areas = [lights.emitters.is_some(), !lights.area_luminaires.is_empty()];
@@ -133,22 +150,22 @@ fn asked_at_start<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> usize {
     }
 }
 
-/// Paths from all targets of a sample, in the order of [`Trial::lx`]: beside joined photons, or alone, and then they note
-/// where they might have ended.
+/// Paths from these targets in so many replicates of a trial, in the order of [`Trial::lx`], which leave to photons what is
+/// theirs, and may note where they might have ended.
 fn trace<S: Spectrum>(
     stage: &Stage<'_, S>,
-    sample: &Sample,
+    (targets, each): (&[Target], usize),
+    is_noted: bool,
     (joining, quantum): (Option<&Joining>, Quantum),
 ) -> Vec<(Piece, Walks<S>)> {
-    let each = REPLICATES.len();
     let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, Walks<S>) {
         let target = number / each;
         let replicate = REPLICATES.start + (number % each) as u32;
         let section = Section {
             number,
-            target: sample.targets[target],
+            target: targets[target],
             points: stage.points_of_trial(replicate, Stream::Paths(target as u64)),
-            rest: if joining.is_some() { Rest::Path } else { Rest::Noted },
+            rest: if is_noted { Rest::Noted } else { Rest::Path },
             hidden: None,
             joining,
             indices: 0..SAMPLES,
@@ -158,6 +175,6 @@ fn trace<S: Spectrum>(
             trace_and_look(stage, &[section], quantum, wave, |path| walks.add(target, path));
         (piece, walks)
     };
-    let numbers = (0..sample.targets.len() * each).into_par_iter();
+    let numbers = (0..targets.len() * each).into_par_iter();
     numbers.map_init(PathWave::default, trace).collect()
 }

@@ -1,30 +1,53 @@
 //! What is to be known, and how well.
 
 use super::cost::{Budget, Promise};
-use super::trial::Trial;
-use crate::settings::Settings;
+use super::trial::{Sample, Trial};
+use crate::settings::{Settings, ToleranceOn};
 
 /// A shortfall of so many times the variance of means may be by chance.
-const BY_CHANCE: f64 = 4.0;
+pub(crate) const BY_CHANCE: f64 = 4.0;
 
 /// What is to be known, and how well.
 pub(crate) struct Wanted {
     budget: Budget,
+    tolerance: Tolerance,
     /// The illuminance at each target that is looked at, as far as known.
     means_lx: Vec<f64>,
-    /// What an error is compared with there: the tolerance, or the value where there is none.
+    /// What an error is compared with there.
     scales_lx: Vec<f64>,
 }
 
+/// What errors are compared with.
+#[derive(Clone, Copy)]
+enum Tolerance {
+    /// Each with the tolerance of its own value; without one, with the value.
+    Of { rel_tol: f64, abs_tol_lx: f64 },
+    /// All with that of the average, where only averages are wanted.
+    Same(f64),
+}
+
+impl Tolerance {
+    fn scale_lx(self, mean_lx: f64) -> f64 {
+        match self {
+            Self::Of { rel_tol, abs_tol_lx } => (rel_tol * mean_lx.abs()).max(abs_tol_lx),
+            Self::Same(lx) => lx,
+        }
+    }
+}
+
 impl Wanted {
-    /// With so many targets for each that is looked at.
-    pub(crate) fn new(settings: &Settings, means_lx: Vec<f64>, targets: f64) -> Self {
-        let scale_lx = |mean_lx: &f64| match settings.has_tolerance() {
-            true => settings.tolerance_lx(*mean_lx),
-            false => *mean_lx,
+    /// Of a sample whose targets have these means.
+    pub(crate) fn new(settings: &Settings, sample: &Sample, means_lx: Vec<f64>) -> Self {
+        let average_lx = means_lx.iter().sum::<f64>() / means_lx.len().max(1) as f64;
+        let for_average = settings.tolerance_on == ToleranceOn::Summary;
+        let tolerance = match settings.has_tolerance() {
+            true if for_average => Tolerance::Same(settings.tolerance_lx(average_lx)),
+            true => Tolerance::Of { rel_tol: settings.rel_tol, abs_tol_lx: settings.abs_tol_lx },
+            false => Tolerance::Of { rel_tol: 1.0, abs_tol_lx: 0.0 },
         };
-        let scales_lx = means_lx.iter().map(scale_lx).collect();
-        Self { budget: Budget::of(settings, targets), means_lx, scales_lx }
+        let scales_lx = means_lx.iter().map(|mean_lx| tolerance.scale_lx(*mean_lx)).collect();
+        let budget = Budget::of(settings, (sample.all, sample.targets_for_each()));
+        Self { budget, tolerance, means_lx, scales_lx }
     }
 
     /// How many targets are looked at.
@@ -39,8 +62,13 @@ impl Wanted {
 
     /// What a lux counts at a target; nothing where there is none.
     pub(crate) fn worth_per_lx(&self, target: usize) -> f64 {
-        let scale_lx = self.scales_lx[target];
-        if self.means_lx[target] > 0.0 && scale_lx > 0.0 { 1.0 / scale_lx } else { 0.0 }
+        self.worth_of(self.means_lx[target])
+    }
+
+    /// The same where the illuminance is this.
+    pub(crate) fn worth_of(&self, mean_lx: f64) -> f64 {
+        let scale_lx = self.tolerance.scale_lx(mean_lx);
+        if mean_lx > 0.0 && scale_lx > 0.0 { 1.0 / scale_lx } else { 0.0 }
     }
 
     /// Of what a trial finds, over the scales squared; one for each target that is seen.

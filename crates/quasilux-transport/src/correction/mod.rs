@@ -1,4 +1,4 @@
-//! One map that is frozen before the first path, which all paths end on, and which some of them correct.
+//! One map that is frozen before the first path, which paths end on, and which some of them correct.
 //!
 //! A path may end at every diffuse surface that it comes to. With probability q it goes on instead and takes along
 //! the difference between what it finds and what the map said, weighted by 1 / q: the map is a control variate, so its
@@ -12,9 +12,10 @@
 //! ```
 //!
 //! so q should grow in proportion to `w |F - M|`, relative to what the path's start wants to know
-//! ([`survival`]). A pilot traces paths that hardly end and notes what they found beyond each surface ([`Note`]);
-//! these foretell what paths alone would cost, which end by chance without a map, what any q would have cost ([`walk`]), and the noise of the map says what more photons would mend.
-//! Of all these the pair is taken that asks for the fewest rays in all ([`pilot`]).
+//! ([`survival`]). A trial traces paths that hardly end, and notes what they found beyond each surface ([`Note`]). By
+//! the two lines above each of them foretells what it would have cost with any q, and what it would have cost alone, with
+//! nothing in place of M and the albedo in place of q ([`walk`], [`trips`]). The noise of the map says what more photons
+//! would mend. The q and the number of photons are taken that promise the fewest rays in all ([`pilot`]).
 
 mod pilot;
 mod survival;
@@ -24,7 +25,6 @@ mod trips;
 mod walk;
 
 pub(crate) use pilot::{Choice, MOST_PHOTONS, of_plan};
-pub(crate) use survival::Survival;
 pub(crate) use trips::{Outcome, RayCounts, Walks};
 
 use crate::map::{IlluminationMap, MapLayout, MapTally, Place};
@@ -32,22 +32,24 @@ use crate::path_end::MapFacts;
 use crate::spectrum::Spectrum;
 use crate::state::{Stored, Writer};
 use crate::world::Interaction;
+use survival::Survival;
 
-/// With so many wanted bounces or fewer, the map keeps light apart by its bounces, so that paths may end on it
-/// anywhere; with more, only at the first surface.
+/// With so many wanted bounces or fewer, and no more sides of elements, the map keeps light apart by its bounces, so that
+/// paths may end on it anywhere; else only at the first surface.
 const MOST_LAYERS: u32 = 16;
+const MOST_LAYERED_SIDES: u64 = 1 << 21;
 
 /// A map with what is known of how good it is.
 pub(crate) struct FrozenMap<S> {
-    pub(super) layout: MapLayout,
-    pub(super) tally: MapTally<S>,
+    layout: MapLayout,
+    tally: MapTally<S>,
     /// Flux of a photon.
-    pub(super) photon_lm: f64,
+    photon_lm: f64,
     /// Whether its photons left lit places.
-    pub(super) first_shot: bool,
-    pub(super) survival: Survival,
+    first_shot: bool,
+    survival: Survival,
     /// What a lux at each target counts: one over the error that matters there, 0 where that is not known.
-    pub(super) worth_per_lx: Vec<f64>,
+    worth_per_lx: Vec<f64>,
 }
 
 /// How paths of one target end on it.
@@ -69,35 +71,27 @@ pub(crate) struct Note<S> {
     /// Reflections before it, and rays up to it.
     pub(crate) bounces: u32,
     pub(crate) flights: u32,
-    /// What had been found when the light was in that came to this surface straight from lights.
-    pub(crate) before: Option<S>,
-    /// What was found after that.
-    pub(crate) beyond: S,
+    /// What had been found by the next surface: before and with what that emits.
+    pub(crate) before: Option<[S; 2]>,
+    /// What was found after that: what a path without a map would miss if it ended here, and one with.
+    pub(crate) beyond: [S; 2],
 }
 
 impl<S: Spectrum> Note<S> {
-    /// All that was found so far has nothing to do with the map at its surface, unless that was said before.
-    pub(crate) fn begin(&mut self, found: S) {
+    /// So much was found by the next surface, unless that was said before.
+    pub(crate) fn begin(&mut self, found: [S; 2]) {
         self.before.get_or_insert(found);
     }
 
     /// This is all that the path found.
     pub(crate) fn end(&mut self, found: S) {
         if let Some(before) = self.before {
-            self.beyond = found + before * -1.0;
+            self.beyond = before.map(|before| found + before * -1.0);
         }
     }
 }
 
 impl<S: Spectrum> FrozenMap<S> {
-    /// Layers that tell apart what is to be told apart, of which the last counts all that bounced more often.
-    pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32) -> u32 {
-        match max_bounces {
-            Some(most) if most <= MOST_LAYERS => most.saturating_sub(1).max(1),
-            _ => listed_terms.saturating_sub(1).max(1),
-        }
-    }
-
     pub(crate) fn end(&self, target: usize) -> FrozenEnd<'_, S> {
         let Self { layout, tally, photon_lm, survival, worth_per_lx, .. } = self;
         let map = tally.read(*photon_lm);
@@ -130,10 +124,23 @@ impl<S: Spectrum> FrozenEnd<'_, S> {
     }
 }
 
-/// Most bounces of light on the map that may come to a start by a surface that was met after `bounces`; `None`
-/// where paths do not end on it.
-pub(crate) fn bounces_left(max_bounces: Option<u32>, bounces: u32) -> Option<u32> {
+/// Layers of a map with so many sides of elements that tell apart what is to be told apart; the last counts all that
+/// bounced more often.
+pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32, sides: u64) -> u32 {
+    match max_bounces {
+        Some(most) if is_layered(most, sides) => most.saturating_sub(1).max(1),
+        _ => listed_terms.saturating_sub(1).max(1),
+    }
+}
+
+/// Most bounces of light on a map with so many sides of elements that may come to a start by a surface that was met after
+/// `bounces`; `None` where paths do not end on it.
+pub(crate) fn bounces_left(max_bounces: Option<u32>, bounces: u32, sides: u64) -> Option<u32> {
     let Some(most) = max_bounces else { return Some(u32::MAX) };
     let left = most.saturating_sub(bounces + 1);
-    (left > 0 && (most <= MOST_LAYERS || bounces == 0)).then_some(left)
+    (left > 0 && (is_layered(most, sides) || bounces == 0)).then_some(left)
+}
+
+fn is_layered(max_bounces: u32, sides: u64) -> bool {
+    max_bounces <= MOST_LAYERS && sides <= MOST_LAYERED_SIDES
 }

@@ -3,7 +3,7 @@
 
 use super::trips::{Outcome, Trips};
 use super::walk::Ending;
-use super::{FrozenMap, Survival, Walks, bounces_left};
+use super::{FrozenMap, Survival, Walks, bounces_left, layers};
 use crate::choice::{Promise, Wanted};
 use crate::first_shot::{LitCells, decide};
 use crate::map::{MapLayout, MapReceiver, MapTally};
@@ -17,11 +17,11 @@ use crate::watch::Watch;
 use std::f64::consts::SQRT_2;
 use std::ops::Range;
 
-/// Photons of the pilot for each side of an element, and the part of the run's rays that they may be.
+/// Photons of the pilot for each side of an element, and the part of the run's rays, 1 over this, that they may be.
 const PHOTONS_PER_ELEMENT: u64 = 8;
-const RAYS_FOR_A_PHOTON: u64 = 32;
-/// The part of its rays that it may take to find where light lands.
-const RAYS_FOR_A_RAY: u64 = 8;
+const PHOTONS_SHARE: u64 = 32;
+/// The part of them, 1 over this, that it may take to find where light lands.
+const FIRST_SHOT_SHARE: u64 = 8;
 /// Bounds on them, and on those of a map.
 const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
 pub(crate) const MOST_PHOTONS: u64 = 1 << 20;
@@ -66,10 +66,10 @@ impl<S: Spectrum> Choice<S> {
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
         let affordable = wanted.rays(alone, alone) as u64;
-        let mut map = Growing::new(stage, settings, affordable / RAYS_FOR_A_RAY)?;
+        let mut map = Growing::new(stage, settings, affordable / FIRST_SHOT_SHARE)?;
         let before = map.counts.rays;
         let pilots = PHOTONS_PER_ELEMENT * map.layout.len() as u64;
-        let pilots = pilots.min(affordable / RAYS_FOR_A_PHOTON);
+        let pilots = pilots.min(affordable / PHOTONS_SHARE);
         let pilots = pilots.clamp(PILOT_PHOTONS.0, PILOT_PHOTONS.1).next_power_of_two();
         map.grow(stage, pilots, watch);
         let rays_for_photon = (map.counts.rays - before) as f64 / pilots as f64;
@@ -108,9 +108,13 @@ impl<S: Spectrum> Choice<S> {
         Promise { variances, of_paths: *rays, of_photons: 0.0, beforehand: *beforehand }
     }
 
-    /// Rays so far.
-    pub(crate) fn rays_so_far(&self) -> u64 {
-        self.map.counts.rays
+    /// Its photons where it is not taken, if they left the lights and so say where the flux goes; of others it adds the rays.
+    pub(crate) fn give_up(self, rays: &mut u64) -> Option<PhotonCounts> {
+        let Growing { lit_cells, counts, .. } = self.map;
+        if lit_cells.is_some() {
+            *rays += counts.rays;
+        }
+        lit_cells.is_none().then_some(counts)
     }
 
     /// The map with all its photons, for targets where a lux counts so much; and what it took from the start.
@@ -129,7 +133,7 @@ impl<S: Spectrum> Choice<S> {
     }
 }
 
-/// Paths that go on seldom, more often, and always.
+/// Paths that go on seldom, more often, and nearly always.
 fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
     let usual = trips.usual_loss(survival);
     let first = if usual > 0.0 { LEAST_CHANCE / usual } else { 0.0 };
@@ -139,11 +143,12 @@ fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
 
 impl<S: Spectrum> Growing<S> {
     fn new(stage: &Stage<'_, S>, settings: &Settings, most_rays: u64) -> Option<Self> {
-        let most_bounces = bounces_left(stage.max_bounces, 0)?;
+        let layout = MapLayout::coarsest(&stage.world, settings);
+        let sides = layout.len() as u64;
+        let most_bounces = bounces_left(stage.max_bounces, 0, sides)?;
         let mut counts = PhotonCounts::default();
         let lit_cells = decide(stage, settings, most_rays, &mut counts);
-        let layout = MapLayout::coarsest(&stage.world, settings);
-        let layers = FrozenMap::<S>::layers(stage.max_bounces, stage.listed_terms);
+        let layers = layers(stage.max_bounces, stage.listed_terms, sides);
         let lightest = Source::of(lit_cells.as_ref()).usual_weight();
         let tally = MapTally::new(&layout, lightest, layers);
         Some(Self { layout, tally, lit_cells, most_bounces, photons: 0, counts })

@@ -6,7 +6,7 @@ use crate::state::Writer;
 const LEAST: f64 = 1.0 / 64.0;
 /// Where the map has less than this part of the mean, it is taken as if it had so much: it may have missed something.
 const DIM: f64 = 0.1;
-/// What is known of one element counts as much as this many paths of the others.
+/// What is known of all elements counts in each as much as this many paths of its own, of usual light.
 const PRIOR: f64 = 16.0;
 
 /// How far a map is off, and what is made of that.
@@ -45,7 +45,7 @@ impl Survival {
     /// Of a map that paths found this about; none of them goes on for certain yet.
     pub(super) fn of(findings: impl Iterator<Item = Finding>) -> Self {
         let mut findings: Vec<Finding> = findings.filter(|finding| finding.weight > 0.0).collect();
-        // In this order, sums are the same whoever found what first.
+        // By element.
         findings.sort_by_key(|finding| finding.element);
         let count = findings.len().max(1) as f64;
         let [on_map, found] = findings.iter().fold([0.0, 0.0], |[on_map, found], finding| {

@@ -25,10 +25,16 @@ const REPLICATES: u32 = 300;
 
 #[test]
 fn light_on_the_map_fits_into_the_bounces_that_are_left() {
-    assert_eq!(bounces_left(None, 7), Some(u32::MAX));
-    assert_eq!([0, 1, 2].map(|b| bounces_left(Some(3), b)), [Some(2), Some(1), None]);
-    assert_eq!([0, 1].map(|b| bounces_left(Some(100), b)), [Some(99), None]);
-    assert_eq!(bounces_left(Some(1), 0), None);
+    assert_eq!(bounces_left(None, 7, 8), Some(u32::MAX));
+    assert_eq!([0, 1, 2].map(|b| bounces_left(Some(3), b, 8)), [Some(2), Some(1), None]);
+    assert_eq!([0, 1].map(|b| bounces_left(Some(100), b, 8)), [Some(99), None]);
+    assert_eq!([0, 1].map(|b| bounces_left(Some(3), b, 1 << 40)), [Some(2), None]);
+    assert_eq!(bounces_left(Some(1), 0, 8), None);
+    let layers = |most, listed| [8, 1 << 40].map(|sides| layers(most, listed, sides));
+    assert_eq!(
+        [layers(None, 5), layers(Some(3), 0), layers(Some(100), 5)],
+        [[4; 2], [2, 1], [4; 2]]
+    );
 }
 
 /// How paths go.
@@ -94,7 +100,7 @@ fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let PathTrial { trial, walks, finds_light } = PathTrial::new(&stage, &sample, quantum);
     assert!(finds_light);
     let found_lx = |target: usize| sample.exact_lx[target] + trial.moments(target).mean;
-    let wanted = Wanted::new(&settings, (0..targets.len()).map(found_lx).collect(), 1.0);
+    let wanted = Wanted::new(&settings, &sample, (0..targets.len()).map(found_lx).collect());
     let bench = Bench { stage: &stage, targets, wanted, quantum };
     let (of_noted, rays_noted) = bench.variance_and_rays(Paths::Noted);
     assert!((rays_noted / trial.rays - 1.0).abs() < 0.07, "{what}: {rays_noted} {}", trial.rays);
@@ -156,7 +162,8 @@ fn paths_that_know_nothing_of_a_map_go_alone() {
     let stage = Stage::<f64>::new(&scene, &settings);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);
-    let wanted = Wanted::new(&settings, vec![1000.0], 1.0);
+    let sample = Sample::new(&targets(&scene), &exact(&stage, &targets(&scene), &mut 0));
+    let wanted = Wanted::new(&settings, &sample, vec![1000.0]);
     let none = Promise::of_paths(&[], 0.0);
     let walks = Walks::default();
     let choice = Choice::new(&stage, &settings, (&walks, &none, &none), &wanted, &mut watch);

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// At most this part of how far a map is off is taken for noise, which more photons would mend.
 const MOST_NOISE: f64 = 0.75;
 
-/// Paths that find less than one over this part of what the map has do not find the light.
+/// Paths do not find the light where the map has so many times as much.
 const MUCH_MORE: f64 = 2.0;
 
 /// Paths of a trial.
@@ -97,7 +97,8 @@ impl<S: Spectrum> Walks<S> {
     ) -> Trips {
         self.trips(wanted, |note| {
             let weight = note.weight?;
-            let most_bounces = bounces_left(stage.max_bounces, note.bounces)?;
+            let sides = layout.len() as u64;
+            let most_bounces = bounces_left(stage.max_bounces, note.bounces, sides)?;
             let place = layout.locate(&note.at);
             let light = (weight * map.illuminance_lx(&place, most_bounces)).luminance();
             let noise = (weight * map.noise_lx(&place, most_bounces)).luminance();
@@ -138,12 +139,13 @@ impl<S: Spectrum> Path<S> {
             let none = Reading { element: 0, light: 0.0, noise: 0.0 };
             let Reading { element, light, noise } = read.unwrap_or(none);
             variance += noise * noise;
-            let [weight, beyond] = [note.weight.unwrap_or_default(), note.beyond]
+            let [beyond_alone, beyond] = note.beyond;
+            let [weight, missed, beyond] = [note.weight.unwrap_or_default(), beyond_alone, beyond]
                 .map(|light| light.luminance())
                 // The run counts and reports what is no number.
                 .map(|lx| if lx.is_finite() { lx } else { 0.0 });
             let finding = Finding { element, weight, light, beyond };
-            Step { finding, is_on_map, flights: end - note.flights, alone: note.alone }
+            Step { finding, is_on_map, missed, flights: end - note.flights, alone: note.alone }
         };
         let steps: Vec<Step> = self.notes.iter().zip(ends).map(step).collect();
         let flights = self.notes.first().map_or(self.flights, |note| note.flights);

@@ -16,6 +16,8 @@ pub(super) struct Walk {
 pub(super) struct Step {
     pub(super) finding: Finding,
     pub(super) is_on_map: bool,
+    /// What a path misses if it ends there with no map.
+    pub(super) missed: f64,
     /// Rays from there to the next of them, or to the path's end.
     pub(super) flights: u32,
     /// With what probability a path that ends on no map goes on.
@@ -62,11 +64,13 @@ impl Walk {
             })
             .collect();
         let mut price = Price::default();
-        for (Step { finding, flights, .. }, (chance, is_on_map)) in
+        for (Step { finding, missed, flights, .. }, (chance, is_on_map)) in
             self.steps.iter().zip(chances).rev()
         {
-            let (instead, at_end) = if is_on_map { (finding.light, at_end) } else { (0.0, 0.0) };
-            let off = worth * (finding.beyond - instead);
+            let (off, at_end) = match is_on_map {
+                true => (worth * (finding.beyond - finding.light), at_end),
+                false => (worth * missed, 0.0),
+            };
             price.variance = (price.variance + off * off * (1.0 - chance)) / chance;
             price.flights =
                 chance * (f64::from(*flights) + price.flights) + (1.0 - chance) * at_end;
@@ -123,7 +127,13 @@ mod tests {
             (finding(4, 0.2, 11.0, 3.0), 3),
         ];
         let steps = steps
-            .map(|(finding, flights)| Step { finding, is_on_map: true, flights, alone: 1.0 })
+            .map(|(finding, flights)| Step {
+                finding,
+                is_on_map: true,
+                missed: finding.beyond,
+                flights,
+                alone: 1.0,
+            })
             .to_vec();
         let walk = Walk { flights: 1, steps };
         let survival = Survival::of(walk.steps.iter().map(|step| step.finding));

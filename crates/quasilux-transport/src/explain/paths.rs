@@ -75,7 +75,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
                 + joined.as_ref().map_or(0.0, |joined| joined.lx(0, number)),
         });
         let targets: Vec<PathTarget> = targets.collect();
-        let (mut end, _) = PathEnd::prepare(stage, &one, &all, frozen, &mut watch);
+        let (mut end, _) = PathEnd::prepare(stage, &one, &all, (frozen, None), &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(stage, photons, |_| None, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);

@@ -43,7 +43,7 @@ use rayon::prelude::*;
 /// More pairs of a facet and a light that faces it than this are not looked at: photons leave the
 /// lights instead.
 const MOST_PAIRS: usize = 1 << 21;
-/// Rays that a pair takes, and more where light is uneven.
+/// Rays that a pair takes at least.
 const LOOKS: u64 = 6;
 /// Share of the photons that go where light would land if nothing stood in the way.
 const UNSEEN: f64 = 0.1;
@@ -112,8 +112,8 @@ impl LitPlace {
 }
 
 impl LitCells {
-    /// Looks where the light lands; `None` where no point-like light's goes on, where it would take more rays than
-    /// these, and for more than [`MOST_PAIRS`].
+    /// Looks where the light lands; `None` where no point-like light's goes on, where first looks alone would take more
+    /// rays than these, and for more than [`MOST_PAIRS`].
     pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, most_rays: u64) -> Option<Self> {
         let beams = Beam::all(stage);
         let facets = 0..stage.world.facets.len() as u32;

@@ -17,6 +17,8 @@ use quasilux_sampling::SampleCursor;
 
 /// Pilot photons of each kind.
 const PILOTS: u64 = 1 << 12;
+/// Rays that one takes, about.
+const RAYS_OF_A_PILOT: u64 = 4;
 /// The first shot may take this many times the work that pilots see: in the office of
 /// `docs/first-shot.md` they see 1.07 times the work where the squared error is half, on the cube 0.89 times
 /// where it is 0.64.
@@ -29,8 +31,8 @@ struct Weights {
     squares: f64,
 }
 
-/// The lit cells that photons leave from where that is asked for, or pays and takes no more rays than these to find out;
-/// adds what it took.
+/// The lit cells that photons leave from where that is asked for, or pays and should not take many more rays than these to
+/// find out; adds what it took.
 pub(crate) fn decide<S: Spectrum>(
     stage: &Stage<'_, S>,
     settings: &Settings,
@@ -39,10 +41,11 @@ pub(crate) fn decide<S: Spectrum>(
 ) -> Option<LitCells> {
     let is_asked_for = settings.first_shot == Switch::On;
     let most_rays = if is_asked_for { u64::MAX } else { most_rays };
-    if settings.first_shot == Switch::Off || most_rays < 2 * PILOTS {
+    let of_pilots = 2 * PILOTS * RAYS_OF_A_PILOT;
+    if settings.first_shot == Switch::Off || most_rays < of_pilots {
         return None;
     }
-    let cells = LitCells::new(stage, most_rays)?;
+    let cells = LitCells::new(stage, most_rays - of_pilots)?;
     counts.rays += cells.rays;
     let pays = is_asked_for
         || work(stage, Source::LitCells(&cells), counts)

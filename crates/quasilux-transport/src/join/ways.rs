@@ -8,7 +8,7 @@
 //! counts as an error of theirs.
 
 use super::{Joined, Joining};
-use crate::choice::{Promise, REPLICATES, SAMPLES, Sample, Trial, Wanted};
+use crate::choice::{BY_CHANCE, Promise, REPLICATES, SAMPLES, Sample, Trial, Wanted};
 use crate::gathering::Exact;
 use crate::photon::PhotonCounts;
 use crate::settings::{Settings, Switch};
@@ -35,7 +35,7 @@ const MOST_VIEWS: usize = 1 << 24;
 /// its neighbours end where it does.
 const JOINING_RAY: f64 = 0.25;
 
-/// Paths that find less than one over this part of the light do not find it.
+/// Paths do not find the light where others find so many times as much.
 const MUCH_MORE: f64 = 2.0;
 
 /// What there is without joined photons.
@@ -44,14 +44,13 @@ pub(crate) struct Alone<'t> {
     pub(crate) trial: &'t Trial,
     /// The part of their rays that the best way takes, and finds about what they find.
     pub(crate) part: f64,
-    /// Whether photons say that they do not find all.
-    pub(crate) misses_light: bool,
+    /// Whether they seem to find all light.
+    pub(crate) finds_light: bool,
 }
 
 /// All ways that a survey of the scene leaves.
 pub(crate) struct Ways {
     exact_lx: Vec<f64>,
-    targets_for_each: f64,
     ways: Vec<Way>,
     /// That it took to try them.
     pub(crate) rays: u64,
@@ -122,22 +121,21 @@ impl Ways {
             let joining = pilot.joining;
             ways.push(Way { joining, expected_lx, joined, coarse, beside, beforehand });
         }
-        let targets_for_each = sample.targets_for_each();
-        Self { exact_lx: sample.exact_lx.clone(), targets_for_each, ways, rays }
+        Self { exact_lx: sample.exact_lx.clone(), ways, rays }
     }
 
     /// The best of them, where that is asked for, or where it promises fewer rays than there are without, or finds much more
-    /// light where photons had said so before: of light that is seldom found, a spread says nothing.
+    /// light where that was to be feared: of light that is seldom found, a spread says nothing.
     pub(crate) fn choose<S: Spectrum>(
         mut self,
         stage: &Stage<'_, S>,
         settings: &Settings,
+        sample: &Sample,
         alone: &Alone<'_>,
-        targets: &[Target],
-        (quantum, replicates): (Quantum, u32),
+        (targets, (quantum, replicates)): (&[Target], (Quantum, u32)),
     ) -> Option<Joined> {
-        let Alone { trial: alone, part, misses_light } = *alone;
-        let wanted = Wanted::new(settings, self.means_lx(alone), self.targets_for_each);
+        let Alone { trial: alone, part, finds_light } = *alone;
+        let wanted = Wanted::new(settings, sample, self.means_lx(alone));
         let noise = wanted.variances(alone).iter().sum::<f64>()
             + self.ways.iter().flat_map(|way| way.variances(&wanted)).sum::<f64>();
         let noise = noise / (REPLICATES.len() * wanted.seen().count().max(1)) as f64;
@@ -148,9 +146,13 @@ impl Ways {
         let pays = |best: &Best, way: &Way| {
             let finds_more = |target: usize| {
                 let found_lx = self.exact_lx[target] + way.found_lx(target);
+                let more_lx = found_lx - found_alone_lx(target);
+                let noise = (way.variance(target) + alone.moments(target).variance)
+                    / REPLICATES.len() as f64;
                 found_lx > MUCH_MORE * found_alone_lx(target)
+                    && more_lx * more_lx > BY_CHANCE * noise
             };
-            (misses_light && wanted.seen().any(finds_more))
+            (!finds_light && wanted.seen().any(finds_more))
                 || wanted.rays(&plain, &best.promise()) < part * wanted.rays(&plain, &plain)
         };
         let tried = self.ways.iter().map(|way| way.best(&self.exact_lx, &wanted, noise));
@@ -194,6 +196,12 @@ impl Way {
     fn found_lx(&self, target: usize) -> f64 {
         let all = [&self.joined, &self.coarse, &self.beside];
         all.into_iter().map(|trial| trial.moments(target).mean).sum()
+    }
+
+    /// The variance of that in one replicate, in lx^2.
+    fn variance(&self, target: usize) -> f64 {
+        let all = [&self.joined, &self.coarse, &self.beside];
+        all.into_iter().map(|trial| trial.moments(target).variance).sum()
     }
 
     /// Of one sample with the photons that were tried.

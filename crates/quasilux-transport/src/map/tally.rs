@@ -215,6 +215,7 @@ mod tests {
     use super::*;
     use crate::map::fixture::{Numbers, at, square};
     use crate::settings::Settings;
+    use quasilux_sampling::warp::sample_triangle;
 
     /// Photons at the three places of a rule that is exact for quadratic functions, as many as a linear
     /// function says: its projection is that function, or its mean.
@@ -247,6 +248,41 @@ mod tests {
                 assert_eq!(map.illuminance_lx(&place, 2), terms[0].1);
                 assert_eq!(map.terms_lx(place, 1).count(), 1);
             }
+        }
+    }
+
+    /// Photons without order at random places of an element, in many tallies: the deviation of what they say of a place is
+    /// what one tally foretells, on average, whatever they weigh.
+    #[test]
+    fn noise_is_how_far_maps_are_off() {
+        let (world, numbers) = (square(), &mut Numbers(5));
+        for (map_reconstruction, weight) in [
+            (Reconstruction::Constant, 1.0),
+            (Reconstruction::Linear, 1.0),
+            (Reconstruction::Linear, 0.25),
+        ] {
+            let settings = Settings { map_reconstruction, ..Settings::default() };
+            let layout = MapLayout::new(&world, &settings);
+            let place = layout.locate(&at(&world, numbers));
+            let (mut foretold, mut values) = (0.0, Vec::new());
+            for _ in 0..2000 {
+                let tally = MapTally::<f64>::new(&layout, weight, 2);
+                // A number of photons that is itself by chance, 40 on average.
+                for _ in (0..400).filter(|_| numbers.next() < 0.1).collect::<Vec<_>>() {
+                    let barycentric = sample_triangle([numbers.next(), numbers.next()]);
+                    tally.add(&Place { barycentric, ..place }, weight, 1);
+                }
+                let map = tally.read(place.area_m2);
+                let noise = map.noise_lx(&place, 1);
+                foretold += noise * noise / 2000.0;
+                values.push(map.illuminance_lx(&place, 1));
+                assert_eq!(map.noise_lx(&place, 0), 0.0);
+            }
+            let mean = values.iter().sum::<f64>() / 2000.0;
+            let found = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 1999.0;
+            // A binomial number varies 0.9 times as much as photons without order.
+            let ratio = foretold / found;
+            assert!((0.9..1.25).contains(&ratio), "{map_reconstruction:?} {weight}: {ratio}");
         }
     }
 }

@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 /// What surveys and pilots decided: a function of scene and settings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decisions {
-    /// Photons that are joined to the sensors for each path; `None` where paths go alone.
+    /// Photons that are joined to the sensors for each path; `None` where paths go alone or end on a map.
     pub joined_photons: Option<u64>,
     /// Whether photons are split, ended and guided on their way.
     pub is_steered: bool,

@@ -1,10 +1,12 @@
 //! What `bidirectional` makes of a scene by itself, and what it must not.
 
 use crate::images::add_panel;
-use crate::scenes::{diffuse, diffuse_cube, point_light, points, room};
+use crate::scenes::{diffuse, diffuse_cube, point_light, points, room, wall_grid};
 use glam::DVec3;
 use quasilux_scene::Scene;
-use quasilux_transport::{Decisions, Estimates, Estimator, Settings, Switch, simulate};
+use quasilux_transport::{
+    Decisions, Estimates, Estimator, Settings, Switch, ToleranceOn, simulate,
+};
 
 fn run(scene: &Scene, rel_tol: f64, joining: Switch) -> Estimates {
     let settings = Settings {
@@ -55,6 +57,49 @@ fn light_that_is_found_at_once_hides_no_other() {
     assert_eq!(decided(&scene, 0.05).0, None);
     scene.lights.push(point_light(corner + 0.5 * (x + z) + 0.2 * y, 3000.0));
     assert!(decided(&scene, 0.05).0.is_some());
+}
+
+/// Of many targets some are looked at closely. One that is not stands in the dark, on a floor whose elements reach from the
+/// light to it: nothing is known there, its paths go alone, and the run gives it up.
+#[test]
+fn a_dark_place_among_many_is_given_up() {
+    let mut scene = room(DVec3::new(6.0, 3.0, 2.5), diffuse(0.5));
+    let wall = DVec3::new(4.0, 0.0, 0.0);
+    add_panel(&mut scene, wall, DVec3::Y * 3.0, DVec3::Z * 2.5, diffuse(0.5));
+    scene.lights.push(point_light(DVec3::new(1.0, 1.0, 2.0), 300.0));
+    let lit = |i: u32| (DVec3::new(0.03 * f64::from(i), 1.5, 0.5), DVec3::Z);
+    let mut places: Vec<_> = (1..100).map(lit).collect();
+    places[51].0.x = 5.0;
+    scene.sensors.push(points("places", &places));
+    let settings = Settings {
+        estimator: Estimator::Bidirectional,
+        joining: Switch::Off,
+        rel_tol: 0.05,
+        ..Settings::default()
+    };
+    let estimates = simulate(&scene, &settings, &mut ());
+    assert_eq!(estimates.unresolved_points, 1);
+    let [dark, beside] = [51, 52].map(|place| estimates.point_intervals(0)[place]);
+    assert!(dark.value == 0.0 && beside.value > 0.0, "{dark:?} {beside:?}");
+}
+
+/// An average of many points is known after the shortest run, whatever each of them is; so nothing is spent on a survey.
+#[test]
+fn averages_ask_for_less() {
+    let mut scene = diffuse_cube(&[]);
+    scene.sensors = vec![wall_grid([12, 12])];
+    let run = |tolerance_on| {
+        let settings = Settings {
+            estimator: Estimator::Bidirectional,
+            rel_tol: 0.003,
+            tolerance_on,
+            max_samples: Some(16),
+            ..Settings::default()
+        };
+        simulate(&scene, &settings, &mut ()).rays
+    };
+    let [points, average] = [ToleranceOn::Points, ToleranceOn::Summary].map(run);
+    assert!(average < points / 2, "{average} {points}");
 }
 
 /// One sensor in a sealed box that no light reaches, among others outside: its paths end like those of others.
