@@ -13,7 +13,7 @@ mod wanted;
 
 pub(crate) use cost::Promise;
 pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial};
-pub(crate) use wanted::{BY_CHANCE, Wanted};
+pub(crate) use wanted::{BY_CHANCE, MUCH_MORE, Wanted};
 
 use crate::correction::{Choice, FrozenMap, Outcome};
 use crate::gathering::Exact;
@@ -171,9 +171,9 @@ impl<S: Spectrum> Tried<S> {
         if self.sample.step == 1 {
             return (0..targets.len()).map(|target| self.wanted.worth_per_lx(target)).collect();
         }
-        let looks = Trial::looks(stage, targets, quantum);
-        *rays += looks.rays as u64;
-        let found = exact.iter().zip(&looks.lx);
+        let (looks_lx, of_looks) = trial::looks(stage, targets, quantum);
+        *rays += of_looks;
+        let found = exact.iter().zip(&looks_lx);
         found.map(|(exact, lx)| self.wanted.worth_of(exact.sum_lx() + lx)).collect()
     }
 }

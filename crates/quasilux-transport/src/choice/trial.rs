@@ -93,16 +93,6 @@ impl Trial {
         Self { lx: pieces.map(value_lx).collect(), rays: rays as f64 }
     }
 
-    /// What one short look finds at each target, paths to their ends in one replicate.
-    pub(crate) fn looks<S: Spectrum>(
-        stage: &Stage<'_, S>,
-        targets: &[Target],
-        quantum: Quantum,
-    ) -> Self {
-        let pieces = trace(stage, (targets, 1), false, (None, quantum));
-        Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
-    }
-
     pub(crate) fn moments(&self, target: usize) -> Moments {
         let each = REPLICATES.len();
         let values = &self.lx[target * each..(target + 1) * each];
@@ -137,6 +127,17 @@ impl<S: Spectrum> PathTrial<S> {
         };
         Self { trial, walks: Walks::all(walks, rays), finds_light }
     }
+}
+
+/// What one short look finds at each target, in lx, by paths to their ends in one replicate; and its rays.
+pub(super) fn looks<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    quantum: Quantum,
+) -> (Vec<f64>, u64) {
+    let pieces = trace(stage, (targets, 1), false, (None, quantum));
+    let Trial { lx, rays } = Trial::of(pieces.iter().map(|(piece, _)| piece), quantum);
+    (lx, rays as u64)
 }
 
 /// Rays by which a path asks lights themselves where it starts, at most.

@@ -7,47 +7,36 @@ use crate::settings::{Settings, ToleranceOn};
 /// A shortfall of so many times the variance of means may be by chance.
 pub(crate) const BY_CHANCE: f64 = 4.0;
 
+/// Paths do not find the light where others find so many times as much.
+pub(crate) const MUCH_MORE: f64 = 2.0;
+
 /// What is to be known, and how well.
 pub(crate) struct Wanted {
     budget: Budget,
-    tolerance: Tolerance,
+    settings: Settings,
     /// The illuminance at each target that is looked at, as far as known.
     means_lx: Vec<f64>,
-    /// What an error is compared with there.
-    scales_lx: Vec<f64>,
-}
-
-/// What errors are compared with.
-#[derive(Clone, Copy)]
-enum Tolerance {
-    /// Each with the tolerance of its own value; without one, with the value.
-    Of { rel_tol: f64, abs_tol_lx: f64 },
-    /// All with that of the average, where only averages are wanted.
-    Same(f64),
-}
-
-impl Tolerance {
-    fn scale_lx(self, mean_lx: f64) -> f64 {
-        match self {
-            Self::Of { rel_tol, abs_tol_lx } => (rel_tol * mean_lx.abs()).max(abs_tol_lx),
-            Self::Same(lx) => lx,
-        }
-    }
+    /// The mean of these.
+    average_lx: f64,
 }
 
 impl Wanted {
     /// Of a sample whose targets have these means.
     pub(crate) fn new(settings: &Settings, sample: &Sample, means_lx: Vec<f64>) -> Self {
         let average_lx = means_lx.iter().sum::<f64>() / means_lx.len().max(1) as f64;
-        let for_average = settings.tolerance_on == ToleranceOn::Summary;
-        let tolerance = match settings.has_tolerance() {
-            true if for_average => Tolerance::Same(settings.tolerance_lx(average_lx)),
-            true => Tolerance::Of { rel_tol: settings.rel_tol, abs_tol_lx: settings.abs_tol_lx },
-            false => Tolerance::Of { rel_tol: 1.0, abs_tol_lx: 0.0 },
-        };
-        let scales_lx = means_lx.iter().map(|mean_lx| tolerance.scale_lx(*mean_lx)).collect();
         let budget = Budget::of(settings, (sample.all, sample.targets_for_each()));
-        Self { budget, tolerance, means_lx, scales_lx }
+        Self { budget, settings: settings.clone(), means_lx, average_lx }
+    }
+
+    /// What an error is compared with where the illuminance is this: its tolerance, that of the average where only
+    /// averages are wanted, or itself where there is none.
+    fn scale_lx(&self, mean_lx: f64) -> f64 {
+        let Self { settings, average_lx, .. } = self;
+        match settings.tolerance_on {
+            _ if !settings.has_tolerance() => mean_lx,
+            ToleranceOn::Points => settings.tolerance_lx(mean_lx),
+            ToleranceOn::Summary => settings.tolerance_lx(*average_lx),
+        }
     }
 
     /// How many targets are looked at.
@@ -67,14 +56,14 @@ impl Wanted {
 
     /// The same where the illuminance is this.
     pub(crate) fn worth_of(&self, mean_lx: f64) -> f64 {
-        let scale_lx = self.tolerance.scale_lx(mean_lx);
+        let scale_lx = self.scale_lx(mean_lx);
         if mean_lx > 0.0 && scale_lx > 0.0 { 1.0 / scale_lx } else { 0.0 }
     }
 
     /// Of what a trial finds, over the scales squared; one for each target that is seen.
     pub(crate) fn variances(&self, trial: &Trial) -> Vec<f64> {
         let relative = |target: usize| {
-            let scale_lx = self.scales_lx[target];
+            let scale_lx = self.scale_lx(self.means_lx[target]);
             trial.moments(target).variance / (scale_lx * scale_lx)
         };
         self.seen().map(relative).collect()
@@ -84,7 +73,8 @@ impl Wanted {
     /// cannot be by chance, where means have this variance.
     pub(crate) fn shortfall(&self, found_lx: impl Fn(usize) -> f64, noise: f64) -> f64 {
         let (sum, count) = self.seen().fold((0.0, 0.0), |(sum, count), target| {
-            let missing = (self.means_lx[target] - found_lx(target)) / self.scales_lx[target];
+            let mean_lx = self.means_lx[target];
+            let missing = (mean_lx - found_lx(target)) / self.scale_lx(mean_lx);
             (sum + missing * missing, count + 1.0)
         });
         if count > 0.0 { (sum / count - BY_CHANCE * noise).max(0.0) } else { 0.0 }

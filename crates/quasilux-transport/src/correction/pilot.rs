@@ -1,9 +1,10 @@
 //! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all, by what a trial of
 //! paths foretells.
 
+use super::survival::{LEAST, Survival};
 use super::trips::{Outcome, Trips};
 use super::walk::Ending;
-use super::{FrozenMap, Survival, Walks, bounces_left, layers};
+use super::{FrozenMap, Walks, bounces_left, layers};
 use crate::choice::{Promise, Wanted};
 use crate::first_shot::{LitCells, decide};
 use crate::map::{MapLayout, MapReceiver, MapTally};
@@ -25,8 +26,7 @@ const FIRST_SHOT_SHARE: u64 = 8;
 /// Bounds on them, and on those of a map.
 const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
 pub(crate) const MOST_PHOTONS: u64 = 1 << 20;
-/// The search begins where paths go on with about this probability; each step is a factor of sqrt(2).
-const LEAST_CHANCE: f64 = 1.0 / 64.0;
+/// The search begins where paths go on with about the least probability; each step is a factor of sqrt(2).
 const STEPS: u32 = 16;
 
 /// A map as a pilot left it, and what is best made of it.
@@ -136,7 +136,7 @@ impl<S: Spectrum> Choice<S> {
 /// Paths that go on seldom, more often, and nearly always.
 fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
     let usual = trips.usual_loss(survival);
-    let first = if usual > 0.0 { LEAST_CHANCE / usual } else { 0.0 };
+    let first = if usual > 0.0 { LEAST / usual } else { 0.0 };
     let sureness = |step: u32| first * libm::pow(SQRT_2, f64::from(step));
     (0..=STEPS).map(|step| survival.with_sureness(sureness(step))).collect()
 }

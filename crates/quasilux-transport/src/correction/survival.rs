@@ -3,7 +3,7 @@
 use crate::state::Writer;
 
 /// Paths go on with this probability at least, so that no survivor counts too much.
-const LEAST: f64 = 1.0 / 64.0;
+pub(super) const LEAST: f64 = 1.0 / 64.0;
 /// Where the map has less than this part of the mean, it is taken as if it had so much: it may have missed something.
 const DIM: f64 = 0.1;
 /// What is known of all elements counts in each as much as this many paths of its own, of usual light.

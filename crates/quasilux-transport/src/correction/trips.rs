@@ -3,7 +3,7 @@
 use super::survival::Finding;
 use super::walk::{Ending, Price, Step, Walk};
 use super::{Note, Survival, bounces_left};
-use crate::choice::{SAMPLES, Wanted};
+use crate::choice::{MUCH_MORE, SAMPLES, Wanted};
 use crate::map::{IlluminationMap, MapLayout};
 use crate::path::Ended;
 use crate::spectrum::Spectrum;
@@ -12,9 +12,6 @@ use rayon::prelude::*;
 
 /// At most this part of how far a map is off is taken for noise, which more photons would mend.
 const MOST_NOISE: f64 = 0.75;
-
-/// Paths do not find the light where the map has so many times as much.
-const MUCH_MORE: f64 = 2.0;
 
 /// Paths of a trial.
 #[derive(Debug)]

@@ -8,7 +8,7 @@
 //! counts as an error of theirs.
 
 use super::{Joined, Joining};
-use crate::choice::{BY_CHANCE, Promise, REPLICATES, SAMPLES, Sample, Trial, Wanted};
+use crate::choice::{BY_CHANCE, MUCH_MORE, Promise, REPLICATES, SAMPLES, Sample, Trial, Wanted};
 use crate::gathering::Exact;
 use crate::photon::PhotonCounts;
 use crate::settings::{Settings, Switch};
@@ -35,9 +35,6 @@ const MOST_VIEWS: usize = 1 << 24;
 /// its neighbours end where it does.
 const JOINING_RAY: f64 = 0.25;
 
-/// Paths do not find the light where others find so many times as much.
-const MUCH_MORE: f64 = 2.0;
-
 /// What there is without joined photons.
 pub(crate) struct Alone<'t> {
     /// Paths that hardly end.
@@ -50,7 +47,6 @@ pub(crate) struct Alone<'t> {
 
 /// All ways that a survey of the scene leaves.
 pub(crate) struct Ways {
-    exact_lx: Vec<f64>,
     ways: Vec<Way>,
     /// That it took to try them.
     pub(crate) rays: u64,
@@ -121,7 +117,7 @@ impl Ways {
             let joining = pilot.joining;
             ways.push(Way { joining, expected_lx, joined, coarse, beside, beforehand });
         }
-        Self { exact_lx: sample.exact_lx.clone(), ways, rays }
+        Self { ways, rays }
     }
 
     /// The best of them, where that is asked for, or where it promises fewer rays than there are without, or finds much more
@@ -135,17 +131,17 @@ impl Ways {
         (targets, (quantum, replicates)): (&[Target], (Quantum, u32)),
     ) -> Option<Joined> {
         let Alone { trial: alone, part, finds_light } = *alone;
-        let wanted = Wanted::new(settings, sample, self.means_lx(alone));
+        let wanted = Wanted::new(settings, sample, self.means_lx(&sample.exact_lx, alone));
         let noise = wanted.variances(alone).iter().sum::<f64>()
             + self.ways.iter().flat_map(|way| way.variances(&wanted)).sum::<f64>();
         let noise = noise / (REPLICATES.len() * wanted.seen().count().max(1)) as f64;
-        let found_alone_lx = |target: usize| self.exact_lx[target] + alone.moments(target).mean;
+        let found_alone_lx = |target: usize| sample.exact_lx[target] + alone.moments(target).mean;
         let missed = wanted.shortfall(found_alone_lx, noise);
         let of_alone: Vec<f64> = wanted.variances(alone).iter().map(|v| v + missed).collect();
         let plain = Promise::of_paths(&of_alone, alone.rays);
         let pays = |best: &Best, way: &Way| {
             let finds_more = |target: usize| {
-                let found_lx = self.exact_lx[target] + way.found_lx(target);
+                let found_lx = sample.exact_lx[target] + way.found_lx(target);
                 let more_lx = found_lx - found_alone_lx(target);
                 let noise = (way.variance(target) + alone.moments(target).variance)
                     / REPLICATES.len() as f64;
@@ -155,7 +151,7 @@ impl Ways {
             (!finds_light && wanted.seen().any(finds_more))
                 || wanted.rays(&plain, &best.promise()) < part * wanted.rays(&plain, &plain)
         };
-        let tried = self.ways.iter().map(|way| way.best(&self.exact_lx, &wanted, noise));
+        let tried = self.ways.iter().map(|way| way.best(&sample.exact_lx, &wanted, noise));
         let effort = |best: &Best| wanted.effort(&best.promise());
         let best = tried.zip(&self.ways).enumerate();
         let best = best.min_by(|(_, (a, _)), (_, (b, _))| effort(a).total_cmp(&effort(b)));
@@ -173,13 +169,13 @@ impl Ways {
 
     /// The illuminance at each target, as far as known: the most that any way found, for what is seldom found is
     /// found too little by most.
-    fn means_lx(&self, alone: &Trial) -> Vec<f64> {
+    fn means_lx(&self, exact_lx: &[f64], alone: &Trial) -> Vec<f64> {
         let mean_lx = |(target, exact_lx): (usize, &f64)| {
             let found = |way: &Way| way.found_lx(target);
             let most = self.ways.iter().map(found).fold(alone.moments(target).mean, f64::max);
             exact_lx + most
         };
-        self.exact_lx.iter().enumerate().map(mean_lx).collect()
+        exact_lx.iter().enumerate().map(mean_lx).collect()
     }
 }
 
