@@ -106,6 +106,21 @@ impl<'a> SampleCursor<'a> {
         self.branch != 0
     }
 
+    /// The same sample, if a split one the same child, among other points: from their coordinate `dimension` on.
+    ///
+    /// ```
+    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// let [points, others] = [1, 2].map(|key| PointSet::new(Sequence::Sobol, Randomization::Owen, key));
+    /// let parent = SampleCursor::new(&points, 7);
+    /// assert_eq!(parent.among(&others, 3).next_1d(), others.coordinate(7, 3));
+    /// assert_ne!(parent.child(1).among(&others, 3).next_1d(), others.coordinate(7, 3));
+    /// ```
+    #[inline]
+    #[must_use]
+    pub const fn among<'p>(&self, points: &'p PointSet, dimension: u32) -> SampleCursor<'p> {
+        SampleCursor { branch: self.branch, dimension, ..SampleCursor::new(points, self.index) }
+    }
+
     /// The number of the point.
     #[inline]
     #[must_use]

@@ -13,6 +13,7 @@ use crate::sections::PathSums;
 use crate::settings::{Estimator, Settings, Switch};
 use crate::simulate::is_grey;
 use crate::spectrum::Spectrum;
+use crate::steering::{Fork, MOST_FORKS};
 use crate::tally::Sum;
 use quasilux_scene::{Rgb, Scene};
 
@@ -25,7 +26,7 @@ const VALUE_BYTES: u64 = 4 * size_of::<f64>() as u64;
 const PIXEL_BYTES: u64 = 48;
 /// Cells of a survey at most, and what guides photons in each of them.
 const CELLS: u64 = 1 << 13;
-const GUIDE_BYTES: u64 = 4400;
+const GUIDE_BYTES: u64 = (MOST_FORKS * size_of::<Fork>()) as u64;
 /// Light that leaves a cell: its sum and its mean, straight and other.
 const LEAVING_BYTES: u64 = 96;
 /// What a sensor point sees of a cell, and the most of all of that.

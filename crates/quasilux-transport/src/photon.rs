@@ -53,9 +53,9 @@ pub(crate) trait PhotonReceiver<S> {
     /// Whether photons end where [`Trail::Found`] begins: nobody looks at them further.
     const SPECULAR_ONLY: bool = false;
 
-    /// All that it sees from here on is of the photon with this index, which took so many coordinates.
-    fn follow(&mut self, index: u64, dimension: u32) {
-        let _ = (index, dimension);
+    /// All that it sees from here on is of the photon whose coordinates come from there.
+    fn follow(&mut self, cursor: &SampleCursor<'_>) {
+        let _ = cursor;
     }
 
     /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
@@ -277,7 +277,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         receiver: &mut impl PhotonReceiver<S>,
     ) {
         let bounces = bounces + self.bounces;
-        receiver.follow(self.cursor.index(), self.cursor.dimension());
+        receiver.follow(&self.cursor);
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from, direction, length_m };
         let landing = found.filter(|at| stage.world.bsdf(at).keeps_illuminance());
@@ -440,9 +440,9 @@ impl AddAssign for PhotonCounts {
 impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
     const SPECULAR_ONLY: bool = R::SPECULAR_ONLY;
 
-    fn follow(&mut self, index: u64, dimension: u32) {
+    fn follow(&mut self, cursor: &SampleCursor<'_>) {
         if let Some(receiver) = self {
-            receiver.follow(index, dimension);
+            receiver.follow(cursor);
         }
     }
 

@@ -13,6 +13,7 @@ use crate::tally::{Quantum, Sum};
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::Interaction;
+use quasilux_sampling::SampleCursor;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -138,7 +139,7 @@ struct CellReceiver<'a, S> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
-    fn follow(&mut self, _index: u64, _dimension: u32) {}
+    fn follow(&mut self, _cursor: &SampleCursor<'_>) {}
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 

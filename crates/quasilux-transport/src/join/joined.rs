@@ -4,6 +4,7 @@ use super::Joining;
 use super::coarse::Coarse;
 use super::outlook::Outlook;
 use super::receiver::{Group, JoinReceiver};
+use super::spot::Spot;
 use crate::photon::{PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::spectrum::Spectrum;
@@ -28,7 +29,7 @@ const JOINING: u64 = 4;
 /// Sums that grow with a run.
 pub(crate) struct Joined {
     pub(crate) joining: Joining,
-    targets: Vec<Target>,
+    spots: Vec<Spot>,
     /// Illuminance to expect at each, in lx.
     expected_lx: Vec<f64>,
     /// Terms of the Neumann series that are told apart.
@@ -53,34 +54,36 @@ impl Joined {
     pub(crate) fn new<S: Spectrum>(
         stage: &Stage<'_, S>,
         joining: Joining,
-        targets: Vec<Target>,
+        targets: &[Target],
         expected_lx: Vec<f64>,
         replicates: Range<u32>,
         (listed_terms, quantum): (u32, Quantum),
     ) -> Self {
         let terms = listed_terms as usize + 1;
-        let of_group = |group: &[Target]| -> Vec<Mutex<Vec<Sum>>> {
+        let spots: Vec<Spot> =
+            targets.iter().map(|target| Spot::new(&stage.world, target)).collect();
+        let of_group = |group: &[Spot]| -> Vec<Mutex<Vec<Sum>>> {
             let zeros = || Mutex::new(vec![Sum::default(); group.len() * terms]);
             replicates.clone().map(|_| zeros()).collect()
         };
-        let sums = targets.chunks(GROUP).map(of_group).collect();
+        let sums = spots.chunks(GROUP).map(of_group).collect();
         let mut rays = 0;
         let coarse = (joining.coarse_photons > 0).then(|| {
-            let look = |group: &[Target]| {
+            let look = |group: &[Spot]| {
                 let (outlook, looks) = Outlook::new(stage, &joining, group);
                 rays += looks;
                 outlook
             };
             let quantum = Quantum::for_reference(stage.lights.flux_lm);
             let cells = joining.places.len();
-            let outlooks = targets.chunks(GROUP).map(look).collect();
+            let outlooks = spots.chunks(GROUP).map(look).collect();
             (outlooks, Coarse::new(cells, terms, quantum, replicates.clone()))
         });
         let (samples, ends) = (0, vec![None; targets.len()]);
         let settled = vec![None; targets.len()];
         Self {
             joining,
-            targets,
+            spots,
             expected_lx,
             terms,
             quantum,
@@ -142,14 +145,14 @@ impl Joined {
             let photons = self.samples * each..samples * each;
             counted = coarse.grow(stage, &self.joining, CERTAIN_WEIGHT, photons, watch)?;
         }
-        let chunks = self.targets.chunks(GROUP).zip(self.expected_lx.chunks(GROUP));
+        let chunks = self.spots.chunks(GROUP).zip(self.expected_lx.chunks(GROUP));
         let chunks = chunks.zip(self.ends.chunks(GROUP));
-        for (number, (((targets, expected_lx), ends), sums)) in (0..).zip(chunks.zip(&self.sums)) {
+        for (number, (((spots, expected_lx), ends), sums)) in (0..).zip(chunks.zip(&self.sums)) {
             if ends.iter().all(Option::is_some) {
                 continue;
             }
             let outlook = self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number as usize]);
-            let group = Group { targets, expected_lx, outlook, ends, terms: self.terms };
+            let group = Group { spots, expected_lx, outlook, ends, terms: self.terms };
             let receiver = |r: u32| {
                 let points = stage.points(r, Stream::JoinedPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];

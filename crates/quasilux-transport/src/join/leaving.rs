@@ -45,6 +45,11 @@ impl Leaving {
         let behind = if bsdf.transmits() { side(-at.n, -DVec3::Z) } else { nothing };
         Self { sides: [side(at.n, DVec3::Z), behind] }
     }
+
+    /// To both sides.
+    pub(super) fn lm_sr(&self) -> f64 {
+        self.sides[0].lm_sr + self.sides[1].lm_sr
+    }
 }
 
 impl Side {

@@ -41,8 +41,8 @@ mod coarse;
 mod joined;
 mod leaving;
 mod outlook;
-mod place;
 mod receiver;
+mod spot;
 mod view;
 mod ways;
 
@@ -68,6 +68,8 @@ pub(crate) struct Joining {
     photons: u64,
     /// More for each path, that are only counted by the cell they land in.
     coarse_photons: u64,
+    /// What deviates from the foreseen by less than this part of what a sensor gets in all is left to chance.
+    small: f64,
     /// Some places in each cell of the survey.
     places: Arc<[Vec<Interaction>]>,
 }
@@ -89,7 +91,7 @@ impl Shares {
 impl Joining {
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
-        let Self { landings, windows, photons, coarse_photons, places } = self;
+        let Self { landings, windows, photons, coarse_photons, small, places } = self;
         landings.put(out);
         out.bool(windows.is_some());
         if let Some(windows) = windows {
@@ -97,6 +99,7 @@ impl Joining {
         }
         out.u64(*photons);
         out.u64(*coarse_photons);
+        out.f64(*small);
         let places = places.iter().flatten().flat_map(|at| at.position.to_array());
         places.for_each(|x| out.f64(x));
     }

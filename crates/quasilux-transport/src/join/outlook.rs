@@ -5,11 +5,11 @@
 //! sensors' views. It need not be right, see [`super`].
 
 use super::Joining;
+use super::spot::Spot;
 use super::view::View;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::state::Writer;
-use crate::targets::Target;
 use crate::world::Interaction;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -31,11 +31,11 @@ impl Outlook {
     pub(super) fn new<S: Spectrum>(
         stage: &Stage<'_, S>,
         joining: &Joining,
-        targets: &[Target],
+        spots: &[Spot],
     ) -> (Self, u64) {
-        let look = |places: &Vec<Interaction>| look(stage, joining, places, targets);
+        let look = |places: &Vec<Interaction>| look(stage, joining, places, spots);
         let (rows, rays): (Vec<Vec<f32>>, Vec<u64>) = joining.places.par_iter().map(look).unzip();
-        (Self { targets: targets.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
+        (Self { targets: spots.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
     }
 
     /// Puts it among the decisions.
@@ -62,13 +62,13 @@ fn look<S: Spectrum>(
     stage: &Stage<'_, S>,
     joining: &Joining,
     places: &[Interaction],
-    targets: &[Target],
+    spots: &[Spot],
 ) -> (Vec<f32>, u64) {
     let densities: Vec<_> = places.iter().map(|at| joining.landings(at.position, at.n)).collect();
     let (mut sights, mut offers) = (Vec::new(), Vec::new());
-    for (number, target) in targets.iter().enumerate() {
+    for (number, spot) in spots.iter().enumerate() {
         for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL.iter().cycle()) {
-            let Some(view) = View::of(&stage.world, target, at, *in_cell) else { continue };
+            let Some(view) = View::of(&stage.world, spot, at, *in_cell) else { continue };
             if view.behind {
                 continue;
             }
@@ -80,10 +80,10 @@ fn look<S: Spectrum>(
     }
     let mut visible = Vec::new();
     stage.world.are_visible(&sights, &mut visible);
-    let mut row = vec![0.0; CLASSES * targets.len()];
+    let mut row = vec![0.0; CLASSES * spots.len()];
     for ((number, first, rest), _) in offers.into_iter().zip(visible).filter(|(_, seen)| *seen) {
         row[number] += first as f32;
-        row[targets.len() + number] += rest as f32;
+        row[spots.len() + number] += rest as f32;
     }
     row.iter_mut().filter(|lx| !lx.is_finite()).for_each(|lx| *lx = 0.0);
     (row, sights.len() as u64)

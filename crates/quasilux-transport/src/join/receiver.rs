@@ -4,13 +4,13 @@ use super::Joining;
 use super::joined::lock;
 use super::leaving::{Leaving, Side};
 use super::outlook::Outlook;
+use super::spot::Spot;
 use super::view::View;
 use crate::photon::{Flight, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::steering::Density;
 use crate::tally::{Quantum, Sum};
-use crate::targets::Target;
 use crate::world::Interaction;
 use quasilux_bvh::Shot;
 use quasilux_sampling::{PointSet, SampleCursor};
@@ -19,22 +19,24 @@ use std::sync::Mutex;
 
 /// Rays that are traced together.
 const RAYS: usize = 512;
-/// What deviates from the foreseen by less than this part of what the target gets in all is left to chance.
-const SMALL: f64 = 0.1;
 /// What is right in the open may be in a shadow: it is asked for as if so large a part of it were wrong.
 const DOUBT: f64 = 0.25;
 /// The first of the coordinates for places in cells. In two streams a dimension has the same digits, permuted: those
 /// that photons draw first would decide where they are joined.
 const PLACE_DIMENSION: u32 = 512;
-/// Steps from target to target, and from bounce to bounce, of the number that decides it: the additive
-/// sequence in two dimensions with the evenest gaps (M. Roberts, "The unreasonable effectiveness of
-/// quasirandom sequences", 2018).
+/// Steps from target to target, and from bounce to bounce, of the number that decides it, and of the place in a
+/// cell from join to join: the additive sequence in two dimensions with the evenest gaps (M. Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
+/// The same in one dimension, for the number that decides it from join to join.
+const STEP: f64 = 0.618_033_988_749_894_9;
+/// One landing is joined to no more places of one cell.
+const MOST_JOINS: f64 = 16.0;
 
 /// Some targets that photons are joined to.
 #[derive(Clone, Copy)]
 pub(super) struct Group<'a> {
-    pub(super) targets: &'a [Target],
+    pub(super) spots: &'a [Spot],
     /// Illuminance to expect at each, in lx.
     pub(super) expected_lx: &'a [f64],
     /// What photons are taken to give by the cell they land in.
@@ -69,7 +71,6 @@ pub(super) struct JoinReceiver<'a, S> {
 
 /// The photon that is being followed.
 struct Seen {
-    index: u64,
     /// The place in every cell.
     in_cell: [f64; 2],
     /// What decides over small contributions.
@@ -98,11 +99,11 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
             group,
             quantum,
             sums,
-            own: vec![Sum::default(); group.targets.len() * group.terms],
+            own: vec![Sum::default(); group.spots.len() * group.terms],
             points,
             photon: None,
             landings: [Density::default(); 2],
-            foreseen_lx: vec![0.0; group.targets.len()],
+            foreseen_lx: vec![0.0; group.spots.len()],
             sights: Vec::new(),
             offers: Vec::new(),
             visible: Vec::new(),
@@ -112,30 +113,42 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
 
     /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
     fn ask(&mut self, number: usize, at: &Interaction, leaving: &Leaving, bounces: u32) {
-        let Some(Seen { in_cell, chance, .. }) = self.photon else { return };
-        let foreseen_lx = self.foreseen_lx[number];
-        let view = View::of(&self.stage.world, &self.group.targets[number], at, in_cell);
-        let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
-        let doubtful_lx = (lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx);
-        let asked = doubtful_lx / (SMALL * self.group.expected_lx[number]);
-        let mut factor = 1.0;
-        if asked < 1.0 {
-            let u = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
-            if u - u.floor() >= asked {
-                return;
-            }
-            factor = 1.0 / asked;
+        let Some(Seen { in_cell, chance }) = self.photon else { return };
+        let (foreseen_lx, spot) = (self.foreseen_lx[number], &self.group.spots[number]);
+        let certain_lx = self.joining.small * self.group.expected_lx[number];
+        let chance = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
+        let most_lx = leaving.lm_sr() * spot.most_lx_sr_lm(at);
+        let is_surely_left = |lx: f64| (1.0 + DOUBT) * lx <= fraction(chance) * certain_lx;
+        if is_surely_left(most_lx) && is_surely_left(foreseen_lx) {
+            return;
         }
-        let term = (bounces as usize + 1).min(self.group.terms - 1);
-        let sum = number * self.group.terms + term;
-        let offer = Offer { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
-        match view {
-            // What is not a number counts: the tally must refuse it.
-            Some(view) if lx != 0.0 => {
-                self.sights.push(view.sight());
-                self.offers.push(offer);
+        let joins = if foreseen_lx > certain_lx && !spot.is_point() {
+            (foreseen_lx / certain_lx).ceil().min(MOST_JOINS)
+        } else {
+            1.0
+        };
+        for join in (0..MOST_JOINS as u32).map(f64::from).take_while(|join| *join < joins) {
+            let place = [0, 1].map(|axis| fraction(in_cell[axis] + join * STEPS[axis]));
+            let u = fraction(chance + join * STEP);
+            let view = View::of(&self.stage.world, spot, at, place);
+            let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
+            let asked =
+                ((lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx)) / (joins * certain_lx);
+            if asked <= u {
+                continue;
             }
-            _ => self.own[sum].add_signed(-offer.foreseen_lx, self.quantum),
+            let factor = if asked < 1.0 { 1.0 / (joins * asked) } else { 1.0 / joins };
+            let term = (bounces as usize + 1).min(self.group.terms - 1);
+            let sum = number * self.group.terms + term;
+            let offer = Offer { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
+            match view {
+                // What is not a number counts: the tally must refuse it.
+                Some(view) if lx != 0.0 => {
+                    self.sights.push(view.sight());
+                    self.offers.push(offer);
+                }
+                _ => self.own[sum].add_signed(-offer.foreseen_lx, self.quantum),
+            }
         }
     }
 
@@ -170,14 +183,15 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
     }
 }
 
+/// Of a number that is not negative.
+fn fraction(x: f64) -> f64 {
+    x - (x as u64) as f64
+}
+
 impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
-    fn follow(&mut self, index: u64, _dimension: u32) {
-        if self.photon.as_ref().is_none_or(|photon| photon.index != index) {
-            let mut cursor = SampleCursor::new(&self.points, index);
-            cursor.skip_to(PLACE_DIMENSION);
-            let (in_cell, chance) = (cursor.next_2d(), cursor.next_1d());
-            self.photon = Some(Seen { index, in_cell, chance });
-        }
+    fn follow(&mut self, cursor: &SampleCursor<'_>) {
+        let mut cursor = cursor.among(&self.points, PLACE_DIMENSION);
+        self.photon = Some(Seen { in_cell: cursor.next_2d(), chance: cursor.next_1d() });
     }
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
@@ -189,7 +203,7 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
         let leaving = Leaving::new(self.stage, self.joining, at, weight);
         self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
         self.foresee(&leaving, bounces == 0);
-        for number in 0..self.group.targets.len() {
+        for number in 0..self.group.spots.len() {
             if self.group.ends[number].is_none() {
                 self.ask(number, at, &leaving, bounces);
             }

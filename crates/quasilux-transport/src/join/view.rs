@@ -1,8 +1,7 @@
 //! A place where a photon landed, as a sensor sees it.
 
-use super::place::Place;
+use super::spot::{Place, Spot};
 use crate::spectrum::Spectrum;
-use crate::targets::Target;
 use crate::world::{Interaction, Vantage, World};
 use glam::DVec3;
 use quasilux_bvh::Shot;
@@ -27,11 +26,11 @@ impl View {
     /// chooses the place in a target that is a cell.
     pub(super) fn of<S: Spectrum>(
         world: &World<S>,
-        target: &Target,
+        spot: &Spot,
         at: &Interaction,
         in_cell: [f64; 2],
     ) -> Option<Self> {
-        let Place { position, normal, weight } = Place::of(target, at.position, in_cell)?;
+        let Place { position, normal, weight } = spot.place(at.position, in_cell)?;
         let from = world.vantage_of_sensor(position, normal);
         let way = at.position - from.position();
         let (cos_d, cos_d_there) = (normal.dot(way), -at.n.dot(way));

@@ -14,7 +14,7 @@ use crate::photon::PhotonCounts;
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
-use crate::steering::{self, Plan};
+use crate::steering::{self, Performance, Plan};
 use crate::tally::Quantum;
 use crate::targets::Target;
 use crate::watch::Watch;
@@ -34,6 +34,11 @@ const MOST_VIEWS: usize = 1 << 24;
 /// A ray that joins costs this part of a ray on a path: it only asks whether anything is in the way, and
 /// its neighbours end where it does.
 const JOINING_RAY: f64 = 0.25;
+
+/// What is left to chance of photons that are steered by nothing: measured on the office and the cube.
+const SMALL: f64 = 0.1;
+/// The most that is left to chance.
+const LARGEST: f64 = 64.0;
 
 /// What there is without joined photons.
 pub(crate) struct Alone<'t> {
@@ -86,8 +91,8 @@ impl Ways {
     ) -> Self {
         let mut rays = 0;
         let mut ways = Vec::new();
-        for Plan { windows, forecast, rays: of_survey } in plans(stage, targets, settings.steering)
-        {
+        for plan in plans(stage, targets, settings.steering) {
+            let Plan { windows, forecast, steered, rays: of_survey } = plan;
             rays += of_survey;
             let Some(forecast) = forecast else { continue };
             let expected_lx = exact.iter().enumerate();
@@ -102,9 +107,11 @@ impl Ways {
                 windows,
                 photons: PHOTONS,
                 coarse_photons: if is_coarse { COARSE_PHOTONS } else { 0 },
+                small: left_to_chance(steered),
             };
-            let (tried, kept) = (sample.targets.clone(), (0, quantum));
-            let mut pilot = Joined::new(stage, joining, tried, asked_lx, REPLICATES, kept);
+            let kept = (0, quantum);
+            let mut pilot =
+                Joined::new(stage, joining, &sample.targets, asked_lx, REPLICATES, kept);
             // Before the first checkpoint the observer stops nothing, so there are always counts.
             let counts = pilot.grow(stage, SAMPLES, watch).unwrap_or_default();
             let [joined, coarse] = found(&pilot, sample.targets.len(), &counts);
@@ -163,7 +170,7 @@ impl Ways {
             let joining = Joining { photons, coarse_photons, ..way.joining };
             let replicates = 0..replicates;
             let kept = (stage.listed_terms, quantum);
-            Joined::new(stage, joining, targets.to_vec(), way.expected_lx, replicates, kept)
+            Joined::new(stage, joining, targets, way.expected_lx, replicates, kept)
         })
     }
 
@@ -253,6 +260,21 @@ impl Best {
 /// 1, 2, 4 and so on.
 fn powers_up_to(most: u64) -> impl Iterator<Item = u64> {
     std::iter::successors(Some(1), |power| Some(2 * power)).take_while(move |power| *power <= most)
+}
+
+/// The part of what a target gets below which deviations are left to chance.
+///
+/// Where a deviation c, in parts of what a target gets, is asked for with probability c / t, that adds c t to the
+/// variance of a photon there, and saves 1 - c / t of a ray. Variance times cost is least where `t^2 = V r / R`: V the
+/// sum over the targets of the relative variance of a photon, R its rays, and r what a join costs (compare A. Rath et al.,
+/// "EARS: efficiency-aware Russian roulette and splitting", ACM Trans. Graph. 41(4), 2022). V is what the survey foretells of
+/// photons that are steered: a trial hardly sees the rare ones that make most of it.
+fn left_to_chance(steered: Option<Performance>) -> f64 {
+    let of_steered = |Performance { rays, variance }: Performance| {
+        (variance * JOINING_RAY / rays).sqrt().clamp(SMALL, LARGEST)
+    };
+    // Quasi-random points leave little of the variance of the others.
+    steered.map_or(SMALL, of_steered)
 }
 
 /// What joined and counted photons found.

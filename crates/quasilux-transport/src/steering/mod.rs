@@ -16,8 +16,8 @@ mod windows;
 
 pub(crate) use cells::Around;
 pub(crate) use forecast::{Density, Forecast, Landings};
-pub(crate) use guide::Guide;
-pub(crate) use windows::{Split, Windows};
+pub(crate) use guide::{Fork, Guide, MOST_FORKS};
+pub(crate) use windows::{Performance, Split, Windows};
 
 use crate::settings::Switch;
 use crate::spectrum::Spectrum;
@@ -26,7 +26,6 @@ use crate::targets::Target;
 use balance::Balance;
 use std::sync::Arc;
 use survey::Survey;
-use windows::Performance;
 
 /// Photons are steered by themselves where the same error then costs this many times fewer rays. A small
 /// gain would not repay the closer look that steering takes.
@@ -42,6 +41,8 @@ pub(crate) struct Plan {
     pub(crate) windows: Option<Windows>,
     /// What to expect then; `None` where the survey found no light on its way to sensors.
     pub(crate) forecast: Option<Forecast>,
+    /// Of photons that are steered.
+    pub(crate) steered: Option<Performance>,
     /// Rays of the survey.
     pub(crate) rays: u64,
 }
@@ -83,10 +84,12 @@ pub(crate) fn foresee<S: Spectrum>(
         (balance, areas_m2) = refined;
     }
     let regions = Arc::new(survey.regions());
+    let steered =
+        is_steered.then(|| Performance::steered(&survey, &balance).of_each_sensor(&survey));
     let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
     let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
     let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
-    Plan { windows, forecast: Some(forecast), rays: survey.rays }
+    Plan { windows, forecast: Some(forecast), steered, rays: survey.rays }
 }
 
 /// Connects cells over distances, to where light is worth most by what is known so far; what follows

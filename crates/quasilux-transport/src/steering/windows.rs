@@ -10,9 +10,10 @@
 use crate::state::Writer;
 use crate::steering::balance::Balance;
 use crate::steering::cells::Regions;
-use crate::steering::guide::{Guide, Worths};
-use crate::steering::survey::{Known, Survey};
+use crate::steering::guide::{Guide, Hint};
+use crate::steering::survey::{Known, Landing, Survey};
 use crate::world::Interaction;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// No photon is split into more at one landing.
@@ -85,7 +86,7 @@ impl Windows {
 impl Performance {
     /// Of photons of equal weight.
     pub(crate) fn plain(survey: &Survey, balance: &Balance) -> Self {
-        let even = vec![Guide::new(&Worths::default()); survey.known.len()];
+        let even = vec![Guide::even(); survey.known.len()];
         Self::of(survey, balance, &even, &vec![1.0; survey.known.len()])
     }
 
@@ -94,6 +95,11 @@ impl Performance {
         let guides = guides(survey, balance);
         let weights = steered_weights(survey, balance, &guides);
         Self::of(survey, balance, &guides, &weights)
+    }
+
+    /// The same with the sum of the variances at the sensors, if each gets about the same of every photon.
+    pub(crate) fn of_each_sensor(self, survey: &Survey) -> Self {
+        Self { variance: self.variance / survey.sensors.len().max(1) as f64, ..self }
     }
 
     /// Rays times variance: what an error costs.
@@ -156,25 +162,19 @@ impl Split {
 
 /// Directions from each known cell by what its rays, and those of the cells around it, were worth.
 fn guides(survey: &Survey, balance: &Balance) -> Vec<Guide> {
-    let own: Vec<Worths> = survey
-        .known
-        .iter()
-        .map(|cell| {
-            let mut worths = Worths::default();
-            for step in cell.steps() {
-                let worth = step.share * step.weight * balance.landed_worth[step.cell as usize];
-                let u = step.u.map(f64::from);
-                if step.is_far { worths.add_far(u, worth) } else { worths.add_near(u, worth) }
-            }
-            worths
-        })
-        .collect();
-    let merged = survey.known.iter().map(|cell| {
-        let mut worths = Worths::default();
-        survey.numbers_around(cell).for_each(|number| worths.merge(&own[number]));
-        worths
-    });
-    merged.map(|worths| Guide::new(&worths)).collect()
+    let hints = |cell: &Known| -> Vec<Hint> {
+        let hint = |step: Landing| {
+            let worth = step.share * step.weight * balance.landed_worth[step.cell as usize];
+            Hint::new(step.u.map(f64::from), worth)
+        };
+        cell.steps().map(hint).collect()
+    };
+    let own: Vec<Vec<Hint>> = survey.known.par_iter().map(hints).collect();
+    let guide = |cell: &Known| {
+        let around = survey.numbers_around(cell);
+        Guide::new(around.flat_map(|number| own[number].iter().copied()).collect())
+    };
+    survey.known.par_iter().map(guide).collect()
 }
 
 /// Mean squares of what photons that leave each known cell by its guide are worth where they land:
