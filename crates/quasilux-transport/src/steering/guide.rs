@@ -20,7 +20,7 @@ const LEAST_RAYS: usize = 8;
 /// Halvings, half of them along each edge.
 const MOST_HALVINGS: u32 = 24;
 /// No guide halves more regions.
-pub(crate) const MOST_FORKS: usize = 512;
+pub(crate) const MOST_FORKS: usize = 128;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
 const EVEN: f64 = 0.3;
 
