@@ -66,18 +66,17 @@ pub(crate) struct Known {
     /// Rays sent on from here.
     pub(crate) rays: u32,
     /// Where they landed.
-    pub(crate) landings: Vec<Landing>,
-    /// Far places that light goes to; rays that landed as far do not count then.
-    pub(crate) connections: Vec<Landing>,
-    is_connected: bool,
+    landings: Vec<Landing>,
+    /// Far places that light goes to, as many times tried as rays left.
+    connections: Vec<Landing>,
 }
 
 impl Known {
     /// Where light goes that leaves here.
     pub(crate) fn steps(&self) -> impl Iterator<Item = Landing> {
-        let share = 1.0 / f64::from(self.rays.max(1));
-        let rays = self.landings.iter().filter(|ray| !(self.is_connected && ray.is_far));
-        rays.map(move |ray| Landing { share, ..*ray }).chain(self.connections.iter().copied())
+        let of_each = 1.0 / f64::from(self.rays.max(1));
+        let steps = self.landings.iter().chain(&self.connections);
+        steps.map(move |step| Landing { share: step.share * of_each, ..*step })
     }
 }
 
@@ -86,11 +85,13 @@ impl Known {
 pub(crate) struct Landing {
     /// Number of the cell.
     pub(crate) cell: u32,
-    /// The part of all rays that it stands for.
+    /// The part of all rays that it stands for; while it is kept, the rays.
     pub(crate) share: f64,
     /// What specular surfaces on the way let through.
     pub(crate) weight: f64,
-    pub(crate) is_far: bool,
+    /// The share of the light that goes to a square metre there, in m^-2, where a connection may find it
+    /// too; 0 elsewhere.
+    far_per_m2: f64,
     /// The point of the unit square that its direction comes from.
     pub(crate) u: [f32; 2],
 }
@@ -107,15 +108,21 @@ pub(crate) struct Surveyed {
 struct Found {
     at: Interaction,
     weight: f64,
-    /// Whether it came straight from so far that connections stand for it.
-    is_far: bool,
+    /// Whether it came past no other surface.
+    is_straight: bool,
 }
 
 /// What became of a ray that may have passed specular surfaces.
 struct Flown {
+    /// See [`Landing`].
     u: [f32; 2],
+    far_per_m2: f64,
     found: Option<Found>,
     rays: u64,
+}
+
+impl Flown {
+    const NOWHERE: Self = Self { u: [0.0; 2], far_per_m2: 0.0, found: None, rays: 0 };
 }
 
 impl Survey {
@@ -153,7 +160,9 @@ impl Survey {
     /// end for darker, and a chance to get there at once for none.
     ///
     /// From a place with normal n the share of the light that goes to one with n' in a cell of area A
-    /// is `cos cos' A / (pi d^2)`, if nothing stands between.
+    /// is `p = cos cos' A / (pi d^2)`, if nothing stands between. Where such a cell is chosen with probability q,
+    /// what a ray or a connection finds there counts `p / (p + q)` (balance heuristic): worths that were wrong leave
+    /// the light that goes elsewhere to the rays.
     pub(crate) fn connect<S: Spectrum>(
         &mut self,
         stage: &Stage<'_, S>,
@@ -163,6 +172,10 @@ impl Survey {
         let weights: Vec<f64> = areas_m2.iter().zip(worths).map(|(a, w)| a * w).collect();
         let Some(choices) = Discrete::new(&weights) else { return };
         let points = stage.points(0, Stream::Survey(3));
+        let counted = |far_per_m2: f64, cell: usize| {
+            let p = far_per_m2 * areas_m2[cell];
+            p / (p + choices.probability(cell))
+        };
         let (known, far_m) = (&self.known, self.cells.far_m());
         let connect = |number: usize| {
             let from = &known[number];
@@ -184,14 +197,13 @@ impl Survey {
                 }
                 let vantage = stage.world.vantage(start);
                 let lit = stage.world.is_visible(vantage, direction, distance_m, end.facet);
-                let chance = choice.probability * f64::from(from.rays);
-                let share = cos * cos_end * areas_m2[choice.index] / (PI * distance_m * distance_m);
+                let far_per_m2 = cos * cos_end / (PI * distance_m * distance_m);
                 let local = stage.world.frame(start).to_local(direction);
                 let connection = Landing {
                     cell: choice.index as u32,
-                    share: share / chance,
+                    share: counted(far_per_m2, choice.index),
                     weight: 1.0,
-                    is_far: true,
+                    far_per_m2,
                     u: invert_cosine_hemisphere(local.to_array()).map(|u| u as f32),
                 };
                 Some((lit, connection))
@@ -203,7 +215,9 @@ impl Survey {
         for (cell, found) in self.known.iter_mut().zip(found) {
             self.rays += found.len() as u64;
             cell.connections = found.into_iter().filter(|(lit, _)| *lit).map(|(_, c)| c).collect();
-            cell.is_connected = true;
+            for ray in cell.landings.iter_mut().filter(|ray| ray.far_per_m2 > 0.0) {
+                ray.share = counted(ray.far_per_m2, ray.cell as usize);
+            }
         }
     }
 
@@ -212,7 +226,7 @@ impl Survey {
         let fly = |index: u64| {
             let mut cursor = SampleCursor::new(&points, index);
             let start = stage.lights.emit(stage, &mut cursor)?.emission;
-            Some(fly(stage, start, f64::INFINITY, &mut cursor))
+            Some(fly(stage, start, &mut cursor))
         };
         let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();
         for flown in flown.into_iter().flatten() {
@@ -236,7 +250,7 @@ impl Survey {
                 let mut cursor = SampleCursor::new(&points, number * rays + index);
                 let wi = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
                 let start = Emission { from, direction: frame.to_world(wi) };
-                fly(stage, start, f64::INFINITY, &mut cursor)
+                fly(stage, start, &mut cursor)
             };
             let flown: Vec<Flown> = (0..rays).into_par_iter().map(look).collect();
             let landings = flown.into_iter().filter_map(|flown| self.enter(stage, flown)).collect();
@@ -286,7 +300,7 @@ impl Survey {
     /// nowhere, or there is no room for new cells.
     fn enter<S: Spectrum>(&mut self, stage: &Stage<'_, S>, flown: Flown) -> Option<Landing> {
         self.rays += flown.rays;
-        let Found { at, weight, is_far } = flown.found?;
+        let Found { at, weight, .. } = flown.found?;
         let place = self.cells.cell(&at);
         let number = &mut self.number_of_cell[place];
         if *number == Regions::UNKNOWN {
@@ -301,7 +315,6 @@ impl Survey {
                 rays: 0,
                 landings: Vec::new(),
                 connections: Vec::new(),
-                is_connected: false,
             });
         }
         let cell = *number;
@@ -311,7 +324,8 @@ impl Survey {
             known.albedo += (albedo - known.albedo) / (known.places.len() + 1) as f64;
             known.places.push(at);
         }
-        Some(Landing { cell, share: 0.0, weight, is_far, u: flown.u })
+        let Flown { u, far_per_m2, .. } = flown;
+        Some(Landing { cell, share: 1.0, weight, far_per_m2, u })
     }
 }
 
@@ -350,30 +364,29 @@ fn go_on<S: Spectrum>(
     let u = invert_cosine_hemisphere(wi.abs().to_array()).map(|u| u as f32);
     let from = if wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
     let start = Emission { from, direction: world.frame(at).to_world(wi) };
-    Some(Flown { u, ..fly(stage, start, far_m, &mut cursor) })
+    let flown = fly(stage, start, &mut cursor);
+    let far_per_m2 = match &flown.found {
+        Some(Found { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
+            wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)
+        }
+        _ => 0.0,
+    };
+    Some(Flown { u, far_per_m2, ..flown })
 }
 
 /// Flies to the first surface that keeps illuminance.
-fn fly<S: Spectrum>(
-    stage: &Stage<'_, S>,
-    start: Emission,
-    far_m: f64,
-    cursor: &mut SampleCursor<'_>,
-) -> Flown {
+fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, cursor: &mut SampleCursor<'_>) -> Flown {
     let world = &stage.world;
     let Emission { mut from, mut direction } = start;
     let mut weight = 1.0;
     for passed in 0..MOST_PASSED {
         let rays = u64::from(passed) + 1;
-        let nothing = Flown { u: [0.0; 2], found: None, rays };
+        let nothing = Flown { found: None, rays, ..Flown::NOWHERE };
         let Some(at) = world.trace(from, direction) else { return nothing };
         let (bsdf, frame) = (world.bsdf(&at), world.frame(&at));
         if bsdf.keeps_illuminance() {
-            return Flown {
-                u: [0.0; 2],
-                found: Some(Found { is_far: passed == 0 && at.distance_m > far_m, at, weight }),
-                rays,
-            };
+            let found = Some(Found { at, weight, is_straight: passed == 0 });
+            return Flown { found, rays, ..Flown::NOWHERE };
         }
         let wo = frame.to_local(-direction);
         let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, cursor) else { return nothing };
@@ -381,5 +394,5 @@ fn fly<S: Spectrum>(
         from = if next.wi.z > 0.0 { world.vantage(&at) } else { world.vantage_behind(&at) };
         direction = frame.to_world(next.wi);
     }
-    Flown { u: [0.0; 2], found: None, rays: u64::from(MOST_PASSED) }
+    Flown { rays: u64::from(MOST_PASSED), ..Flown::NOWHERE }
 }
