@@ -14,7 +14,7 @@ use crate::photon::PhotonCounts;
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
-use crate::steering::{self, Performance, Plan};
+use crate::steering::{self, Performance, Plan, WORTHWHILE};
 use crate::tally::Quantum;
 use crate::targets::Target;
 use crate::watch::Watch;
@@ -66,6 +66,8 @@ struct Way {
     beside: Trial,
     /// Rays that it takes to find out what all targets see.
     beforehand: f64,
+    /// How many times what its trial promises it may cost.
+    doubt: f64,
 }
 
 /// How photons are joined best in one way.
@@ -91,8 +93,8 @@ impl Ways {
     ) -> Self {
         let mut rays = 0;
         let mut ways = Vec::new();
-        for plan in plans(stage, targets, settings.steering) {
-            let Plan { windows, forecast, steered, rays: of_survey } = plan;
+        for (plan, doubt) in plans(stage, targets, settings.steering) {
+            let Plan { windows, forecast, steered, rays: of_survey, .. } = plan;
             rays += of_survey;
             let Some(forecast) = forecast else { continue };
             let expected_lx = exact.iter().enumerate();
@@ -122,7 +124,7 @@ impl Ways {
             rays += counts.iter().map(|counts| counts.rays).sum::<u64>();
             let beforehand = pilot.rays as f64 * sample.targets_for_each();
             let joining = pilot.joining;
-            ways.push(Way { joining, expected_lx, joined, coarse, beside, beforehand });
+            ways.push(Way { joining, expected_lx, joined, coarse, beside, beforehand, doubt });
         }
         Self { ways, rays }
     }
@@ -159,9 +161,9 @@ impl Ways {
                 || wanted.rays(&plain, &best.promise()) < part * wanted.rays(&plain, &plain)
         };
         let tried = self.ways.iter().map(|way| way.best(&sample.exact_lx, &wanted, noise));
-        let effort = |best: &Best| wanted.effort(&best.promise());
+        let effort = |(best, way): &(Best, &Way)| way.doubt * wanted.effort(&best.promise());
         let best = tried.zip(&self.ways).enumerate();
-        let best = best.min_by(|(_, (a, _)), (_, (b, _))| effort(a).total_cmp(&effort(b)));
+        let best = best.min_by(|(_, a), (_, b)| effort(a).total_cmp(&effort(b)));
         let best =
             best.filter(|(_, (best, way))| settings.joins() == Some(true) || pays(best, way));
         let best = best.map(|(number, (best, _))| (number, best));
@@ -186,12 +188,18 @@ impl Ways {
     }
 }
 
-/// Photons as the survey says; where it says that they should be steered, also left alone.
-fn plans<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], steering: Switch) -> Vec<Plan> {
+/// Photons as the survey says, and how far to doubt what a trial of them promises. Where the survey says that they should
+/// be steered, they are also left alone; their trial then hardly sees what the survey foretells, and counts as much less.
+fn plans<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    steering: Switch,
+) -> Vec<(Plan, f64)> {
     let plan = steering::foresee(stage, targets, steering);
     let is_open = steering == Switch::Auto && plan.windows.is_some();
-    let plain = is_open.then(|| steering::foresee(stage, targets, Switch::Off));
-    std::iter::once(plan).chain(plain).collect()
+    let doubt = plan.gain / WORTHWHILE;
+    let plain = is_open.then(|| (steering::foresee(stage, targets, Switch::Off), doubt));
+    std::iter::once((plan, 1.0)).chain(plain).collect()
 }
 
 impl Way {

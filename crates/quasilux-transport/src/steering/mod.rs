@@ -29,7 +29,7 @@ use survey::Survey;
 
 /// Photons are steered by themselves where the same error then costs this many times fewer rays. A small
 /// gain would not repay the closer look that steering takes.
-const WORTHWHILE: f64 = 8.0;
+pub(crate) const WORTHWHILE: f64 = 8.0;
 
 /// Times that far cells are connected on a closer look, each time chosen by what was learnt before.
 const LOOKS: u32 = 2;
@@ -43,6 +43,8 @@ pub(crate) struct Plan {
     pub(crate) forecast: Option<Forecast>,
     /// Of photons that are steered.
     pub(crate) steered: Option<Performance>,
+    /// Times that the same error costs fewer rays then, as foretold before the closer look.
+    pub(crate) gain: f64,
     /// Rays of the survey.
     pub(crate) rays: u64,
 }
@@ -69,10 +71,10 @@ pub(crate) fn foresee<S: Spectrum>(
     let Some((mut balance, mut areas_m2)) = look_far(stage, &mut survey, 1) else {
         return Plan { rays: survey.rays, ..Plan::default() };
     };
-    let plain = Performance::plain(&survey, &balance).cost_of_error();
-    let steered = Performance::steered(&survey, &balance).cost_of_error();
+    let plain = Performance::plain(&survey, &balance);
+    let gain = plain.cost_of_error() / Performance::steered(&survey, &balance).cost_of_error();
     let is_steered = match steering {
-        Switch::Auto => plain >= WORTHWHILE * steered,
+        Switch::Auto => gain >= WORTHWHILE,
         Switch::On => true,
         Switch::Off => false,
     };
@@ -89,7 +91,7 @@ pub(crate) fn foresee<S: Spectrum>(
     let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
     let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
     let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
-    Plan { windows, forecast: Some(forecast), steered, rays: survey.rays }
+    Plan { windows, forecast: Some(forecast), steered, gain, rays: survey.rays }
 }
 
 /// Connects cells over distances, to where light is worth most by what is known so far; what follows
