@@ -124,33 +124,33 @@ impl Cells {
         self.cell_in(place.map(|x| x.max(0.0) as usize), n)
     }
 
-    /// The cells in the boxes around a place, and the weights of linear interpolation.
+    /// The cells in the boxes around a place, and the weights of linear interpolation. Where there is no such box,
+    /// the nearest stands for it.
     fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); CORNERS] {
-        let place = ((position - self.low) / self.edge_m).to_array().map(|x| x - 0.5);
+        let from_middles = ((position - self.low) / self.edge_m).to_array().map(|x| x + 0.5);
+        let along = |axis: usize| {
+            let high = from_middles[axis].max(0.0) as usize;
+            let high_share = from_middles[axis] - high as f64;
+            let boxes = [high.saturating_sub(1), high].map(|place| self.bounded(place, axis));
+            [(boxes[0], 1.0 - high_share), (boxes[1], high_share)]
+        };
+        let (along, side) = ([0, 1, 2].map(along), side(n));
         std::array::from_fn(|corner| {
-            let mut weight = 1.0;
-            let boxes = std::array::from_fn(|axis| {
-                let low = place[axis].floor();
-                let (high_share, is_high) = (place[axis] - low, corner >> axis & 1 == 1);
-                weight *= if is_high { high_share } else { 1.0 - high_share };
-                (low + f64::from(u8::from(is_high))).max(0.0) as usize
-            });
-            (self.cell_in(boxes, n), weight)
+            let [x, y, z] = std::array::from_fn(|axis| along[axis][corner >> axis & 1]);
+            (self.number([x.0, y.0, z.0], side), x.1 * y.1 * z.1)
         })
     }
 
     /// The cell in a box, or the nearest box that there is, on the side `n`.
     fn cell_in(&self, boxes: [usize; 3], n: DVec3) -> usize {
-        let [x, y, z] = std::array::from_fn(|axis| boxes[axis].min(self.counts[axis] - 1));
-        let size = n.abs();
-        let axis = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let side = 2 * axis + usize::from(n[axis] > 0.0);
+        self.number(std::array::from_fn(|axis| self.bounded(boxes[axis], axis)), side(n))
+    }
+
+    fn bounded(&self, place: usize, axis: usize) -> usize {
+        place.min(self.counts[axis] - 1)
+    }
+
+    fn number(&self, [x, y, z]: [usize; 3], side: usize) -> usize {
         ((z * self.counts[1] + y) * self.counts[0] + x) * SIDES + side
     }
 
@@ -161,8 +161,7 @@ impl Cells {
         let [x, y, z] = [place % nx, place / nx % ny, place / (nx * ny)];
         let near = |place: usize, count: usize| place.saturating_sub(1)..(place + 2).min(count);
         near(z, nz).flat_map(move |z| {
-            near(y, ny)
-                .flat_map(move |y| near(x, nx).map(move |x| ((z * ny + y) * nx + x) * SIDES + side))
+            near(y, ny).flat_map(move |y| near(x, nx).map(move |x| self.number([x, y, z], side)))
         })
     }
 
@@ -184,6 +183,19 @@ impl Cells {
         }
         areas_m2
     }
+}
+
+/// The way that a normal faces, of [`SIDES`].
+fn side(n: DVec3) -> usize {
+    let size = n.abs();
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    2 * axis + usize::from(n[axis] > 0.0)
 }
 
 /// Barycentric weights of the centroids of the equal triangles that a triangle is cut into.

@@ -21,6 +21,8 @@ const LEAST_RAYS: usize = 8;
 const MOST_HALVINGS: u32 = 24;
 /// No guide halves more regions.
 pub(crate) const MOST_FORKS: usize = 128;
+/// In so many parts shares of points are told.
+const WHOLE: f64 = 65_536.0;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
 const EVEN: f64 = 0.3;
 
@@ -32,13 +34,13 @@ pub(crate) struct Guide {
     forks: Vec<Fork>,
 }
 
-/// A region that is halved.
+/// A region that is halved, small: photons ask guides of all cells in turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fork {
-    /// Share of its points in the half where the coordinate is low.
-    low_share: f32,
+    /// Share of its points in the half where the coordinate is low, in parts of [`WHOLE`].
+    low_share: u16,
     /// The halves, where they are halved too; 0 where not.
-    halves: [u32; 2],
+    halves: [u8; 2],
 }
 
 /// A point of the square, drawn by a guide.
@@ -47,6 +49,15 @@ pub(crate) struct Guided {
     pub(crate) u: [f64; 2],
     /// With respect to the area of the square.
     pub(crate) density: f64,
+}
+
+/// What is left of an edge of the square, and a point of it.
+#[derive(Clone, Copy)]
+struct Stretch {
+    corner: f64,
+    size: f64,
+    /// From 0 to 1 along it.
+    u: f64,
 }
 
 /// A ray through a point of the square.
@@ -102,9 +113,9 @@ impl Guide {
             let [low, high] = [share(from, middle), share(middle, to)];
             let number = forks.len();
             if let Some((fork, half)) = of {
-                forks[fork].halves[half] = number as u32;
+                forks[fork].halves[half] = number as u8;
             }
-            forks.push(Fork { low_share: (low / (low + high)) as f32, halves: [0; 2] });
+            forks.push(Fork::new(low / (low + high)));
             for (half, (from, to)) in [(from, middle), (middle, to)].into_iter().enumerate() {
                 let of = Some((number, half));
                 open.push_back(Region { of, halvings: halvings + 1, from, to });
@@ -121,35 +132,33 @@ impl Guide {
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
         for Fork { low_share, halves } in &self.forks {
-            out.f32(*low_share);
-            halves.iter().for_each(|half| out.u32(*half));
+            out.u32(u32::from(*low_share));
+            halves.iter().for_each(|half| out.u8(*half));
         }
     }
 
     /// The point that an even point of the square becomes.
-    pub(crate) fn sample(&self, mut u: [f64; 2]) -> Guided {
-        let (mut corner, mut size, mut density) = ([0.0; 2], [1.0; 2], 1.0);
+    pub(crate) fn sample(&self, u: [f64; 2]) -> Guided {
+        // The edge that is halved next, then the other.
+        let [mut this, mut other] = u.map(|u| Stretch { corner: 0.0, size: 1.0, u });
+        let (mut density, mut is_first) = (1.0, true);
         let mut next = self.forks.first();
-        let mut axis = 0;
         while let Some(fork) = next {
-            let low_share = f64::from(fork.low_share);
-            size[axis] *= 0.5;
-            let half = usize::from(u[axis] >= low_share);
-            let share = if half == 0 {
-                u[axis] /= low_share;
-                low_share
-            } else {
-                corner[axis] += size[axis];
-                u[axis] = (u[axis] - low_share) / (1.0 - low_share);
-                1.0 - low_share
-            };
+            let low_share = fork.low_share();
+            let is_high = this.u >= low_share;
+            let (start, share) =
+                if is_high { (low_share, 1.0 - low_share) } else { (0.0, low_share) };
+            let size = 0.5 * this.size;
+            let corner = if is_high { this.corner + size } else { this.corner };
+            (this, other) = (other, Stretch { corner, size, u: (this.u - start) / share });
             density *= 2.0 * share;
-            next = self.half(fork, half);
-            axis = 1 - axis;
+            is_first = !is_first;
+            next = self.half(fork, usize::from(is_high));
         }
         let most = 1.0 - f64::EPSILON / 2.0;
-        let at = |axis: usize| (corner[axis] + size[axis] * u[axis]).min(most);
-        Guided { u: [at(0), at(1)], density }
+        let at = |stretch: Stretch| (stretch.corner + stretch.size * stretch.u).min(most);
+        let [first, second] = if is_first { [this, other] } else { [other, this] };
+        Guided { u: [at(first), at(second)], density }
     }
 
     /// Density with respect to the area of the square.
@@ -159,7 +168,7 @@ impl Guide {
         let mut next = self.forks.first();
         while let Some(fork) = next {
             let half = (digits >> (u32::BITS - 1)) as usize;
-            let low_share = f64::from(fork.low_share);
+            let low_share = fork.low_share();
             density *= 2.0 * if half == 0 { low_share } else { 1.0 - low_share };
             next = self.half(fork, half);
             digits <<= 1;
@@ -168,8 +177,21 @@ impl Guide {
     }
 
     fn half(&self, fork: &Fork, half: usize) -> Option<&Fork> {
-        let number = fork.halves[half] as usize;
+        let number = usize::from(fork.halves[half]);
         if number > 0 { self.forks.get(number) } else { None }
+    }
+}
+
+impl Fork {
+    /// Neither half without points; the share of the rarer is rounded up, so that no weight grows by it.
+    fn new(low_share: f64) -> Self {
+        let parts = low_share * WHOLE;
+        let parts = if low_share < 0.5 { parts.ceil() } else { parts.floor() };
+        Self { low_share: parts.clamp(1.0, WHOLE - 1.0) as u16, halves: [0; 2] }
+    }
+
+    fn low_share(self) -> f64 {
+        f64::from(self.low_share) / WHOLE
     }
 }
 

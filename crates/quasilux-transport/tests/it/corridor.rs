@@ -161,6 +161,27 @@ fn a_sheet_in_the_dark_is_left_alone() {
     assert_is_left_alone(&scene);
 }
 
+/// Whatever rays the survey happens to find, photons are steered, and all cells are known with an error of 3 % root mean
+/// square. Where far light was left to connections alone, two of these seeds gave up steering, for the survey had lost
+/// light on its way; their errors were 8 and 5 %.
+#[test]
+fn no_seed_loses_the_way() {
+    for seed in [0, 5, 10, 15] {
+        let settings = Settings {
+            estimator: Estimator::Bidirectional,
+            seed,
+            max_samples: Some(1 << 6),
+            ..settings(Switch::Auto)
+        };
+        let estimates = simulate(&corridor(Quantity::Mean), &settings, &mut ());
+        assert!(estimates.decisions.is_steered, "{seed}: {:?}", estimates.decisions);
+        let cells = estimates.point_intervals(0).into_iter().zip(reference());
+        let off = cells.map(|(found, known)| found.value / known.value_lx - 1.0);
+        let error = (off.map(|off| off * off).sum::<f64>() / POINTS as f64).sqrt();
+        assert!(error < 0.03, "{seed}: {error}");
+    }
+}
+
 /// A plain room is left alone: the same rays but for the survey, the same values.
 #[test]
 fn a_plain_room_is_left_alone() {
