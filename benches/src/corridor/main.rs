@@ -1,7 +1,7 @@
 //! cargo run --release -p quasilux-benches --bin corridor [NAME or SECONDS...]
 //!
 //! Light that is hard to find: the error at the sensors of `examples/corridor` against rays and processor
-//! time, for all estimators, with photons steered and left alone.
+//! time, for all estimators, with photons steered and left alone, and for a [yardstick](walks) by the name of `walks`.
 //!
 //! All errors are relative to the reference and weigh every one of the 30 cells equally:
 //!
@@ -14,19 +14,25 @@
 //! is the error. The reference is the result of a photon tracer that shares no code with this project,
 //! good to 0.22 % root mean square and 0.5 % at worst: below that `off` means nothing, and `mean` is the error.
 //! The last line of each tells when the larger of `mean` and of `off` without the reference's share came below
-//! 10 %, 5 %, 2 % and 1 % for good.
+//! 10 %, 5 %, 2 % and 1 % for good; of the yardstick, whose sensors are points, when `mean` did.
+
+mod walks;
 
 use quasilux_benches::scenes;
 use quasilux_foreign::all_processors_seconds;
 use quasilux_transport::{
     Control, Estimates, Estimator, Observer, Progress, Settings, Switch, simulate,
 };
+use walks::Walks;
 
 const REPLICATES: u32 = 16;
 /// Each contestant ends at the checkpoint after this, unless told otherwise.
 const LONGEST_SECONDS: f64 = 20.0;
 /// Errors that are waited for.
 const GOALS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
+
+/// Walks of each replicate before the yardstick is looked at.
+const LEAST_WALKS: u64 = 1 << 12;
 
 /// One line of the comparison.
 struct Contestant {
@@ -64,6 +70,26 @@ fn main() {
     for contestant in CONTESTANTS.iter().filter(chosen) {
         run(contestant, &reference, longest);
     }
+    if names.is_empty() || names.iter().any(|name| *name == "walks") {
+        walk(&reference, longest);
+    }
+}
+
+/// The yardstick.
+fn walk(reference: &Reference, longest_seconds: f64) {
+    let mut replicates: Vec<Walks> = (0..u64::from(REPLICATES)).map(Walks::new).collect();
+    let mut table = Table::new("walks", reference, longest_seconds);
+    let mut walks = LEAST_WALKS;
+    loop {
+        Walks::grow(&mut replicates, walks);
+        let replicate_lx: Vec<Vec<f64>> = replicates.iter().map(Walks::lx).collect();
+        let rays = replicates.iter().map(|replicate| replicate.rays).sum();
+        if table.look(walks, rays, &replicate_lx, None) == Control::Stop {
+            break;
+        }
+        walks *= 2;
+    }
+    table.end();
 }
 
 fn run(contestant: &Contestant, reference: &Reference, longest_seconds: f64) {
@@ -75,19 +101,9 @@ fn run(contestant: &Contestant, reference: &Reference, longest_seconds: f64) {
         rel_tol: 0.0,
         ..Settings::default()
     };
-    let mut table = Table {
-        name: contestant.name,
-        reference,
-        start: all_processors_seconds(),
-        longest_seconds,
-        reached: GOALS.map(|_| None),
-    };
+    let mut table = Table::new(contestant.name, reference, longest_seconds);
     let _ = simulate(&scene, &settings, &mut table);
-    let goals = GOALS.iter().zip(table.reached).map(|(goal, seconds)| match seconds {
-        Some(seconds) => format!("{:.0} % after {seconds:.2} s", 100.0 * goal),
-        None => format!("{:.0} % not reached", 100.0 * goal),
-    });
-    println!("{:<22}{}", contestant.name, goals.collect::<Vec<_>>().join(", "));
+    table.end();
 }
 
 /// What another program says of the cells.
@@ -99,7 +115,7 @@ struct Reference {
 
 impl Reference {
     fn read() -> Self {
-        let table = include_str!("../../examples/corridor/reference.csv");
+        let table = include_str!("../../../examples/corridor/reference.csv");
         let column = |index: usize| {
             let number = move |line: &str| line.split(',').nth(index)?.parse::<f64>().ok();
             table.lines().skip(1).map(move |line| number(line).expect("a table of numbers"))
@@ -119,37 +135,67 @@ struct Table<'a> {
     reached: [Option<f64>; GOALS.len()],
 }
 
+impl<'a> Table<'a> {
+    fn new(name: &'static str, reference: &'a Reference, longest_seconds: f64) -> Self {
+        let (start, reached) = (all_processors_seconds(), GOALS.map(|_| None));
+        Self { name, reference, start, longest_seconds, reached }
+    }
+
+    /// Prints what there is after so many samples of each replicate; `known` is the reference where it is
+    /// of the same sensors.
+    fn look(
+        &mut self,
+        samples: u64,
+        rays: u64,
+        replicate_lx: &[Vec<f64>],
+        known: Option<&Reference>,
+    ) -> Control {
+        let seconds = all_processors_seconds() - self.start;
+        let cells = Cells::of(replicate_lx, &self.reference.value_lx);
+        let one = root_mean_square(cells.spread.iter().copied());
+        let mean = one / f64::from(REPLICATES).sqrt();
+        print!(
+            "{:<22}{samples:>9}{:>9.2}{seconds:>9.2}{:>10.2}{:>10.2}",
+            self.name,
+            rays as f64 / 1e6,
+            100.0 * one,
+            100.0 * mean,
+        );
+        let mut error = mean;
+        if let Some(known) = known {
+            let off = root_mean_square(cells.off.iter().copied());
+            let worst = (0..cells.off.len())
+                .max_by(|&a, &b| cells.off[a].abs().total_cmp(&cells.off[b].abs()))
+                .expect("some cells");
+            print!("{:>10.2}{:>10.2}{worst:>5}", 100.0 * off, 100.0 * cells.off[worst]);
+            // What the reference's own error adds to `off` is not the estimate's.
+            error = error.max((off * off - known.error * known.error).max(0.0).sqrt());
+        }
+        println!();
+        for (goal, reached) in GOALS.iter().zip(&mut self.reached) {
+            *reached = (error <= *goal).then_some(reached.unwrap_or(seconds));
+        }
+        if seconds < self.longest_seconds { Control::Continue } else { Control::Stop }
+    }
+
+    /// Prints when the goals were reached.
+    fn end(&self) {
+        let goals = GOALS.iter().zip(self.reached).map(|(goal, seconds)| match seconds {
+            Some(seconds) => format!("{:.0} % after {seconds:.2} s", 100.0 * goal),
+            None => format!("{:.0} % not reached", 100.0 * goal),
+        });
+        println!("{:<22}{}", self.name, goals.collect::<Vec<_>>().join(", "));
+    }
+}
+
 impl Observer for Table<'_> {
     fn progress(&mut self, _progress: &Progress) -> Control {
         Control::Continue
     }
 
     fn checkpoint(&mut self, estimates: &Estimates) -> Control {
-        let seconds = all_processors_seconds() - self.start;
-        let cells = Cells::of(&estimates.sensors[0].replicate_lx, &self.reference.value_lx);
-        let one = root_mean_square(cells.spread.iter().copied());
-        let mean = one / f64::from(REPLICATES).sqrt();
-        let off = root_mean_square(cells.off.iter().copied());
-        let worst = (0..cells.off.len())
-            .max_by(|&a, &b| cells.off[a].abs().total_cmp(&cells.off[b].abs()))
-            .expect("some cells");
-        println!(
-            "{:<22}{:>9}{:>9.2}{seconds:>9.2}{:>10.2}{:>10.2}{:>10.2}{:>10.2}{worst:>5}",
-            self.name,
-            estimates.samples,
-            estimates.rays as f64 / 1e6,
-            100.0 * one,
-            100.0 * mean,
-            100.0 * off,
-            100.0 * cells.off[worst],
-        );
-        // What the reference's own error adds to `off` is not the estimate's.
-        let excess = (off * off - self.reference.error * self.reference.error).max(0.0).sqrt();
-        let error = excess.max(mean);
-        for (goal, reached) in GOALS.iter().zip(&mut self.reached) {
-            *reached = (error <= *goal).then_some(reached.unwrap_or(seconds));
-        }
-        if seconds < self.longest_seconds { Control::Continue } else { Control::Stop }
+        let Estimates { samples, rays, sensors, .. } = estimates;
+        self.look(*samples, *rays, &sensors[0].replicate_lx, Some(self.reference))
     }
 }
 
