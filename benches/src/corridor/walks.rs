@@ -15,8 +15,6 @@ const NICHE: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.0, 3.0, 1.0]];
 const LIGHT: [f64; 3] = [1.5, 2.8, 0.8];
 const INTENSITY_CD: f64 = 200.0;
 const SENSORS: usize = 30;
-/// Walks between two looks at the clock, in each replicate.
-const BATCH: u64 = 1 << 12;
 /// A walk that carries less goes on by chance, with twice this.
 const LITTLE: f64 = 0.1;
 
@@ -46,10 +44,8 @@ impl Walks {
     /// Goes on with all replicates until each has so many walks.
     pub(crate) fn grow(replicates: &mut [Self], walks: u64) {
         replicates.par_iter_mut().for_each(|replicate| {
-            while replicate.walks < walks {
-                (0..BATCH).for_each(|_| replicate.walk());
-                replicate.walks += BATCH;
-            }
+            (replicate.walks..walks).for_each(|_| replicate.walk());
+            replicate.walks = walks;
         });
     }
 

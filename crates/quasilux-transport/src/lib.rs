@@ -49,6 +49,10 @@ mod photons;
 mod picture;
 mod pixels;
 pub mod purpose;
+#[cfg(test)]
+#[expect(dead_code, reason = "some scenes are for other tests")]
+#[path = "../tests/it/scenes.rs"]
+mod scenes;
 mod schedule;
 mod sections;
 pub mod settings;

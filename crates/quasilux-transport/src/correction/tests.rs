@@ -5,6 +5,7 @@ use crate::choice::{PathTrial, Promise, SAMPLES, Sample, Wanted};
 use crate::gathering::exact;
 use crate::path_end::Rest;
 use crate::path_wave::PathWave;
+use crate::scenes::{all_walls_emit, diffuse, diffuse_cube, level_grid, mirror, point_light, room};
 use crate::sections::{Section, trace_sections};
 use crate::settings::Settings;
 use crate::stage::{Stage, Stream};
@@ -14,11 +15,6 @@ use crate::watch::Watch;
 use glam::DVec3;
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::{Material, Scene};
-use scenes::{all_walls_emit, diffuse, diffuse_cube, level_grid, mirror, point_light, room};
-
-#[expect(dead_code, reason = "other scenes are for other tests")]
-#[path = "../../tests/it/scenes.rs"]
-mod scenes;
 
 /// Means over so many replicates know variances to 8 %.
 const REPLICATES: u32 = 300;

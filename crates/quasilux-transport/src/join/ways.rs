@@ -158,7 +158,8 @@ impl Ways {
                     && more_lx * more_lx > BY_CHANCE * noise
             };
             (!finds_light && wanted.seen().any(finds_more))
-                || wanted.rays(&plain, &best.promise()) < part * wanted.rays(&plain, &plain)
+                || way.doubt * wanted.rays(&plain, &best.promise())
+                    < part * wanted.rays(&plain, &plain)
         };
         let tried = self.ways.iter().map(|way| way.best(&sample.exact_lx, &wanted, noise));
         let effort = |(best, way): &(Best, &Way)| way.doubt * wanted.effort(&best.promise());
@@ -189,7 +190,8 @@ impl Ways {
 }
 
 /// Photons as the survey says, and how far to doubt what a trial of them promises. Where the survey says that they should
-/// be steered, they are also left alone; their trial then hardly sees what the survey foretells, and counts as much less.
+/// be steered, they are also left alone; their trial then hardly sees what the survey foretells, and what it promises is
+/// taken for as much dearer as the survey is surer of itself.
 fn plans<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],

@@ -127,9 +127,10 @@ impl Cells {
     /// The cells in the boxes around a place, and the weights of linear interpolation. Where there is no such box,
     /// the nearest stands for it.
     fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); CORNERS] {
-        let from_middles = ((position - self.low) / self.edge_m).to_array().map(|x| x + 0.5);
+        let from_middles =
+            ((position - self.low) / self.edge_m).to_array().map(|x| (x + 0.5).max(0.0));
         let along = |axis: usize| {
-            let high = from_middles[axis].max(0.0) as usize;
+            let high = from_middles[axis] as usize;
             let high_share = from_middles[axis] - high as f64;
             let boxes = [high.saturating_sub(1), high].map(|place| self.bounded(place, axis));
             [(boxes[0], 1.0 - high_share), (boxes[1], high_share)]
@@ -215,6 +216,31 @@ fn centroids(parts: u32) -> impl Iterator<Item = [f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Linear interpolation between the middles of boxes gives back each place, and next to the faces of the grid the
+    /// nearest place between middles.
+    #[test]
+    fn corners_interpolate() {
+        let (low, edge_m, counts) = (DVec3::new(-1.0, 2.0, 0.5), 0.25, [5, 3, 4]);
+        let cells = Cells { low, edge_m, counts };
+        let [nx, ny, _] = counts;
+        let middle = |cell: usize| {
+            let place = cell / SIDES;
+            let boxes = [place % nx, place / nx % ny, place / (nx * ny)];
+            low + DVec3::from(boxes.map(|place| (place as f64 + 0.5) * edge_m))
+        };
+        let size_m = DVec3::from(counts.map(|count| count as f64 * edge_m));
+        let half = DVec3::splat(0.5 * edge_m);
+        for i in 0..1000 {
+            let part = [31, 57, 83].map(|step| f64::from(i * step % 1000) / 990.0 - 0.005);
+            let at = low + size_m * DVec3::from(part);
+            let corners = cells.corners(at, -DVec3::Y);
+            let found: DVec3 = corners.iter().map(|&(cell, weight)| middle(cell) * weight).sum();
+            let wanted = at.clamp(low + half, low + size_m - half);
+            assert!(found.distance(wanted) < 1e-12, "{at}: {found}");
+            assert!(corners.iter().all(|&(cell, weight)| cell % SIDES == 2 && weight >= 0.0));
+        }
+    }
 
     #[test]
     fn centroids_are_those_of_equal_parts() {

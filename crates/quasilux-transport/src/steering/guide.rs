@@ -21,6 +21,7 @@ const LEAST_RAYS: usize = 8;
 const MOST_HALVINGS: u32 = 24;
 /// No guide halves more regions.
 pub(crate) const MOST_FORKS: usize = 128;
+const _: () = assert!(MOST_FORKS <= 1 << u8::BITS, "forks are numbered in a byte");
 /// In so many parts shares of points are told.
 const WHOLE: f64 = 65_536.0;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
@@ -183,7 +184,7 @@ impl Guide {
 }
 
 impl Fork {
-    /// Neither half without points; the share of the rarer is rounded up, so that no weight grows by it.
+    /// Neither half without points; the share of the rarer is rounded up, so that weights hardly grow by it.
     fn new(low_share: f64) -> Self {
         let parts = low_share * WHOLE;
         let parts = if low_share < 0.5 { parts.ceil() } else { parts.floor() };

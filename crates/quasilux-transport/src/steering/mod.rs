@@ -12,6 +12,8 @@ mod cells;
 mod forecast;
 mod guide;
 mod survey;
+#[cfg(test)]
+mod tests;
 mod windows;
 
 pub(crate) use cells::Around;
@@ -43,7 +45,7 @@ pub(crate) struct Plan {
     pub(crate) forecast: Option<Forecast>,
     /// Of photons that are steered.
     pub(crate) steered: Option<Performance>,
-    /// Times that the same error costs fewer rays then, as foretold before the closer look.
+    /// Times that the same error costs fewer rays where photons are steered, as foretold before the closer look.
     pub(crate) gain: f64,
     /// Rays of the survey.
     pub(crate) rays: u64,

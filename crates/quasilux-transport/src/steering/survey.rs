@@ -67,7 +67,7 @@ pub(crate) struct Known {
     pub(crate) rays: u32,
     /// Where they landed.
     landings: Vec<Landing>,
-    /// Far places that light goes to, as many times tried as rays left.
+    /// Far places that light goes to, as many times tried as rays had left by then.
     connections: Vec<Landing>,
 }
 
@@ -91,7 +91,7 @@ pub(crate) struct Landing {
     pub(crate) weight: f64,
     /// The share of the light that goes to a square metre there, in m^-2, where a connection may find it
     /// too; 0 elsewhere.
-    far_per_m2: f64,
+    far_per_m2: f32,
     /// The point of the unit square that its direction comes from.
     pub(crate) u: [f32; 2],
 }
@@ -116,7 +116,7 @@ struct Found {
 struct Flown {
     /// See [`Landing`].
     u: [f32; 2],
-    far_per_m2: f64,
+    far_per_m2: f32,
     found: Option<Found>,
     rays: u64,
 }
@@ -161,7 +161,7 @@ impl Survey {
     ///
     /// From a place with normal n the share of the light that goes to one with n' in a cell of area A
     /// is `p = cos cos' A / (pi d^2)`, if nothing stands between. Where such a cell is chosen with probability q,
-    /// what a ray or a connection finds there counts `p / (p + q)` (balance heuristic): worths that were wrong leave
+    /// what a ray or a connection finds there counts `p / (p + q)` (balance heuristic, Veach and Guibas 1995): worths that were wrong leave
     /// the light that goes elsewhere to the rays.
     pub(crate) fn connect<S: Spectrum>(
         &mut self,
@@ -172,8 +172,8 @@ impl Survey {
         let weights: Vec<f64> = areas_m2.iter().zip(worths).map(|(a, w)| a * w).collect();
         let Some(choices) = Discrete::new(&weights) else { return };
         let points = stage.points(0, Stream::Survey(3));
-        let counted = |far_per_m2: f64, cell: usize| {
-            let p = far_per_m2 * areas_m2[cell];
+        let counted = |far_per_m2: f32, cell: usize| {
+            let p = f64::from(far_per_m2) * areas_m2[cell];
             p / (p + choices.probability(cell))
         };
         let (known, far_m) = (&self.known, self.cells.far_m());
@@ -197,7 +197,7 @@ impl Survey {
                 }
                 let vantage = stage.world.vantage(start);
                 let lit = stage.world.is_visible(vantage, direction, distance_m, end.facet);
-                let far_per_m2 = cos * cos_end / (PI * distance_m * distance_m);
+                let far_per_m2 = (cos * cos_end / (PI * distance_m * distance_m)) as f32;
                 let local = stage.world.frame(start).to_local(direction);
                 let connection = Landing {
                     cell: choice.index as u32,
@@ -367,7 +367,7 @@ fn go_on<S: Spectrum>(
     let flown = fly(stage, start, &mut cursor);
     let far_per_m2 = match &flown.found {
         Some(Found { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
-            wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)
+            (wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)) as f32
         }
         _ => 0.0,
     };

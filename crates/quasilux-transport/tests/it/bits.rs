@@ -80,7 +80,7 @@ const KNOWN: [&str; 6] = [
     "dc4c605233854f3e",
     "6e836aed5ae7bb54",
     "0fa5f8e77f24593d",
-    "a22361fdbd7349e0",
+    "5ae17bb3567e2db7",
     "ab5986782a40a5d6",
     "4755db5b5da21624",
 ];

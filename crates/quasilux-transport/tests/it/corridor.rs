@@ -162,8 +162,8 @@ fn a_sheet_in_the_dark_is_left_alone() {
 }
 
 /// Whatever rays the survey happens to find, photons are steered, and all cells are known with an error of 3 % root mean
-/// square. Where far light was left to connections alone, two of these seeds gave up steering, for the survey had lost
-/// light on its way; their errors were 8 and 5 %.
+/// square. A survey that leaves far light to connections alone loses light on its way with two of these seeds, and
+/// gives up steering.
 #[test]
 fn no_seed_loses_the_way() {
     for seed in [0, 5, 10, 15] {
