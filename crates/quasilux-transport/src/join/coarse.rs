@@ -13,7 +13,6 @@ use crate::tally::{Quantum, Sum};
 use crate::trial::Way;
 use crate::watch::Watch;
 use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -139,8 +138,6 @@ struct CellReceiver<'a, S> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
-    fn follow(&mut self, _cursor: &SampleCursor<'_>) {}
-
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {

@@ -88,9 +88,9 @@ pub(crate) fn foresee<S: Spectrum>(
         (balance, areas_m2) = refined;
     }
     let regions = Arc::new(survey.regions());
-    let steered =
-        is_steered.then(|| Performance::steered(&survey, &balance).of_each_sensor(&survey));
     let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
+    let steered = windows.as_ref().map(|windows| windows.performance(&survey, &balance));
+    let steered = steered.map(|of_all| of_all.of_each_sensor(&survey));
     let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
     let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
     Plan { windows, forecast: Some(forecast), steered, gain, rays: survey.rays }

@@ -50,11 +50,12 @@ pub(crate) struct Performance {
 impl Windows {
     /// By worth.
     pub(crate) fn new(survey: &Survey, regions: Arc<Regions>, balance: &Balance) -> Self {
-        let guides = guides(survey, balance);
-        let weights = steered_weights(survey, balance, &guides);
-        let windows = weights.into_iter().zip(guides);
-        let windows = windows.map(|(weight, guide)| Window { weight, guide }).collect();
-        Self { regions, windows }
+        Self { regions, windows: steered_windows(survey, balance) }
+    }
+
+    /// What they cost and give.
+    pub(crate) fn performance(&self, survey: &Survey, balance: &Balance) -> Performance {
+        Performance::of(survey, balance, &self.windows)
     }
 
     /// The weight with which photons leave each known cell.
@@ -86,15 +87,13 @@ impl Windows {
 impl Performance {
     /// Of photons of equal weight.
     pub(crate) fn plain(survey: &Survey, balance: &Balance) -> Self {
-        let even = vec![Guide::even(); survey.known.len()];
-        Self::of(survey, balance, &even, &vec![1.0; survey.known.len()])
+        let even = Window { weight: 1.0, guide: Guide::even() };
+        Self::of(survey, balance, &vec![even; survey.known.len()])
     }
 
     /// Of photons that are steered.
     pub(crate) fn steered(survey: &Survey, balance: &Balance) -> Self {
-        let guides = guides(survey, balance);
-        let weights = steered_weights(survey, balance, &guides);
-        Self::of(survey, balance, &guides, &weights)
+        Self::of(survey, balance, &steered_windows(survey, balance))
     }
 
     /// The same with the sum of the variances at the sensors, if each gets about the same of every photon.
@@ -110,12 +109,13 @@ impl Performance {
     /// Sums over all landings of the variance that the decision there and the next step bring. From
     /// weight w come `m = w a / W` photons, n of them by chance; what one of them brings has mean d and
     /// mean square q: in all `W^2 (m (q - d^2) + Var n d^2)`.
-    fn of(survey: &Survey, balance: &Balance, guides: &[Guide], weights: &[f64]) -> Self {
+    fn of(survey: &Survey, balance: &Balance, windows: &[Window]) -> Self {
         let known = &survey.known;
+        let guides = windows.iter().map(|window| &window.guide);
         let next_square = next_squares(survey, balance, guides);
         let mut performance = Self { rays: 1.0, variance: 0.0 };
         let mut land = |cell: usize, photons: f64, weight: f64| {
-            let split = Split::new(weight * known[cell].albedo, weights[cell]);
+            let split = Split::new(weight * known[cell].albedo, windows[cell].weight);
             let (d, q) = (balance.leaving_worth[cell], next_square[cell]);
             let of_next = split.expected * (q - d * d).max(0.0) + split.variance() * d * d;
             performance.rays += photons * split.expected;
@@ -125,10 +125,11 @@ impl Performance {
             land(cell, photons, 1.0);
         }
         for (cell, from) in known.iter().enumerate() {
-            let photons = balance.landing[cell] * from.albedo / weights[cell];
+            let window = &windows[cell];
+            let photons = balance.landing[cell] * from.albedo / window.weight;
             for step in from.steps() {
-                let density = guides[cell].density(step.u.map(f64::from));
-                let weight = weights[cell] * step.weight / density;
+                let density = window.guide.density(step.u.map(f64::from));
+                let weight = window.weight * step.weight / density;
                 land(step.cell as usize, photons * step.share * density, weight);
             }
         }
@@ -160,6 +161,14 @@ impl Split {
     }
 }
 
+/// What the survey says of each known cell.
+fn steered_windows(survey: &Survey, balance: &Balance) -> Vec<Window> {
+    let guides = guides(survey, balance);
+    let weights = steered_weights(survey, balance, &guides);
+    let windows = weights.into_iter().zip(guides);
+    windows.map(|(weight, guide)| Window { weight, guide }).collect()
+}
+
 /// Directions from each known cell by what its rays, and those of the cells around it, were worth.
 fn guides(survey: &Survey, balance: &Balance) -> Vec<Guide> {
     let hints = |cell: &Known| -> Vec<Hint> {
@@ -179,7 +188,11 @@ fn guides(survey: &Survey, balance: &Balance) -> Vec<Guide> {
 
 /// Mean squares of what photons that leave each known cell by its guide are worth where they land:
 /// over even rays, worth^2 / density.
-fn next_squares(survey: &Survey, balance: &Balance, guides: &[Guide]) -> Vec<f64> {
+fn next_squares<'g>(
+    survey: &Survey,
+    balance: &Balance,
+    guides: impl Iterator<Item = &'g Guide>,
+) -> Vec<f64> {
     let of_cell = |(cell, guide): (&Known, &Guide)| {
         let squares = cell.steps().map(|step| {
             let worth = step.weight * balance.landed_worth[step.cell as usize];
@@ -194,7 +207,7 @@ fn next_squares(survey: &Survey, balance: &Balance, guides: &[Guide]) -> Vec<f64
 /// of what they are worth next, which makes rays times variance least. Mean squares are those of the
 /// cells around.
 fn steered_weights(survey: &Survey, balance: &Balance, guides: &[Guide]) -> Vec<f64> {
-    let squares = next_squares(survey, balance, guides);
+    let squares = next_squares(survey, balance, guides.iter());
     let root_mean = |cell: &Known| {
         let around = survey.numbers_around(cell);
         let (sum, count) =
