@@ -47,6 +47,8 @@ pub enum Purpose {
         /// The surface.
         surface: u32,
     },
+    /// Where in cells of grids a photon is joined, and which joins are left to chance.
+    Joins,
 }
 
 /// Which dimensions were drawn for what, how often.
@@ -75,9 +77,9 @@ impl Ledger {
         }
     }
 
-    /// All that was noted, by dimension.
-    pub(crate) fn uses(&self) -> BTreeMap<(u32, Purpose), u64> {
-        self.uses.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    /// All that was noted, by dimension; forgets it.
+    pub(crate) fn take(&self) -> BTreeMap<(u32, Purpose), u64> {
+        std::mem::take(&mut self.uses.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
@@ -87,6 +89,7 @@ impl fmt::Display for Purpose {
             Self::Emission => return f.write_str("light, and direction or place on it"),
             Self::EmissionOfArea => return f.write_str("direction from, or place on, an area"),
             Self::Cell => return f.write_str("place in the cell"),
+            Self::Joins => return f.write_str("place in cells, and chance, of joins"),
             Self::FirstDirection => return f.write_str("direction from the sensor"),
             Self::AreaLight { surface } => ("place on an area light", surface),
             Self::AreaLuminaire { surface } => ("luminaire and place on it", surface),

@@ -86,6 +86,27 @@ impl Stream {
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }
     }
+
+    /// The sequence of its points in a run with this one.
+    pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
+        match (self, of_run) {
+            // Their dimensions are high ones, where other sequences are no good.
+            (Self::JoinedPlaces(_), _) => Sequence::Sobol,
+            // A plan has its own number of photons.
+            (
+                Self::PlanPhotons
+                | Self::MapPilots
+                | Self::FirstShotPilots
+                | Self::SteeringPilots
+                | Self::HiddenPhotons
+                | Self::JoinedPhotons(_)
+                | Self::CoarsePhotons
+                | Self::Survey(_),
+                Sequence::Hammersley { .. },
+            ) => Sequence::Halton,
+            _ => of_run,
+        }
+    }
 }
 
 impl<'a, S: Spectrum> Stage<'a, S> {
@@ -131,30 +152,12 @@ impl<'a, S: Spectrum> Stage<'a, S> {
 
     /// The randomised point set of one stream in one replicate.
     pub(crate) fn points(&self, replicate: u32, stream: Stream) -> PointSet {
-        let Settings { mut sequence, randomization, seed, .. } = *self.settings;
-        if let (
-            Sequence::Hammersley { .. },
-            Stream::PlanPhotons
-            | Stream::MapPilots
-            | Stream::FirstShotPilots
-            | Stream::SteeringPilots
-            | Stream::HiddenPhotons
-            | Stream::JoinedPhotons(_)
-            | Stream::CoarsePhotons
-            | Stream::Survey(_),
-        ) = (sequence, stream)
-        {
-            // A plan has its own number of photons.
-            sequence = Sequence::Halton;
-        }
+        let Settings { sequence, randomization, seed, .. } = *self.settings;
+        let mut sequence = stream.sequence(sequence);
         if let (Sequence::Hammersley { points }, Stream::Photons, Estimator::BidirectionalMap) =
             (&mut sequence, stream, self.settings.estimator)
         {
             *points = points.saturating_mul(u64::from(self.settings.map_photons.max(1)));
-        }
-        if let Stream::JoinedPlaces(_) = stream {
-            // Their dimensions are high ones, where other sequences are no good.
-            sequence = Sequence::Sobol;
         }
         PointSet::new(sequence, randomization, stream_key(seed, replicate, stream.id()))
     }

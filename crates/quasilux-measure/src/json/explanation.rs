@@ -1,10 +1,11 @@
 //! The entry `explain` of the result document: which coordinates carry the variance.
 //!
 //! Coordinates count from 0; a block without a `last` one has all that follow. Shares are of the variance
-//! of one sample, `alone` without what hangs on other blocks too, `total` with it.
+//! of one sample, `alone` without what hangs on other blocks too, `total` with it. `beside` has the same of
+//! photons that stand beside paths, so many for each path.
 
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Block, Gain, Share, WalkKind};
+use quasilux_transport::explain::{Beside, Block, Gain, Share, WalkKind};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -20,6 +21,15 @@ pub(super) struct ExplanationEntry<'a> {
     truncation_dimension: Option<u32>,
     blocks: Vec<BlockEntry>,
     gain: Option<GainEntry>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    beside: Vec<BesideEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct BesideEntry<'a> {
+    for_each_path: u64,
+    #[serde(flatten)]
+    explanation: ExplanationEntry<'a>,
 }
 
 #[derive(Serialize)]
@@ -63,6 +73,8 @@ impl<'a> ExplanationEntry<'a> {
                 WalkKind::Paths => "paths",
                 WalkKind::PathsOnMap => "paths that end on a map",
                 WalkKind::PathsBesidePhotons => "paths beside joined photons",
+                WalkKind::CountedPhotons => "photons counted by cells, beside paths",
+                WalkKind::JoinedPhotons => "photons joined to sensors, beside paths",
             },
             targets: explanation.targets,
             samples: explanation.samples,
@@ -74,7 +86,14 @@ impl<'a> ExplanationEntry<'a> {
             truncation_dimension: explanation.truncation_dimension,
             blocks: explanation.blocks.iter().map(BlockEntry::of).collect(),
             gain: explanation.gain.map(GainEntry::of),
+            beside: explanation.beside.iter().map(BesideEntry::of).collect(),
         }
+    }
+}
+
+impl<'a> BesideEntry<'a> {
+    fn of(Beside { for_each_path, explanation }: &'a Beside) -> Self {
+        Self { for_each_path: *for_each_path, explanation: ExplanationEntry::of(explanation) }
     }
 }
 

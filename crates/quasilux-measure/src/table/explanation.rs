@@ -3,7 +3,7 @@
 use super::{Column, Emphasis, Style, lines};
 use crate::number::{brief, count};
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Block, Gain, Share, WalkKind};
+use quasilux_transport::explain::{Beside, Block, Gain, Share, WalkKind};
 use std::fmt::Write;
 
 /// A smaller factor between errors makes no difference to speak of.
@@ -11,9 +11,21 @@ const NO_GAIN: f64 = 1.1;
 /// Powers of the step below this are nearer to jumps than to slopes.
 const JUMPS: f64 = 1.5;
 
-/// A table of the blocks, and sentences on what quasi-random points are worth here.
+/// A table of the blocks, and sentences on what quasi-random points are worth here; the same of photons beside paths.
 #[must_use]
 pub fn explanation(explanation: &Explanation, style: Style) -> String {
+    let mut text = part(explanation, style);
+    for Beside { explanation, .. } in &explanation.beside {
+        text += &format!("\n{}", part(explanation, style));
+    }
+    if !explanation.beside.is_empty() {
+        text += &format!("\n{}\n", style.paint(Emphasis::Strong, &together(explanation)));
+    }
+    text
+}
+
+/// One kind of samples.
+fn part(explanation: &Explanation, style: Style) -> String {
     let blocks = || explanation.blocks.iter();
     let percent = |share: f64| format!("{} %", brief(100.0 * share, 3));
     let share = |share: Option<Share>| match share {
@@ -58,6 +70,12 @@ fn sampled(explanation: &Explanation) -> String {
         }
         WalkKind::PathsBesidePhotons => {
             (format!("{samples} paths beside photons from each of {targets} points"), "path")
+        }
+        WalkKind::CountedPhotons => {
+            (format!("{samples} photons counted by cells that {targets} points see"), "photon")
+        }
+        WalkKind::JoinedPhotons => {
+            (format!("{samples} photons joined to {targets} points"), "photon")
         }
     };
     format!(
@@ -114,6 +132,22 @@ fn sentences(explanation: &Explanation) -> Vec<String> {
     sentences
 }
 
+/// What a path and the photons beside it each leave open.
+fn together(explanation: &Explanation) -> String {
+    let percent = |deviation: f64| format!("{} %", brief(100.0 * deviation, 2));
+    let photons = explanation.beside.iter().map(|Beside { for_each_path, explanation }| {
+        let are = if explanation.walk == WalkKind::CountedPhotons { "counted" } else { "joined" };
+        let together = explanation.relative_deviation / (*for_each_path as f64).sqrt();
+        format!("its {} {are} photons by {}", count(*for_each_path), percent(together))
+    });
+    let photons: Vec<String> = photons.collect();
+    format!(
+        "With random points a path would deviate by {} of the mean, {}.",
+        percent(explanation.relative_deviation),
+        photons.join(", "),
+    )
+}
+
 fn worth(gain: &Gain) -> String {
     let Gain { samples, factor, standard_error, exponent, .. } = gain;
     let help = if *factor < NO_GAIN { "does not help" } else { "helps" };
@@ -165,6 +199,7 @@ mod tests {
                 standard_error: 0.3,
                 exponent: 0.7,
             }),
+            beside: Vec::new(),
         }
     }
 
@@ -179,6 +214,21 @@ mod tests {
             " 70.0 ± 1.0 %",
             "3.0 ± 0.3 times as large, which is worth 9 times the samples",
             "jumps: 70 % of the variance hang on \"direction from the sensor\".",
+        ] {
+            assert!(text.contains(words), "no {words} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn photons_beside_paths_are_told() {
+        let counted = Explanation { walk: WalkKind::CountedPhotons, ..example() };
+        let beside = vec![Beside { for_each_path: 64, explanation: counted }];
+        let paths = Explanation { walk: WalkKind::PathsBesidePhotons, beside, ..example() };
+        let text = explanation(&paths, Style::Plain);
+        for words in [
+            "1 024 paths beside photons from each of 8 points",
+            "1 024 photons counted by cells that 8 points see",
+            "a path would deviate by 80 % of the mean, its 64 counted photons by 10 %.",
         ] {
             assert!(text.contains(words), "no {words} in\n{text}");
         }

@@ -1,8 +1,9 @@
 //! What the sequence of a run is worth: errors of independent replicates.
 
 use super::shares::{Spread, power};
-use super::{FIRST_OF_GAIN, Gain, Walk, WalkKind};
+use super::{FIRST_OF_GAIN, Gain, Walk};
 use crate::settings::Settings;
+use crate::stage::Stream;
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 
 /// Independent randomisations.
@@ -22,13 +23,15 @@ pub(super) fn gain(
         return None;
     }
     let mut variance = |samples: u64| {
-        let sequence = match settings.sequence {
+        let sequence = |stream: Stream| match stream.sequence(settings.sequence) {
             Sequence::Hammersley { .. } => Sequence::Hammersley { points: samples },
             other => other,
         };
         let means = |replicate: u32| -> Vec<f64> {
-            let key = |stream| stream_key(settings.seed, FIRST_OF_GAIN + replicate, stream);
-            let points = |stream| PointSet::new(sequence, settings.randomization, key(stream));
+            let key =
+                |stream: Stream| stream_key(settings.seed, FIRST_OF_GAIN + replicate, stream.id());
+            let points =
+                |stream| PointSet::new(sequence(stream), settings.randomization, key(stream));
             let pilot = walk.trace(samples, &points);
             *rays += pilot.rays;
             pilot.values.iter().map(|own| own.iter().sum::<f64>() / samples as f64).collect()
@@ -39,9 +42,8 @@ pub(super) fn gain(
     let [few, all] = [samples / RATIO, samples].map(&mut variance);
     let exponent = power([all, few], [RATIO as f64, 1.0]).map(|power| -0.5 * power)?;
     let factor = (spread.variance() / samples as f64 / all).sqrt();
-    // A standard deviation from n values has the relative standard error 1 / sqrt(2 (n - 1)). Photons
-    // serve all targets, paths one each.
-    let independent = if walk.kind() == WalkKind::Photons { 1 } else { spread.targets() };
+    // A standard deviation from n values has the relative standard error 1 / sqrt(2 (n - 1)).
+    let independent = if walk.kind().is_of_photons() { 1 } else { spread.targets() };
     let degrees = independent as f64 * f64::from(REPLICATES - 1);
     let standard_error = factor / (2.0 * degrees).sqrt();
     Some(Gain { samples, replicates: REPLICATES, factor, standard_error, exponent })

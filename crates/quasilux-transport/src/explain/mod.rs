@@ -11,17 +11,19 @@
 //!
 //! Values are kept by index and summed in their order, so that threads change no bit.
 
+mod beside;
 mod blocks;
 mod gain;
 mod paths;
 mod photons;
 mod shares;
 
+use crate::photon::PhotonCounts;
 use crate::purpose::{Ledger, Purpose};
 use crate::settings::{Estimator, Settings};
 use crate::simulate::is_grey;
 use crate::spectrum::Spectrum;
-use crate::stage::Stage;
+use crate::stage::{Stage, Stream};
 use gain::gain;
 use paths::PathWalk;
 use photons::PhotonWalk;
@@ -53,8 +55,8 @@ pub struct Explanation {
     pub rays: u64,
     /// How many coordinates the samples used.
     pub dimensions: DimensionHistogram,
-    /// Standard deviation of what one sample finds over its mean, root mean square over the targets;
-    /// 0 where nothing varies.
+    /// Standard deviation of what one sample finds over the mean of all that is found, root mean square over the
+    /// targets; 0 where nothing varies.
     pub relative_deviation: f64,
     /// Coordinates by what they feed, in their order.
     pub blocks: Vec<Block>,
@@ -66,12 +68,23 @@ pub struct Explanation {
     pub truncation_dimension: Option<u32>,
     /// What the sequence of the run is worth; `None` where nothing is randomised or nothing varies.
     pub gain: Option<Gain>,
+    /// Photons that stand beside the paths, where they do.
+    pub beside: Vec<Beside>,
+}
+
+/// Photons that stand beside paths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beside {
+    /// How many go with a path.
+    pub for_each_path: u64,
+    /// Where the variance of one of them comes from, at the same targets.
+    pub explanation: Explanation,
 }
 
 /// What a pilot traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WalkKind {
-    /// Photons from the lights.
+    /// Photons from the lights that sensors count.
     Photons,
     /// Paths from the sensors.
     Paths,
@@ -79,6 +92,17 @@ pub enum WalkKind {
     PathsOnMap,
     /// Paths from the sensors beside photons that find the rest, given the photons.
     PathsBesidePhotons,
+    /// Photons beside these paths that are counted by the cells they land in.
+    CountedPhotons,
+    /// Photons beside these paths that are joined to the sensors, beyond what is expected of them.
+    JoinedPhotons,
+}
+
+impl WalkKind {
+    /// Whether one sample serves all targets.
+    fn is_of_photons(self) -> bool {
+        matches!(self, Self::Photons | Self::CountedPhotons | Self::JoinedPhotons)
+    }
 }
 
 /// Neighbouring coordinates that mostly feed the same decision.
@@ -148,10 +172,16 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     stage.ledger = Some(&ledger);
     match settings.estimator {
         Estimator::Photon => {
-            look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings)
+            look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings).0
         }
         Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
-            look_into(&PathWalk::new(&stage, scene, settings), &ledger, settings)
+            let walk = PathWalk::new(&stage, scene, settings);
+            let (explanation, whole_lx) = look_into(&walk, &ledger, settings);
+            let beside = walk.beside(&whole_lx).map(|walk| Beside {
+                for_each_path: walk.for_each_path(),
+                explanation: look_into(&walk, &ledger, settings).0,
+            });
+            Explanation { beside: beside.collect(), ..explanation }
         }
     }
 }
@@ -164,21 +194,41 @@ struct Pilot {
     dimensions: DimensionHistogram,
 }
 
-/// Points by the number of a stream.
-type Points<'p> = dyn Fn(u64) -> PointSet + Sync + 'p;
+impl Pilot {
+    /// From pieces of photons: what each gave to every target, and what they took.
+    fn of_photons(pieces: Vec<(Vec<Vec<f64>>, PhotonCounts)>, targets: usize) -> Self {
+        let mut all = PhotonCounts::default();
+        let mut values = vec![Vec::new(); targets];
+        for (photons, counts) in pieces {
+            all += counts;
+            for lx in photons {
+                values.iter_mut().zip(lx).for_each(|(of_target, lx)| of_target.push(lx));
+            }
+        }
+        Self { values, rays: all.rays, dimensions: all.dimensions }
+    }
+}
+
+/// Points of a stream.
+type Points<'p> = dyn Fn(Stream) -> PointSet + Sync + 'p;
 
 /// Samples whose values can be had with any coordinates.
 trait Walk: Sync {
     fn kind(&self) -> WalkKind;
     /// How many samples make a pilot.
     fn samples(&self) -> u64;
+    /// What deviations of each target are measured by, where that is not the mean of its values.
+    fn whole_lx(&self) -> Option<&[f64]> {
+        None
+    }
     /// Traces the first samples.
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot;
 }
 
-fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Explanation {
+/// Where the variance of a walk comes from, and the mean of each target, in lx.
+fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> (Explanation, Vec<f64>) {
     let samples = walk.samples();
-    let key = |replicate: u32, stream: u64| stream_key(settings.seed, replicate, stream);
+    let key = |replicate: u32, stream: Stream| stream_key(settings.seed, replicate, stream.id());
     let random = |key| PointSet::new(Sequence::Random, Randomization::None, key);
     ledger.set_open(true);
     let pilot = walk.trace(samples, &|stream| random(key(PILOT, stream)));
@@ -191,8 +241,10 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Explanati
         varied.values
     };
 
-    let spread = Spread::new(&pilot.values, &other.values);
-    let mut blocks = blocks::of(&ledger.uses(), samples * pilot.values.len() as u64);
+    let spread = Spread::new([&pilot.values, &other.values], walk.whole_lx());
+    // Photons serve all targets, paths one each.
+    let of_each = if walk.kind().is_of_photons() { 1 } else { pilot.values.len() as u64 };
+    let mut blocks = blocks::of(&ledger.take(), samples * of_each);
     let mut truncation_dimension = None;
     for (number, block) in blocks.iter_mut().enumerate().filter(|_| spread.varies()) {
         let Range { start: first, end } = block.dimensions;
@@ -220,7 +272,7 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Explanati
     let totals: Option<Vec<f64>> =
         blocks.iter().map(|block| block.total.map(|share| share.value)).collect();
     let gain = gain(walk, settings, &spread, &mut rays);
-    Explanation {
+    let explanation = Explanation {
         walk: walk.kind(),
         targets: pilot.values.len(),
         samples,
@@ -231,7 +283,9 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Explanati
         truncation_dimension,
         blocks,
         gain,
-    }
+        beside: Vec::new(),
+    };
+    (explanation, spread.into_means())
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Paths as a pilot sees them: what each finds at some of the sensor points.
 
+use super::beside::{BesideWalk, Role};
 use super::{Pilot, Points, Walk, WalkKind};
 use crate::choice::{Decision, decide};
 use crate::gathering::exact;
@@ -32,7 +33,7 @@ pub(super) struct PathWalk<'s, S> {
     targets: Vec<PathTarget>,
     end: PathEnd<S>,
     hidden: Option<HiddenLight<S>>,
-    /// Photons that find a part of the light.
+    /// Photons that find a part of the light, for these targets.
     joined: Option<Joined>,
     kind: WalkKind,
 }
@@ -56,23 +57,25 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
     pub(super) fn new(stage: &'s Stage<'s, S>, scene: &Scene, settings: &Settings) -> Self {
         let all = targets(scene);
         let count = all.len().min(TARGETS);
-        let numbers = (0..count).map(|i| (2 * i + 1) * all.len() / (2 * count));
+        let number = |i| (2 * i + 1) * all.len() / (2 * count);
+        let looked_at = || (0..count).map(number).map(|number| (number, all[number]));
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
         let exact = exact(stage, &all, &mut 0);
         let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let Decision { mut joined, frozen, .. } =
+        let Decision { joined, frozen, .. } =
             decide(stage, (settings, 1), (&all, &exact), quantum, &mut watch);
+        let mut joined = joined.map(|joined| joined.of_some(stage, looked_at()));
         if let Some(joined) = &mut joined {
             // As many photons as say how much light they find.
             joined.grow(stage, JOINED_SAMPLES, &mut watch);
         }
-        let targets = numbers.map(|number| PathTarget {
+        let targets = looked_at().enumerate().map(|(i, (number, target))| PathTarget {
             number: number as u64,
-            target: all[number],
+            target,
             given_lx: exact[number].sum_lx()
-                + joined.as_ref().map_or(0.0, |joined| joined.lx(0, number)),
+                + joined.as_ref().map_or(0.0, |joined| joined.lx(0, i)),
         });
         let targets: Vec<PathTarget> = targets.collect();
         let (mut end, _) = PathEnd::prepare(stage, &one, &all, (frozen, None), &mut watch);
@@ -86,6 +89,18 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
             _ => WalkKind::PathsOnMap,
         };
         Self { stage, targets, end, hidden, joined, kind }
+    }
+
+    /// The photons that find a part of the light, as walks of their own, where the targets get this much in all.
+    pub(super) fn beside<'w>(
+        &'w self,
+        whole_lx: &'w [f64],
+    ) -> impl Iterator<Item = BesideWalk<'w, S>> {
+        let of_role = move |joined, role| BesideWalk { stage: self.stage, joined, role, whole_lx };
+        let walks = self.joined.iter().flat_map(move |joined| {
+            [Role::Counted, Role::Joined].map(|role| of_role(joined, role))
+        });
+        walks.filter(|walk| walk.for_each_path() > 0)
     }
 
     /// Light that only photons find, as far as paths read it.
@@ -134,7 +149,7 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
             let section = Section {
                 number: 0,
                 target: target.target,
-                points: points(Stream::Paths(target.number).id()),
+                points: points(Stream::Paths(target.number)),
                 rest: self.end.rest(self.stage, 0, target.number as usize),
                 joining: self.joined.as_ref().map(|joined| &joined.joining),
                 hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),

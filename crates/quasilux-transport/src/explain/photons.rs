@@ -68,7 +68,7 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
     }
 
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot {
-        let points = points(Stream::Photons.id());
+        let points = points(Stream::Photons);
         let piece = |number: u64| {
             let mut counts = PhotonCounts::default();
             let photon = |index| {
@@ -84,17 +84,8 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
             let values: Vec<Vec<f64>> = (first..(first + PIECE).min(samples)).map(photon).collect();
             (values, counts)
         };
-        let pieces: Vec<(Vec<Vec<f64>>, PhotonCounts)> =
-            (0..samples.div_ceil(PIECE)).into_par_iter().map(piece).collect();
-        let mut all = PhotonCounts::default();
-        let mut values = vec![Vec::with_capacity(samples as usize); self.sensors];
-        for (photons, counts) in pieces {
-            all += counts;
-            for lx in photons {
-                values.iter_mut().zip(lx).for_each(|(of_sensor, lx)| of_sensor.push(lx));
-            }
-        }
-        Pilot { values, rays: all.rays, dimensions: all.dimensions }
+        let pieces = (0..samples.div_ceil(PIECE)).into_par_iter().map(piece).collect();
+        Pilot::of_photons(pieces, self.sensors)
     }
 }
 

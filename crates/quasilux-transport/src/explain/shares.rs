@@ -16,18 +16,19 @@ pub(super) struct Spread<'v> {
     a: &'v [Vec<f64>],
     b: &'v [Vec<f64>],
     means: Vec<f64>,
-    /// One over the square of the mean; 0 for targets without light.
+    /// One over the square of the mean, or of the whole; 0 for targets without light.
     weights: Vec<f64>,
     /// Weighted squares of the deviations, by index, mean of both pilots.
     squares: Vec<f64>,
 }
 
 impl<'v> Spread<'v> {
-    pub(super) fn new(a: &'v [Vec<f64>], b: &'v [Vec<f64>]) -> Self {
+    /// Of two pilots, in units of these wholes or else of the means.
+    pub(super) fn new([a, b]: [&'v [Vec<f64>]; 2], wholes: Option<&[f64]>) -> Self {
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         let means: Vec<f64> = a.iter().zip(b).map(|(a, b)| 0.5 * (mean(a) + mean(b))).collect();
         let weight = |mean: &f64| if *mean > 0.0 { 1.0 / (mean * mean) } else { 0.0 };
-        let weights = means.iter().map(weight).collect();
+        let weights = wholes.unwrap_or(&means).iter().map(weight).collect();
         let samples = a.first().map_or(0, Vec::len);
         let mut spread = Self { a, b, means, weights, squares: vec![0.0; samples] };
         spread.squares = spread.by_index(|target, index| {
@@ -43,13 +44,18 @@ impl<'v> Spread<'v> {
         self.means.len()
     }
 
+    /// The mean of each target.
+    pub(super) fn into_means(self) -> Vec<f64> {
+        self.means
+    }
+
     /// Whether there is any variance.
     pub(super) fn varies(&self) -> bool {
         let deviation = self.relative_deviation();
         deviation * deviation > ROUNDING
     }
 
-    /// Standard deviation over mean, root mean square over the targets with light.
+    /// Standard deviation over mean or whole, root mean square over the targets with light.
     pub(super) fn relative_deviation(&self) -> f64 {
         let lit = self.weights.iter().filter(|weight| **weight > 0.0).count();
         let values = (lit * self.squares.len()).max(1);

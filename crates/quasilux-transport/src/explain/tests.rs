@@ -21,7 +21,7 @@ impl Walk for Ishigami<'_> {
     }
 
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot {
-        let points = points(2);
+        let points = points(Stream::Paths(0));
         let mut dimensions = DimensionHistogram::new();
         let value = |index| {
             let mut cursor = SampleCursor::new(&points, index);
@@ -44,7 +44,7 @@ impl Walk for Ishigami<'_> {
 
 fn look(step: f64, settings: &Settings) -> Explanation {
     let ledger = Ledger::default();
-    look_into(&Ishigami { ledger: &ledger, step }, &ledger, settings)
+    look_into(&Ishigami { ledger: &ledger, step }, &ledger, settings).0
 }
 
 /// Of the variance, `(1 + pi^4 / 50)^2 / 2` is that of x alone, 49 / 8 that of y, and `8 pi^8 / 22500` that

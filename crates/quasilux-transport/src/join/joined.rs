@@ -21,7 +21,7 @@ use std::sync::{Mutex, PoisonError};
 const GROUP: usize = 256;
 /// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
 /// by chance later: smooth sums are what quasi-random points are good at.
-const CERTAIN_WEIGHT: f64 = 0.1;
+pub(super) const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// A photon that is joined takes as long as so many others, about.
 const JOINING: u64 = 4;
@@ -34,7 +34,7 @@ pub(crate) struct Joined {
     expected_lx: Vec<f64>,
     /// Terms of the Neumann series that are told apart.
     terms: usize,
-    quantum: Quantum,
+    pub(super) quantum: Quantum,
     /// By group of targets and replicate; those of target t of a group from `t * terms` on.
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
@@ -97,6 +97,17 @@ impl Joined {
         }
     }
 
+    /// The same from its beginning, for one replicate of some of the targets.
+    pub(crate) fn of_some<S: Spectrum>(
+        self,
+        stage: &Stage<'_, S>,
+        targets: impl Iterator<Item = (usize, Target)>,
+    ) -> Self {
+        let of_target = |(number, target): (usize, Target)| (self.expected_lx[number], target);
+        let (expected_lx, targets): (Vec<f64>, Vec<Target>) = targets.map(of_target).unzip();
+        Self::new(stage, self.joining, &targets, expected_lx, 0..1, (0, self.quantum))
+    }
+
     /// Puts what was found out before the first photon among the decisions.
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         self.joining.put(out);
@@ -145,14 +156,11 @@ impl Joined {
             let photons = self.samples * each..samples * each;
             counted = coarse.grow(stage, &self.joining, CERTAIN_WEIGHT, photons, watch)?;
         }
-        let chunks = self.spots.chunks(GROUP).zip(self.expected_lx.chunks(GROUP));
-        let chunks = chunks.zip(self.ends.chunks(GROUP));
-        for (number, (((spots, expected_lx), ends), sums)) in (0..).zip(chunks.zip(&self.sums)) {
-            if ends.iter().all(Option::is_some) {
+        for (number, sums) in (0..).zip(&self.sums) {
+            let group = self.group(number as usize);
+            if group.ends.iter().all(Option::is_some) {
                 continue;
             }
-            let outlook = self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number as usize]);
-            let group = Group { spots, expected_lx, outlook, ends, terms: self.terms };
             let receiver = |r: u32| {
                 let points = stage.points(r, Stream::JoinedPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
@@ -172,6 +180,19 @@ impl Joined {
         self.samples = samples;
         self.count();
         Some([counts, counted])
+    }
+
+    /// A group of targets that photons are joined to.
+    pub(super) fn group(&self, number: usize) -> Group<'_> {
+        let first = number * GROUP;
+        let range = first..(first + GROUP).min(self.spots.len());
+        Group {
+            spots: &self.spots[range.clone()],
+            expected_lx: &self.expected_lx[range.clone()],
+            outlook: self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number]),
+            ends: &self.ends[range],
+            terms: self.terms,
+        }
     }
 
     /// Joins no more photons to targets that have an end.

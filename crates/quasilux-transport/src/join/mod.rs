@@ -42,6 +42,7 @@ mod joined;
 mod leaving;
 mod outlook;
 mod receiver;
+mod single;
 mod spot;
 mod view;
 mod ways;
@@ -107,6 +108,11 @@ impl Joining {
     /// Photons for each path of a sensor.
     pub(crate) fn photons(&self) -> u64 {
         self.photons
+    }
+
+    /// Photons for each path that are only counted.
+    pub(crate) fn coarse_photons(&self) -> u64 {
+        self.coarse_photons
     }
 
     /// Whether they are steered.

@@ -5,6 +5,7 @@
 //! sensors' views. It need not be right, see [`super`].
 
 use super::Joining;
+use super::leaving::{Leaving, Side};
 use super::spot::Spot;
 use super::view::View;
 use crate::spectrum::Spectrum;
@@ -44,9 +45,19 @@ impl Outlook {
     }
 
     /// What all targets get from a cell, by what comes there straight from the lights or otherwise.
-    pub(super) fn of_cell(&self, cell: usize, is_first: bool) -> &[f32] {
+    fn of_cell(&self, cell: usize, is_first: bool) -> &[f32] {
         let row = cell * CLASSES + usize::from(!is_first);
         &self.lx_sr_lm[row * self.targets..(row + 1) * self.targets]
+    }
+
+    /// Finds out what all targets are taken to get of what leaves a place.
+    pub(super) fn foresee(&self, leaving: &Leaving, is_first: bool, lx: &mut [f64]) {
+        lx.fill(0.0);
+        for (cell, lm_sr) in leaving.sides.iter().flat_map(Side::parts_lm_sr) {
+            let seen = self.of_cell(cell, is_first);
+            let sums = lx.iter_mut().zip(seen);
+            sums.for_each(|(sum, lx_sr_lm)| *sum += lm_sr * f64::from(*lx_sr_lm));
+        }
     }
 
     /// What one target gets from all cells.

@@ -2,11 +2,12 @@
 
 use super::Joining;
 use super::joined::lock;
-use super::leaving::{Leaving, Side};
+use super::leaving::Leaving;
 use super::outlook::Outlook;
 use super::spot::Spot;
 use super::view::View;
 use crate::photon::{Flight, PhotonReceiver};
+use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::steering::Density;
@@ -160,17 +161,6 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
         leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
     }
 
-    /// Finds out what all targets are taken to get in any case.
-    fn foresee(&mut self, leaving: &Leaving, is_first: bool) {
-        self.foreseen_lx.fill(0.0);
-        let Some(outlook) = self.group.outlook else { return };
-        for (cell, lm_sr) in leaving.sides.iter().flat_map(Side::parts_lm_sr) {
-            let seen = outlook.of_cell(cell, is_first);
-            let sums = self.foreseen_lx.iter_mut().zip(seen);
-            sums.for_each(|(sum, lx_sr_lm)| *sum += lm_sr * f64::from(*lx_sr_lm));
-        }
-    }
-
     /// Traces the rays that wait.
     fn answer(&mut self) {
         self.rays += self.sights.len() as u64;
@@ -191,7 +181,9 @@ fn fraction(x: f64) -> f64 {
 impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
     fn follow(&mut self, cursor: &SampleCursor<'_>) {
         let mut cursor = cursor.among(&self.points, PLACE_DIMENSION);
-        self.photon = Some(Seen { in_cell: cursor.next_2d(), chance: cursor.next_1d() });
+        let draw = |cursor: &mut SampleCursor<'_>| (cursor.next_2d(), cursor.next_1d());
+        let (in_cell, chance) = self.stage.draw(&mut cursor, Purpose::Joins, draw);
+        self.photon = Some(Seen { in_cell, chance });
     }
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
@@ -202,7 +194,9 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
         }
         let leaving = Leaving::new(self.stage, self.joining, at, weight);
         self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
-        self.foresee(&leaving, bounces == 0);
+        if let Some(outlook) = self.group.outlook {
+            outlook.foresee(&leaving, bounces == 0, &mut self.foreseen_lx);
+        }
         for number in 0..self.group.spots.len() {
             if self.group.ends[number].is_none() {
                 self.ask(number, at, &leaving, bounces);
