@@ -32,16 +32,21 @@ const STEPS: u32 = 16;
 /// A map as a pilot left it, and what is best made of it.
 pub(crate) struct Choice<S> {
     map: Growing<S>,
+    use_of_it: Use,
+    /// Whether its photons found much that the paths of the trial did not.
+    pub(crate) misses_light: bool,
+}
+
+/// What may be made of a map, and what that promises.
+struct Use {
     survival: Survival,
     photons: u64,
     /// Of each target that is seen, for a trial.
-    pub(crate) variances: Vec<f64>,
+    variances: Vec<f64>,
     /// Rays of a trial.
-    pub(crate) rays: f64,
+    rays: f64,
     /// Rays before the first path that are still to be traced.
-    pub(crate) beforehand: f64,
-    /// Whether its photons found much that the paths of the trial did not.
-    pub(crate) misses_light: bool,
+    beforehand: f64,
 }
 
 /// A map that gets its photons.
@@ -93,19 +98,18 @@ impl<S: Spectrum> Choice<S> {
                 let in_all = wanted.rays(alone, &promise);
                 if in_all < least {
                     least = in_all;
-                    best = Some((survival.clone(), photons, variances, rays, beforehand));
+                    let survival = survival.clone();
+                    best = Some(Use { survival, photons, variances, rays, beforehand });
                 }
             }
         }
-        let (survival, photons, variances, rays, beforehand) = best?;
         let misses_light = trips.miss_light(wanted);
-        Some(Self { map, survival, photons, variances, rays, beforehand, misses_light })
+        best.map(|use_of_it| Self { map, use_of_it, misses_light })
     }
 
     /// What it promises.
     pub(crate) fn promise(&self) -> Promise<'_> {
-        let Self { variances, rays, beforehand, .. } = self;
-        Promise { variances, of_paths: *rays, of_photons: 0.0, beforehand: *beforehand }
+        self.use_of_it.promise()
     }
 
     /// Its photons where it is not taken, if they left the lights and so say where the flux goes; of others it adds the rays.
@@ -124,12 +128,20 @@ impl<S: Spectrum> Choice<S> {
         worth_per_lx: Vec<f64>,
         watch: &mut Watch<'_>,
     ) -> (FrozenMap<S>, PhotonCounts) {
-        self.map.grow(stage, self.photons, watch);
+        let Use { survival, photons, .. } = self.use_of_it;
+        self.map.grow(stage, photons, watch);
         let photon_lm = self.map.photon_lm(stage);
         let Growing { layout, tally, lit_cells, counts, .. } = self.map;
-        let (first_shot, survival) = (lit_cells.is_some(), self.survival);
+        let first_shot = lit_cells.is_some();
         let frozen = FrozenMap { layout, tally, photon_lm, first_shot, survival, worth_per_lx };
         (frozen, counts)
+    }
+}
+
+impl Use {
+    fn promise(&self) -> Promise<'_> {
+        let Self { variances, rays, beforehand, .. } = self;
+        Promise { variances, of_paths: *rays, of_photons: 0.0, beforehand: *beforehand }
     }
 }
 

@@ -120,7 +120,8 @@ fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let promises = (&walks, &noted, &plain);
     let choice = Choice::new(&stage, &settings, promises, &bench.wanted, &mut watch).unwrap();
     assert!(!choice.misses_light);
-    let foretold = (mean(&choice.variances), choice.rays);
+    let promise = choice.promise();
+    let foretold = (mean(promise.variances), promise.of_paths);
     let worth = (0..bench.targets.len()).map(|target| bench.wanted.worth_per_lx(target)).collect();
     let (map, _) = choice.freeze(&stage, worth, &mut watch);
     assert_found("on a map", foretold, bench.variance_and_rays(Paths::OnMap(&map)));
