@@ -89,7 +89,7 @@ impl fmt::Display for Purpose {
             Self::Emission => return f.write_str("light, and direction or place on it"),
             Self::EmissionOfArea => return f.write_str("direction from, or place on, an area"),
             Self::Cell => return f.write_str("place in the cell"),
-            Self::Joins => return f.write_str("place in cells, and chance, of joins"),
+            Self::Joins => return f.write_str("chance of joins, and place in the sensor's cell"),
             Self::FirstDirection => return f.write_str("direction from the sensor"),
             Self::AreaLight { surface } => ("place on an area light", surface),
             Self::AreaLuminaire { surface } => ("luminaire and place on it", surface),

@@ -78,9 +78,13 @@ fn sampled(explanation: &Explanation) -> String {
             (format!("{samples} photons joined to {targets} points"), "photon")
         }
     };
+    let whole = match walk {
+        WalkKind::CountedPhotons | WalkKind::JoinedPhotons => "all the light there",
+        _ => "the mean",
+    };
     format!(
         "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, {} at \
-         most, and what it finds deviates by {} % of the mean.",
+         most, and what it finds deviates by {} % of {whole}.",
         count(*rays),
         brief(dimensions.mean(), 3),
         dimensions.largest(),
@@ -132,20 +136,32 @@ fn sentences(explanation: &Explanation) -> Vec<String> {
     sentences
 }
 
-/// What a path and the photons beside it each leave open.
+/// What a path and the photons beside it each leave open, and what the sequence takes of that.
 fn together(explanation: &Explanation) -> String {
     let percent = |deviation: f64| format!("{} %", brief(100.0 * deviation, 2));
     let photons = explanation.beside.iter().map(|Beside { for_each_path, explanation }| {
-        let are = if explanation.walk == WalkKind::CountedPhotons { "counted" } else { "joined" };
-        let together = explanation.relative_deviation / (*for_each_path as f64).sqrt();
-        format!("its {} {are} photons by {}", count(*for_each_path), percent(together))
+        let are = match explanation.walk {
+            WalkKind::CountedPhotons => "counted",
+            _ => "joined",
+        };
+        let photons = if *for_each_path == 1 { "photon" } else { "photons" };
+        let deviation = explanation.relative_deviation / (*for_each_path as f64).sqrt();
+        format!("its {} {are} {photons} by {}", count(*for_each_path), percent(deviation))
     });
     let photons: Vec<String> = photons.collect();
-    format!(
-        "With random points a path would deviate by {} of the mean, {}.",
+    let mut text = format!(
+        "With random points a path would deviate by {} of the mean, {}",
         percent(explanation.relative_deviation),
         photons.join(", "),
-    )
+    );
+    let parts = explanation.beside.iter().map(|beside| &beside.explanation);
+    let gains = std::iter::once(explanation).chain(parts).map(|part| part.gain);
+    if let Some(gains) = gains.collect::<Option<Vec<Gain>>>() {
+        let factors: Vec<String> = gains.iter().map(|gain| format!("{:.1}", gain.factor)).collect();
+        write!(text, "; the sequence divides these by {}", factors.join(", "))
+            .expect("strings grow");
+    }
+    text + "."
 }
 
 fn worth(gain: &Gain) -> String {
@@ -228,7 +244,8 @@ mod tests {
         for words in [
             "1 024 paths beside photons from each of 8 points",
             "1 024 photons counted by cells that 8 points see",
-            "a path would deviate by 80 % of the mean, its 64 counted photons by 10 %.",
+            "a path would deviate by 80 % of the mean, its 64 counted photons by 10 %; the sequence divides these by 3.0, 3.0.",
+            "what it finds deviates by 80 % of all the light there",
         ] {
             assert!(text.contains(words), "no {words} in\n{text}");
         }

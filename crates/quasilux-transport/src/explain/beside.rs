@@ -4,15 +4,12 @@
 
 use super::{Pilot, Points, Walk, WalkKind};
 use crate::join::Joined;
-use crate::photon::PhotonCounts;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
-use rayon::prelude::*;
+use quasilux_sampling::SampleCursor;
 
 /// Photons.
 const SAMPLES: u64 = 1 << 13;
-/// Photons that one thread traces before it takes others.
-const PIECE: u64 = 1 << 8;
 
 /// What photons beside paths are for.
 #[derive(Clone, Copy)]
@@ -28,7 +25,7 @@ pub(super) struct BesideWalk<'w, S> {
     pub(super) joined: &'w Joined,
     pub(super) role: Role,
     /// Illuminance of each target, from all that there is.
-    pub(super) whole_lx: &'w [f64],
+    pub(super) whole_lx: Vec<f64>,
 }
 
 impl<S: Spectrum> BesideWalk<'_, S> {
@@ -54,27 +51,21 @@ impl<S: Spectrum> Walk for BesideWalk<'_, S> {
     }
 
     fn whole_lx(&self) -> Option<&[f64]> {
-        Some(self.whole_lx)
+        Some(&self.whole_lx)
     }
 
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot {
         let [counted, joined, places] =
             [Stream::CoarsePhotons, Stream::JoinedPhotons(0), Stream::JoinedPlaces(0)].map(points);
-        let piece = |number: u64| {
-            let mut counts = PhotonCounts::default();
-            let photon = |index| match self.role {
-                Role::Counted => {
-                    self.joined.of_counted_lx(self.stage, (&counted, index), &mut counts)
-                }
-                Role::Joined => {
-                    self.joined.of_joined_lx(self.stage, (&joined, places, index), &mut counts)
-                }
-            };
-            let first = number * PIECE;
-            let values: Vec<Vec<f64>> = (first..(first + PIECE).min(samples)).map(photon).collect();
-            (values, counts)
-        };
-        let pieces = (0..samples.div_ceil(PIECE)).into_par_iter().map(piece).collect();
-        Pilot::of_photons(pieces, self.whole_lx.len())
+        Pilot::of_photons(samples, self.whole_lx.len(), |index, counts| match self.role {
+            Role::Counted => {
+                let cursor = SampleCursor::new(&counted, index);
+                self.joined.of_counted_lx(self.stage, cursor, counts)
+            }
+            Role::Joined => {
+                let cursor = SampleCursor::new(&joined, index);
+                self.joined.of_joined_lx(self.stage, cursor, places, counts)
+            }
+        })
     }
 }

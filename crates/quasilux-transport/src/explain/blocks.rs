@@ -9,8 +9,22 @@ const MOST_BLOCKS: usize = 12;
 /// Coordinates that fewer samples get to belong to the last block.
 const LEAST_REACHED: f64 = 1.0 / 64.0;
 
-/// The blocks of `samples` samples that drew these dimensions.
-pub(super) fn of(uses: &BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
+/// The blocks of `samples` samples that drew these dimensions. What decides over joins has a block of its own, for its
+/// dimensions are far from all others.
+pub(super) fn of(uses: BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
+    let (joins, others): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        uses.into_iter().partition(|((_, purpose), _)| *purpose == Purpose::Joins);
+    let mut blocks = in_order(&others, samples);
+    if let (Some(last), Some(((first, _), _))) = (blocks.last_mut(), joins.first_key_value()) {
+        last.dimensions.end = *first;
+        blocks.extend(in_order(&joins, samples));
+    }
+    blocks
+}
+
+/// Of dimensions from the first on that is in use.
+fn in_order(uses: &BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
+    let start = uses.keys().next().map_or(0, |(dimension, _)| *dimension);
     let end = uses.keys().next_back().map_or(0, |(dimension, _)| dimension + 1);
     let of_dimension = |dimension: u32| {
         let all = (dimension, FIRST_PURPOSE)..(dimension + 1, FIRST_PURPOSE);
@@ -18,7 +32,7 @@ pub(super) fn of(uses: &BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Bloc
     };
     let mut blocks: Vec<Block> = Vec::new();
     let mut last_purpose = None;
-    for dimension in 0..end {
+    for dimension in start..end {
         let drawn: u64 = of_dimension(dimension).map(|(_, count)| count).sum();
         let reached = drawn as f64 / samples as f64;
         let most = of_dimension(dimension).max_by_key(|&(_, count)| count);

@@ -29,6 +29,7 @@ use paths::PathWalk;
 use photons::PhotonWalk;
 use quasilux_sampling::{DimensionHistogram, PointSet, Randomization, Sequence, stream_key};
 use quasilux_scene::{Rgb, Scene};
+use rayon::prelude::*;
 use shares::Spread;
 use std::ops::Range;
 
@@ -37,6 +38,8 @@ const PILOT: u32 = u32::MAX;
 const EXCHANGE: u32 = u32::MAX - 1;
 const FIRST_OF_GAIN: u32 = u32::MAX - 1000;
 
+/// Photons that one thread traces before it takes others.
+const PHOTONS_A_PIECE: u64 = 1 << 8;
 /// Steps by which blocks are moved, to see how fast the difference falls.
 const STEPS: [f64; 2] = [1.0 / 16.0, 1.0 / 64.0];
 /// Shares of less are not looked at for jumps.
@@ -47,16 +50,16 @@ const LEAST_SHARE: f64 = 0.01;
 pub struct Explanation {
     /// What was traced.
     pub walk: WalkKind,
-    /// Sensor points whose paths were looked at, or sensors whose average photons were.
+    /// Sensor points whose paths were looked at, with the photons beside them, or sensors whose average photons were.
     pub targets: usize,
     /// Pilot samples, of each target where they are paths.
     pub samples: u64,
-    /// Rays that all of this took; those of the estimate are not in it.
+    /// Rays that all samples took; those of the estimate are not in it, nor what must be there before the first.
     pub rays: u64,
     /// How many coordinates the samples used.
     pub dimensions: DimensionHistogram,
-    /// Standard deviation of what one sample finds over the mean of all that is found, root mean square over the
-    /// targets; 0 where nothing varies.
+    /// Standard deviation of what one sample finds over the mean, root mean square over the targets; 0 where nothing
+    /// varies. Of photons beside paths over all the light there.
     pub relative_deviation: f64,
     /// Coordinates by what they feed, in their order.
     pub blocks: Vec<Block>,
@@ -160,7 +163,8 @@ pub struct Gain {
 
 /// Looks into the variance of one sample, without the run.
 ///
-/// Deterministic for any number of threads. It costs a few hundred thousand samples.
+/// Deterministic for any number of threads. It costs up to half a million samples of paths, and as many of each kind
+/// of photons.
 #[must_use]
 pub fn explain(scene: &Scene, settings: &Settings) -> Explanation {
     if is_grey(scene) { on_stage::<f64>(scene, settings) } else { on_stage::<Rgb>(scene, settings) }
@@ -172,14 +176,14 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     stage.ledger = Some(&ledger);
     match settings.estimator {
         Estimator::Photon => {
-            look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings).0
+            look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings).explanation
         }
         Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
             let walk = PathWalk::new(&stage, scene, settings);
-            let (explanation, whole_lx) = look_into(&walk, &ledger, settings);
-            let beside = walk.beside(&whole_lx).map(|walk| Beside {
+            let Look { explanation, means_lx } = look_into(&walk, &ledger, settings);
+            let beside = walk.beside(&means_lx).map(|walk| Beside {
                 for_each_path: walk.for_each_path(),
-                explanation: look_into(&walk, &ledger, settings).0,
+                explanation: look_into(&walk, &ledger, settings).explanation,
             });
             Explanation { beside: beside.collect(), ..explanation }
         }
@@ -195,13 +199,27 @@ struct Pilot {
 }
 
 impl Pilot {
-    /// From pieces of photons: what each gave to every target, and what they took.
-    fn of_photons(pieces: Vec<(Vec<Vec<f64>>, PhotonCounts)>, targets: usize) -> Self {
+    /// Of photons, each of which gives something to every target.
+    fn of_photons(
+        photons: u64,
+        targets: usize,
+        give_lx: impl Fn(u64, &mut PhotonCounts) -> Vec<f64> + Sync,
+    ) -> Self {
+        let piece = |number: u64| {
+            let mut counts = PhotonCounts::default();
+            let first = number * PHOTONS_A_PIECE;
+            let photons = first..(first + PHOTONS_A_PIECE).min(photons);
+            let given: Vec<Vec<f64>> = photons.map(|index| give_lx(index, &mut counts)).collect();
+            (given, counts)
+        };
+        let pieces = (0..photons.div_ceil(PHOTONS_A_PIECE)).into_par_iter().map(piece);
         let mut all = PhotonCounts::default();
         let mut values = vec![Vec::new(); targets];
-        for (photons, counts) in pieces {
+        for (given, counts) in pieces.collect::<Vec<_>>() {
             all += counts;
-            for lx in photons {
+            for lx in given {
+                // The run counts and reports what is no number.
+                let lx = lx.into_iter().map(|lx| if lx.is_finite() { lx } else { 0.0 });
                 values.iter_mut().zip(lx).for_each(|(of_target, lx)| of_target.push(lx));
             }
         }
@@ -225,8 +243,14 @@ trait Walk: Sync {
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot;
 }
 
-/// Where the variance of a walk comes from, and the mean of each target, in lx.
-fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> (Explanation, Vec<f64>) {
+/// What is known of a walk.
+struct Look {
+    explanation: Explanation,
+    /// Of each target.
+    means_lx: Vec<f64>,
+}
+
+fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Look {
     let samples = walk.samples();
     let key = |replicate: u32, stream: Stream| stream_key(settings.seed, replicate, stream.id());
     let random = |key| PointSet::new(Sequence::Random, Randomization::None, key);
@@ -244,7 +268,7 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> (Explanat
     let spread = Spread::new([&pilot.values, &other.values], walk.whole_lx());
     // Photons serve all targets, paths one each.
     let of_each = if walk.kind().is_of_photons() { 1 } else { pilot.values.len() as u64 };
-    let mut blocks = blocks::of(&ledger.take(), samples * of_each);
+    let mut blocks = blocks::of(ledger.take(), samples * of_each);
     let mut truncation_dimension = None;
     for (number, block) in blocks.iter_mut().enumerate().filter(|_| spread.varies()) {
         let Range { start: first, end } = block.dimensions;
@@ -257,7 +281,8 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> (Explanat
         block.alone = spread.alone(&exchanged);
         block.total = spread.total(&exchanged);
         let carries = |share: Option<Share>, least| share.is_some_and(|share| share.value > least);
-        if truncation_dimension.is_none() && number > 0 {
+        let follows = number > 0 && block.uses.iter().all(|used| used.purpose != Purpose::Joins);
+        if truncation_dimension.is_none() && follows {
             let tail = spread.total(&exchange(first..u32::MAX));
             truncation_dimension = (!carries(tail, 0.01)).then_some(first);
         }
@@ -285,7 +310,7 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> (Explanat
         gain,
         beside: Vec::new(),
     };
-    (explanation, spread.into_means())
+    Look { explanation, means_lx: spread.into_means() }
 }
 
 #[cfg(test)]

@@ -92,13 +92,15 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
     }
 
     /// The photons that find a part of the light, as walks of their own, where the targets get this much in all.
-    pub(super) fn beside<'w>(
-        &'w self,
-        whole_lx: &'w [f64],
-    ) -> impl Iterator<Item = BesideWalk<'w, S>> {
-        let of_role = move |joined, role| BesideWalk { stage: self.stage, joined, role, whole_lx };
+    pub(super) fn beside(&self, whole_lx: &[f64]) -> impl Iterator<Item = BesideWalk<'_, S>> {
         let walks = self.joined.iter().flat_map(move |joined| {
-            [Role::Counted, Role::Joined].map(|role| of_role(joined, role))
+            // Of a target that is nearly dark, little is known but what was foretold.
+            let known = whole_lx.iter().zip(joined.foretold_lx());
+            let whole_lx: Vec<f64> = known.map(|(lx, foretold)| lx.max(0.5 * foretold)).collect();
+            [Role::Counted, Role::Joined].map(|role| {
+                let whole_lx = whole_lx.clone();
+                BesideWalk { stage: self.stage, joined, role, whole_lx }
+            })
         });
         walks.filter(|walk| walk.for_each_path() > 0)
     }

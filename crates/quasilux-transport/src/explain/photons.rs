@@ -4,7 +4,7 @@
 
 use super::{Pilot, Points, Walk, WalkKind};
 use crate::counting::{self, Receivers};
-use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::photon::{Flight, Lead, PhotonReceiver, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -12,12 +12,9 @@ use crate::steering::Windows;
 use crate::world::Interaction;
 use quasilux_sampling::SampleCursor;
 use quasilux_scene::Scene;
-use rayon::prelude::*;
 
 /// Photons.
 const SAMPLES: u64 = 1 << 14;
-/// Photons that one thread traces before it takes others.
-const PIECE: u64 = 1 << 10;
 
 pub(super) struct PhotonWalk<'s, S> {
     stage: &'s Stage<'s, S>,
@@ -69,23 +66,15 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
 
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot {
         let points = points(Stream::Photons);
-        let piece = |number: u64| {
-            let mut counts = PhotonCounts::default();
-            let photon = |index| {
-                let Self { receivers, readings, .. } = self;
-                let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
-                let cursor = SampleCursor::new(&points, index);
-                let windows = self.windows.as_ref();
-                let lead = Lead { source: Source::Lights, windows, certain_weight: f64::INFINITY };
-                trace_photon(self.stage, lead, cursor, &mut found, &mut counts);
-                found.lx
-            };
-            let first = number * PIECE;
-            let values: Vec<Vec<f64>> = (first..(first + PIECE).min(samples)).map(photon).collect();
-            (values, counts)
-        };
-        let pieces = (0..samples.div_ceil(PIECE)).into_par_iter().map(piece).collect();
-        Pilot::of_photons(pieces, self.sensors)
+        Pilot::of_photons(samples, self.sensors, |index, counts| {
+            let Self { receivers, readings, .. } = self;
+            let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
+            let cursor = SampleCursor::new(&points, index);
+            let windows = self.windows.as_ref();
+            let lead = Lead { source: Source::Lights, windows, certain_weight: f64::INFINITY };
+            trace_photon(self.stage, lead, cursor, &mut found, counts);
+            found.lx
+        })
     }
 }
 

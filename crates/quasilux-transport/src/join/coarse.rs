@@ -141,10 +141,8 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        if self.stage.max_bounces.is_some_and(|most| bounces >= most) {
-            return;
-        }
-        let leaving = Leaving::new(self.stage, self.joining, at, weight);
+        let leaving = Leaving::new(self.stage, self.joining, at, (weight, bounces));
+        let Some(leaving) = leaving else { return };
         let slot = (bounces as usize).min(self.slots - 1);
         for side in leaving.sides {
             for (cell, lm_sr) in side.parts_lm_sr() {

@@ -116,6 +116,11 @@ impl Joined {
         outlooks.for_each(|outlook| outlook.put(out));
     }
 
+    /// The illuminance that the survey foretells for each target, in lx.
+    pub(crate) fn foretold_lx(&self) -> &[f64] {
+        &self.expected_lx
+    }
+
     /// Indices so far.
     pub(crate) fn samples(&self) -> u64 {
         self.samples

@@ -24,13 +24,17 @@ pub(super) struct Side {
 }
 
 impl Leaving {
-    /// What a photon of this weight sends on, on a surface that keeps illuminance.
+    /// What a photon of this weight sends on after so many bounces, on a surface that keeps illuminance; `None` where
+    /// no more are wanted.
     pub(super) fn new<S: Spectrum>(
         stage: &Stage<'_, S>,
         joining: &Joining,
         at: &Interaction,
-        weight: S,
-    ) -> Self {
+        (weight, bounces): (S, u32),
+    ) -> Option<Self> {
+        if stage.max_bounces.is_some_and(|most| bounces >= most) {
+            return None;
+        }
         let bsdf = stage.world.bsdf(at);
         let side = |n: DVec3, wi: DVec3| {
             let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
@@ -43,7 +47,7 @@ impl Leaving {
         };
         let nothing = Side { lm_sr: 0.0, around: Around::default() };
         let behind = if bsdf.transmits() { side(-at.n, -DVec3::Z) } else { nothing };
-        Self { sides: [side(at.n, DVec3::Z), behind] }
+        Some(Self { sides: [side(at.n, DVec3::Z), behind] })
     }
 
     /// To both sides.

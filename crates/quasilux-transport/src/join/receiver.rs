@@ -7,7 +7,6 @@ use super::outlook::Outlook;
 use super::spot::Spot;
 use super::view::View;
 use crate::photon::{Flight, PhotonReceiver};
-use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::steering::Density;
@@ -71,7 +70,7 @@ pub(super) struct JoinReceiver<'a, S> {
 }
 
 /// The photon that is being followed.
-struct Seen {
+pub(super) struct Seen {
     /// The place in every cell.
     in_cell: [f64; 2],
     /// What decides over small contributions.
@@ -84,6 +83,17 @@ struct Offer {
     sum: usize,
     lx: f64,
     foreseen_lx: f64,
+}
+
+impl Seen {
+    /// The cursor of a photon, at its coordinates of these points.
+    pub(super) fn cursor<'p>(photon: &SampleCursor<'_>, points: &'p PointSet) -> SampleCursor<'p> {
+        photon.among(points, PLACE_DIMENSION)
+    }
+
+    pub(super) fn draw(cursor: &mut SampleCursor<'_>) -> Self {
+        Self { in_cell: cursor.next_2d(), chance: cursor.next_1d() }
+    }
 }
 
 impl<'a, S: Spectrum> JoinReceiver<'a, S> {
@@ -180,19 +190,14 @@ fn fraction(x: f64) -> f64 {
 
 impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
     fn follow(&mut self, cursor: &SampleCursor<'_>) {
-        let mut cursor = cursor.among(&self.points, PLACE_DIMENSION);
-        let draw = |cursor: &mut SampleCursor<'_>| (cursor.next_2d(), cursor.next_1d());
-        let (in_cell, chance) = self.stage.draw(&mut cursor, Purpose::Joins, draw);
-        self.photon = Some(Seen { in_cell, chance });
+        self.photon = Some(Seen::draw(&mut Seen::cursor(cursor, &self.points)));
     }
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        if self.stage.max_bounces.is_some_and(|most| bounces >= most) {
-            return;
-        }
-        let leaving = Leaving::new(self.stage, self.joining, at, weight);
+        let leaving = Leaving::new(self.stage, self.joining, at, (weight, bounces));
+        let Some(leaving) = leaving else { return };
         self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
         if let Some(outlook) = self.group.outlook {
             outlook.foresee(&leaving, bounces == 0, &mut self.foreseen_lx);

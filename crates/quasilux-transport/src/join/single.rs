@@ -4,8 +4,9 @@ use super::Joining;
 use super::joined::{CERTAIN_WEIGHT, Joined, lock};
 use super::leaving::Leaving;
 use super::outlook::Outlook;
-use super::receiver::{Group, JoinReceiver};
+use super::receiver::{Group, JoinReceiver, Seen};
 use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::tally::Sum;
@@ -27,7 +28,7 @@ impl Joined {
     pub(crate) fn of_counted_lx<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
-        (points, index): (&PointSet, u64),
+        cursor: SampleCursor<'_>,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
         let Group { spots, outlook, .. } = self.group(0);
@@ -35,22 +36,25 @@ impl Joined {
         let Some(outlook) = outlook else { return zeros };
         let (at_once_lx, lx) = (zeros.clone(), zeros);
         let mut receiver = Expected { stage, joining: &self.joining, outlook, at_once_lx, lx };
-        trace_photon(stage, self.lead(), SampleCursor::new(points, index), &mut receiver, counts);
+        trace_photon(stage, self.lead(), cursor, &mut receiver, counts);
         receiver.lx
     }
 
-    /// What they get from a photon that is joined, in lx, beyond what was expected of it.
+    /// What they get from a photon that is joined, in lx, beyond what was expected of it; `places` has the
+    /// coordinates of its joins.
     pub(crate) fn of_joined_lx<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
-        (points, places, index): (&PointSet, PointSet, u64),
+        cursor: SampleCursor<'_>,
+        places: PointSet,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
+        stage.draw(&mut Seen::cursor(&cursor, &places), Purpose::Joins, Seen::draw);
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.spots.len() * group.terms]);
         let places = (places, self.quantum);
         let mut receiver = JoinReceiver::new(stage, &self.joining, group, places, &sums);
-        trace_photon(stage, self.lead(), SampleCursor::new(points, index), &mut receiver, counts);
+        trace_photon(stage, self.lead(), cursor, &mut receiver, counts);
         counts.rays += receiver.finish();
         let sums = lock(&sums);
         let of_target = |sums: &[Sum]| sums.iter().map(|sum| self.quantum.value(*sum)).sum();
@@ -67,10 +71,8 @@ impl<S: Spectrum> PhotonReceiver<S> for Expected<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        if self.stage.max_bounces.is_some_and(|most| bounces >= most) {
-            return;
-        }
-        let leaving = Leaving::new(self.stage, self.joining, at, weight);
+        let leaving = Leaving::new(self.stage, self.joining, at, (weight, bounces));
+        let Some(leaving) = leaving else { return };
         self.outlook.foresee(&leaving, bounces == 0, &mut self.at_once_lx);
         self.lx.iter_mut().zip(&self.at_once_lx).for_each(|(sum, lx)| *sum += lx);
     }
@@ -120,13 +122,14 @@ mod tests {
         let (coarse_photons, photons) = (coarse_photons * samples, photons * samples);
         let mut means_lx = [[0.0; 2]; 3];
         for index in 0..coarse_photons {
-            let lx = joined.of_counted_lx(&stage, (&counted, index), &mut counts);
+            let cursor = SampleCursor::new(&counted, index);
+            let lx = joined.of_counted_lx(&stage, cursor, &mut counts);
             let means = means_lx.iter_mut().zip(lx);
             means.for_each(|(mean, lx)| mean[0] += lx / coarse_photons as f64);
         }
         for index in 0..photons {
-            let given = (&fine, places, index);
-            let lx = joined.of_joined_lx(&stage, given, &mut counts_of_joined);
+            let cursor = SampleCursor::new(&fine, index);
+            let lx = joined.of_joined_lx(&stage, cursor, places, &mut counts_of_joined);
             let means = means_lx.iter_mut().zip(lx);
             means.for_each(|(mean, lx)| mean[1] += lx / photons as f64);
         }

@@ -71,11 +71,14 @@ fn what_is_computed_has_no_variance() {
     assert_eq!(explanation.gain, None);
 }
 
-/// What is said of the parts of an estimate tells how far it strays: the error of a run with random points over
-/// N indices is that of a path, of its counted photons and of its joined ones together, over the root of N. 64 replicates
-/// know it to 9 % at each of the targets.
+/// What is said of the parts of an estimate tells how far it strays: the squared error of a run with random points
+/// over N indices is that of a path, of its counted photons and of its joined ones together, over N. 1024 replicates know
+/// the error to 2.2 %; 8 % are allowed. Paths forgotten would be 13 % and counted photons 49 % (joined ones 2.7 %: what
+/// they give is tested one by one, `join/single.rs`).
 #[test]
 fn the_parts_tell_the_error_of_a_run() {
+    const REPLICATES: u32 = 1024;
+    const INDICES: u64 = 64;
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.7));
     scene.lights.push(point_light(DVec3::new(2.0, 1.5, 2.0), 100.0));
     let places = [(1.0, 1.2, 0.8), (3.0, 2.5, 0.3), (0.3, 0.4, 1.5)];
@@ -85,8 +88,8 @@ fn the_parts_tell_the_error_of_a_run() {
         estimator: Estimator::Bidirectional,
         joining: Switch::On,
         sequence: Sequence::Random,
-        replicates: 64,
-        max_samples: Some(64),
+        replicates: REPLICATES,
+        max_samples: Some(INDICES),
         ..Settings::default()
     };
     let explanation = explain(&scene, &settings);
@@ -94,16 +97,17 @@ fn the_parts_tell_the_error_of_a_run() {
     let of_part =
         |part: &Beside| part.explanation.relative_deviation / (part.for_each_path as f64).sqrt();
     let deviations = parts.map(of_part).chain([explanation.relative_deviation]);
-    let foretold = deviations.map(|d| d * d).sum::<f64>().sqrt() / 8.0;
+    let foretold = deviations.map(|d| d * d).sum::<f64>().sqrt() / (INDICES as f64).sqrt();
     let estimates = simulate(&scene, &settings, &mut ());
     let of_replicate = &estimates.sensors[0].replicate_lx;
     let square = |target: usize| {
         let lx = || of_replicate.iter().map(|points| points[target]);
-        let mean = lx().sum::<f64>() / 64.0;
-        lx().map(|lx| (lx - mean) * (lx - mean)).sum::<f64>() / (63.0 * mean * mean)
+        let mean = lx().sum::<f64>() / f64::from(REPLICATES);
+        let squares = lx().map(|lx| (lx - mean) * (lx - mean)).sum::<f64>();
+        squares / (f64::from(REPLICATES - 1) * mean * mean)
     };
     let found = ((0..3).map(square).sum::<f64>() / 3.0).sqrt();
-    assert!((found / foretold - 1.0).abs() < 0.25, "{found}, foretold {foretold}");
+    assert!((found / foretold - 1.0).abs() < 0.08, "{found}, foretold {foretold}");
 }
 
 /// Decisions come in the order in which the walk meets them, each with the coordinates that it draws.
@@ -139,8 +143,9 @@ fn coordinates_are_named_in_their_order() {
         // All that are emitted draw the first coordinates, however many sensors look on.
         assert_eq!(explanation.blocks[0].reached, 1.0, "{explanation:?}");
     }
-    let mut named = joined.explanation.blocks.iter().flat_map(|block| &block.uses);
-    assert!(named.any(|used| used.purpose == Purpose::Joins), "{:?}", joined.explanation);
+    // Every photon draws for its joins, far behind all others.
+    let last = joined.explanation.blocks.last().expect("blocks");
+    assert_eq!((last.uses[0].purpose, last.uses.len(), last.reached), (Purpose::Joins, 1, 1.0));
     assert_eq!(on_map.walk, WalkKind::PathsOnMap);
     assert!(on_map.beside.is_empty());
     let mut named = on_map.blocks.iter().flat_map(|block| &block.uses);
@@ -152,12 +157,13 @@ fn coordinates_are_named_in_their_order() {
 fn threads_change_nothing() {
     let scene = coloured_room_with_mirror();
     for estimator in [Estimator::Path, Estimator::Photon, Estimator::Bidirectional] {
-        let settings = Settings { estimator, ..Settings::default() };
+        let settings = Settings { estimator, joining: Switch::On, ..Settings::default() };
         let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.expect("threads start").install(|| explain(&scene, &settings))
         });
         assert_eq!(one, three);
+        assert_eq!(one.beside.len(), if estimator == Estimator::Bidirectional { 2 } else { 0 });
         assert!(one.gain.is_some_and(|gain| gain.factor > 1.0), "{:?}", one.gain);
     }
 }

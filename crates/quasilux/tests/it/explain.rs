@@ -91,6 +91,7 @@ fn photons_beside_paths_are_explained() {
     let explanation = &parsed(&run.stdout)["explain"];
     assert_eq!(explanation["samples_are"], "paths beside joined photons");
     let beside = explanation["beside"].as_array().expect("photons");
+    assert_eq!(beside.len(), 2);
     for (photons, are) in beside.iter().zip(["counted by cells", "joined to sensors"]) {
         assert_eq!(photons["samples_are"], format!("photons {are}, beside paths"));
         assert!(number(photons, "/for_each_path") >= 1.0);
