@@ -184,6 +184,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         },
         dimensions: Dimensions {
             photon: photon_dimensions(),
+            photons: 3,
             photon_events: 6,
             path: DimensionHistogram::new(),
         },

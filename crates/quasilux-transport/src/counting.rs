@@ -193,6 +193,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
             flux: self.photons.balance(self.stage.lights.flux_lm),
             dimensions: Dimensions {
                 photon: self.photons.dimensions.clone(),
+                photons: self.photons.begun,
                 photon_events: self.photons.events,
                 ..Dimensions::default()
             },

@@ -91,8 +91,10 @@ pub struct FluxBalance {
 /// How many coordinates samples used, the constructive dimension; empty where nothing was traced.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dimensions {
-    /// Of the photons.
+    /// Of the photons, those that steering split off by themselves.
     pub photon: DimensionHistogram,
+    /// Photons that began, those that were split off not counted.
+    pub photons: u64,
     /// Surfaces that all these photons came to.
     pub photon_events: u64,
     /// Of the paths from sensors.
@@ -179,7 +181,7 @@ impl Estimates {
         let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
         let means = replicate_lx.iter().map(|row| row.iter().sum::<f64>() / row.len() as f64);
         let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
-        let is_resolved = resolved.iter().any(|resolved| *resolved);
+        let is_resolved = resolved.iter().all(|resolved| *resolved);
         Interval::of_mean(means, t.filter(|_| is_resolved))
     }
 

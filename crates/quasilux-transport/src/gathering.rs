@@ -322,6 +322,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             warnings,
             dimensions: Dimensions {
                 photon: photons.dimensions,
+                photons: photons.begun,
                 photon_events: photons.events,
                 path: work.dimensions,
             },

@@ -6,12 +6,15 @@ use crate::world::World;
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
 
+/// Sines of the angle between a grid's normal and that of its plane below this are rounding.
+const TILTED: f64 = 1e-9;
+
 /// A virtual plane with the cells of a grid: it disturbs nothing.
 pub(crate) struct GridPlane {
     grid: Grid,
     /// A point of the plane, a hair in front of the grid.
     origin: DVec3,
-    /// The plane's unit normal, on the grid's front side.
+    /// The plane's unit normal, on the side that flights come from.
     normal: DVec3,
     /// Reciprocal edges: scalar products with them are 0 to 1 across the grid.
     dual: [DVec3; 2],
@@ -31,6 +34,14 @@ impl GridPlane {
             normal,
             dual: [dual(grid.u, grid.v), dual(grid.v, grid.u)],
         }
+    }
+
+    /// The same as flights from behind see it, where some of these come to the front of the grid's own normal.
+    pub(crate) fn behind<S: Spectrum>(&self, world: &World<S>) -> Option<Self> {
+        let Self { grid, normal, dual, .. } = *self;
+        let is_tilted = grid.normal.cross(normal).length() > TILTED;
+        let origin = world.vantage_of_sensor(grid.origin, -normal).position();
+        is_tilted.then_some(Self { grid, origin, normal: -normal, dual })
     }
 
     /// The area of a cell in m^2.

@@ -28,8 +28,10 @@ const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
 /// How photons ended, and what they cost. Flux is in quanta.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PhotonCounts {
-    /// Photons.
+    /// Photons that left lights.
     pub(crate) emitted: u64,
+    /// All that began, at lights or where their light lands; what splitting added is not among them.
+    pub(crate) begun: u64,
     /// Absorbed, less what splitting added.
     pub(crate) absorbed: i64,
     pub(crate) lost: i64,
@@ -175,6 +177,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
 ) {
     let mut photon = Photon::new(cursor).for_receiver(receiver);
     counts.emitted += 1;
+    counts.begun += 1;
     let mut generation: Vec<Departure<'p, S>> = Vec::new();
     match photon.begin(stage, lead.source) {
         Some(Beginning::Flies(start)) => generation.push(Departure { photon, start }),
@@ -399,8 +402,8 @@ impl PhotonCounts {
     /// What they cost, without where their flux went: those from lit cells do not carry all of it.
     pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
-        let Self { rays, joins, events, dimensions, .. } = self;
-        Self { trapped, rays, joins, events, dimensions, ..Self::default() }
+        let Self { begun, rays, joins, events, dimensions, .. } = self;
+        Self { begun, trapped, rays, joins, events, dimensions, ..Self::default() }
     }
 
     /// Records a photon that ended.
@@ -424,6 +427,7 @@ impl PhotonCounts {
 impl AddAssign for PhotonCounts {
     fn add_assign(&mut self, other: Self) {
         self.emitted += other.emitted;
+        self.begun += other.begun;
         self.absorbed += other.absorbed;
         self.lost += other.lost;
         self.cut += other.cut;

@@ -87,6 +87,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         self.supply(points);
         lap(Step::Sampling);
         counts.emitted += self.photons.len() as u64;
+        counts.begun += self.photons.len() as u64;
         self.begin(stage, lead, counts);
         self.look_for_light(stage, points, counts);
         self.depart(stage, lead, counts);

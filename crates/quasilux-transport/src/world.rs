@@ -27,7 +27,7 @@ pub(crate) struct Facet {
     /// Unit normal of the front side.
     pub(crate) front_normal: DVec3,
     /// Which of the world's [`Bsdf`]s.
-    material: u32,
+    pub(crate) material: u32,
     /// Luminance of the front side in cd/m^2, 0 for most.
     pub(crate) emitted_cd_m2: f64,
 }

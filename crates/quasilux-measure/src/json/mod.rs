@@ -12,7 +12,8 @@
 //! `decisions`, what pilots made of those (photons that are joined for each path, whether photons are `steered` and leave lit places, sides of elements
 //! of the map that paths end on, photons for each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
-//! coordinates, in one list each, all of more than 1023 together at its end, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
+//! coordinates, in one list each, all of more than 1023 together at its end, `photons`, how many began in all replicates, `null` where none did, and
+//! `mean_events`, surfaces that a `photon` came to on average. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for,
 //! `explain` says which coordinates carry the variance.
 
@@ -146,6 +147,7 @@ struct RunEntry<'a> {
     decisions: DecisionsEntry,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
+    photons: Option<u64>,
     mean_events: MeanEventsEntry,
     #[serde(serialize_with = "finite_or_null")]
     flux_emitted_lm: f64,
@@ -304,6 +306,7 @@ impl<'a> RunEntry<'a> {
                 photon: run.dimensions.photon.counts(),
                 path: run.dimensions.path.counts(),
             },
+            photons: Some(run.dimensions.photons).filter(|photons| *photons > 0),
             mean_events: MeanEventsEntry { photon: mean_events(&run.dimensions) },
             flux_emitted_lm: run.flux.emitted_lm,
             flux_absorbed_lm: run.flux.absorbed_lm,
@@ -320,8 +323,8 @@ fn mean(dimensions: &DimensionHistogram) -> Option<f64> {
 }
 
 fn mean_events(dimensions: &Dimensions) -> Option<f64> {
-    let photons = dimensions.photon.samples();
-    (photons > 0).then(|| dimensions.photon_events as f64 / photons as f64)
+    let Dimensions { photons, photon_events, .. } = *dimensions;
+    (photons > 0).then(|| photon_events as f64 / photons as f64)
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
@@ -386,6 +389,7 @@ mod tests {
         assert_eq!(document["run"]["mean_dimension"]["photon"], 3.0);
         assert_eq!(document["run"]["mean_dimension"]["path"], Value::Null);
         assert_eq!(document["run"]["mean_events"]["photon"], 2.0);
+        assert_eq!(document["run"]["photons"], 3);
         let counts = serde_json::json!({"photon": [0, 0, 2, 0, 0, 1], "path": []});
         assert_eq!(document["run"]["dimension_counts"], counts);
         assert_eq!(document["run"]["max_bounces"], Value::Null);

@@ -6,8 +6,6 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::state::Writer;
 use crate::world::{Facet, Interaction, World};
-use glam::DVec3;
-use quasilux_sampling::warp::sample_triangle;
 
 /// Elements a metre of scene size get where nothing is asked for.
 pub(crate) const ELEMENTS_ACROSS: f64 = 64.0;
@@ -144,33 +142,6 @@ impl MapLayout {
         let element = if at.front { leaf } else { self.trees.leaves + leaf };
         let area_m2 = facet.area_m2 * (cell.step * cell.step);
         Place { element, barycentric: cell.weights, area_m2, step: cell.step }
-    }
-
-    /// A place that is uniform in the element under `at`, on the same side, with its barycentric
-    /// weights in the element. Its density is 1 / area (m^-2).
-    #[cfg_attr(not(test), expect(dead_code, reason = "for the estimator that joins photons"))]
-    pub(crate) fn sample_element<S>(
-        &self,
-        world: &World<S>,
-        at: &Interaction,
-        u: [f64; 2],
-    ) -> (Interaction, [f64; 3]) {
-        let place = self.locate(at);
-        let weights = sample_triangle(u);
-        let moved = |corner: usize| {
-            let shift = place.step * (weights[corner] - place.barycentric[corner]);
-            (at.barycentric[corner] + shift).clamp(0.0, 1.0)
-        };
-        let (b, c) = (moved(1), moved(2));
-        let barycentric = [(1.0 - b - c).max(0.0), b, c];
-        let position: DVec3 = world.facets[at.facet as usize].point(barycentric);
-        (Interaction { barycentric, position, ..*at }, weights)
-    }
-
-    /// [`Reconstruction::kernel_times_area`] of the map's elements.
-    #[expect(dead_code, reason = "for the estimator that joins photons")]
-    pub(crate) fn kernel_times_area(&self, at: [f64; 3], of_photon: [f64; 3]) -> f64 {
-        self.reconstruction.kernel_times_area(at, of_photon)
     }
 
     /// The layout with those leaves split for which `is_split` says so.
@@ -312,27 +283,6 @@ mod tests {
             let share = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
             let area_m2 = world.facets[facet as usize].area_m2() * share.abs();
             assert!((place.area_m2 / area_m2 - 1.0).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn sampled_places_lie_in_the_same_element() {
-        let (world, numbers) = (square(), &mut Numbers(2));
-        let layout = ragged(&world, numbers);
-        for _ in 0..20_000 {
-            let at = at(&world, numbers);
-            let u = [numbers.next(), numbers.next()];
-            let (sampled, weights) = layout.sample_element(&world, &at, u);
-            let (place, found) = (layout.locate(&at), layout.locate(&sampled));
-            // Rounding may move a place over an edge, but not far.
-            let margin = weights.into_iter().fold(1.0, f64::min);
-            assert!(found.element == place.element || margin < 1e-12);
-            if margin >= 1e-12 {
-                assert!((0..3).all(|i| (found.barycentric[i] - weights[i]).abs() < 1e-11));
-                let facet = &world.facets[at.facet as usize];
-                assert!((sampled.position - facet.point(sampled.barycentric)).length() < 1e-12);
-            }
-            assert_eq!((sampled.facet, sampled.front), (at.facet, at.front));
         }
     }
 

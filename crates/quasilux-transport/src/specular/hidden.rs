@@ -4,7 +4,8 @@
 //! It comes from photon density. Photons are followed until they are scattered, and those that came by
 //! specular surfaces alone, in no image, are counted on map elements for the vertices of paths, on a
 //! disk around each sensor point, and on cells. All but the cells are biased: a mean over an area
-//! stands for the value at a point. Each replicate has its own photons, which grow in number with its
+//! stands for the value at a point. What lands on surfaces that are not plain diffuse ones, or is to be seen in a picture, is left
+//! out. Each replicate has its own photons, which grow in number with its
 //! paths: paths to come read all photons so far.
 
 use super::Trail;
@@ -77,6 +78,8 @@ struct Receivers {
 
 struct CellReceiver {
     plane: GridPlane,
+    /// Where the grid's normal is tilted.
+    behind: Option<GridPlane>,
     first_target: usize,
     cells: Range<usize>,
 }
@@ -354,8 +357,8 @@ impl Receivers {
         match self.planes.last_mut() {
             Some(last) if cell != 0 && cell == last.cells.end => last.cells.end = cell + 1,
             _ => {
-                let cells = cell..cell + 1;
-                self.planes.push(CellReceiver { plane, first_target: number, cells });
+                let (behind, cells) = (plane.behind(&stage.world), cell..cell + 1);
+                self.planes.push(CellReceiver { plane, behind, first_target: number, cells });
             }
         }
     }
@@ -411,10 +414,12 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
         if trail != Trail::Hidden {
             return;
         }
-        for CellReceiver { plane, first_target, cells } in &self.receivers.planes {
-            if let Some(cell) = plane.cell(flight).filter(|cell| cells.contains(cell)) {
-                let photons = weight.luminance() * plane.tilt_factor(flight.direction);
-                self.count(first_target + cell - cells.start, photons, bounces);
+        for CellReceiver { plane, behind, first_target, cells } in &self.receivers.planes {
+            for plane in std::iter::once(plane).chain(behind) {
+                if let Some(cell) = plane.cell(flight).filter(|cell| cells.contains(cell)) {
+                    let photons = weight.luminance() * plane.tilt_factor(flight.direction);
+                    self.count(first_target + cell - cells.start, photons, bounces);
+                }
             }
         }
         for disc in self.receivers.discs.iter().filter(|disc| disc.is_met(flight)) {

@@ -43,6 +43,7 @@ pub(crate) struct Image {
     pub(crate) position: DVec3,
     /// Holds all places from which it can be seen.
     pub(crate) beam: Cone,
+    /// The most that the chain reflects of any of its light.
     reflected: f64,
     children: Range<u32>,
 }
@@ -122,13 +123,9 @@ impl Images {
     ) -> Option<Image> {
         let before = &self.nodes[parent];
         let mirror = &mirrors.planes[plane as usize];
-        let reflected = before.reflected * mirror.reflectance;
         let window = (before.depth > 0).then(|| &mirrors.planes[before.plane as usize]);
         let is_same = before.depth > 0 && before.plane == plane;
-        if is_same
-            || reflected < LEAST_REFLECTED
-            || mirror.height_m(before.position).abs() <= slack_m
-        {
+        if is_same || mirror.height_m(before.position).abs() <= slack_m {
             return None;
         }
         if window.is_some_and(|window| !is_before(window, mirror, before.position, slack_m)) {
@@ -136,7 +133,9 @@ impl Images {
         }
         let seen = beam_on(before, window, mirror, slack_m)?;
         let beam = before.beam.narrower(seen);
-        Some(Image {
+        let reflected =
+            before.reflected * mirror.most_reflected(beam.least_cos_with(mirror.normal));
+        (reflected >= LEAST_REFLECTED).then(|| Image {
             light: before.light,
             parent: parent as u32,
             plane,

@@ -4,6 +4,7 @@
 //! taken all; where there are more, only those that hold at least [`LEAST_SHARE`] of the area of all
 //! mirrors are, and the others count as curved: their light is not followed from image to image.
 
+use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use glam::DVec3;
@@ -16,6 +17,9 @@ const LEAST_SHARE: f64 = 0.01;
 /// Normals that agree to this, and heights over a common point that agree to this share of the scene's
 /// size, are one plane's.
 const SAME_PLANE: f64 = 1e-6;
+/// Steps of the cosine of incidence in which it is known how much is reflected; and looks in each.
+const COSINES: usize = 32;
+const LOOKS: usize = 4;
 /// Marks facets that lie in no mirror plane.
 const NO_PLANE: u32 = u32::MAX;
 
@@ -36,9 +40,12 @@ pub(crate) struct MirrorPlane {
     offset_m: f64,
     pub(crate) facets: Vec<MirrorFacet>,
     area_m2: f64,
-    /// The most that is reflected in any channel, looked at squarely.
-    pub(crate) reflectance: f64,
+    reflectance: MostReflected,
 }
+
+/// The most that is reflected in any channel, at cosines of incidence from k / [`COSINES`] to 1.
+#[derive(Clone, Copy)]
+struct MostReflected([f64; COSINES + 1]);
 
 /// A reflecting triangle.
 pub(crate) struct MirrorFacet {
@@ -53,12 +60,13 @@ impl MirrorPlanes {
         let mut by_key: BTreeMap<[i64; 4], MirrorPlane> = BTreeMap::new();
         let centre = world.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high));
         let mut facets = 0;
+        let mut of_materials = BTreeMap::new();
         for (facet, own) in (0..).zip(&world.facets) {
-            let Some(reflectance) = world.bsdf_of(own).image_reflectance(1.0) else { continue };
+            let reflectance = of_materials
+                .entry(own.material)
+                .or_insert_with(|| MostReflected::by(world.bsdf_of(own)));
             let area_m2 = own.area_m2();
-            if reflectance.max_channel() == 0.0 || area_m2 == 0.0 {
-                continue;
-            }
+            let Some(reflectance) = reflectance.filter(|_| area_m2 > 0.0) else { continue };
             facets += 1;
             let normal = own.front_normal * facing(own.front_normal);
             let height = normal.dot(own.corners()[0] - centre) / world.size_m();
@@ -69,10 +77,10 @@ impl MirrorPlanes {
                 offset_m: normal.dot(own.point([1.0 / 3.0; 3])),
                 facets: Vec::new(),
                 area_m2: 0.0,
-                reflectance: 0.0,
+                reflectance,
             });
             plane.area_m2 += area_m2;
-            plane.reflectance = plane.reflectance.max(reflectance.max_channel());
+            plane.reflectance = plane.reflectance.or(reflectance);
             plane.facets.push(MirrorFacet::new(facet, own.corners(), own.front_normal));
         }
         Self::choose(by_key.into_values().collect(), facets, world.facets.len())
@@ -106,7 +114,31 @@ impl MirrorPlanes {
     }
 }
 
+impl MostReflected {
+    /// By a surface; `None` where it shows no images.
+    fn by<S: Spectrum>(bsdf: &Bsdf<S>) -> Option<Self> {
+        let mut most = [0.0_f64; COSINES + 1];
+        let mut so_far = 0.0_f64;
+        for look in (0..=COSINES * LOOKS).rev() {
+            let cos = look as f64 / (COSINES * LOOKS) as f64;
+            so_far = so_far.max(bsdf.image_reflectance(cos)?.max_channel());
+            most[look / LOOKS] = so_far;
+        }
+        (so_far > 0.0).then_some(Self(most))
+    }
+
+    /// By one or the other.
+    fn or(self, other: Self) -> Self {
+        Self(std::array::from_fn(|step| self.0[step].max(other.0[step])))
+    }
+}
+
 impl MirrorPlane {
+    /// The most that is reflected in any channel of light whose cosine of incidence is this or larger.
+    pub(crate) fn most_reflected(&self, least_cos: f64) -> f64 {
+        self.reflectance.0[(least_cos.clamp(0.0, 1.0) * COSINES as f64) as usize]
+    }
+
     /// Signed height of a point over the plane, in m.
     pub(crate) fn height_m(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset_m

@@ -46,6 +46,7 @@ impl Stored for PhotonCounts {
     fn put(&self, out: &mut Writer) {
         let Self {
             emitted,
+            begun,
             absorbed,
             lost,
             cut,
@@ -56,7 +57,7 @@ impl Stored for PhotonCounts {
             events,
             dimensions,
         } = self;
-        [emitted, endless, trapped, rays, joins, events]
+        [emitted, begun, endless, trapped, rays, joins, events]
             .into_iter()
             .for_each(|count| out.u64(*count));
         [absorbed, lost, cut].into_iter().for_each(|quanta| out.i64(*quanta));
@@ -66,6 +67,7 @@ impl Stored for PhotonCounts {
     fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let Self {
             emitted,
+            begun,
             absorbed,
             lost,
             cut,
@@ -76,7 +78,7 @@ impl Stored for PhotonCounts {
             events,
             dimensions,
         } = self;
-        let counts = [emitted, endless, trapped, rays, joins, events];
+        let counts = [emitted, begun, endless, trapped, rays, joins, events];
         counts.into_iter().try_for_each(|count| from.add_u64(count))?;
         [absorbed, lost, cut].into_iter().try_for_each(|quanta| from.add_i64(quanta))?;
         dimensions.take_in(from)

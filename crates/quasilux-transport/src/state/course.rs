@@ -82,7 +82,7 @@ fn put_estimates(estimates: &Estimates, out: &mut Writer) {
         warnings,
     } = estimates;
     let FluxBalance { emitted_lm, absorbed_lm, lost_lm, cut_lm } = flux;
-    let Dimensions { photon, photon_events, path } = dimensions;
+    let Dimensions { photon, photons, photon_events, path } = dimensions;
     sensors.iter().for_each(|sensor| put_sensor(sensor, out));
     for count in [samples, rays, invalid_contributions, unresolved_points] {
         out.u64(*count);
@@ -98,6 +98,7 @@ fn put_estimates(estimates: &Estimates, out: &mut Writer) {
     out.option(*rays, Writer::u64);
     out.option(*against_prediction, Writer::f64);
     photon.put(out);
+    out.u64(*photons);
     out.u64(*photon_events);
     path.put(out);
     out.u64(warnings.len() as u64);
@@ -136,6 +137,7 @@ fn read_estimates(
         against_prediction: from.option(Reader::f64)?,
     };
     estimates.dimensions.photon.take_in(from)?;
+    estimates.dimensions.photons = from.u64()?;
     estimates.dimensions.photon_events = from.u64()?;
     estimates.dimensions.path.take_in(from)?;
     let warnings = from.length(size_of::<u64>())?;

@@ -77,7 +77,8 @@ fn photons_use_seven_coordinates() {
         ..Settings::default()
     };
     let dimensions = run(&settings, &KNOWN[..1]).dimensions;
-    let events = dimensions.photon_events as f64 / dimensions.photon.samples() as f64;
+    assert_eq!(dimensions.photons, 16 << 14);
+    let events = dimensions.photon_events as f64 / dimensions.photons as f64;
     let dimension = dimensions.photon.mean();
     assert!((dimension - 7.0).abs() < 0.02 && (events - 3.0).abs() < 0.01, "{dimension} {events}");
 }
