@@ -221,6 +221,8 @@ fn weights_are_f_cos_over_pdf() {
 }
 
 const CELLS: [u32; 2] = [24, 16];
+/// Rings and sectors.
+const CELLS_BELOW: [u32; 2] = [8, 16];
 
 /// The probability that samples of `drawn` are as far from the density of `bsdf` as they are.
 fn p_value(
@@ -242,9 +244,15 @@ fn p_value(
             cells.push(CellCount { observed: 0, expected: p * total });
         }
     }
-    // Transmitted ones are cosine-distributed about -z, or there are none.
+    // Transmitted ones are cosine-distributed about -z, or there are none: as many in all rings and sectors.
     let below = bsdf.pdf_sr(wo, DVec3::NEG_Z, true) * PI;
-    cells.push(CellCount { observed: 0, expected: below * total });
+    let above = cells.len();
+    let parts = if below > 0.0 { CELLS_BELOW } else { [1, 1] };
+    let part = below / f64::from(parts[0] * parts[1]);
+    cells.resize(
+        (parts[0] * parts[1]) as usize + above,
+        CellCount { observed: 0, expected: part * total },
+    );
     let left = total - cells.iter().map(|cell| cell.expected).sum::<f64>();
     cells.push(CellCount { observed: 0, expected: left.max(1e-9) });
     let points = PointSet::new(Sequence::Random, Randomization::Owen, 4);
@@ -252,7 +260,12 @@ fn p_value(
         let mut cursor = SampleCursor::new(&points, index);
         let cell = match drawn.sample(wo, true, Mode::Radiance, &mut cursor) {
             None => cells.len() - 1,
-            Some(next) if next.wi.z < 0.0 => cells.len() - 2,
+            Some(BsdfSample { wi, .. }) if wi.z < 0.0 => {
+                let ring = ((wi.x * wi.x + wi.y * wi.y) * f64::from(parts[0])) as u32;
+                let turn = 0.5 + libm::atan2(wi.y, wi.x) / (2.0 * PI);
+                let sector = (turn * f64::from(parts[1])) as u32;
+                above + (ring.min(parts[0] - 1) * parts[1] + sector.min(parts[1] - 1)) as usize
+            }
             Some(next) => {
                 let [v, turn] = halfway.coordinates(next.wi);
                 let row = ((v * f64::from(CELLS[0])) as u32).min(CELLS[0] - 1);

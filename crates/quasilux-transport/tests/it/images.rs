@@ -5,10 +5,11 @@
 use crate::scenes::{diffuse, mirror, point_light, points};
 use glam::{DMat3, DVec3};
 use quasilux_photometry::{LuminousShape, read_ies};
-use quasilux_scene::bsdf::{Mirror, Pane};
+use quasilux_scene::bsdf::{AngularNode, AngularTable, Mirror, Pane};
 use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Bsdf, Light, Material, Mesh, Rgb, Scene};
 use quasilux_transport::{Estimates, Settings, simulate};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// An empty scene.
@@ -261,6 +262,32 @@ fn panes_let_light_through_in_one_line() {
         .sum();
     let value = run(&scene, None).point_intervals(0)[0].value;
     assert!((value / expected_lx - 1.0).abs() < 2e-4, "{value}, expected {expected_lx}");
+}
+
+/// A measured pane lets through and mirrors what its tables say, between their angles in a straight line; what it
+/// does not mirror at normal incidence it may mirror at others.
+#[test]
+fn measured_panes_do_as_their_tables_say() {
+    let table = |rows: &[[f64; 2]]| {
+        let node = |row: &[f64; 2]| {
+            // 90 degrees are a right angle to the last bit.
+            let theta_rad = if row[0] == 90.0 { FRAC_PI_2 } else { row[0].to_radians() };
+            AngularNode { theta_rad, share: row[1] }
+        };
+        AngularTable::new(rows.iter().map(node).collect()).expect("a table")
+    };
+    let transmittance = table(&[[0.0, 0.8], [60.0, 0.5], [90.0, 0.0]]);
+    let reflectance = table(&[[0.0, 0.0], [60.0, 0.3], [90.0, 1.0]]);
+    let pane = Bsdf::Pane(Pane::Measured { transmittance, reflectance });
+    let mut scene = empty();
+    add_panel(&mut scene, at(-9., -9., 1.), DVec3::X * 18., DVec3::Y * 18., pane);
+    let (light, below, above) = (at(1.0, 0.0, 2.0), at(-1.0, 0.0, 0.0), at(-1.0, 0.0, 2.0));
+    scene.lights.push(point_light(light, 1000.0));
+    scene.sensors.push(points("p", &[(below, DVec3::Z), (above, DVec3::NEG_Z)]));
+    // Both ways meet the pane at 45 degrees.
+    let through_lx = 0.575 * from_point_lx(1000.0, light, below, DVec3::Z);
+    let mirrored_lx = 0.225 * from_point_lx(1000.0, at(1.0, 0.0, 0.0), above, DVec3::NEG_Z);
+    assert_lx(&scene, &[through_lx, mirrored_lx]);
 }
 
 /// Between two panes light that grazes them goes far: what is seldom reflected at normal incidence counts there. After k

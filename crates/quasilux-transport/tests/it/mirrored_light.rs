@@ -6,9 +6,10 @@
 //! mirrors add is far more than that in every cell, which is asserted.
 
 use crate::images::{add_panel, empty};
+use crate::materials::add_ball;
 use crate::scenes::{diffuse, mirror, point_light, room};
 use glam::DVec3;
-use quasilux_scene::bsdf::{Diffuse, Mirror};
+use quasilux_scene::bsdf::{Dielectric, Diffuse, Mirror};
 use quasilux_scene::light::PointLight;
 use quasilux_scene::{Bsdf, Grid, Light, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
 use quasilux_transport::{Estimates, Estimator, Settings, simulate};
@@ -138,6 +139,15 @@ fn a_curved_mirror_focuses() {
         add_panel(&mut scene, at(i), at(i + 1) - at(i), DVec3::Z * 0.9, mirror(0.95));
     }
     assert_agree(&scene, &GATHERING, true, &[Some(1), None]);
+}
+
+/// Light of lamps that a ball of glass gathers: through it, and by reflection inside and out.
+#[test]
+fn a_ball_of_glass_gathers_light() {
+    let mut scene = lit_room(0.5);
+    let glass = Bsdf::Dielectric(Dielectric { eta: 1.5 });
+    add_ball(&mut scene, DVec3::new(1.2, 1.1, 1.0), 0.4, glass);
+    assert_agree(&scene, &GATHERING, true, &[Some(2), None]);
 }
 
 /// A pane across the room, with a lamp on either side of it, and a mirror wall: light goes straight
