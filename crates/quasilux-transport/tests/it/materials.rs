@@ -154,6 +154,7 @@ fn halls_of_perfect_mirrors_end_with_a_warning() {
                 replicates: 2,
                 max_samples: Some(4),
                 map_photons: 4,
+                map_adaptive: false,
                 ..Settings::default()
             };
             let estimates = simulate(&scene, &settings, &mut ());
