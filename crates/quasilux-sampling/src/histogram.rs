@@ -102,6 +102,18 @@ impl DimensionHistogram {
         self.largest
     }
 
+    /// So many coordinates are enough for this share of the samples, up to [`LAST`](Self::LAST) + 1; 0 without samples.
+    #[must_use]
+    pub fn quantile(&self, share: f64) -> u32 {
+        let wanted = share * self.samples as f64;
+        let mut reached = 0;
+        let enough = self.counts.iter().position(|count| {
+            reached += count;
+            reached as f64 >= wanted
+        });
+        enough.map_or(0, |used| used as u32)
+    }
+
     /// How many samples consumed exactly `used` coordinates; past [`LAST`](Self::LAST), how many
     /// consumed more than that.
     #[must_use]
@@ -120,6 +132,14 @@ impl DimensionHistogram {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_the_samples() {
+        let mut histogram = DimensionHistogram::new();
+        assert_eq!(histogram.quantile(0.5), 0);
+        [2, 2, 4, 6, 6, 6, 8, 10, 10, 3000].into_iter().for_each(|used| histogram.record(used));
+        assert_eq!([0.0, 0.2, 0.5, 0.9, 1.0].map(|q| histogram.quantile(q)), [0, 2, 6, 10, 1024]);
+    }
 
     #[test]
     fn histograms_come_back_from_their_counts_and_others_do_not() {

@@ -3,7 +3,7 @@
 //! `L_pixel` is the integral of `L(x, w(p))` over the places p of the pixel, a unit square of the
 //! picture (box filter). Its paths start at the pinhole, through the place that their first two
 //! coordinates give, and go on like the paths of sensors; all of them are plain paths, whatever the
-//! estimator does at sensors, so a picture has no bias of a map.
+//! estimator does at sensors, so a picture has no bias of a map. Light that no path finds comes from photon density.
 //!
 //! A picture has a fixed number of paths a pixel, not a tolerance: [`PIXEL_SAMPLES`] in each replicate,
 //! or as many as the run is limited to. It comes after the sensors, in passes of 1, 16, 256, ... paths, each
@@ -23,6 +23,7 @@ use crate::picture::{CameraEstimates, Pixel};
 use crate::sections::WorkCounts;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::specular::HiddenLight;
 use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::watch::Watch;
@@ -35,6 +36,8 @@ use std::ops::Range;
 const PIXEL_SAMPLES: u64 = 16;
 /// From one pass to the next the number of paths grows by this factor.
 const GROWTH: u64 = 16;
+/// Photons of each replicate that look for light which paths cannot find.
+const HIDDEN_PHOTONS: u64 = 1 << 16;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 /// Strips of a round at least, so that all threads have work.
@@ -53,6 +56,15 @@ pub(crate) fn add_pictures<S: Spectrum>(
     let samples = settings.max_samples.unwrap_or(PIXEL_SAMPLES).max(1);
     let mut work = WorkCounts::default();
     let mut complete = true;
+    let mut hidden = HiddenLight::new(stage, settings, &[]).filter(|_| !scene.cameras.is_empty());
+    if let Some(light) = &mut hidden {
+        match light.grow(stage, HIDDEN_PHOTONS, watch) {
+            Some(rays) => work.rays += rays,
+            None => complete = false,
+        }
+        light.show(stage);
+    }
+    let hidden = hidden.filter(|_| complete);
     for (number, camera) in (0..).zip(&scene.cameras) {
         let mut darkroom = Darkroom {
             stage,
@@ -63,6 +75,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
             samples: 0,
             miss_probability: 1.0 - settings.confidence,
             quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
+            hidden: hidden.as_ref(),
         };
         let mut picture: Option<Exposure> = None;
         // Part of a set whose number of points is fixed would leave part of its lights out.
@@ -107,6 +120,7 @@ struct Darkroom<'a, S> {
     samples: u64,
     miss_probability: f64,
     quantum: Quantum,
+    hidden: Option<&'a HiddenLight<S>>,
 }
 
 /// A picture, and how many contributions are not in it.
@@ -196,7 +210,8 @@ impl<S: Spectrum> Darkroom<'_, S> {
             let numbers = first..(first + WAVE).min(paths);
             let starts = numbers.clone().map(|path| {
                 let (row, index) = ((path / self.samples) as usize, path % self.samples);
-                self.start(pixels.start + row / replicates, &points[row], index)
+                let (pixel, replicate) = (row / replicates, row % replicates);
+                self.start((pixels.start + pixel, replicate as u32), &points[row], index)
             });
             for (path, ended) in numbers.clone().zip(wave.trace(self.stage, starts)) {
                 let ended = ended.end();
@@ -219,13 +234,18 @@ impl<S: Spectrum> Darkroom<'_, S> {
     }
 
     /// A path through the place of a pixel that its first two coordinates give.
-    fn start<'p>(&self, pixel: usize, points: &'p PointSet, index: u64) -> Start<'p, S> {
+    fn start<'p>(
+        &'p self,
+        (pixel, replicate): (usize, u32),
+        points: &'p PointSet,
+        index: u64,
+    ) -> Start<'p, S> {
         let mut cursor = SampleCursor::new(points, index);
         let [u, v] = cursor.next_2d();
         let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
-            hidden: None,
+            hidden: self.hidden.and_then(|hidden| hidden.map(replicate)),
             joining: None,
             from: self.stage.world.vantage_of_sensor(self.view.position, direction),
             seeks: Seeks::Luminance { direction },

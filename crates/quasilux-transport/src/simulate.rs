@@ -251,8 +251,8 @@ pub(crate) fn look<S: Spectrum>(
         estimates.biased = true;
         estimates.warnings.push(format!(
             "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
-             density: it is blurred over about the length of a map element, and missing in pictures and on surfaces that \
-             are not plain diffuse ones"
+             density: it is blurred over about the length of a map element, and missing on surfaces that are \
+             not plain diffuse ones"
         ));
     }
     let standing = Standing::of(&estimates, settings);

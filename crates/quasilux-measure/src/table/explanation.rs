@@ -83,10 +83,12 @@ fn sampled(explanation: &Explanation) -> String {
         _ => "the mean",
     };
     format!(
-        "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, {} at \
-         most, and what it finds deviates by {} % of {whole}.",
+        "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, half of them \
+         {} or fewer, nine of ten {} and all {}; what it finds deviates by {} % of {whole}.",
         count(*rays),
         brief(dimensions.mean(), 3),
+        dimensions.quantile(0.5),
+        dimensions.quantile(0.9),
         dimensions.largest(),
         brief(100.0 * relative_deviation, 3),
     )
@@ -224,7 +226,7 @@ mod tests {
         let text = explanation(&example(), Style::Plain);
         for words in [
             "1 024 paths from each of 8 points",
-            "5 coordinates on average, 6 at most",
+            "5 coordinates on average, half of them 4 or fewer, nine of ten 6 and all 6; what it finds",
             "0 to 1        direction from the sensor",
             "2 and on      place on an area light, at surface 1",
             " 70.0 ± 1.0 %",

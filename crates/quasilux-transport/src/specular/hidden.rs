@@ -4,8 +4,7 @@
 //! It comes from photon density. Photons are followed until they are scattered, and those that came by
 //! specular surfaces alone, in no image, are counted on map elements for the vertices of paths, on a
 //! disk around each sensor point, and on cells. All but the cells are biased: a mean over an area
-//! stands for the value at a point. What lands on surfaces that are not plain diffuse ones, or is to be seen in a picture, is left
-//! out. Each replicate has its own photons, which grow in number with its
+//! stands for the value at a point. What lands on surfaces that are not plain diffuse ones is left out. Each replicate has its own photons, which grow in number with its
 //! paths: paths to come read all photons so far.
 
 use super::Trail;

@@ -1,5 +1,6 @@
 //! Pictures: luminances of pixels against closed forms, and what they do not depend on.
 
+use crate::images::{add_panel, empty};
 use crate::scenes::{all_walls_emit, diffuse, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
@@ -187,6 +188,29 @@ fn a_dark_pixel_has_no_interval() {
     assert_eq!((pixel.luminance_cd_m2, pixel.half_width_cd_m2), (0.0, None));
     let alone = Settings { replicates: 1, ..settings };
     assert_eq!(simulate(&scene, &alone, &mut ()).cameras[0].pixels[0].half_width_cd_m2, None);
+}
+
+/// Light that a mirror sends to a floor is in a picture of the floor, by images or, where none are followed, by photons:
+/// both know the mean to 1 %, and the mirror adds more than a half.
+#[test]
+fn pictures_show_light_that_only_photons_find() {
+    let mut scene = empty();
+    let edge = DVec3::new(0.0, -4.0, 0.0);
+    add_panel(&mut scene, edge, DVec3::X * 4.0, DVec3::Y * 8.0, diffuse(0.5));
+    add_panel(&mut scene, edge, DVec3::Y * 8.0, DVec3::Z * 4.0, mirror(0.9));
+    scene.lights.push(point_light(DVec3::new(0.3, 0.0, 1.0), 100.0));
+    let eye = DVec3::new(1.5, -0.2, 3.0);
+    scene.cameras.push(camera(eye, DVec3::new(1.5, 0.0, 0.0)));
+    let mean = |image_depth, max_bounces| {
+        let settings = Settings { image_depth, max_bounces, ..Settings::default() };
+        let estimates = simulate(&scene, &settings, &mut ());
+        assert_eq!(estimates.biased, image_depth == Some(0));
+        estimates.picture_mean(0).value
+    };
+    let [by_images, by_photons] = [None, Some(0)].map(|image_depth| mean(image_depth, None));
+    assert!((by_photons / by_images - 1.0).abs() < 0.01, "{by_photons}, {by_images}");
+    let direct = mean(None, Some(1));
+    assert!(by_images > 1.5 * direct, "{by_images}, {direct}");
 }
 
 #[test]
