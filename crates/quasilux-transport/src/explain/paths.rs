@@ -42,7 +42,7 @@ struct PathTarget {
     /// Its number among all.
     number: u64,
     target: Target,
-    /// Light that is no matter of paths: direct light, and what joined photons find.
+    /// Light that is no matter of paths: direct light, what joined photons find, and what only photons find.
     given_lx: f64,
 }
 
@@ -77,11 +77,14 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
             given_lx: exact[number].sum_lx()
                 + joined.as_ref().map_or(0.0, |joined| joined.lx(0, i)),
         });
-        let targets: Vec<PathTarget> = targets.collect();
+        let mut targets: Vec<PathTarget> = targets.collect();
         let (mut end, _) = PathEnd::prepare(stage, &one, &all, (frozen, None), &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(stage, photons, |_| None, &mut watch);
         let hidden = Self::hidden(stage, &one, &targets, &mut watch);
+        for (i, target) in targets.iter_mut().enumerate() {
+            target.given_lx += hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(0, i));
+        }
         let kind = match settings.estimator {
             Estimator::Path => WalkKind::Paths,
             _ if joined.is_some() => WalkKind::PathsBesidePhotons,

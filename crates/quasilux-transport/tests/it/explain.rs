@@ -1,7 +1,8 @@
 //! The dimension report on scenes whose variance is known to sit in known coordinates.
 
 use crate::agreement::coloured_room_with_mirror;
-use crate::scenes::{diffuse, point_light, points, room};
+use crate::images::add_panel;
+use crate::scenes::{diffuse, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::light::AreaLight;
@@ -108,6 +109,23 @@ fn the_parts_tell_the_error_of_a_run() {
     };
     let found = ((0..3).map(square).sum::<f64>() / 3.0).sqrt();
     assert!((found / foretold - 1.0).abs() < 0.08, "{found}, foretold {foretold}");
+}
+
+/// The mean that deviations are measured by has all light, also what comes by a mirror that no images are followed in:
+/// half as much again here, and more than a fourth of it would show.
+#[test]
+fn deviations_are_measured_by_all_light() {
+    let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.3));
+    let corner = DVec3::new(0.9, 0.0, 0.0);
+    add_panel(&mut scene, corner, DVec3::Y * 3.0, DVec3::Z * 2.5, mirror(0.95));
+    scene.lights.push(point_light(DVec3::new(1.2, 1.5, 2.0), 100.0));
+    scene.sensors = vec![points("desk", &[(DVec3::new(1.1, 1.2, 0.8), DVec3::Z)])];
+    let deviation = |image_depth| {
+        let settings = Settings { image_depth, ..Settings::default() };
+        explain(&scene, &settings).relative_deviation
+    };
+    let [by_images, by_photons] = [deviation(None), deviation(Some(0))];
+    assert!((by_photons / by_images - 1.0).abs() < 0.25, "{by_photons}, {by_images}");
 }
 
 /// Decisions come in the order in which the walk meets them, each with the coordinates that it draws.
