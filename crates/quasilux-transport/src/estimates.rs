@@ -93,7 +93,8 @@ pub struct FluxBalance {
 pub struct Dimensions {
     /// Of the photons, those that steering split off by themselves.
     pub photon: DimensionHistogram,
-    /// Photons that began, those that were split off not counted.
+    /// Photons that began, for estimate, map, energy balance and what decided over them together; those that were split off
+    /// are not among them, nor those that look for what paths cannot find.
     pub photons: u64,
     /// Surfaces that all these photons came to.
     pub photon_events: u64,

@@ -36,11 +36,11 @@ impl GridPlane {
         }
     }
 
-    /// The same as flights from behind see it, where some of these come to the front of the grid's own normal.
-    pub(crate) fn behind<S: Spectrum>(&self, world: &World<S>) -> Option<Self> {
-        let Self { grid, normal, dual, .. } = *self;
+    /// The same as flights from behind see it, where some of these come to the front of the grid's own normal. A surface
+    /// in the grid's plane ends them before.
+    pub(crate) fn behind(&self) -> Option<Self> {
+        let Self { grid, origin, normal, dual } = *self;
         let is_tilted = grid.normal.cross(normal).length() > TILTED;
-        let origin = world.vantage_of_sensor(grid.origin, -normal).position();
         is_tilted.then_some(Self { grid, origin, normal: -normal, dual })
     }
 

@@ -28,9 +28,9 @@ const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
 /// How photons ended, and what they cost. Flux is in quanta.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PhotonCounts {
-    /// Photons that left lights.
+    /// Photons that began, until those from lit places are [taken out](Self::apart_from_flux): those that left lights.
     pub(crate) emitted: u64,
-    /// All that began, at lights or where their light lands; what splitting added is not among them.
+    /// Those from lit places too; what splitting added is not among them.
     pub(crate) begun: u64,
     /// Absorbed, less what splitting added.
     pub(crate) absorbed: i64,

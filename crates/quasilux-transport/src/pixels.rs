@@ -36,8 +36,8 @@ use std::ops::Range;
 const PIXEL_SAMPLES: u64 = 16;
 /// From one pass to the next the number of paths grows by this factor.
 const GROWTH: u64 = 16;
-/// Photons of each replicate that look for light which paths cannot find.
-const HIDDEN_PHOTONS: u64 = 1 << 16;
+/// Photons for each path of a pixel that look for light which paths cannot find.
+const HIDDEN_PHOTONS: u64 = 1 << 12;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 /// Strips of a round at least, so that all threads have work.
@@ -56,15 +56,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
     let samples = settings.max_samples.unwrap_or(PIXEL_SAMPLES).max(1);
     let mut work = WorkCounts::default();
     let mut complete = true;
-    let mut hidden = HiddenLight::new(stage, settings, &[]).filter(|_| !scene.cameras.is_empty());
-    if let Some(light) = &mut hidden {
-        match light.grow(stage, HIDDEN_PHOTONS, watch) {
-            Some(rays) => work.rays += rays,
-            None => complete = false,
-        }
-        light.show(stage);
-    }
-    let hidden = hidden.filter(|_| complete);
+    let bounces = settings.max_bounces != Some(0);
     for (number, camera) in (0..).zip(&scene.cameras) {
         let mut darkroom = Darkroom {
             stage,
@@ -75,7 +67,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
             samples: 0,
             miss_probability: 1.0 - settings.confidence,
             quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
-            hidden: hidden.as_ref(),
+            hidden: HiddenLight::new(stage, settings, &[]).filter(|_| bounces),
         };
         let mut picture: Option<Exposure> = None;
         // Part of a set whose number of points is fixed would leave part of its lights out.
@@ -84,6 +76,9 @@ pub(crate) fn add_pictures<S: Spectrum>(
         while let Some(pass) = next {
             darkroom.samples = pass;
             let stops = picture.is_some();
+            if !darkroom.look_for_hidden(stops, &mut work, watch) {
+                break;
+            }
             let Some(taken) = darkroom.expose(camera, stops, &mut work, watch) else { break };
             picture = Some(taken);
             next = (pass < samples).then(|| pass.saturating_mul(GROWTH).min(samples));
@@ -120,7 +115,8 @@ struct Darkroom<'a, S> {
     samples: u64,
     miss_probability: f64,
     quantum: Quantum,
-    hidden: Option<&'a HiddenLight<S>>,
+    /// Light that no path finds.
+    hidden: Option<HiddenLight<S>>,
 }
 
 /// A picture, and how many contributions are not in it.
@@ -146,6 +142,26 @@ struct PixelSums {
 }
 
 impl<S: Spectrum> Darkroom<'_, S> {
+    /// Has as many photons look for light that no path finds as belong to this pass. Whether to go on; it is always so where
+    /// the pass may not be stopped.
+    fn look_for_hidden(
+        &mut self,
+        may_stop: bool,
+        work: &mut WorkCounts,
+        watch: &mut Watch<'_>,
+    ) -> bool {
+        let Some(hidden) = &mut self.hidden else { return true };
+        let photons = self.samples.saturating_mul(HIDDEN_PHOTONS);
+        let mut nobody = ();
+        let rays = match may_stop {
+            true => hidden.grow(self.stage, photons, watch),
+            false => hidden.grow(self.stage, photons, &mut Watch::new(&mut nobody)),
+        };
+        work.rays += rays.unwrap_or_default();
+        hidden.show(self.stage);
+        rays.is_some()
+    }
+
     /// One pass over the whole picture; `None` when the observer stopped it, if it may.
     fn expose(
         &self,
@@ -245,7 +261,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
         let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
-            hidden: self.hidden.and_then(|hidden| hidden.map(replicate)),
+            hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
             joining: None,
             from: self.stage.world.vantage_of_sensor(self.view.position, direction),
             seeks: Seeks::Luminance { direction },

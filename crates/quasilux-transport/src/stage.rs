@@ -90,6 +90,7 @@ impl Stream {
     /// The sequence of its points in a run with this one.
     pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
         match (self, of_run) {
+            (Self::JoinedPlaces(_), Sequence::Random) => Sequence::Random,
             // Their dimensions are high ones, where other sequences are no good.
             (Self::JoinedPlaces(_), _) => Sequence::Sobol,
             // A plan has its own number of photons.

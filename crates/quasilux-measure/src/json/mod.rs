@@ -12,7 +12,7 @@
 //! `decisions`, what pilots made of those (photons that are joined for each path, whether photons are `steered` and leave lit places, sides of elements
 //! of the map that paths end on, photons for each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
-//! coordinates, in one list each, all of more than 1023 together at its end, `photons`, how many began in all replicates, `null` where none did, and
+//! coordinates, in one list each, all of more than 1023 together at its end, `photons`, how many began in all, `null` where none did, and
 //! `mean_events`, surfaces that a `photon` came to on average. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for,
 //! `explain` says which coordinates carry the variance.

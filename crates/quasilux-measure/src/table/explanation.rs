@@ -120,7 +120,7 @@ fn sentences(explanation: &Explanation) -> Vec<String> {
     };
     let most = match explanation.truncation_dimension {
         Some(dimension) => format!("the first {dimension} coordinates carry 99 % of the variance"),
-        None => "the variance reaches into the last block".to_owned(),
+        None => "no block of photons or paths can be left out".to_owned(),
     };
     let mut sentences =
         vec![format!("{} blocks act together on average; {most}.", brief(interacting, 3))];
@@ -158,8 +158,12 @@ fn together(explanation: &Explanation) -> String {
     );
     let parts = explanation.beside.iter().map(|beside| &beside.explanation);
     let gains = std::iter::once(explanation).chain(parts).map(|part| part.gain);
-    if let Some(gains) = gains.collect::<Option<Vec<Gain>>>() {
-        let factors: Vec<String> = gains.iter().map(|gain| format!("{:.1}", gain.factor)).collect();
+    let factors: Vec<Option<f64>> = gains.map(|gain| gain.map(|gain| gain.factor)).collect();
+    if factors.iter().any(Option::is_some) {
+        let factor = |factor: &Option<f64>| {
+            factor.map_or_else(|| "nothing".to_owned(), |factor| format!("{factor:.1}"))
+        };
+        let factors: Vec<String> = factors.iter().map(factor).collect();
         write!(text, "; the sequence divides these by {}", factors.join(", "))
             .expect("strings grow");
     }

@@ -163,8 +163,7 @@ pub struct Gain {
 
 /// Looks into the variance of one sample, without the run.
 ///
-/// Deterministic for any number of threads. It costs up to half a million samples of paths, and as many of each kind
-/// of photons.
+/// Deterministic for any number of threads. It costs some hundred thousand samples of each kind, up to a million.
 #[must_use]
 pub fn explain(scene: &Scene, settings: &Settings) -> Explanation {
     if is_grey(scene) { on_stage::<f64>(scene, settings) } else { on_stage::<Rgb>(scene, settings) }

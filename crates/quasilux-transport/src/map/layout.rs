@@ -36,9 +36,6 @@ pub(crate) struct Place {
     pub(crate) barycentric: [f64; 3],
     /// The element's area in m^2.
     pub(crate) area_m2: f64,
-    /// By how much the facet's second and third weight grow with those of the element; negative where
-    /// it is turned by half a turn.
-    pub(super) step: f64,
 }
 
 /// How a facet is cut at first.
@@ -141,7 +138,7 @@ impl MapLayout {
         // Sides that see no light lie together, so that they take no memory.
         let element = if at.front { leaf } else { self.trees.leaves + leaf };
         let area_m2 = facet.area_m2 * (cell.step * cell.step);
-        Place { element, barycentric: cell.weights, area_m2, step: cell.step }
+        Place { element, barycentric: cell.weights, area_m2 }
     }
 
     /// The layout with those leaves split for which `is_split` says so.

@@ -4,8 +4,9 @@
 //! It comes from photon density. Photons are followed until they are scattered, and those that came by
 //! specular surfaces alone, in no image, are counted on map elements for the vertices of paths, on a
 //! disk around each sensor point, and on cells. All but the cells are biased: a mean over an area
-//! stands for the value at a point. What lands on surfaces that are not plain diffuse ones is left out. Each replicate has its own photons, which grow in number with its
-//! paths: paths to come read all photons so far.
+//! stands for the value at a point. What lands on surfaces that are not plain diffuse ones is left out.
+//! Each replicate has its own photons, which grow in number with its paths: paths to come read all
+//! photons so far.
 
 use super::Trail;
 use crate::grid_plane::GridPlane;
@@ -356,7 +357,7 @@ impl Receivers {
         match self.planes.last_mut() {
             Some(last) if cell != 0 && cell == last.cells.end => last.cells.end = cell + 1,
             _ => {
-                let (behind, cells) = (plane.behind(&stage.world), cell..cell + 1);
+                let (behind, cells) = (plane.behind(), cell..cell + 1);
                 self.planes.push(CellReceiver { plane, behind, first_target: number, cells });
             }
         }

@@ -202,15 +202,24 @@ fn pictures_show_light_that_only_photons_find() {
     let eye = DVec3::new(1.5, -0.2, 3.0);
     scene.cameras.push(camera(eye, DVec3::new(1.5, 0.0, 0.0)));
     let mean = |image_depth, max_bounces| {
-        let settings = Settings { image_depth, max_bounces, ..Settings::default() };
+        let max_samples = Some(64);
+        let settings = Settings { image_depth, max_bounces, max_samples, ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());
         assert_eq!(estimates.biased, image_depth == Some(0));
-        estimates.picture_mean(0).value
+        let mean = estimates.picture_mean(0);
+        assert!(mean.half_width.unwrap() < 0.005 * mean.value, "{mean:?}");
+        mean.value
     };
     let [by_images, by_photons] = [None, Some(0)].map(|image_depth| mean(image_depth, None));
     assert!((by_photons / by_images - 1.0).abs() < 0.01, "{by_photons}, {by_images}");
     let direct = mean(None, Some(1));
     assert!(by_images > 1.5 * direct, "{by_images}, {direct}");
+    // Stopped before the second pass, it has that light as well.
+    let settings = Settings { image_depth: Some(0), ..Settings::default() };
+    let stopped = simulate(&scene, &settings, &mut Impatient);
+    let once = simulate(&scene, &Settings { max_samples: Some(1), ..settings }, &mut ());
+    assert_eq!(stopped.cameras, once.cameras);
+    assert!(stopped.picture_mean(0).value > 1.3 * direct, "{stopped:?}");
 }
 
 #[test]
