@@ -9,6 +9,7 @@ use crate::spectrum::Spectrum;
 use crate::world::World;
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// So many planes are taken without a look at their areas.
 const FEW_PLANES: usize = 64;
@@ -44,8 +45,9 @@ pub(crate) struct MirrorPlane {
 }
 
 /// The most that is reflected in any channel, at cosines of incidence from k / [`COSINES`] to 1.
-#[derive(Clone, Copy)]
-struct MostReflected([f64; COSINES + 1]);
+/// Shared by all planes of one material.
+#[derive(Clone)]
+struct MostReflected(Arc<[f64; COSINES + 1]>);
 
 /// A reflecting triangle.
 pub(crate) struct MirrorFacet {
@@ -66,7 +68,9 @@ impl MirrorPlanes {
                 .entry(own.material)
                 .or_insert_with(|| MostReflected::by(world.bsdf_of(own)));
             let area_m2 = own.area_m2();
-            let Some(reflectance) = reflectance.filter(|_| area_m2 > 0.0) else { continue };
+            let Some(reflectance) = reflectance.as_ref().filter(|_| area_m2 > 0.0) else {
+                continue;
+            };
             facets += 1;
             let normal = own.front_normal * facing(own.front_normal);
             let height = normal.dot(own.corners()[0] - centre) / world.size_m();
@@ -77,10 +81,10 @@ impl MirrorPlanes {
                 offset_m: normal.dot(own.point([1.0 / 3.0; 3])),
                 facets: Vec::new(),
                 area_m2: 0.0,
-                reflectance,
+                reflectance: reflectance.clone(),
             });
             plane.area_m2 += area_m2;
-            plane.reflectance = plane.reflectance.or(reflectance);
+            plane.reflectance.join(reflectance);
             plane.facets.push(MirrorFacet::new(facet, own.corners(), own.front_normal));
         }
         Self::choose(by_key.into_values().collect(), facets, world.facets.len())
@@ -124,12 +128,14 @@ impl MostReflected {
             so_far = so_far.max(bsdf.image_reflectance(cos)?.max_channel());
             most[look / LOOKS] = so_far;
         }
-        (so_far > 0.0).then_some(Self(most))
+        (so_far > 0.0).then(|| Self(Arc::new(most)))
     }
 
     /// By one or the other.
-    fn or(self, other: Self) -> Self {
-        Self(std::array::from_fn(|step| self.0[step].max(other.0[step])))
+    fn join(&mut self, other: &Self) {
+        if !Arc::ptr_eq(&self.0, &other.0) {
+            self.0 = Arc::new(std::array::from_fn(|step| self.0[step].max(other.0[step])));
+        }
     }
 }
 
