@@ -11,7 +11,7 @@ use crate::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::grid_plane::GridPlane;
 use crate::map::{MapLayout, QUANTA_PER_PHOTON};
 use crate::observer::Snapshot;
-use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
+use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons_in_view};
 use crate::settings::Settings;
 use crate::simulate::Estimation;
@@ -108,9 +108,7 @@ impl<'a, S: Spectrum> Counting<'a, S> {
             replicates,
             indices,
             way,
-            source: Source::Lights,
-            windows,
-            certain_weight: f64::INFINITY,
+            lead: Lead::by_chance(Source::Lights, windows),
         };
         let before = self.samples * counters.len() as u64;
         let look = |emitted: u64| Some(self.snapshot(before + emitted));

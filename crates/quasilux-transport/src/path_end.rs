@@ -4,7 +4,7 @@ use crate::correction::{FrozenEnd, FrozenMap, of_plan};
 use crate::first_shot::{LitCells, decide};
 use crate::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
 use crate::observer::Snapshot;
-use crate::photon::{PhotonCounts, Source};
+use crate::photon::{Lead, PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
@@ -195,9 +195,7 @@ impl<S: Spectrum> PathEnd<S> {
             replicates: 0..tallies.len() as u32,
             indices,
             way: Way::CoherentWaves,
-            source,
-            windows: windows.as_ref(),
-            certain_weight: f64::INFINITY,
+            lead: Lead::by_chance(source, windows.as_ref()),
         };
         let before = batch.indices.start * tallies.len() as u64;
         let look = |emitted: u64| {

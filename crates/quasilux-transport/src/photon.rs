@@ -129,6 +129,13 @@ pub(crate) struct Lead<'s> {
     pub(crate) certain_weight: f64,
 }
 
+impl<'s> Lead<'s> {
+    /// Photons that survive by chance at each surface, unless something steers them.
+    pub(crate) fn by_chance(source: Source<'s>, windows: Option<&'s Windows>) -> Self {
+        Self { source, windows, certain_weight: f64::INFINITY }
+    }
+}
+
 impl<'s> Source<'s> {
     /// The lights, or lit cells where there are any.
     pub(crate) fn of(lit_cells: Option<&'s LitCells>) -> Self {

@@ -4,11 +4,10 @@ use crate::endless;
 use crate::estimates::FluxBalance;
 use crate::observer::Snapshot;
 use crate::order::{WAVES_PER_FIELD, Waves};
-use crate::photon::{Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::photon::{Lead, PhotonCounts, PhotonReceiver, trace_photon};
 use crate::photon_wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
-use crate::steering::Windows;
 use crate::trial::Way;
 use crate::watch::Watch;
 use quasilux_sampling::{PointSet, SampleCursor};
@@ -25,11 +24,7 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) replicates: Range<u32>,
     pub(crate) indices: Range<u64>,
     pub(crate) way: Way,
-    pub(crate) source: Source<'w>,
-    /// What steers them; `None` leaves them alone.
-    pub(crate) windows: Option<&'w Windows>,
-    /// See [`Lead`].
-    pub(crate) certain_weight: f64,
+    pub(crate) lead: Lead<'w>,
 }
 
 /// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer
@@ -52,8 +47,8 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
     look: impl Fn(u64) -> Option<Snapshot>,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let PhotonBatch { stream, replicates, indices, way, source, windows, certain_weight } = batch;
-    let lead = Lead { source: *source, windows: *windows, certain_weight: *certain_weight };
+    let PhotonBatch { stream, replicates, indices, way, lead } = batch;
+    let lead = *lead;
     let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
     let close_in = match way {

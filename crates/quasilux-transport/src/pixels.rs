@@ -56,7 +56,6 @@ pub(crate) fn add_pictures<S: Spectrum>(
     let samples = settings.max_samples.unwrap_or(PIXEL_SAMPLES).max(1);
     let mut work = WorkCounts::default();
     let mut complete = true;
-    let bounces = settings.max_bounces != Some(0);
     for (number, camera) in (0..).zip(&scene.cameras) {
         let mut darkroom = Darkroom {
             stage,
@@ -67,7 +66,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
             samples: 0,
             miss_probability: 1.0 - settings.confidence,
             quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
-            hidden: HiddenLight::new(stage, settings, &[]).filter(|_| bounces),
+            hidden: HiddenLight::new(stage, settings, &[]),
         };
         let mut picture: Option<Exposure> = None;
         // Part of a set whose number of points is fixed would leave part of its lights out.
@@ -227,7 +226,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
             let starts = numbers.clone().map(|path| {
                 let (row, index) = ((path / self.samples) as usize, path % self.samples);
                 let (pixel, replicate) = (row / replicates, row % replicates);
-                self.start((pixels.start + pixel, replicate as u32), &points[row], index)
+                self.start(pixels.start + pixel, replicate as u32, &points[row], index)
             });
             for (path, ended) in numbers.clone().zip(wave.trace(self.stage, starts)) {
                 let ended = ended.end();
@@ -252,7 +251,8 @@ impl<S: Spectrum> Darkroom<'_, S> {
     /// A path through the place of a pixel that its first two coordinates give.
     fn start<'p>(
         &'p self,
-        (pixel, replicate): (usize, u32),
+        pixel: usize,
+        replicate: u32,
         points: &'p PointSet,
         index: u64,
     ) -> Start<'p, S> {

@@ -8,7 +8,7 @@ use super::{FrozenMap, Walks, bounces_left, layers};
 use crate::choice::{Promise, Wanted};
 use crate::first_shot::{LitCells, decide};
 use crate::map::{MapLayout, MapReceiver, MapTally};
-use crate::photon::{PhotonCounts, Source};
+use crate::photon::{Lead, PhotonCounts, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -191,8 +191,6 @@ pub(crate) fn of_plan(source: Source<'_>, indices: Range<u64>) -> PhotonBatch<'_
         replicates: 0..1,
         indices,
         way: Way::CoherentWaves,
-        source,
-        windows: None,
-        certain_weight: f64::INFINITY,
+        lead: Lead::by_chance(source, None),
     }
 }

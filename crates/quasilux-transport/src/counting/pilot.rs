@@ -64,7 +64,7 @@ impl Pilots {
         photons: Range<u64>,
     ) -> Self {
         let points = stage.points(0, Stream::SteeringPilots);
-        let lead = Lead { source: Source::Lights, windows, certain_weight: f64::INFINITY };
+        let lead = Lead::by_chance(Source::Lights, windows);
         let piece = |first: u64| {
             let mut counts = PhotonCounts::default();
             let mut left = Vec::new();

@@ -43,7 +43,7 @@ pub(super) fn gain(
     let exponent = power([all, few], [RATIO as f64, 1.0]).map(|power| -0.5 * power)?;
     let factor = (spread.variance() / samples as f64 / all).sqrt();
     // A standard deviation from n values has the relative standard error 1 / sqrt(2 (n - 1)).
-    let independent = if walk.kind().is_of_photons() { 1 } else { spread.targets() };
+    let independent = walk.kind().samples_an_index(spread.targets());
     let degrees = independent as f64 * f64::from(REPLICATES - 1);
     let standard_error = factor / (2.0 * degrees).sqrt();
     Some(Gain { samples, replicates: REPLICATES, factor, standard_error, exponent })

@@ -102,9 +102,12 @@ pub enum WalkKind {
 }
 
 impl WalkKind {
-    /// Whether one sample serves all targets.
-    fn is_of_photons(self) -> bool {
-        matches!(self, Self::Photons | Self::CountedPhotons | Self::JoinedPhotons)
+    /// How many samples of their own so many targets have for each index: photons serve all, paths one each.
+    fn samples_an_index(self, targets: usize) -> usize {
+        match self {
+            Self::Photons | Self::CountedPhotons | Self::JoinedPhotons => 1,
+            Self::Paths | Self::PathsOnMap | Self::PathsBesidePhotons => targets,
+        }
     }
 }
 
@@ -265,9 +268,8 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Look {
     };
 
     let spread = Spread::new([&pilot.values, &other.values], walk.whole_lx());
-    // Photons serve all targets, paths one each.
-    let of_each = if walk.kind().is_of_photons() { 1 } else { pilot.values.len() as u64 };
-    let mut blocks = blocks::of(ledger.take(), samples * of_each);
+    let an_index = walk.kind().samples_an_index(pilot.values.len());
+    let mut blocks = blocks::of(ledger.take(), samples * an_index as u64);
     let mut truncation_dimension = None;
     for (number, block) in blocks.iter_mut().enumerate().filter(|_| spread.varies()) {
         let Range { start: first, end } = block.dimensions;

@@ -70,8 +70,7 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
             let Self { receivers, readings, .. } = self;
             let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
             let cursor = SampleCursor::new(&points, index);
-            let windows = self.windows.as_ref();
-            let lead = Lead { source: Source::Lights, windows, certain_weight: f64::INFINITY };
+            let lead = Lead::by_chance(Source::Lights, self.windows.as_ref());
             trace_photon(self.stage, lead, cursor, &mut found, counts);
             found.lx
         })

@@ -59,13 +59,7 @@ fn work<S: Spectrum>(stage: &Stage<'_, S>, source: Source<'_>, counts: &mut Phot
     let (mut weights, mut of_pilots) = (Weights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
         let cursor = SampleCursor::new(&points, index);
-        trace_photon(
-            stage,
-            Lead { source, windows: None, certain_weight: f64::INFINITY },
-            cursor,
-            &mut weights,
-            &mut of_pilots,
-        );
+        trace_photon(stage, Lead::by_chance(source, None), cursor, &mut weights, &mut of_pilots);
     }
     counts.rays += of_pilots.rays;
     let Weights { sum, squares } = weights;

@@ -148,7 +148,7 @@ fn landed<S: Spectrum>(
         Source::Lights => Stream::Photons,
         Source::LitCells(_) => Stream::Paths(0),
     };
-    let lead = Lead { source, windows: None, certain_weight: f64::INFINITY };
+    let lead = Lead::by_chance(source, None);
     let points = stage.points(replicate, stream);
     let mut landed = Landed { shares: [[0.0; MOST_BOUNCES]; 7], total: 0.0 };
     for index in 0..photons {
@@ -271,13 +271,11 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
     let stage = Stage::<f64>::new(scene, &settings);
     let cells = LitCells::new(&stage, u64::MAX).unwrap();
     let batch = PhotonBatch {
-        source: Source::LitCells(&cells),
         stream: Stream::Photons,
         replicates: 0..1,
         indices: 0..10_000,
         way,
-        windows: None,
-        certain_weight: f64::INFINITY,
+        lead: Lead::by_chance(Source::LitCells(&cells), None),
     };
     let landed = Mutex::new(vec![0; 14]);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

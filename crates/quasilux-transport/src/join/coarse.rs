@@ -4,7 +4,7 @@ use super::Joining;
 use super::joined::lock;
 use super::leaving::Leaving;
 use super::outlook::{CLASSES, Outlook};
-use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
+use crate::photon::{Flight, PhotonCounts, PhotonReceiver};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -51,7 +51,6 @@ impl Coarse {
         &self,
         stage: &Stage<'_, S>,
         joining: &Joining,
-        certain_weight: f64,
         photons: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> Option<PhotonCounts> {
@@ -65,9 +64,7 @@ impl Coarse {
             replicates: self.replicates.clone(),
             indices: photons,
             way: Way::CoherentWaves,
-            source: Source::Lights,
-            windows: joining.windows.as_ref(),
-            certain_weight,
+            lead: joining.lead(),
         };
         trace_photons(stage, &batch, receiver, watch)
     }
@@ -141,7 +138,7 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = Leaving::new(self.stage, self.joining, at, (weight, bounces));
+        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         let slot = (bounces as usize).min(self.slots - 1);
         for side in leaving.sides {

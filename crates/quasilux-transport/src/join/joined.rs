@@ -5,7 +5,7 @@ use super::coarse::Coarse;
 use super::outlook::Outlook;
 use super::receiver::{Group, JoinReceiver};
 use super::spot::Spot;
-use crate::photon::{PhotonCounts, Source};
+use crate::photon::PhotonCounts;
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
@@ -19,10 +19,6 @@ use std::sync::{Mutex, PoisonError};
 
 /// Targets that the same photons are joined to; others have photons of their own.
 const GROUP: usize = 256;
-/// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
-/// by chance later: smooth sums are what quasi-random points are good at.
-pub(super) const CERTAIN_WEIGHT: f64 = 0.1;
-
 /// A photon that is joined takes as long as so many others, about.
 const JOINING: u64 = 4;
 
@@ -159,7 +155,7 @@ impl Joined {
         if let Some((_, coarse)) = &mut self.coarse {
             let each = self.joining.coarse_photons;
             let photons = self.samples * each..samples * each;
-            counted = coarse.grow(stage, &self.joining, CERTAIN_WEIGHT, photons, watch)?;
+            counted = coarse.grow(stage, &self.joining, photons, watch)?;
         }
         for (number, sums) in (0..).zip(&self.sums) {
             let group = self.group(number as usize);
@@ -176,9 +172,7 @@ impl Joined {
                 replicates: self.replicates.clone(),
                 indices: self.samples * photons..samples * photons,
                 way: Way::CoherentWaves,
-                source: Source::Lights,
-                windows: self.joining.windows.as_ref(),
-                certain_weight: CERTAIN_WEIGHT,
+                lead: self.joining.lead(),
             };
             counts += trace_photons(stage, &batch, receiver, watch)?;
         }

@@ -30,7 +30,8 @@ impl Leaving {
         stage: &Stage<'_, S>,
         joining: &Joining,
         at: &Interaction,
-        (weight, bounces): (S, u32),
+        weight: S,
+        bounces: u32,
     ) -> Option<Self> {
         if stage.max_bounces.is_some_and(|most| bounces >= most) {
             return None;

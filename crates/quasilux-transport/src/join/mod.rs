@@ -50,6 +50,7 @@ mod ways;
 pub(crate) use joined::Joined;
 pub(crate) use ways::{Alone, Ways};
 
+use crate::photon::{Lead, Source};
 use crate::state::Writer;
 use crate::steering::{Density, Landings, Windows};
 use crate::world::Interaction;
@@ -58,6 +59,9 @@ use std::sync::Arc;
 
 /// k: paths take over where a photon would count this many times what it does on average.
 const CLAMP: f64 = 3.0;
+/// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
+/// by chance later: smooth sums are what quasi-random points are good at.
+const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// How photons are joined to sensors.
 pub(crate) struct Joining {
@@ -103,6 +107,12 @@ impl Joining {
         out.f64(*small);
         let places = places.iter().flatten().flat_map(|at| at.position.to_array());
         places.for_each(|x| out.f64(x));
+    }
+
+    /// How photons begin, and what steers them.
+    fn lead(&self) -> Lead<'_> {
+        let windows = self.windows.as_ref();
+        Lead { source: Source::Lights, windows, certain_weight: CERTAIN_WEIGHT }
     }
 
     /// Photons for each path of a sensor.

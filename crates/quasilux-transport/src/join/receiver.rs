@@ -196,7 +196,7 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = Leaving::new(self.stage, self.joining, at, (weight, bounces));
+        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
         if let Some(outlook) = self.group.outlook {

@@ -1,11 +1,11 @@
 //! What one photon by itself gives, for those who look into the variance.
 
 use super::Joining;
-use super::joined::{CERTAIN_WEIGHT, Joined, lock};
+use super::joined::{Joined, lock};
 use super::leaving::Leaving;
 use super::outlook::Outlook;
 use super::receiver::{Group, JoinReceiver, Seen};
-use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::photon::{Flight, PhotonCounts, PhotonReceiver, trace_photon};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
@@ -36,7 +36,7 @@ impl Joined {
         let Some(outlook) = outlook else { return zeros };
         let (at_once_lx, lx) = (zeros.clone(), zeros);
         let mut receiver = Expected { stage, joining: &self.joining, outlook, at_once_lx, lx };
-        trace_photon(stage, self.lead(), cursor, &mut receiver, counts);
+        trace_photon(stage, self.joining.lead(), cursor, &mut receiver, counts);
         receiver.lx
     }
 
@@ -57,16 +57,11 @@ impl Joined {
         let sums = Mutex::new(vec![Sum::default(); group.spots.len() * group.terms]);
         let places = (places, self.quantum);
         let mut receiver = JoinReceiver::new(stage, &self.joining, group, places, &sums);
-        trace_photon(stage, self.lead(), cursor, &mut receiver, counts);
+        trace_photon(stage, self.joining.lead(), cursor, &mut receiver, counts);
         counts.rays += receiver.finish();
         let sums = lock(&sums);
         let of_target = |sums: &[Sum]| sums.iter().map(|sum| self.quantum.value(*sum)).sum();
         sums.chunks(group.terms).map(of_target).collect()
-    }
-
-    fn lead(&self) -> Lead<'_> {
-        let windows = self.joining.windows.as_ref();
-        Lead { source: Source::Lights, windows, certain_weight: CERTAIN_WEIGHT }
     }
 }
 
@@ -74,7 +69,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Expected<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = Leaving::new(self.stage, self.joining, at, (weight, bounces));
+        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.outlook.foresee(&leaving, bounces == 0, &mut self.at_once_lx);
         self.lx.iter_mut().zip(&self.at_once_lx).for_each(|(sum, lx)| *sum += lx);

@@ -12,7 +12,7 @@ use super::layout::{MapLayout, Place};
 use super::reconstruction::Reconstruction;
 use super::subdivision::split;
 use super::tally::most_bounces;
-use crate::photon::{Flight, PhotonCounts, PhotonReceiver, Source};
+use crate::photon::{Flight, Lead, PhotonCounts, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -85,9 +85,7 @@ impl Pilot<'_> {
             replicates: 0..1,
             indices,
             way,
-            source: Source::Lights,
-            windows: None,
-            certain_weight: f64::INFINITY,
+            lead: Lead::by_chance(Source::Lights, None),
         };
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         trace_photons(stage, &batch, |_| self, watch).unwrap_or_default()

@@ -11,7 +11,7 @@
 use super::Trail;
 use crate::grid_plane::GridPlane;
 use crate::map::QUANTA_PER_PHOTON;
-use crate::photon::{Flight, PhotonReceiver, Source};
+use crate::photon::{Flight, Lead, PhotonReceiver, Source};
 use crate::photons::{PhotonBatch, trace_photons};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -108,13 +108,13 @@ struct HiddenReceiver<'a, S> {
 }
 
 impl<S: Spectrum> HiddenLight<S> {
-    /// `None` where images show all of it.
+    /// `None` where images show all of it, or where no bounces are wanted: it takes one at least.
     pub(crate) fn new(
         stage: &Stage<'_, S>,
         settings: &Settings,
         targets: &[Target],
     ) -> Option<Self> {
-        stage.hides.as_ref()?;
+        stage.hides.as_ref().filter(|_| stage.max_bounces != Some(0))?;
         let element_m = settings.map_element_m.unwrap_or(stage.world.size_m() / ELEMENTS_ACROSS);
         let receivers = Receivers::new(stage, targets, element_m);
         let replicates = settings.effective_replicates();
@@ -165,13 +165,11 @@ impl<S: Spectrum> HiddenLight<S> {
             HiddenReceiver { world, element_m, receivers, ends, tally, tells_bounces }
         };
         let batch = PhotonBatch {
-            source: Source::Lights,
             stream: Stream::HiddenPhotons,
             replicates: 0..tallies.len() as u32,
             indices: self.photons..end,
             way: Way::CoherentWaves,
-            windows: None,
-            certain_weight: f64::INFINITY,
+            lead: Lead::by_chance(Source::Lights, None),
         };
         let counts = trace_photons(stage, &batch, receiver, watch)?;
         self.photons = end;

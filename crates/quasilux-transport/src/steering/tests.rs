@@ -29,13 +29,7 @@ fn rays_and_connections_share_all_light() {
             match look {
                 0 => f64::from(u8::from(number == 0)),
                 1 => f64::from(u8::from(is_at_the_end)),
-                2 => {
-                    if is_at_the_end {
-                        1.0
-                    } else {
-                        1e-3
-                    }
-                }
+                2 if !is_at_the_end => 1e-3,
                 _ => 1.0,
             }
         };
