@@ -45,13 +45,13 @@ fn contestants() -> Vec<Contestant> {
     let kinds = [
         (Sequence::Sobol, Randomization::Owen),
         (Sequence::Sobol, Randomization::None),
-        (Sequence::Sobol, Randomization::Rotation),
-        (Sequence::Sobol, Randomization::Shift),
+        (Sequence::Sobol, Randomization::CranleyPattersonRotation),
+        (Sequence::Sobol, Randomization::DigitalShift),
         (Sequence::Faure4, Randomization::Owen),
-        (Sequence::Random, Randomization::None),
+        (Sequence::Independent, Randomization::None),
         (Sequence::Halton, Randomization::None),
-        (Sequence::Halton, Randomization::Rotation),
-        (Sequence::Halton, Randomization::Shift),
+        (Sequence::Halton, Randomization::CranleyPattersonRotation),
+        (Sequence::Halton, Randomization::DigitalShift),
         (Sequence::Halton, Randomization::Owen),
     ];
     let mut contestants = Vec::new();

@@ -39,7 +39,7 @@ fn main() {
         named.map_or(Switch::Auto, |named| named.1)
     };
     let (first_shot, joining) = (switch("first_shot"), switch("joining"));
-    let sequence = if given("random") { Sequence::Random } else { Sequence::Sobol };
+    let sequence = if given("random") { Sequence::Independent } else { Sequence::Sobol };
     let chosen: Vec<Estimator> =
         Estimator::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
     let estimators =

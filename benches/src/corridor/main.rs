@@ -36,7 +36,7 @@ const GOALS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
 const GOAL_EVERYWHERE: f64 = 0.02;
 
 /// Walks of each replicate before the yardstick is looked at.
-const LEAST_WALKS: u64 = 1 << 12;
+const MIN_WALKS: u64 = 1 << 12;
 
 /// One line of the comparison.
 struct Contestant {
@@ -83,7 +83,7 @@ fn main() {
 fn walk(reference: &Reference, longest_seconds: f64) {
     let mut replicates: Vec<Walks> = (0..u64::from(REPLICATES)).map(Walks::new).collect();
     let mut table = Table::new("walks", reference, longest_seconds);
-    let mut walks = LEAST_WALKS;
+    let mut walks = MIN_WALKS;
     loop {
         Walks::grow(&mut replicates, walks);
         let replicate_lx: Vec<Vec<f64>> = replicates.iter().map(Walks::lx).collect();

@@ -2,7 +2,7 @@
 //!
 //! First hits a second on one core for the photons of a point source. Three ways take turns in
 //! rounds of 2^14 photons each: one by one in natural order, one by one group by group, and by
-//! `closest_hits` group by group. The figures are medians over the rounds, in processor time;
+//! `closest_hit_batch` group by group. The figures are medians over the rounds, in processor time;
 //! the ratio is that of the first way to the others within a round.
 
 use glam::DVec3;
@@ -62,7 +62,8 @@ fn measure(scene: &Scene) {
     ] {
         for count in COUNTS {
             let points = PointSet::new(sequence, randomization, 1);
-            let groups = CoherentGroups::of_size(&points, count, &[0, 1], MEMBERS).expect("groups");
+            let groups =
+                CoherentGroups::with_size(&points, count, &[0, 1], MEMBERS).expect("groups");
             let photon = |index| photon(scene.source, &points, index);
             let natural: Vec<Shot> = (0..count).map(photon).collect();
             let grouped: Vec<Shot> = groups.indices().map(photon).collect();
@@ -75,7 +76,7 @@ fn measure(scene: &Scene) {
                 seconds[0].push(processor_time(|| one_by_one(&bvh, one, &mut hits)));
                 seconds[1].push(processor_time(|| one_by_one(&bvh, other, &mut hits)));
                 seconds[2].push(processor_time(|| {
-                    bvh.closest_hits(other, &mut hits);
+                    bvh.closest_hit_batch(other, &mut hits);
                     black_box(&hits);
                 }));
             }

@@ -13,7 +13,7 @@ use quasilux_foreign::{Embree, Quality, all_processors_seconds};
 use std::hint::black_box;
 
 /// Each turn builds all hierarchies once; small scenes have more turns.
-const MOST_TURNS: usize = 15;
+const MAX_TURNS: usize = 15;
 const TRIANGLES: usize = 20_000_000;
 
 /// Seconds of a build.
@@ -32,7 +32,7 @@ pub(crate) fn headings() {
 /// Builds all hierarchies over a scene in turns and prints what they cost.
 pub(crate) fn measure(scene: &Scene, embree: Option<&Embree>) {
     let narrow = scene.narrow();
-    let turns = (TRIANGLES / scene.corners.len()).clamp(3, MOST_TURNS);
+    let turns = (TRIANGLES / scene.corners.len()).clamp(3, MAX_TURNS);
     let mut costs = [const { Vec::new() }; 3];
     for _ in 0..turns {
         let corners = scene.corners.clone();

@@ -96,7 +96,7 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
         let part = round * ROUND % RAYS..round * ROUND % RAYS + ROUND;
         seconds[0].push(processor_time(|| shoot(&own, &rays[part.clone()])));
         seconds[1].push(processor_time(|| {
-            own.closest_hits(&batch[part.clone()], &mut hits);
+            own.closest_hit_batch(&batch[part.clone()], &mut hits);
             black_box(&hits);
         }));
         for ((_, _, mesh), seconds) in others.iter().zip(&mut seconds[2..]) {

@@ -3,8 +3,8 @@
 //! Builds and checks hierarchies over meshes that are hard on a builder, of a million triangles each
 //! unless told. The tests do the same with fewer triangles.
 
-#[path = "../tests/it/crowds.rs"]
-mod crowds;
+#[path = "../tests/it/degenerate_meshes.rs"]
+mod degenerate_meshes;
 #[allow(dead_code, reason = "the generator of numbers is all that is used")]
 #[path = "../tests/it/meshes.rs"]
 mod meshes;
@@ -18,7 +18,7 @@ fn main() {
     let count = count.expect("the number of triangles is a number");
     let wanted = words.next().unwrap_or_default();
     let numbers = &mut Numbers(6);
-    let mut meshes: Vec<(&str, Triangles)> = crowds::crowds(numbers, count);
+    let mut meshes: Vec<(&str, Triangles)> = degenerate_meshes::degenerate_meshes(numbers, count);
     meshes.extend(hard_meshes(numbers, count / 200));
     let mut flaws = 0;
     for (name, mesh) in meshes.into_iter().filter(|(name, _)| name.contains(&wanted)) {

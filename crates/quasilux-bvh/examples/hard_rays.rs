@@ -10,7 +10,7 @@ mod meshes;
 mod rays;
 
 use meshes::{Numbers, Triangles, hard_meshes};
-use quasilux_bvh::{Hit, Kernel, Shot, TriangleBvh};
+use quasilux_bvh::{Hit, Shot, SimdLevel, TriangleBvh};
 use rayon::prelude::*;
 use rays::{BATCHES, HardQuery, bits, hard_query, hard_shots};
 
@@ -40,12 +40,12 @@ fn main() {
     let cases: Vec<Case> = hard_meshes(&mut Numbers(seed), 1)
         .into_iter()
         .map(|(name, mesh)| {
-            let build = |kernel| TriangleBvh::build_for(mesh.clone(), kernel);
-            let bvhs = Kernel::all().into_iter().map(build).collect();
+            let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
+            let bvhs = SimdLevel::all().into_iter().map(build).collect();
             Case { name, mesh, bvhs }
         })
         .collect();
-    println!("kernels: {:?}", Kernel::all());
+    println!("kernels: {:?}", SimdLevel::all());
     let tasks = rays.div_ceil(RAYS_A_TASK * cases.len()) as u64;
     let mut all = Counts::default();
     for case in &cases {
@@ -89,8 +89,8 @@ impl Case {
                 .iter()
                 .map(|bvh| {
                     let (mut hits, mut occluded) = (vec![None; size], vec![false; size]);
-                    bvh.closest_hits(&shots, &mut hits);
-                    bvh.are_occluded(&shots, &mut occluded);
+                    bvh.closest_hit_batch(&shots, &mut hits);
+                    bvh.occluded_batch(&shots, &mut occluded);
                     (hits, occluded)
                 })
                 .collect();

@@ -20,11 +20,11 @@ pub(crate) const FAR: f32 = 7.0;
 
 /// Beyond this many half-sizes from the centre the slow twin answers: moving the origin would
 /// cost more digits than single precision has.
-const FARTHEST: f64 = (1 << 20) as f64;
+const MAX_DISTANCE: f64 = (1 << 20) as f64;
 
 /// Direction components are kept this far from zero. A hit moves by at most `6.5 * 2^-32`, which
 /// is `h / 39`.
-const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 32) as f32;
+const MIN_COMPONENT: f32 = 1.0 / (1_u64 << 32) as f32;
 
 /// The map from the scene's coordinates to single precision.
 #[derive(Clone, Copy, Debug)]
@@ -80,7 +80,7 @@ impl Frame {
         let mut moved = 0.0;
         let beyond = |size: f64| !origin.abs().cmple(DVec3::splat(size)).all();
         if beyond(2.0) {
-            if beyond(FARTHEST) {
+            if beyond(MAX_DISTANCE) {
                 return Framed::TooFar;
             }
             // Nearest approach to the centre; all corners are within sqrt(3) < 1.75 of it.
@@ -98,7 +98,7 @@ impl Frame {
         if !direction.is_finite() {
             return Framed::Misses;
         }
-        let kept = direction.abs().max(Vec3A::splat(LEAST_COMPONENT)).copysign(direction);
+        let kept = direction.abs().max(Vec3A::splat(MIN_COMPONENT)).copysign(direction);
         let mut framed = FrameRay {
             origin: origin.as_vec3a(),
             direction,

@@ -43,7 +43,7 @@ pub struct Hit {
 const NARROW: f64 = 1.0 / (1 << 20) as f64;
 
 /// More than products lose by underflow, as far as anything this large can see it.
-const LEAST: f64 = 1e-180;
+const MIN_AREA: f64 = 1e-180;
 
 /// The axes that follow each, in a circle.
 const AFTER: [usize; 3] = [1, 2, 0];
@@ -160,7 +160,7 @@ pub(crate) fn intersect_with<Q: Quad>(
 /// products in them.
 #[inline(always)]
 pub(crate) fn least_area<Q: Quad>(products: Q) -> Q {
-    products.mul(Q::splat(NARROW)).add(Q::splat(LEAST))
+    products.mul(Q::splat(NARROW)).add(Q::splat(MIN_AREA))
 }
 
 /// The same for sheared corners, axis by axis, without rounding until all signs are known.

@@ -7,7 +7,7 @@
 //! hierarchy and instructions can be replaced without changing a digit.
 //!
 //! Where what is: `frame` has the coordinates and the bounds of their rounding, `node` the layout in memory,
-//! `build` the builder, `traverse` the way of a ray, `sight` what it sees of eight boxes or triangles,
+//! `build` the builder, `traverse` the way of a ray, `ray_simd` what it sees of eight boxes or triangles,
 //! `lanes` the instructions for that, `pending` what waits for the decision, `exact` what decides where
 //! rounding would, `stream` many rays at once, `group` those of them that travel together.
 //!
@@ -28,28 +28,28 @@
 //! assert!(!bvh.is_occluded(&ray.up_to(1.5), &[]));
 //! ```
 
+mod batch;
 mod build;
-mod cover;
+mod candidates;
+mod coverage;
 mod exact;
 mod frame;
 mod group;
+mod huge_pages;
 mod intersect;
-mod kernel;
 mod lanes;
-mod many;
 mod node;
-mod pages;
-mod pending;
 mod prefetch;
 mod ray;
-mod sight;
+mod ray_simd;
+mod simd_level;
 mod stream;
+mod traversal_stack;
 mod traverse;
 mod triangle_bvh;
 mod validate;
-mod waiting;
 
 pub use intersect::{Corners, Hit, PreparedRay, intersect};
-pub use kernel::Kernel;
 pub use ray::{Ray, Shot};
+pub use simd_level::SimdLevel;
 pub use triangle_bvh::TriangleBvh;

@@ -93,9 +93,9 @@ impl Child {
     const BLOCK: u32 = 1 << 31;
     const ENDS: u32 = 1 << 30;
     /// No child: all has been met.
-    pub(crate) const OVER: Self = Self(Self::BLOCK | Self::ENDS);
+    pub(crate) const DONE: Self = Self(Self::BLOCK | Self::ENDS);
     /// No child: there was no room.
-    pub(crate) const STRANDED: Self = Self(Self::BLOCK | Self::ENDS | 1);
+    pub(crate) const OVERFLOWED: Self = Self(Self::BLOCK | Self::ENDS | 1);
 
     pub(crate) const fn node(index: usize) -> Self {
         Self(index as u32)
@@ -161,9 +161,9 @@ impl Slack {
         let (s, q) = (norm_1.max(norm_2), norm_1 * norm_2);
         let [weight, rest] = [Self::WEIGHT, Self::REST].map(|[of_s, of_q]| of_s * s + of_q * q);
         Self {
-            weight: weight + Self::LEAST,
-            rest: rest + Self::LEAST,
-            distance: Self::DISTANCE * q + Self::LEAST,
+            weight: weight + Self::UNDERFLOW,
+            rest: rest + Self::UNDERFLOW,
+            distance: Self::DISTANCE * q + Self::UNDERFLOW,
         }
     }
 
@@ -174,7 +174,7 @@ impl Slack {
     /// That of `q` in the bound of the distance.
     pub(crate) const DISTANCE: f32 = 256.0 * H;
     /// More than all that is lost where products underflow.
-    pub(crate) const LEAST: f32 = 1e-36;
+    pub(crate) const UNDERFLOW: f32 = 1e-36;
     /// The bound of the determinant, twice, by that of the distance.
     pub(crate) const TURN: f32 = 16.0 / 256.0;
 

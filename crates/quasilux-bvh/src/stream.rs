@@ -10,16 +10,16 @@
 //! A ray that needs more room than nearly all do leaves, and is traced alone.
 
 use crate::frame::FrameRay;
-use crate::kernel::{Errand, Kernel};
 use crate::lanes::{Lanes, Quad};
 use crate::node::{Child, NONE, WIDTH};
 use crate::prefetch::prefetch;
-use crate::sight::Sight;
+use crate::ray_simd::RaySimd;
+use crate::simd_level::{SimdLevel, SimdTask};
 use crate::traverse::Tree;
 use std::hint::select_unpredictable;
 
 /// Rays in flight.
-const FLIGHTS: usize = 24;
+const RAYS_IN_FLIGHT: usize = 24;
 
 /// Children that may wait for a ray.
 const ROOM: usize = 24;
@@ -28,23 +28,19 @@ const ROOM: usize = 24;
 const BOTTOM: usize = WIDTH + 1;
 
 /// What provides rays and decides what they hit.
-pub(crate) trait Voyage {
+pub(crate) trait RaySource {
     /// The next ray.
-    fn embark(&mut self) -> Option<Passenger>;
+    fn next_ray(&mut self) -> Option<ActiveRay>;
     /// Decides on triangles that a ray may hit, and returns where the search for others ends; a
     /// negative place ends it.
-    fn decide<Q: Quad>(
-        &mut self,
-        passenger: &Passenger,
-        triangles: impl Iterator<Item = u32>,
-    ) -> f32;
+    fn decide<Q: Quad>(&mut self, active: &ActiveRay, triangles: impl Iterator<Item = u32>) -> f32;
     /// The ray must be traced alone.
-    fn strand(&mut self, number: u32);
+    fn trace_alone(&mut self, number: u32);
 }
 
 /// A ray and what it is for.
 #[derive(Clone, Copy)]
-pub(crate) struct Passenger {
+pub(crate) struct ActiveRay {
     pub(crate) ray: FrameRay,
     /// Which one it is.
     pub(crate) number: u32,
@@ -54,8 +50,8 @@ pub(crate) struct Passenger {
 
 /// A ray on its way.
 #[repr(C, align(64))]
-struct Flight {
-    passenger: Passenger,
+struct RayInFlight {
+    active: ActiveRay,
     offset: [f32; 3],
     /// Where in a node the planes are that the ray meets first, in bytes.
     first: [u32; 3],
@@ -69,25 +65,25 @@ struct Flight {
 }
 
 /// What a flight does next.
-type Task = u32;
-const NODE: Task = 0;
-const POP: Task = 1;
-const BLOCK: Task = 2;
-const OVER: Task = 3;
-const DECISION: Task = 4;
+type Step = u32;
+const NODE: Step = 0;
+const POP: Step = 1;
+const BLOCK: Step = 2;
+const DONE: Step = 3;
+const DECISION: Step = 4;
 
 /// Flights by what they do next.
 struct Queues {
-    slots: [[u32; FLIGHTS + 1]; 5],
+    slots: [[u32; RAYS_IN_FLIGHT + 1]; 5],
     counts: [u32; 5],
 }
 
 impl Queues {
     /// Has a flight wait for its next task.
     #[inline(always)]
-    fn enter(&mut self, task: Task, slot: u32) {
+    fn enter(&mut self, task: Step, slot: u32) {
         let task = task as usize;
-        // SAFETY: there are no more tasks than queues and no more slots than `FLIGHTS`.
+        // SAFETY: there are no more tasks than queues and no more slots than `RAYS_IN_FLIGHT`.
         unsafe {
             let count = self.counts.get_unchecked_mut(task);
             *self.slots.get_unchecked_mut(task).get_unchecked_mut(*count as usize) = slot;
@@ -98,83 +94,83 @@ impl Queues {
     /// Empties a queue and returns how many were in it; what is entered while they are taken comes
     /// behind them.
     #[inline(always)]
-    fn take(&mut self, task: Task) -> usize {
+    fn take(&mut self, task: Step) -> usize {
         std::mem::take(&mut self.counts[task as usize]) as usize
     }
 
     #[inline(always)]
-    fn slot(&self, task: Task, at: usize) -> u32 {
+    fn slot(&self, task: Step, at: usize) -> u32 {
         // SAFETY: as above.
         unsafe { *self.slots[task as usize].get_unchecked(at) }
     }
 }
 
-/// The way of all rays of a voyage.
+/// The way of all rays of a source.
 struct Stream<'a, V> {
     tree: &'a Tree,
-    voyage: &'a mut V,
+    source: &'a mut V,
 }
 
-impl<V: Voyage> Errand for Stream<'_, V> {
+impl<V: RaySource> SimdTask for Stream<'_, V> {
     type Result = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        self.tree.fly::<L>(self.voyage);
+        self.tree.trace_stream::<L>(self.source);
     }
 }
 
 impl Tree {
-    /// Takes all rays of a voyage through the tree.
-    pub(crate) fn stream(&self, kernel: Kernel, voyage: &mut impl Voyage) {
-        kernel.run(Stream { tree: self, voyage });
+    /// Takes all rays of a source through the tree.
+    pub(crate) fn stream(&self, simd: SimdLevel, source: &mut impl RaySource) {
+        simd.run(Stream { tree: self, source });
     }
 
     #[inline(always)]
-    fn fly<L: Lanes>(&self, voyage: &mut impl Voyage) {
-        let mut flights: Vec<Flight> = Vec::with_capacity(FLIGHTS);
-        let mut queues = Queues { slots: [[0; FLIGHTS + 1]; 5], counts: [0; 5] };
-        while flights.len() < FLIGHTS {
-            let Some(passenger) = voyage.embark() else { break };
-            queues.enter(NODE, (flights.len() * size_of::<Flight>()) as u32);
-            flights.push(Flight::new(passenger));
+    fn trace_stream<L: Lanes>(&self, source: &mut impl RaySource) {
+        let mut in_flight: Vec<RayInFlight> = Vec::with_capacity(RAYS_IN_FLIGHT);
+        let mut queues = Queues { slots: [[0; RAYS_IN_FLIGHT + 1]; 5], counts: [0; 5] };
+        while in_flight.len() < RAYS_IN_FLIGHT {
+            let Some(active) = source.next_ray() else { break };
+            queues.enter(NODE, (in_flight.len() * size_of::<RayInFlight>()) as u32);
+            in_flight.push(RayInFlight::new(active));
         }
-        let mut aloft = flights.len();
-        let base = flights.as_mut_ptr();
+        let mut active_count = in_flight.len();
+        let base = in_flight.as_mut_ptr();
         // SAFETY: slots are those of flights.
-        let flight_at = |slot: u32| unsafe { &mut *base.byte_add(slot as usize) };
-        while aloft > 0 {
+        let state_at = |slot: u32| unsafe { &mut *base.byte_add(slot as usize) };
+        while active_count > 0 {
             for i in 0..queues.take(NODE) {
                 let slot = queues.slot(NODE, i);
-                let task = self.pass_node::<L>(flight_at(slot));
+                let task = self.step_node::<L>(state_at(slot));
                 queues.enter(task, slot);
             }
             for i in 0..queues.take(BLOCK) {
                 let slot = queues.slot(BLOCK, i);
-                let task = self.pass_block::<L>(flight_at(slot));
+                let task = self.step_block::<L>(state_at(slot));
                 queues.enter(task, slot);
             }
             for i in 0..queues.take(DECISION) {
                 let slot = queues.slot(DECISION, i);
-                let flight = flight_at(slot);
-                self.decide::<L>(flight, voyage);
-                queues.enter(self.pop::<L>(flight), slot);
+                let state = state_at(slot);
+                self.decide::<L>(state, source);
+                queues.enter(self.pop::<L>(state), slot);
             }
             for i in 0..queues.take(POP) {
                 let slot = queues.slot(POP, i);
-                queues.enter(self.pop::<L>(flight_at(slot)), slot);
+                queues.enter(self.pop::<L>(state_at(slot)), slot);
             }
-            for i in 0..queues.take(OVER) {
-                let slot = queues.slot(OVER, i);
-                let flight = flight_at(slot);
-                if flight.child == Child::STRANDED {
-                    voyage.strand(flight.passenger.number);
+            for i in 0..queues.take(DONE) {
+                let slot = queues.slot(DONE, i);
+                let state = state_at(slot);
+                if state.child == Child::OVERFLOWED {
+                    source.trace_alone(state.active.number);
                 }
-                if let Some(passenger) = voyage.embark() {
-                    flight.board(passenger);
+                if let Some(active) = source.next_ray() {
+                    state.start(active);
                     queues.enter(NODE, slot);
                 } else {
-                    aloft -= 1;
+                    active_count -= 1;
                 }
             }
         }
@@ -182,50 +178,50 @@ impl Tree {
 
     /// One step through a node.
     #[inline(always)]
-    fn pass_node<L: Lanes>(&self, flight: &mut Flight) -> Task {
+    fn step_node<L: Lanes>(&self, state: &mut RayInFlight) -> Step {
         // SAFETY: the children of a valid tree exist.
-        let node = unsafe { self.nodes.get_unchecked(flight.child.index()) };
+        let node = unsafe { self.nodes.get_unchecked(state.child.index()) };
         let planes = node.planes.as_ptr();
-        let [x, y, z] = flight.first.map(|first| first as usize);
-        let inverse: &[f32; 3] = flight.passenger.ray.inverse.as_ref();
+        let [x, y, z] = state.first.map(|first| first as usize);
+        let inverse: &[f32; 3] = state.active.ray.inverse.as_ref();
         // SAFETY: `first` has the place of a plane, and the other one of its axis is beside it.
         let plane = |at: usize, axis: usize| unsafe {
             let lanes = L::load(&*planes.byte_add(at));
-            lanes.mul_sub(L::splat_from(&inverse[axis]), L::splat_from(&flight.offset[axis]))
+            lanes.mul_sub(L::splat_from(&inverse[axis]), L::splat_from(&state.offset[axis]))
         };
         let near = plane(x, 0).max(plane(y, 1)).max(plane(z, 2).max(L::splat(0.0)));
         let far = plane(x ^ 32, 0).min(plane(y ^ 32, 1));
-        let far = far.min(plane(z ^ 32, 2).min(L::splat_from(&flight.passenger.ray.end)));
+        let far = far.min(plane(z ^ 32, 2).min(L::splat_from(&state.active.ray.end)));
         let met = near.at_most(far);
         let nearest = near.smallest(far);
         let others = met & !(1 << nearest);
-        let count = flight.waiting as usize;
+        let count = state.waiting as usize;
         // SAFETY: there is room for eight more, since `waiting` is checked below.
         unsafe {
-            let to = flight.nears.as_mut_ptr().add(count);
-            let to_children = flight.children.as_mut_ptr().add(count);
+            let to = state.nears.as_mut_ptr().add(count);
+            let to_children = state.children.as_mut_ptr().add(count);
             near.compress(&node.children, others, to, to_children);
-            flight.child = *node.children.get_unchecked(nearest);
+            state.child = *node.children.get_unchecked(nearest);
         }
         let pushed = count + others.count_ones() as usize;
-        flight.waiting = pushed as u32;
+        state.waiting = pushed as u32;
         if pushed > BOTTOM + ROOM {
-            flight.strand();
+            state.overflow();
         }
-        self.prefetch_child(flight.child);
-        select_unpredictable(met == 0, POP, flight.child.task())
+        self.prefetch_child(state.child);
+        select_unpredictable(met == 0, POP, state.child.step())
     }
 
     /// One step through a block: which triangles the ray may hit.
     #[inline(always)]
-    fn pass_block<L: Lanes>(&self, flight: &mut Flight) -> Task {
+    fn step_block<L: Lanes>(&self, state: &mut RayInFlight) -> Step {
         // SAFETY: the children of a valid tree exist.
-        let block = unsafe { self.blocks.get_unchecked(flight.child.index()) };
-        let ray = &flight.passenger.ray;
-        let view = Sight::<L>::of(ray).view(block, ray.end);
-        let [one, other] = flight.passenger.excluded;
-        let possible = view.possible() & L::differ(&block.triangles, [one, other, NONE]);
-        flight.possible = possible;
+        let block = unsafe { self.blocks.get_unchecked(state.child.index()) };
+        let ray = &state.active.ray;
+        let test = RaySimd::<L>::from_memory(ray).test(block, ray.end);
+        let [one, other] = state.active.excluded;
+        let possible = test.possible() & L::differ(&block.triangles, [one, other, NONE]);
+        state.possible = possible;
         let triangle = block.triangles[possible.trailing_zeros() as usize % WIDTH];
         prefetch(&self.corners, triangle as usize);
         select_unpredictable(possible == 0, POP, DECISION)
@@ -233,24 +229,24 @@ impl Tree {
 
     /// Goes on with the newest of the children that wait that is not behind the end.
     #[inline(always)]
-    fn pop<L: Lanes>(&self, flight: &mut Flight) -> Task {
-        flight.pop::<L>();
-        self.prefetch_child(flight.child);
-        flight.child.task()
+    fn pop<L: Lanes>(&self, state: &mut RayInFlight) -> Step {
+        state.pop::<L>();
+        self.prefetch_child(state.child);
+        state.child.step()
     }
 
     /// Has the triangles of a block decided on.
     #[inline(always)]
-    fn decide<L: Lanes>(&self, flight: &mut Flight, voyage: &mut impl Voyage) {
+    fn decide<L: Lanes>(&self, state: &mut RayInFlight, source: &mut impl RaySource) {
         // SAFETY: the children of a valid tree exist.
-        let block = unsafe { self.blocks.get_unchecked(flight.child.index()) };
-        let mut possible = flight.possible;
+        let block = unsafe { self.blocks.get_unchecked(state.child.index()) };
+        let mut possible = state.possible;
         let triangles = std::iter::from_fn(|| {
             let lane = possible.trailing_zeros() as usize;
             possible &= possible.wrapping_sub(1);
             block.triangles.get(lane).copied()
         });
-        flight.passenger.ray.end = voyage.decide::<L::Quad>(&flight.passenger, triangles);
+        state.active.ray.end = source.decide::<L::Quad>(&state.active, triangles);
     }
 
     /// Has the processor fetch a child.
@@ -275,29 +271,29 @@ impl Tree {
     }
 }
 
-impl Flight {
-    /// Memory for a flight, and its first passenger.
-    fn new(passenger: Passenger) -> Self {
-        let mut flight = Self {
-            passenger,
+impl RayInFlight {
+    /// Memory for a flight, and its first active.
+    fn new(active: ActiveRay) -> Self {
+        let mut state = Self {
+            active,
             offset: [0.0; 3],
             first: [0; 3],
             child: Child::node(0),
             waiting: 0,
             possible: 0,
             nears: [f32::INFINITY; BOTTOM + ROOM + WIDTH],
-            children: [Child::OVER; BOTTOM + ROOM + WIDTH],
+            children: [Child::DONE; BOTTOM + ROOM + WIDTH],
         };
-        flight.nears[WIDTH] = f32::NEG_INFINITY;
-        flight.board(passenger);
-        flight
+        state.nears[WIDTH] = f32::NEG_INFINITY;
+        state.start(active);
+        state
     }
 
     /// Starts a ray at the root.
     #[inline(always)]
-    fn board(&mut self, passenger: Passenger) {
-        let FrameRay { origin, inverse, .. } = passenger.ray;
-        self.passenger = passenger;
+    fn start(&mut self, active: ActiveRay) {
+        let FrameRay { origin, inverse, .. } = active.ray;
+        self.active = active;
         self.offset = (origin * inverse).to_array();
         let below = inverse.is_negative_bitmask();
         self.first = [below << 5 & 32, 64 + (below << 4 & 32), 128 + (below << 3 & 32)];
@@ -307,14 +303,14 @@ impl Flight {
 
     /// Has no more room.
     #[cold]
-    fn strand(&mut self) {
-        self.child = Child::STRANDED;
+    fn overflow(&mut self) {
+        self.child = Child::OVERFLOWED;
     }
 
     /// Takes the newest of the children that wait that is not behind the end.
     #[inline(always)]
     fn pop<L: Lanes>(&mut self) {
-        let end = L::splat_from(&self.passenger.ray.end);
+        let end = L::splat_from(&self.active.ray.end);
         let mut count = self.waiting as usize;
         let mut before = self.newest_before(end, count);
         while before == 0 {
@@ -339,7 +335,7 @@ impl Flight {
 impl Child {
     /// What a flight does there.
     #[inline(always)]
-    const fn task(self) -> Task {
+    const fn step(self) -> Step {
         self.0 >> 30
     }
 }

@@ -6,14 +6,14 @@
 //! ([`crate::node::Slack`]); what is left is not decided here.
 
 use crate::Corners;
+use crate::candidates::{Candidate, Candidates};
 use crate::frame::FrameRay;
-use crate::kernel::{Errand, Kernel};
 use crate::lanes::Lanes;
 use crate::node::{Block, Child, NONE, Node, WIDTH};
-use crate::pending::{Candidate, Pending};
 use crate::prefetch::prefetch;
-use crate::sight::{Sight, Slabs};
-use crate::waiting::Waiting;
+use crate::ray_simd::{RaySimd, Slabs};
+use crate::simd_level::{SimdLevel, SimdTask};
+use crate::traversal_stack::TraversalStack;
 
 /// Nodes and blocks, and what they are about; the first node is the root.
 pub(crate) struct Tree {
@@ -33,18 +33,18 @@ pub(crate) struct Query {
 }
 
 /// The way of one ray.
-struct Walk<'a, const ANY: bool> {
+struct Traversal<'a, const ANY: bool> {
     tree: &'a Tree,
     query: &'a Query,
-    pending: &'a mut Pending,
+    candidates: &'a mut Candidates,
 }
 
-impl<const ANY: bool> Errand for Walk<'_, ANY> {
+impl<const ANY: bool> SimdTask for Traversal<'_, ANY> {
     type Result = f32;
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> f32 {
-        self.tree.walk::<L, ANY>(self.query, self.pending)
+        self.tree.traverse::<L, ANY>(self.query, self.candidates)
     }
 }
 
@@ -52,38 +52,47 @@ impl Tree {
     /// Collects every triangle that can be the closest hit, none of `excluded`, and returns an end behind
     /// which none of them is hit.
     #[inline(always)]
-    pub(crate) fn closest(&self, kernel: Kernel, query: &Query, pending: &mut Pending) -> f32 {
-        kernel.run(Walk::<false> { tree: self, query, pending })
+    pub(crate) fn closest(
+        &self,
+        simd: SimdLevel,
+        query: &Query,
+        candidates: &mut Candidates,
+    ) -> f32 {
+        simd.run(Traversal::<false> { tree: self, query, candidates })
     }
 
     /// Whether the ray hits any triangle but `excluded` for sure; if not, collects those that it may hit.
     #[inline(always)]
-    pub(crate) fn any(&self, kernel: Kernel, query: &Query, pending: &mut Pending) -> bool {
-        kernel.run(Walk::<true> { tree: self, query, pending }) < 0.0
+    pub(crate) fn any(&self, simd: SimdLevel, query: &Query, candidates: &mut Candidates) -> bool {
+        simd.run(Traversal::<true> { tree: self, query, candidates }) < 0.0
     }
 
     /// The end of the search; negative where any hit was asked for and found.
     #[inline(always)]
-    fn walk<L: Lanes, const ANY: bool>(&self, query: &Query, pending: &mut Pending) -> f32 {
+    fn traverse<L: Lanes, const ANY: bool>(
+        &self,
+        query: &Query,
+        candidates: &mut Candidates,
+    ) -> f32 {
         let slabs = Slabs::<L>::new(&query.ray);
-        let sight = Sight::<L>::new(&query.ray);
+        let ray_simd = RaySimd::<L>::new(&query.ray);
         let [one, other] = query.excluded;
         let mut end = query.ray.end;
-        let mut waiting = Waiting::new();
+        let mut stack = TraversalStack::new();
         let mut child = Child::node(0);
         loop {
             if child.is_block() {
                 // SAFETY: the children of a valid tree exist.
                 let block = unsafe { self.blocks.get_unchecked(child.index()) };
-                let view = sight.view(block, end);
+                let test = ray_simd.test(block, end);
                 let counted = L::differ(&block.triangles, [one, other, NONE]);
-                let mut possible = view.possible() & counted;
+                let mut possible = test.possible() & counted;
                 if possible != 0 {
-                    let sure = if query.excludes_more { 0 } else { view.sure() };
+                    let sure = if query.excludes_more { 0 } else { test.sure() };
                     if ANY && possible & sure != 0 {
                         return -1.0;
                     }
-                    let (earliest, latest) = (view.earliest().store(), view.latest().store());
+                    let (earliest, latest) = (test.earliest().store(), test.latest().store());
                     while possible != 0 {
                         let lane = possible.trailing_zeros() as usize % WIDTH;
                         possible &= possible - 1;
@@ -93,7 +102,7 @@ impl Tree {
                         let triangle = block.triangles[lane];
                         prefetch(&self.corners, triangle as usize);
                         let earliest = earliest[lane];
-                        pending.push(Candidate { triangle, earliest }, latest);
+                        candidates.push(Candidate { triangle, earliest }, latest);
                     }
                 }
             } else {
@@ -102,11 +111,11 @@ impl Tree {
                 let (near, far) = slabs.cross(node, end);
                 let met = near.at_most(far);
                 if met != 0 {
-                    child = waiting.enter(node, near, far, met);
+                    child = stack.push_children(node, near, far, met);
                     continue;
                 }
             }
-            match waiting.next(end) {
+            match stack.pop(end) {
                 Some(next) => child = next,
                 None => return end,
             }

@@ -1,11 +1,11 @@
 //! Triangles that answer ray queries.
 
 use crate::build::{Leaf, WideTree, build, collapse};
+use crate::candidates::Candidates;
 use crate::frame::{Frame, FrameRay, Framed};
-use crate::kernel::Kernel;
+use crate::huge_pages::vec_in_huge_pages;
 use crate::node::{Block, NONE, Node};
-use crate::pages::list_in_large_pages;
-use crate::pending::Pending;
+use crate::simd_level::SimdLevel;
 use crate::traverse::{Query, Tree};
 use crate::validate::validate;
 use crate::{Corners, Hit, PreparedRay, Ray, intersect};
@@ -13,13 +13,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Corners are smaller, so that their differences and the frame's bounds are numbers.
-const LARGEST: f64 = 1e300;
+const MAX_COORDINATE: f64 = 1e300;
 
 /// A triangle mesh that answers ray queries.
 pub struct TriangleBvh {
     pub(crate) frame: Frame,
     pub(crate) tree: Tree,
-    pub(crate) kernel: Kernel,
+    pub(crate) simd: SimdLevel,
 }
 
 impl TriangleBvh {
@@ -29,20 +29,20 @@ impl TriangleBvh {
     /// With more than 2^30 triangles, and for corners that are not below `1e300` in size.
     #[must_use]
     pub fn build(corners: Vec<[DVec3; 3]>) -> Self {
-        Self::build_for(corners, Kernel::fastest())
+        Self::build_for(corners, SimdLevel::fastest())
     }
 
-    /// The same for a kernel of choice, which must be one of [`Kernel::all`].
+    /// The same for a kernel of choice, which must be one of [`SimdLevel::all`].
     ///
     /// # Panics
     /// As [`Self::build`], and for a kernel that this machine does not have.
     #[must_use]
-    pub fn build_for(corners: Vec<[DVec3; 3]>, kernel: Kernel) -> Self {
-        assert!(Kernel::all().contains(&kernel), "{kernel:?} is not on this machine");
+    pub fn build_for(corners: Vec<[DVec3; 3]>, simd: SimdLevel) -> Self {
+        assert!(SimdLevel::all().contains(&simd), "{simd:?} is not on this machine");
         assert!(corners.len() <= 1 << 30, "too many triangles for 32-bit indices");
-        let are_small = |&p: &DVec3| p.abs().cmplt(DVec3::splat(LARGEST)).all();
+        let are_small = |&p: &DVec3| p.abs().cmplt(DVec3::splat(MAX_COORDINATE)).all();
         let all_are_small = corners.par_iter().all(|corners| corners.iter().all(are_small));
-        assert!(all_are_small, "a corner is not below {LARGEST:e} in size");
+        assert!(all_are_small, "a corner is not below {MAX_COORDINATE:e} in size");
         let points = corners.par_iter().flatten_iter().map(|&p| (p, p));
         let bounds = points.reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         let (low, high) = bounds.unwrap_or_default();
@@ -56,12 +56,12 @@ impl TriangleBvh {
             let framed = |&t: &u32| (t, corners[t as usize].map(|p| frame.point(p)));
             Block::new(leaf.triangles().iter().map(framed))
         };
-        let mut blocks = list_in_large_pages(tree.leaves.len());
+        let mut blocks = vec_in_huge_pages(tree.leaves.len());
         tree.leaves.par_iter().map(block).collect_into_vec(&mut blocks);
-        let mut nodes = list_in_large_pages(tree.nodes.len());
+        let mut nodes = vec_in_huge_pages(tree.nodes.len());
         nodes.extend(tree.nodes);
         let corners = corners.into_par_iter().map(Corners::new).collect();
-        Self { frame, tree: Tree { nodes, blocks, corners }, kernel }
+        Self { frame, tree: Tree { nodes, blocks, corners }, simd }
     }
 
     /// The nearest triangle that the ray hits, none of `excluded`; ties go to the lowest index.
@@ -72,11 +72,11 @@ impl TriangleBvh {
             Framed::Misses => return None,
             Framed::TooFar => return self.closest_hit_by_brute_force(ray, excluded),
         };
-        let mut pending = Pending::new();
-        let mut end = self.tree.closest(self.kernel, &query, &mut pending);
+        let mut candidates = Candidates::new();
+        let mut end = self.tree.closest(self.simd, &query, &mut candidates);
         let prepared = PreparedRay::new(ray);
         let mut best = None;
-        while let Some(candidate) = pending.pop() {
+        while let Some(candidate) = candidates.pop() {
             if candidate.earliest <= end
                 && let Some(hit) = self.decide(&prepared, candidate.triangle, excluded)
                 && wins(&hit, &best)
@@ -96,12 +96,12 @@ impl TriangleBvh {
             Framed::Misses => return false,
             Framed::TooFar => return self.closest_hit_by_brute_force(ray, excluded).is_some(),
         };
-        let mut pending = Pending::new();
-        if self.tree.any(self.kernel, &query, &mut pending) {
+        let mut candidates = Candidates::new();
+        if self.tree.any(self.simd, &query, &mut candidates) {
             return true;
         }
         let prepared = PreparedRay::new(ray);
-        while let Some(candidate) = pending.pop() {
+        while let Some(candidate) = candidates.pop() {
             if self.decide(&prepared, candidate.triangle, excluded).is_some() {
                 return true;
             }

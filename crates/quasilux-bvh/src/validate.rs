@@ -5,11 +5,11 @@
 //! their triangles make them hold, the frame holds all corners, and every point of every triangle is in
 //! a box of the triangle, with the margin that the bounds on rounding ask for ([`GROWTH`]).
 
-use crate::cover::{Solid, is_covered};
+use crate::coverage::{Solid, is_covered};
 use crate::frame::{Frame, H};
 use crate::node::{Block, Child, GROWTH, NONE, Node, WIDTH};
+use crate::traversal_stack::MAX_DEPTH;
 use crate::traverse::Tree;
-use crate::waiting::MAX_DEPTH;
 use glam::Vec3A;
 
 /// How far inside of its box everything must be: the growth, but for the rounding of the box and of its

@@ -8,7 +8,7 @@
 use crate::Figure;
 
 /// A value is never written with more significant digits than this, however narrow its interval.
-const MOST_DIGITS: i32 = 6;
+const MAX_DIGITS: i32 = 6;
 /// Significant digits of a value without an interval.
 const DIGITS_WITHOUT_INTERVAL: i32 = 4;
 /// Places of the last digit outside this range are written with an exponent.
@@ -43,7 +43,7 @@ pub fn figure_text(figure: Figure) -> FigureText {
     let Some(value) = figure.value else {
         return FigureText { value: "-".into(), half_width: None };
     };
-    let finest = decimal_exponent(value).map_or(0, |e| e - MOST_DIGITS + 1);
+    let finest = decimal_exponent(value).map_or(0, |e| e - MAX_DIGITS + 1);
     let Some(half_width) = figure.half_width else {
         let place = decimal_exponent(value).map_or(0, |e| e - DIGITS_WITHOUT_INTERVAL + 1);
         return FigureText { value: to_place(value, place), half_width: None };

@@ -32,15 +32,15 @@ fn main() -> ExitCode {
 fn run(format: Format, indices: std::ops::Range<u64>) {
     let seeds = Seeds::with_published(format);
     let count = indices.end - indices.start;
-    let (mut read, mut greatest_bytes) = (0_u64, 0);
+    let (mut read, mut max_bytes) = (0_u64, 0);
     for index in indices {
         let Outcome { is_read, peak_bytes } = examine_damaged(format, &seeds, index);
         read += u64::from(is_read);
-        greatest_bytes = greatest_bytes.max(peak_bytes);
+        max_bytes = max_bytes.max(peak_bytes);
     }
     println!(
         "{format:?}: {count} damaged files of {} seeds: {read} load, {} are refused; \
-         at most {greatest_bytes} bytes allocated at one time",
+         at most {max_bytes} bytes allocated at one time",
         seeds.files().len(),
         count - read,
     );

@@ -34,13 +34,13 @@ pub(crate) fn check_closing(grid: &Grid, at: Position, warnings: &mut Warnings) 
         return;
     }
     let columns = grid.phi_rad.len();
-    let greatest = grid.values.iter().copied().fold(0.0, f64::max);
+    let max_value = grid.values.iter().copied().fold(0.0, f64::max);
     let difference = grid
         .values
         .chunks_exact(columns)
         .map(|row| (row[0] - row[columns - 1]).abs())
         .fold(0.0, f64::max);
-    if difference > CLOSING_TOLERANCE * greatest {
+    if difference > CLOSING_TOLERANCE * max_value {
         let found =
             format_args!("a closing plane that differs by up to {difference} cd").to_string();
         let expected = "the values of the first plane (both are kept)";

@@ -15,7 +15,7 @@ pub enum Format {
 }
 
 /// The mark of a format stands within so many bytes.
-const MOST_SEARCHED: usize = 1 << 16;
+const MAX_SEARCHED: usize = 1 << 16;
 /// EULUMDAT: lines 3 to 7 hold the symmetry and the numbers and distances of planes and angles.
 const LDT_NUMBERS: std::ops::Range<usize> = 2..7;
 
@@ -24,7 +24,7 @@ impl Format {
     /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT: there, a later line that begins
     /// as `TILT=` does is a name. `None` where there is no such mark.
     pub fn of_content(bytes: &[u8]) -> Option<Self> {
-        let start = &bytes[..bytes.len().min(MOST_SEARCHED)];
+        let start = &bytes[..bytes.len().min(MAX_SEARCHED)];
         let text = text::decode(start, &mut Warnings::default());
         let lines: Vec<&str> = text::lines(&text).collect();
         let first = lines.iter().map(|line| line.trim()).find(|line| !line.is_empty())?;

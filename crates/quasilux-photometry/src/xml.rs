@@ -16,7 +16,7 @@ use quick_xml::reader::Reader;
 const DEEPEST: usize = 64;
 
 /// Attributes of one element.
-const MOST_ATTRIBUTES: usize = 64;
+const MAX_ATTRIBUTES: usize = 64;
 
 /// An element with all that is inside.
 #[derive(Clone, Debug, PartialEq)]
@@ -190,8 +190,8 @@ fn attributes(tag: &BytesStart<'_>, at: Position) -> Result<Vec<Attribute>, Read
             attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(&error))?;
         let name = attribute.key.local_name().as_ref().to_owned();
         attributes.push(Attribute { name, value: value.into_owned() });
-        if attributes.len() > MOST_ATTRIBUTES {
-            let expected = format!("no more than {MOST_ATTRIBUTES} attributes of an element");
+        if attributes.len() > MAX_ATTRIBUTES {
+            let expected = format!("no more than {MAX_ATTRIBUTES} attributes of an element");
             return Err(ReadError::new(at, "more", expected));
         }
     }

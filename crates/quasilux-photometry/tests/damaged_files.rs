@@ -22,16 +22,16 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
         for file in seeds.files() {
             examine(format, file);
         }
-        let (mut read, mut greatest_bytes) = (0, 0);
+        let (mut read, mut max_bytes) = (0, 0);
         let files = if matches!(format, Format::Bsdf) { SURFACES } else { FILES };
         for index in 0..files {
             let Outcome { is_read, peak_bytes } = examine_damaged(format, &seeds, index);
             read += u64::from(is_read);
-            greatest_bytes = greatest_bytes.max(peak_bytes);
+            max_bytes = max_bytes.max(peak_bytes);
         }
         println!(
             "{format:?}: {read} of {files} damaged files load, the others are refused; at most \
-             {greatest_bytes} bytes allocated at one time"
+             {max_bytes} bytes allocated at one time"
         );
         assert!(read > files / 20 && read < files - files / 20, "{format:?}: {read} load");
     }
@@ -46,7 +46,7 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
 }
 
 /// Bytes a byte that tables as programs write them may take beside the file: 200 MB of them less than 1.8 GiB with it.
-const MOST_OF_TABLES: f64 = 8.0;
+const MAX_OF_TABLES: f64 = 8.0;
 
 /// Bytes of a file whose table is larger than the least grids that values are resampled to.
 const TABLE_BYTES: usize = 12_000_000;
@@ -58,7 +58,7 @@ fn assert_tables_are_small() {
         let Outcome { is_read, peak_bytes } = examine(Format::Bsdf, &bytes);
         let ratio = peak_bytes as f64 / bytes.len() as f64;
         println!("{name} of {} bytes: {ratio:.1} bytes a byte", bytes.len());
-        assert!(is_read && ratio < MOST_OF_TABLES, "{name}: {ratio} bytes a byte, {is_read}");
+        assert!(is_read && ratio < MAX_OF_TABLES, "{name}: {ratio} bytes a byte, {is_read}");
     }
 }
 

@@ -6,14 +6,14 @@
 //!
 //! Each event has a coordinate of its own here. A walk with survival 2/3 takes 9 on average (2 for the
 //! direction from the lamp, 3 events, 2 directions of 2), against 7 where events share one.
-//! Give these to [`SampleCursor::skip_to`](crate::SampleCursor::skip_to):
+//! Give these to [`Sampler::skip_to`](crate::Sampler::skip_to):
 //!
 //! ```
-//! use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence, assignment};
+//! use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence, assignment};
 //! let points = PointSet::new(Sequence::Halton, Randomization::None, 0);
-//! let mut cursor = SampleCursor::new(&points, 9);
-//! cursor.skip_to(assignment::event(1));
-//! assert_eq!(cursor.next_1d(), points.coordinate(9, 6));
+//! let mut sampler = Sampler::new(&points, 9);
+//! sampler.skip_to(assignment::event(1));
+//! assert_eq!(sampler.next_1d(), points.coordinate(9, 6));
 //! ```
 
 /// The dimension that chooses the light.

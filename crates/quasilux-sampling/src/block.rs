@@ -9,8 +9,8 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::point_set::Generator;
-use crate::randomization::{rotate_word, shift, shuffle_index};
-use crate::sequence::{BinaryMatrices, random_digits};
+use crate::randomization::{digital_shift, rotate_word, shuffle_index};
+use crate::sequence::{BinaryMatrices, independent_digits};
 use crate::unit::{unit_from_digits, unit_from_word};
 use crate::{PointSet, Randomization};
 
@@ -35,12 +35,12 @@ impl PointSet {
             Generator::Binary(matrices) if coordinates.len() >= SHORTEST => {
                 self.fill_binary(level, matrices, dimension, first_index, coordinates);
             }
-            Generator::Random => map_indices(
+            Generator::Independent => map_indices(
                 level,
                 first_index,
                 coordinates,
                 #[inline(always)]
-                move |index| unit_from_word(random_digits(key, index, dimension)),
+                move |index| unit_from_word(independent_digits(key, index, dimension)),
             ),
             Generator::Binary(_) | Generator::Radical { .. } | Generator::Varied(_) => {
                 for (offset, coordinate) in (0..).zip(coordinates) {
@@ -75,7 +75,7 @@ impl PointSet {
             }
             Generator::Binary(_)
             | Generator::Radical { .. }
-            | Generator::Random
+            | Generator::Independent
             | Generator::Varied(_) => {
                 for (coordinate, index) in coordinates.iter_mut().zip(indices) {
                     *coordinate = self.coordinate(*index, dimension);
@@ -168,7 +168,7 @@ impl PointSet {
                     move |digits| unit_from_digits(digits ^ base),
                 );
             }
-            Randomization::Rotation => map_digits(
+            Randomization::CranleyPattersonRotation => map_digits(
                 level,
                 digits,
                 block,
@@ -178,12 +178,12 @@ impl PointSet {
                     unit_from_word(rotate_word(word, key, dimension))
                 },
             ),
-            Randomization::Shift => map_digits(
+            Randomization::DigitalShift => map_digits(
                 level,
                 digits,
                 block,
                 #[inline(always)]
-                move |digits| unit_from_digits(shift(digits ^ base, key, dimension)),
+                move |digits| unit_from_digits(digital_shift(digits ^ base, key, dimension)),
             ),
             Randomization::Owen => self.scramble_block(level, digits, base, dimension, block),
         }

@@ -5,15 +5,15 @@
 //! alias method: that map is not monotone, so it tears neighbouring coordinates apart and a
 //! low-discrepancy sequence loses its evenness in it; nor does it give back a rest.
 
-use crate::choice::{Choice, is_weight, rest_in};
+use crate::discrete_sample::{Choice, is_weight, remap};
 
 /// A distribution over the indices of a list of weights.
 ///
 /// ```
 /// use quasilux_sampling::Discrete;
 /// let distribution = Discrete::new(&[1.0, 0.0, 3.0]).unwrap();
-/// let choice = distribution.choose(0.625);
-/// assert_eq!((choice.index, choice.probability, choice.rest), (2, 0.75, 0.5));
+/// let choice = distribution.sample(0.625);
+/// assert_eq!((choice.index, choice.pdf, choice.u_remapped), (2, 0.75, 0.5));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Discrete {
@@ -55,16 +55,16 @@ impl Discrete {
     /// of weight 0. A u outside [0, 1) counts as the nearer bound, NaN as 0.
     #[inline]
     #[must_use]
-    pub fn choose(&self, u: f64) -> Choice {
+    pub fn sample(&self, u: f64) -> Choice {
         let u = u.max(0.0);
         let bucket = bucket(u, self.guide.len() - 1).min(self.guide.len() - 2);
         let (first, last) = (self.guide[bucket] as usize, self.guide[bucket + 1] as usize);
         let index = first + self.cumulative[first..last].partition_point(|sum| *sum <= u);
         let (low, high) = self.bounds(index);
-        Choice { index, probability: high - low, rest: rest_in(u, low, high) }
+        Choice { index, pdf: high - low, u_remapped: remap(u, low, high) }
     }
 
-    /// The coordinate that [`choose`](Self::choose) maps to this entry with this rest.
+    /// The coordinate that [`sample`](Self::sample) maps to this entry with this rest.
     #[must_use]
     pub fn invert(&self, index: usize, rest: f64) -> f64 {
         let (low, high) = self.bounds(index);
@@ -75,7 +75,7 @@ impl Discrete {
     /// the whole.
     #[inline]
     #[must_use]
-    pub fn probability(&self, index: usize) -> f64 {
+    pub fn pdf(&self, index: usize) -> f64 {
         let (low, high) = self.bounds(index);
         high - low
     }

@@ -29,7 +29,7 @@ pub struct SharedDigits {
 /// ```
 /// use quasilux_sampling::{CoherentGroups, PointSet, Randomization, Sequence};
 /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 7);
-/// let groups = CoherentGroups::of_size(&points, 1 << 12, &[0, 1, 2], 64).unwrap();
+/// let groups = CoherentGroups::with_size(&points, 1 << 12, &[0, 1, 2], 64).unwrap();
 /// assert_eq!(groups.len(), 64);
 /// let close = |i, j| (points.coordinate(i, 0) - points.coordinate(j, 0)).abs() < 0.25;
 /// let first = groups.group(5).next().unwrap();
@@ -69,7 +69,7 @@ impl CoherentGroups {
         let partition = match points.generator {
             Generator::Binary(matrices) => cosets(matrices, count, shared),
             Generator::Radical { .. } => residues(shared, &bases)?,
-            Generator::Random | Generator::Varied(_) => return None,
+            Generator::Independent | Generator::Varied(_) => return None,
         };
         Some(Self { count, shared: shared.to_vec(), bases, partition })
     }
@@ -78,7 +78,7 @@ impl CoherentGroups {
     /// of groups) that are close in the given dimensions: the widest dimension is divided until
     /// another division would make the groups smaller.
     #[must_use]
-    pub fn of_size(points: &PointSet, count: u64, dimensions: &[u32], size: u64) -> Option<Self> {
+    pub fn with_size(points: &PointSet, count: u64, dimensions: &[u32], size: u64) -> Option<Self> {
         let mut shared: Vec<SharedDigits> =
             dimensions.iter().map(|&dimension| SharedDigits { dimension, digits: 0 }).collect();
         let mut groups = Self::new(points, count, &shared)?;
@@ -137,7 +137,7 @@ impl CoherentGroups {
 
     /// The bound b^-k on the spread of each coordinate within a group, in the order of
     /// [`shared`](Self::shared): any two members differ by less. Under
-    /// [`Rotation`](crate::Randomization::Rotation) they do so modulo 1.
+    /// [`Rotation`](crate::Randomization::CranleyPattersonRotation) they do so modulo 1.
     #[must_use]
     pub fn bounds(&self) -> Vec<f64> {
         (0..self.shared.len()).map(|place| self.width(place)).collect()
@@ -145,7 +145,7 @@ impl CoherentGroups {
 
     /// What the bound promises, measured: the largest minus the smallest coordinate of the members
     /// of a group, in the order of [`shared`](Self::shared); 0 for an empty group. Under
-    /// [`Rotation`](crate::Randomization::Rotation), the length of the shortest arc of the circle of
+    /// [`Rotation`](crate::Randomization::CranleyPattersonRotation), the length of the shortest arc of the circle of
     /// length 1 that holds them.
     #[must_use]
     pub fn spreads(&self, points: &PointSet, number: u64) -> Vec<f64> {
@@ -153,8 +153,8 @@ impl CoherentGroups {
             let coordinates =
                 self.group(number).map(|index| points.coordinate(index, shared.dimension));
             match points.randomization() {
-                Randomization::Rotation => shortest_arc(coordinates.collect()),
-                Randomization::None | Randomization::Shift | Randomization::Owen => {
+                Randomization::CranleyPattersonRotation => shortest_arc(coordinates.collect()),
+                Randomization::None | Randomization::DigitalShift | Randomization::Owen => {
                     let (low, high) = coordinates
                         .fold((1.0_f64, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
                     (high - low).max(0.0)

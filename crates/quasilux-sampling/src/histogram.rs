@@ -34,7 +34,7 @@ impl DimensionHistogram {
     /// The histogram with these [`counts`](Self::counts), [`coordinates`](Self::coordinates) and
     /// [`largest`](Self::largest); `None` where no samples have them.
     #[must_use]
-    pub fn of_counts(counts: Vec<u64>, coordinates: u128, largest: u32) -> Option<Self> {
+    pub fn from_counts(counts: Vec<u64>, coordinates: u128, largest: u32) -> Option<Self> {
         let samples = counts.iter().try_fold(0_u64, |sum, count| sum.checked_add(*count))?;
         let Some((last, before)) = counts.split_last() else {
             return (coordinates == 0 && largest == 0).then(Self::new);
@@ -145,7 +145,7 @@ mod tests {
     fn histograms_come_back_from_their_counts_and_others_do_not() {
         let mut histogram = DimensionHistogram::new();
         let again = |h: &DimensionHistogram| {
-            DimensionHistogram::of_counts(h.counts().to_vec(), h.coordinates(), h.largest())
+            DimensionHistogram::from_counts(h.counts().to_vec(), h.coordinates(), h.largest())
         };
         assert_eq!(again(&histogram), Some(histogram.clone()));
         for used in [3, 0, 7, 7, 1023, 1024, 5000, 3] {
@@ -153,7 +153,7 @@ mod tests {
             assert_eq!(again(&histogram), Some(histogram.clone()));
         }
         let of = |counts: &[u64], coordinates, largest| {
-            DimensionHistogram::of_counts(counts.to_vec(), coordinates, largest)
+            DimensionHistogram::from_counts(counts.to_vec(), coordinates, largest)
         };
         assert!(of(&[0, 2], 2, 1).is_some());
         assert_eq!(of(&[0, 2], 3, 1), None, "too many coordinates");

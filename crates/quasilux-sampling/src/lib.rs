@@ -26,14 +26,14 @@
 //!
 //! # Use
 //! ```
-//! use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence, stream_key};
+//! use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence, stream_key};
 //!
 //! let points = PointSet::new(Sequence::Sobol, Randomization::Owen, stream_key(1, 0, 0));
-//! let mut cursor = SampleCursor::new(&points, 12_345);
-//! let (u, [v, w]) = (cursor.next_1d(), cursor.next_2d());
+//! let mut sampler = Sampler::new(&points, 12_345);
+//! let (u, [v, w]) = (sampler.next_1d(), sampler.next_2d());
 //!
 //! assert_eq!([u, v, w], [0, 1, 2].map(|dimension| points.coordinate(12_345, dimension)));
-//! assert_eq!(cursor.used(), 3);
+//! assert_eq!(sampler.used(), 3);
 //! ```
 //! A coordinate is a pure function of the point set, the index and the dimension, the same on every
 //! machine. There is no state to carry or to share, so threads may take the indices in any order.
@@ -64,7 +64,7 @@
 //! points.fill(0, 0, &mut column);
 //!
 //! // Photons that start close together, in groups of at least 32.
-//! let groups = CoherentGroups::of_size(&points, 4096, &[0, 1, 2], 32).unwrap();
+//! let groups = CoherentGroups::with_size(&points, 4096, &[0, 1, 2], 32).unwrap();
 //! let order: Vec<u64> = groups.indices().collect();
 //! assert_eq!(order.len(), 4096);
 //! assert!(groups.spreads(&points, 0).iter().zip(groups.bounds()).all(|(s, b)| *s < b));
@@ -77,9 +77,9 @@
 //! use quasilux_sampling::{Discrete, choose_bool, warp};
 //!
 //! let lights = Discrete::new(&[100.0, 300.0]).unwrap();
-//! let light = lights.choose(0.625);
-//! assert_eq!((light.index, light.rest), (1, 0.5));
-//! assert!(!choose_bool(light.rest, 0.5).value);
+//! let light = lights.sample(0.625);
+//! assert_eq!((light.index, light.u_remapped), (1, 0.5));
+//! assert!(!choose_bool(light.u_remapped, 0.5).value);
 //!
 //! let direction = warp::sample_uniform_sphere([0.5, 0.0]);
 //! assert_eq!(direction, [1.0, 0.0, 0.0]);
@@ -87,28 +87,28 @@
 
 pub mod assignment;
 mod block;
-mod choice;
-mod cursor;
 mod discrete;
+mod discrete_sample;
 mod groups;
 mod hash;
 mod histogram;
 mod point_set;
 pub mod quality;
 mod randomization;
+mod sampler;
 mod sequence;
 mod unit;
 mod variation;
 pub mod warp;
 
-pub use choice::{BoolChoice, Choice, choose_bool, choose_weights};
-pub use cursor::SampleCursor;
 pub use discrete::Discrete;
+pub use discrete_sample::{BoolChoice, Choice, choose_bool, choose_weights};
 pub use groups::{CoherentGroups, Group, SharedDigits};
 pub use hash::stream_key;
 pub use histogram::DimensionHistogram;
 pub use point_set::PointSet;
 pub use randomization::Randomization;
+pub use sampler::Sampler;
 pub use sequence::{Sequence, radical_inverse};
 
 pub(crate) use unit::ONE_BELOW;

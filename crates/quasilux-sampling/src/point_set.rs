@@ -2,10 +2,12 @@
 
 use crate::hash::{GOLDEN, dimension_key, mix};
 use crate::randomization::{
-    OwenKey, nested_radical_inverse, rotate_unit, rotate_word, shift, shifted_radical_inverse,
-    shuffle_index,
+    OwenKey, digital_shift, nested_radical_inverse, rotate_unit, rotate_word,
+    shifted_radical_inverse, shuffle_index,
 };
-use crate::sequence::{BinaryMatrices, Radix, faure4, halton, hammersley, random_digits, sobol};
+use crate::sequence::{
+    BinaryMatrices, Radix, faure4, halton, hammersley, independent_digits, sobol,
+};
 use crate::unit::{unit_from_digits, unit_from_word};
 use crate::variation::Variation;
 use crate::{Randomization, Sequence};
@@ -29,7 +31,7 @@ pub(crate) enum Generator {
     /// A base for each dimension, after `steps` dimensions of equal steps (none or one).
     Radical { bases: &'static [Radix], steps: Option<u64> },
     /// A hash.
-    Random,
+    Independent,
     /// Other coordinates in some dimensions.
     Varied(Variation),
 }
@@ -40,7 +42,7 @@ const PADDING_KEY: u64 = 0x7061_6464_696e_6721;
 impl PointSet {
     /// A sequence, randomised under a key from [`stream_key`](crate::stream_key).
     ///
-    /// [`Randomization::None`] ignores the key. [`Sequence::Random`] is random already: it uses the
+    /// [`Randomization::None`] ignores the key. [`Sequence::Independent`] is random already: it uses the
     /// key and ignores the randomisation.
     #[must_use]
     pub fn new(sequence: Sequence, randomization: Randomization, key: u64) -> Self {
@@ -50,7 +52,7 @@ impl PointSet {
             Sequence::Faure4 => Generator::Binary(faure4::matrices()),
             Sequence::Halton => radical(None),
             Sequence::Hammersley { points } => radical(Some(points)),
-            Sequence::Random => Generator::Random,
+            Sequence::Independent => Generator::Independent,
         };
         Self { sequence, generator, randomization, key }
     }
@@ -101,10 +103,12 @@ impl PointSet {
                 let digits = matrices.digits(index, dimension);
                 match self.randomization {
                     Randomization::None => unit_from_digits(digits),
-                    Randomization::Rotation => {
+                    Randomization::CranleyPattersonRotation => {
                         unit_from_word(rotate_word(digits.reverse_bits(), self.key, dimension))
                     }
-                    Randomization::Shift => unit_from_digits(shift(digits, self.key, dimension)),
+                    Randomization::DigitalShift => {
+                        unit_from_digits(digital_shift(digits, self.key, dimension))
+                    }
                     Randomization::Owen => unit_from_digits(self.owen(dimension).scramble(digits)),
                 }
             }
@@ -112,7 +116,9 @@ impl PointSet {
             Generator::Radical { bases, steps } => {
                 self.radical_coordinate(bases, steps, index, dimension)
             }
-            Generator::Random => unit_from_word(random_digits(self.key, index, dimension)),
+            Generator::Independent => {
+                unit_from_word(independent_digits(self.key, index, dimension))
+            }
             Generator::Varied(variation) => self.varied_coordinate(variation, index, dimension),
         }
     }
@@ -127,7 +133,7 @@ impl PointSet {
             Generator::Radical { bases, .. } => {
                 bases.get(dimension.checked_sub(1)? as usize).map(Radix::base)
             }
-            Generator::Random | Generator::Varied(_) => None,
+            Generator::Independent | Generator::Varied(_) => None,
         }
     }
 
@@ -147,7 +153,9 @@ impl PointSet {
     const fn padding_key(&self) -> u64 {
         match self.randomization {
             Randomization::None => PADDING_KEY,
-            Randomization::Rotation | Randomization::Shift | Randomization::Owen => self.key,
+            Randomization::CranleyPattersonRotation
+            | Randomization::DigitalShift
+            | Randomization::Owen => self.key,
         }
     }
 
@@ -177,16 +185,18 @@ impl PointSet {
             None => dimension,
         };
         let Some(radix) = bases.get(place as usize) else {
-            return unit_from_word(random_digits(self.padding_key(), index, dimension));
+            return unit_from_word(independent_digits(self.padding_key(), index, dimension));
         };
         let (base, key) = (radix.base(), dimension_key(self.key, dimension));
         match self.randomization {
             Randomization::None => radix.inverse(index),
-            Randomization::Rotation => rotate_unit(radix.inverse(index), self.key, dimension),
+            Randomization::CranleyPattersonRotation => {
+                rotate_unit(radix.inverse(index), self.key, dimension)
+            }
             // In base 2 the index is its own row of digits.
-            Randomization::Shift if base == 2 => unit_from_digits(index ^ key),
+            Randomization::DigitalShift if base == 2 => unit_from_digits(index ^ key),
             Randomization::Owen if base == 2 => unit_from_digits(OwenKey::new(key).scramble(index)),
-            Randomization::Shift => shifted_radical_inverse(base, index, key),
+            Randomization::DigitalShift => shifted_radical_inverse(base, index, key),
             Randomization::Owen => nested_radical_inverse(base, index, key),
         }
     }

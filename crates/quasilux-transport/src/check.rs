@@ -2,7 +2,7 @@
 
 use crate::settings::{Estimator, Settings, Switch};
 use crate::world::World;
-use quasilux_bvh::Kernel;
+use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
@@ -130,7 +130,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     if let Some(camera) = scene.cameras.first() {
         return Err(CheckError::CameraOfPhotons { camera: camera.name.clone() });
     }
-    let world = World::<f64>::new(scene, Kernel::fastest());
+    let world = World::<f64>::new(scene, SimdLevel::fastest());
     for sensor in &scene.sensors {
         let name = || sensor.name.clone();
         match &sensor.shape {

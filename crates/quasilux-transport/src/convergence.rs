@@ -24,14 +24,14 @@
 //! checkpoint, for half of the samples are the same.
 
 use crate::estimates::Estimates;
-use crate::schedule::{MOST_SAMPLES, Schedule};
+use crate::schedule::{MAX_SAMPLES, Schedule};
 use crate::settings::Settings;
 use crate::state::{Reader, StateError, Writer};
 use crate::tolerance::Standing;
 use quasilux_sampling::quality::fit_power_law;
 
 /// Checkpoints that a slope is fitted to at least.
-const LEAST_CHECKPOINTS: usize = 3;
+const MIN_CHECKPOINTS: usize = 3;
 /// Checkpoints after which a prediction is compared with what came.
 const LATER: usize = 2;
 /// The slope where none is measured: that of independent samples.
@@ -114,7 +114,7 @@ impl History {
                 let excess = standing.excess[target].filter(|excess| excess.is_finite());
                 let wanted =
                     estimates.samples as f64 * libm::pow(excess?.max(1.0), 1.0 / steepness);
-                let is_possible = wanted <= MOST_SAMPLES as f64;
+                let is_possible = wanted <= MAX_SAMPLES as f64;
                 is_possible
                     .then(|| schedule.look_at_or_after((wanted as u64).max(estimates.samples)))
             })
@@ -229,7 +229,7 @@ impl History {
             .iter()
             .map(|checkpoint| [checkpoint.samples as f64, checkpoint.width])
             .collect();
-        let fit = fit_power_law(&points).filter(|_| points.len() >= LEAST_CHECKPOINTS);
+        let fit = fit_power_law(&points).filter(|_| points.len() >= MIN_CHECKPOINTS);
         fit.map(|line| line.exponent)
     }
 

@@ -5,11 +5,11 @@
 //! sum there, and no estimate of it would ever be done.
 
 /// After this many events a photon or path is cut: only halls of perfect mirrors get there.
-pub(crate) const MOST_EVENTS: u32 = 4096;
+pub(crate) const MAX_EVENTS: u32 = 4096;
 
 /// Light that became this many times as much on its way is cut: a single bounce is taken as its table
 /// says, however much that is.
-const MOST_GAIN: f64 = 100.0;
+const MAX_GAIN: f64 = 100.0;
 
 /// What surfaces made of light on its way, expected values of all chances: the product of their albedos.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ impl Gain {
     /// from there, or has grown too much.
     pub(crate) fn grow(&mut self, albedo: f64, bounces: u32) -> bool {
         self.0 *= albedo;
-        bounces == 0 || self.0 <= MOST_GAIN
+        bounces == 0 || self.0 <= MAX_GAIN
     }
 
     /// What they left.
@@ -36,8 +36,8 @@ impl Gain {
 pub(crate) fn warning(count: u64, who: &str, values: &str) -> Option<String> {
     (count > 0).then(|| {
         format!(
-            "{count} {who} were cut after {MOST_EVENTS} bounces, or where surfaces that give more than they \
-             get had made {MOST_GAIN} times as much of them: light is trapped here, and {values} are too \
+            "{count} {who} were cut after {MAX_EVENTS} bounces, or where surfaces that give more than they \
+             get had made {MAX_GAIN} times as much of them: light is trapped here, and {values} are too \
              low"
         )
     })

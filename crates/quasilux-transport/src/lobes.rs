@@ -21,7 +21,7 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use std::ops::AddAssign;
 
 /// So many paths, of all replicates, must have been where a lobe is bright.
-const LEAST_MET: f64 = 32.0;
+const MIN_MET: f64 = 32.0;
 /// Lobes whose light, were it spread evenly, is less than this part of all do not matter.
 const MATTERS: f64 = 1e-3;
 /// No place counts as sharper than this, so that sums of many have room.
@@ -102,7 +102,7 @@ impl LobeSums {
         let even_lx = quantum.value(self.even) / paths.max(1) as f64;
         let surfaces = self.surfaces as f64;
         let met = surfaces * surfaces / self.sharpness.max(1) as f64;
-        self.surfaces > 0 && even_lx > MATTERS * value_lx && met < LEAST_MET
+        self.surfaces > 0 && even_lx > MATTERS * value_lx && met < MIN_MET
     }
 }
 
@@ -111,7 +111,7 @@ pub(crate) fn warning(points: usize) -> Option<String> {
     (points > 0).then(|| {
         format!(
             "{points} sensor points get light of point-like lights over surfaces with lobes so narrow that fewer \
-             than {LEAST_MET} paths can have met where they are bright: much may be missing, and values have no \
+             than {MIN_MET} paths can have met where they are bright: much may be missing, and values have no \
              interval there"
         )
     })

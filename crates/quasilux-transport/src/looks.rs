@@ -57,7 +57,7 @@ mod tests {
     /// A replicate's error after the next doubling is half of the last one and as much new: exactly
     /// what happens to means of independent values.
     fn coverage(replicates: u32, (miss, look_miss): (f64, f64), runs: u32) -> f64 {
-        let normals = Normals(PointSet::new(Sequence::Random, Randomization::None, 7));
+        let normals = Normals(PointSet::new(Sequence::Independent, Randomization::None, 7));
         let [t, t_far] = [(replicates, look_miss), (1000, miss)]
             .map(|(r, miss)| t_quantile_for(r as usize, miss));
         let root = f64::from(replicates).sqrt();

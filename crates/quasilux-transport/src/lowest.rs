@@ -29,7 +29,7 @@
 use crate::interval::{Interval, t_quantile_for};
 
 /// Correlations are found from so many replicates at most.
-const MOST_ROWS: usize = 256;
+const MAX_ROWS: usize = 256;
 
 /// Mean and standard error of one point.
 #[derive(Clone, Copy)]
@@ -94,7 +94,7 @@ impl Known {
 /// To how many independent points some points amount.
 fn independent(rows: &[Vec<f64>], points: &[Known], chosen: &[usize]) -> f64 {
     let n = chosen.len() as f64;
-    let rows = &rows[..rows.len().min(MOST_ROWS)];
+    let rows = &rows[..rows.len().min(MAX_ROWS)];
     let degrees = rows.len() as f64 - 1.0;
     if chosen.len() < 2 || degrees < 2.0 {
         return n.max(1.0);
@@ -131,7 +131,7 @@ mod tests {
     /// variance that all points have together. Noise is the sum of four uniform numbers, with unit variance, times `scale`
     /// at each point.
     fn coverage(truth: &[f64], scale: &[f64], common: f64) -> f64 {
-        let points = PointSet::new(Sequence::Random, Randomization::None, 11);
+        let points = PointSet::new(Sequence::Independent, Randomization::None, 11);
         let noise = |index: usize, replicate: usize, point: usize| -> f64 {
             let u = |d: u32| {
                 let dimension = 4 * (point * REPLICATES + replicate) as u32 + d;

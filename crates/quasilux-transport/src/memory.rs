@@ -4,16 +4,16 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
 //! element of its own, cells of surveys as if all were there.
 
-use crate::correction::{self, MOST_PHOTONS};
+use crate::correction::{self, MAX_PHOTONS};
 use crate::map::{
-    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MOST_NEW_ELEMENTS,
+    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS,
     Reconstruction,
 };
 use crate::sections::PathSums;
 use crate::settings::{Estimator, Settings, Switch};
 use crate::simulate::is_grey;
 use crate::spectrum::Spectrum;
-use crate::steering::{Fork, MOST_FORKS};
+use crate::steering::{Fork, MAX_FORKS};
 use crate::tally::Sum;
 use quasilux_scene::{Rgb, Scene};
 
@@ -26,12 +26,12 @@ const VALUE_BYTES: u64 = 4 * size_of::<f64>() as u64;
 const PIXEL_BYTES: u64 = 48;
 /// Cells of a survey at most, and what guides photons in each of them.
 const CELLS: u64 = 1 << 13;
-const GUIDE_BYTES: u64 = (MOST_FORKS * size_of::<Fork>()) as u64;
+const GUIDE_BYTES: u64 = (MAX_FORKS * size_of::<Fork>()) as u64;
 /// Light that leaves a cell: its sum and its mean, straight and other.
 const LEAVING_BYTES: u64 = 96;
 /// What a sensor point sees of a cell, and the most of all of that.
 const VIEW_BYTES: u64 = 8;
-const MOST_VIEWS_BYTES: u64 = 128 << 20;
+const MAX_VIEWS_BYTES: u64 = 128 << 20;
 /// Of a counter of a map, and how many of them one landing takes memory for.
 const COUNTER_BYTES: u64 = 4;
 const COUNTERS_OF_A_LANDING: u64 = 256;
@@ -89,11 +89,11 @@ impl MemoryNeed {
             let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
             let layers = correction::layers(settings.max_bounces, settings.list_terms, sides);
             let full = full(sides, layers.into());
-            let maps_bytes = full.min(of_landing.saturating_mul(MOST_PHOTONS));
+            let maps_bytes = full.min(of_landing.saturating_mul(MAX_PHOTONS));
             return Self { maps_bytes, maps_bytes_a_sample: maps_bytes, ..need };
         }
         let (across, split) = match settings.map_adaptive {
-            true => (COARSE_ELEMENTS_ACROSS, MOST_NEW_ELEMENTS),
+            true => (COARSE_ELEMENTS_ACROSS, MAX_NEW_ELEMENTS),
             false => (ELEMENTS_ACROSS, 0),
         };
         let sides = elements(scene, settings, across, split).saturating_mul(2);
@@ -149,7 +149,7 @@ fn cells_bytes(settings: &Settings, points: u64) -> u64 {
     let slots = 1 + u64::from(settings.list_terms.max(1));
     let replicates = u64::from(settings.effective_replicates());
     let leaving = product([CELLS, LEAVING_BYTES, slots, replicates]) / 2;
-    let views = product([points, CELLS, VIEW_BYTES]).min(MOST_VIEWS_BYTES);
+    let views = product([points, CELLS, VIEW_BYTES]).min(MAX_VIEWS_BYTES);
     total([guides, leaving, views])
 }
 

@@ -48,7 +48,7 @@ impl Waves {
             // All fields of the largest size are one run.
             let fields = if field == FIELD { left / FIELD } else { 1 };
             let groups = (field >= 2 * GROUP && !dimensions.is_empty())
-                .then(|| CoherentGroups::of_size(points, field, &dimensions, GROUP))
+                .then(|| CoherentGroups::with_size(points, field, &dimensions, GROUP))
                 .flatten();
             let waves_per_field = field.div_ceil(WAVE);
             runs.push(Run { first_wave: waves, first_index, field, waves_per_field, groups });
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn each_index_is_in_one_wave() {
         let hammersley = Sequence::Hammersley { points: 1 << 20 };
-        for sequence in [Sequence::Sobol, Sequence::Halton, Sequence::Random, hammersley] {
+        for sequence in [Sequence::Sobol, Sequence::Halton, Sequence::Independent, hammersley] {
             for (range, dimensions) in
                 [(0..1, 2), (0..5000, 2), (5..150_000, 4), (131_072..262_144, 2), (7..4000, 0)]
             {

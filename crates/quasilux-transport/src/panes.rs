@@ -32,7 +32,7 @@ pub(crate) fn look_through<S: Spectrum>(
     let mut numbers: Vec<usize> = (0..sights.len()).collect();
     let mut hits: Vec<Option<Hit>> = Vec::new();
     while !shots.is_empty() {
-        world.closest_hits(&shots, &mut hits);
+        world.closest_hit_batch(&shots, &mut hits);
         let mut left = 0;
         for (i, hit) in hits.iter().enumerate() {
             let Some(hit) = hit else { continue };

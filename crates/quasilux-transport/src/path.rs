@@ -30,7 +30,7 @@ use crate::vertex::Vertex;
 use crate::world::{Interaction, Vantage};
 use glam::DVec3;
 use quasilux_bvh::Shot;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -39,7 +39,7 @@ const CERTAIN_BOUNCES: u32 = 2;
 
 /// Those that note where they might have ended go on for certain while so much is left, and up to so many notes.
 const NOTED: f64 = 1.0 / 32.0;
-const MOST_NOTES: usize = 32;
+const MAX_NOTES: usize = 32;
 
 /// A path that is over.
 pub(crate) struct Ended<S> {
@@ -61,7 +61,7 @@ pub(crate) struct Start<'p, S> {
     pub(crate) hidden: Option<HiddenEnd<'p, S>>,
     /// What photons leave to it.
     pub(crate) joining: Option<&'p Joining>,
-    pub(crate) cursor: SampleCursor<'p>,
+    pub(crate) sampler: Sampler<'p>,
 }
 
 /// What a path is to find.
@@ -86,7 +86,7 @@ pub(crate) struct Path<'p, S> {
     joining: Option<&'p Joining>,
     /// The parts that it is to find of the light at its first surface.
     shares: Shares,
-    cursor: SampleCursor<'p>,
+    sampler: Sampler<'p>,
     from: Vantage,
     /// Unit direction in which it goes on.
     direction: DVec3,
@@ -143,10 +143,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, seeks, rest, hidden, joining, mut cursor } = start;
+        let Start { from, seeks, rest, hidden, joining, mut sampler } = start;
         let (direction, pdf_sr, beta) = match seeks {
             Seeks::Illuminance { n, .. } => {
-                let u = stage.draw(&mut cursor, Purpose::FirstDirection, SampleCursor::next_2d);
+                let u = stage.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
                 let first = DVec3::from_array(sample_cosine_hemisphere(u));
                 let direction = Frame::around(n).to_world(first);
                 (direction, Some(first.z * FRAC_1_PI), S::white() * PI)
@@ -159,7 +159,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             hidden,
             joining,
             shares: Shares::ALL,
-            cursor,
+            sampler,
             from,
             direction,
             pdf_sr,
@@ -261,7 +261,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             Rest::Frozen(end) if bsdf.keeps_illuminance() => {
                 self.end_on_frozen(end, stage, bounces, at)
             }
-            Rest::Noted if self.gain.left() > NOTED && self.notes.len() < MOST_NOTES => {
+            Rest::Noted if self.gain.left() > NOTED && self.notes.len() < MAX_NOTES => {
                 self.note(stage, bounces, at, albedo);
                 Some(Onward { emitted: 1.0, everything: 1.0 })
             }
@@ -273,8 +273,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
             return false;
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
-        let next = stage.draw(&mut self.cursor, bounce, |cursor| {
-            bsdf.sample(wo, at.front, Mode::Radiance, cursor)
+        let next = stage.draw(&mut self.sampler, bounce, |sampler| {
+            bsdf.sample(wo, at.front, Mode::Radiance, sampler)
         });
         let Some(next) = next else { return false };
         if let (false, Some(pdf_sr)) = (bsdf.keeps_illuminance(), next.pdf_sr) {
@@ -307,7 +307,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
         Ended {
             found: self.found,
-            dimensions: self.cursor.used(),
+            dimensions: self.sampler.used(),
             notes: self.notes,
             flights: self.flights,
         }
@@ -373,7 +373,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let chance = end.chance(&place, weight.luminance(), (weight * lx).luminance())?;
         let correction = Purpose::Correction { surface: bounces + 1 };
         let everything =
-            stage.draw(&mut self.cursor, correction, |cursor| survival_factor(chance, cursor));
+            stage.draw(&mut self.sampler, correction, |sampler| survival_factor(chance, sampler));
         let weight = weight * (1.0 - everything);
         self.found.indirect += weight * lx;
         self.take_terms(&end.map, &place, (bounces, most_bounces), weight);
@@ -429,7 +429,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
-        let factor = stage.draw(&mut self.cursor, bounce, |cursor| survival_factor(albedo, cursor));
+        let factor =
+            stage.draw(&mut self.sampler, bounce, |sampler| survival_factor(albedo, sampler));
         Onward { emitted: factor, everything: factor }
     }
 
@@ -450,8 +451,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
 }
 
 /// What goes on counts so many times: 0, or more than once for those that do not.
-pub(crate) fn survival_factor(survival: f64, cursor: &mut SampleCursor<'_>) -> f64 {
-    if cursor.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
+pub(crate) fn survival_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
+    if sampler.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
 }
 
 impl<S> Default for PathWork<S> {

@@ -3,7 +3,7 @@
 //! All rays of one bounce are traced together, then all that the paths ask of the lights. Every path
 //! takes its coordinates and adds its contributions in the order in which it would alone.
 
-use crate::endless::MOST_EVENTS;
+use crate::endless::MAX_EVENTS;
 use crate::path::{Path, PathWork, Start};
 use crate::shadow::Asker;
 use crate::spectrum::Spectrum;
@@ -61,7 +61,7 @@ impl<S: Spectrum> PathWave<S> {
         self.test_pointlikes(stage, &mut paths);
         self.travelling.clear();
         self.travelling.extend(0..paths.len() as u32);
-        for bounces in 0..MOST_EVENTS {
+        for bounces in 0..MAX_EVENTS {
             if self.travelling.is_empty() {
                 break;
             }

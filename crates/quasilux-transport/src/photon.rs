@@ -9,7 +9,7 @@
 //! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::Mode;
-use crate::endless::{Gain, MOST_EVENTS};
+use crate::endless::{Gain, MAX_EVENTS};
 use crate::first_shot::{Drawn, LitCells, LitPlace};
 use crate::lights::{Emission, Emitted};
 use crate::purpose::Purpose;
@@ -19,7 +19,7 @@ use crate::stage::Stage;
 use crate::steering::{Guide, Split, Windows};
 use crate::world::Interaction;
 use glam::DVec3;
-use quasilux_sampling::{DimensionHistogram, SampleCursor};
+use quasilux_sampling::{DimensionHistogram, Sampler};
 use std::ops::AddAssign;
 
 /// Flux is counted in this many steps a photon: 2^39 photons fit.
@@ -56,8 +56,8 @@ pub(crate) trait PhotonReceiver<S> {
     const SPECULAR_ONLY: bool = false;
 
     /// All that it sees from here on is of the photon whose coordinates come from there.
-    fn follow(&mut self, cursor: &SampleCursor<'_>) {
-        let _ = cursor;
+    fn follow(&mut self, sampler: &Sampler<'_>) {
+        let _ = sampler;
     }
 
     /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
@@ -99,7 +99,7 @@ pub(crate) struct Flight {
 
 /// A photon on its way, but for where it flies.
 pub(crate) struct Photon<'p, S> {
-    pub(crate) cursor: SampleCursor<'p>,
+    pub(crate) sampler: Sampler<'p>,
     /// Its colour: the flux that it carries, as a share of that of one photon of all lights.
     pub(crate) weight: S,
     pub(crate) trail: Trail,
@@ -178,11 +178,11 @@ pub(crate) struct Departure<'p, S> {
 pub(crate) fn trace_photon<'p, S: Spectrum>(
     stage: &Stage<'_, S>,
     lead: Lead<'_>,
-    cursor: SampleCursor<'p>,
+    sampler: Sampler<'p>,
     receiver: &mut impl PhotonReceiver<S>,
     counts: &mut PhotonCounts,
 ) {
-    let mut photon = Photon::new(cursor).for_receiver(receiver);
+    let mut photon = Photon::new(sampler).for_receiver(receiver);
     counts.emitted += 1;
     counts.begun += 1;
     let mut generation: Vec<Departure<'p, S>> = Vec::new();
@@ -198,7 +198,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
         }
         None => return counts.end(&photon),
     }
-    for bounces in 0..MOST_EVENTS {
+    for bounces in 0..MAX_EVENTS {
         let mut next = Vec::new();
         for Departure { photon, start: Emission { from, direction } } in generation {
             counts.rays += 1;
@@ -236,10 +236,10 @@ pub(crate) struct Arrival<'a> {
 }
 
 impl<'p, S: Spectrum> Photon<'p, S> {
-    /// The photon that takes its coordinates from `cursor`.
-    pub(crate) fn new(cursor: SampleCursor<'p>) -> Self {
+    /// The photon that takes its coordinates from `sampler`.
+    pub(crate) fn new(sampler: Sampler<'p>) -> Self {
         Self {
-            cursor,
+            sampler,
             weight: S::white(),
             trail: Trail::Found,
             specular_only: false,
@@ -257,12 +257,12 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     pub(crate) fn begin(&mut self, stage: &Stage<'_, S>, source: Source<'_>) -> Option<Beginning> {
         let lights = &stage.lights;
         let Emitted { emission, trail } = match source {
-            Source::Lights => lights.emit(stage, &mut self.cursor)?,
-            Source::LitCells(cells) => match cells.draw(stage, &mut self.cursor)? {
+            Source::Lights => lights.emit(stage, &mut self.sampler)?,
+            Source::LitCells(cells) => match cells.draw(stage, &mut self.sampler)? {
                 Drawn::Place(place) => return Some(Beginning::IfLit(place)),
                 Drawn::Light { number, u, flux_share } => {
                     self.weight = S::white() * flux_share;
-                    lights.emit_from(number, u, stage, &mut self.cursor)?
+                    lights.emit_from(number, u, stage, &mut self.sampler)?
                 }
             },
         };
@@ -287,7 +287,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         receiver: &mut impl PhotonReceiver<S>,
     ) {
         let bounces = bounces + self.bounces;
-        receiver.follow(&self.cursor);
+        receiver.follow(&self.sampler);
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from, direction, length_m };
         let landing = found.filter(|at| stage.world.bsdf(at).keeps_illuminance());
@@ -333,7 +333,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let whole = split.expected.floor();
         let bounce = Purpose::Bounce { surface: arrival.bounces + self.bounces + 1 };
         let one_more = stage
-            .draw(&mut self.cursor, bounce, |cursor| cursor.choose_bool(split.expected - whole));
+            .draw(&mut self.sampler, bounce, |sampler| sampler.choose_bool(split.expected - whole));
         let count = whole as u32 + u32::from(one_more);
         let arrived = self.quanta();
         counts.absorbed += arrived;
@@ -346,11 +346,11 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             counts.cut += goes_on;
             return counts.end(&self);
         }
-        let children: Vec<SampleCursor<'p>> =
-            (1..count).map(|child| self.cursor.child(child)).collect();
+        let children: Vec<Sampler<'p>> =
+            (1..count).map(|child| self.sampler.child(child)).collect();
         self.bounces += u32::from(arrival.is_drawn);
         let Self { weight, trail, specular_only, bounces, gain, .. } = self;
-        let child = |cursor| Self { cursor, weight, trail, specular_only, bounces, gain };
+        let child = |sampler| Self { sampler, weight, trail, specular_only, bounces, gain };
         for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
             let guide = window.map(|window| &window.guide);
             let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);
@@ -379,12 +379,12 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     ) -> Option<Emission> {
         let Door { at, wo, guide } = *door;
         let (world, bsdf) = (&stage.world, stage.world.bsdf(at));
-        let (next, share) = stage.draw(&mut self.cursor, bounce, |cursor| match guide {
+        let (next, share) = stage.draw(&mut self.sampler, bounce, |sampler| match guide {
             Some(guide) if bsdf.is_lambertian() => {
-                let guided = guide.sample([cursor.rest_1d(), cursor.next_1d()]);
+                let guided = guide.sample([sampler.remapped_1d(), sampler.next_1d()]);
                 Some((bsdf.sample_lambertian(guided.u)?, share / guided.density))
             }
-            _ => Some((bsdf.sample(wo, at.front, Mode::Flux, cursor)?, share)),
+            _ => Some((bsdf.sample(wo, at.front, Mode::Flux, sampler)?, share)),
         })?;
         self.weight = self.weight * next.weight * share;
         if self.weight.luminance() <= 0.0 {
@@ -415,7 +415,7 @@ impl PhotonCounts {
 
     /// Records a photon that ended.
     pub(crate) fn end<S>(&mut self, photon: &Photon<'_, S>) {
-        self.dimensions.record(photon.cursor.used());
+        self.dimensions.record(photon.sampler.used());
     }
 
     /// Cuts a photon that would fly on for ever.
@@ -451,9 +451,9 @@ impl AddAssign for PhotonCounts {
 impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
     const SPECULAR_ONLY: bool = R::SPECULAR_ONLY;
 
-    fn follow(&mut self, cursor: &SampleCursor<'_>) {
+    fn follow(&mut self, sampler: &Sampler<'_>) {
         if let Some(receiver) = self {
-            receiver.follow(cursor);
+            receiver.follow(sampler);
         }
     }
 

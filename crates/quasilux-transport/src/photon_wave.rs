@@ -7,14 +7,14 @@
 //! index and its ancestors alone, never on its company: a wave gives what
 //! [`crate::photon::trace_photon`] gives.
 
-use crate::endless::MOST_EVENTS;
+use crate::endless::MAX_EVENTS;
 use crate::photon::{Arrival, Beginning, Lead, Photon, PhotonCounts, PhotonReceiver};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::trial::Step;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, Shot};
-use quasilux_sampling::{PointSet, SampleCursor};
+use quasilux_sampling::{PointSet, Sampler};
 
 /// Photons that fly together are cut in two when there are more.
 const LONGEST: usize = 1 << 14;
@@ -81,8 +81,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         let Wave { points, indices, lead } = wave;
         self.photons.clear();
         self.photons.extend(
-            indices
-                .map(|index| Photon::new(SampleCursor::new(points, index)).for_receiver(receiver)),
+            indices.map(|index| Photon::new(Sampler::new(points, index)).for_receiver(receiver)),
         );
         self.supply(points);
         lap(Step::Sampling);
@@ -95,7 +94,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         let mut bounces = 0;
         while let Some(reached) = self.muster(bounces) {
             bounces = reached;
-            if bounces == MOST_EVENTS {
+            if bounces == MAX_EVENTS {
                 self.photons.drain(..).for_each(|photon| counts.give_up(&photon));
                 continue;
             }
@@ -190,21 +189,21 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     /// Makes the next two coordinates of all photons at once. Those that are elsewhere in their
     /// coordinates than the first make their own.
     fn supply(&mut self, points: &PointSet) {
-        let Some(dimension) = self.photons.first().map(|photon| photon.cursor.dimension()) else {
+        let Some(dimension) = self.photons.first().map(|photon| photon.sampler.dimension()) else {
             return;
         };
         if !points.fills_lists_fast() {
             return;
         }
         self.indices.clear();
-        self.indices.extend(self.photons.iter().map(|photon| photon.cursor.index()));
+        self.indices.extend(self.photons.iter().map(|photon| photon.sampler.index()));
         for (dimension, ahead) in (dimension..).zip(&mut self.ahead) {
             ahead.resize(self.indices.len(), 0.0);
             points.fill_at(dimension, &self.indices, ahead);
         }
         let [first, second] = &self.ahead;
         for ((photon, first), second) in self.photons.iter_mut().zip(first).zip(second) {
-            photon.cursor.supply(dimension, [*first, *second]);
+            photon.sampler.supply(dimension, [*first, *second]);
         }
     }
 

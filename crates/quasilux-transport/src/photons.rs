@@ -10,7 +10,7 @@ use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::trial::Way;
 use crate::watch::Watch;
-use quasilux_sampling::{PointSet, SampleCursor};
+use quasilux_sampling::{PointSet, Sampler};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -68,8 +68,8 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
         let mut counts = PhotonCounts::default();
         if *way == Way::OneByOne {
             for index in indices {
-                let cursor = SampleCursor::new(points, index);
-                trace_photon(stage, lead, cursor, &mut receiver, &mut counts);
+                let sampler = Sampler::new(points, index);
+                trace_photon(stage, lead, sampler, &mut receiver, &mut counts);
             }
         } else {
             let thread = rayon::current_thread_index().unwrap_or(0);

@@ -27,7 +27,7 @@ use crate::specular::HiddenLight;
 use crate::stage::{Stage, Stream};
 use crate::tally::{Quantum, Sum};
 use crate::watch::Watch;
-use quasilux_sampling::{PointSet, SampleCursor};
+use quasilux_sampling::{PointSet, Sampler};
 use quasilux_scene::{Camera, Scene, View};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -41,7 +41,7 @@ const HIDDEN_PHOTONS: u64 = 1 << 12;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 /// Strips of a round at least, so that all threads have work.
-const LEAST_STRIPS: u64 = 256;
+const MIN_STRIPS: u64 = 256;
 /// Channels of a picture.
 const RGB: usize = 3;
 
@@ -172,7 +172,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
         let count = camera.pixels();
         let paths_a_pixel = self.samples.saturating_mul(u64::from(self.replicates));
         let strip = (WAVE / paths_a_pixel).max(1) as usize;
-        let round = strip * (ROUND / paths_a_pixel / strip as u64).max(LEAST_STRIPS) as usize;
+        let round = strip * (ROUND / paths_a_pixel / strip as u64).max(MIN_STRIPS) as usize;
         let mut pixels = Vec::with_capacity(count);
         let mut sums = vec![PixelSums::default(); self.replicates as usize];
         while pixels.len() < count {
@@ -256,8 +256,8 @@ impl<S: Spectrum> Darkroom<'_, S> {
         points: &'p PointSet,
         index: u64,
     ) -> Start<'p, S> {
-        let mut cursor = SampleCursor::new(points, index);
-        let [u, v] = cursor.next_2d();
+        let mut sampler = Sampler::new(points, index);
+        let [u, v] = sampler.next_2d();
         let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
@@ -266,7 +266,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
             from: self.stage.world.vantage_of_sensor(self.view.position, direction),
             seeks: Seeks::Luminance { direction },
             rest: &Rest::Path,
-            cursor,
+            sampler,
         }
     }
 

@@ -1,6 +1,6 @@
 //! What coordinates are for, as the code that draws them says it.
 
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -64,15 +64,15 @@ impl Ledger {
         self.open.store(open, Ordering::Relaxed);
     }
 
-    /// Notes that dimensions from `first` on, up to where the cursor is now, were drawn. Those of a split
+    /// Notes that dimensions from `first` on, up to where the sampler is now, were drawn. Those of a split
     /// sample's children are their own, and are left out.
-    pub(crate) fn note(&self, first: u32, cursor: &SampleCursor<'_>, purpose: Purpose) {
-        let drew = first != cursor.dimension() && !cursor.is_branch();
+    pub(crate) fn note(&self, first: u32, sampler: &Sampler<'_>, purpose: Purpose) {
+        let drew = first != sampler.dimension() && !sampler.is_branch();
         if !drew || !self.open.load(Ordering::Relaxed) {
             return;
         }
         let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
-        for dimension in first..cursor.dimension() {
+        for dimension in first..sampler.dimension() {
             *uses.entry((dimension, purpose)).or_default() += 1;
         }
     }

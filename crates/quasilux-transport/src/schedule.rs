@@ -5,12 +5,12 @@
 use crate::state::{Reader, StateError, Writer};
 
 /// No run goes past this many indices per replicate.
-pub(crate) const MOST_SAMPLES: u64 = 1 << 48;
+pub(crate) const MAX_SAMPLES: u64 = 1 << 48;
 
 /// Before so many indices nothing is called done, not even where a limit ends the run. Light that few paths find, such as that of a lamp in a mirror,
 /// makes means of fewer so skew that Student's t is worth nothing, and a lucky spread would end them: with 4 paths in each of
 /// 16 replicates, intervals far from a mirror may cover 60 % (`tests/it/few.rs`).
-pub(crate) const LEAST_SAMPLES: u64 = 128;
+pub(crate) const MIN_SAMPLES: u64 = 128;
 
 /// The checkpoints of one run: a function of counts alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub(crate) struct Schedule {
 impl Schedule {
     /// The first checkpoint is at `first` or the limit.
     pub(crate) fn new(first: u64, limit: Option<u64>) -> Self {
-        let limit = limit.unwrap_or(MOST_SAMPLES).clamp(1, MOST_SAMPLES);
+        let limit = limit.unwrap_or(MAX_SAMPLES).clamp(1, MAX_SAMPLES);
         let first = first.min(limit);
         Self { first, limit, next: first }
     }
@@ -51,7 +51,7 @@ impl Schedule {
 
     /// Whether a figure may be called done there.
     pub(crate) fn is_look(&self) -> bool {
-        self.next > self.first && self.next >= LEAST_SAMPLES
+        self.next > self.first && self.next >= MIN_SAMPLES
     }
 
     /// Goes on to the checkpoint after it; `false` where the limit is reached.
@@ -68,11 +68,11 @@ impl Schedule {
 
     /// The first one of a run without a limit where a figure may be called done that needs as many.
     pub(crate) fn look_at_or_after(&self, samples: u64) -> u64 {
-        self.without_limit(samples.max(LEAST_SAMPLES))
+        self.without_limit(samples.max(MIN_SAMPLES))
     }
 
     fn without_limit(&self, samples: u64) -> u64 {
-        samples.min(MOST_SAMPLES).next_power_of_two().max(self.first)
+        samples.min(MAX_SAMPLES).next_power_of_two().max(self.first)
     }
 }
 

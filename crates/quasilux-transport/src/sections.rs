@@ -12,7 +12,7 @@ use crate::specular::HiddenEnd;
 use crate::stage::Stage;
 use crate::tally::{Quantum, Sum};
 use crate::targets::Target;
-use quasilux_sampling::{DimensionHistogram, PointSet, SampleCursor};
+use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
 use std::ops::{AddAssign, Range};
 
 /// What the paths of one target in one replicate found, in all.
@@ -101,11 +101,11 @@ impl<S: Spectrum> Section<'_, S> {
     /// Where its paths start.
     pub(crate) fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
         self.indices.clone().map(|index| {
-            let mut cursor = SampleCursor::new(&self.points, index);
+            let mut sampler = Sampler::new(&self.points, index);
             let (position, n, tests_pointlikes) = match self.target {
                 Target::Point { position, normal } => (position, normal, false),
                 Target::Cell { grid, cell } => {
-                    let u = stage.draw(&mut cursor, Purpose::Cell, SampleCursor::next_2d);
+                    let u = stage.draw(&mut sampler, Purpose::Cell, Sampler::next_2d);
                     (grid.point_in_cell(cell, u), grid.normal, true)
                 }
             };
@@ -117,7 +117,7 @@ impl<S: Spectrum> Section<'_, S> {
                 rest: &self.rest,
                 hidden: self.hidden,
                 joining: self.joining,
-                cursor,
+                sampler,
             }
         })
     }

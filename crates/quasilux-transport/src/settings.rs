@@ -192,7 +192,7 @@ impl Settings {
     #[must_use]
     pub fn effective_replicates(&self) -> u32 {
         match self.randomization {
-            Randomization::None if self.sequence != Sequence::Random => 1,
+            Randomization::None if self.sequence != Sequence::Independent => 1,
             _ => self.replicates.max(1),
         }
     }

@@ -7,14 +7,14 @@ use crate::gathering::Gathering;
 use crate::looks::miss_probability_of_a_look;
 use crate::observer::{Control, Observer};
 use crate::pixels::add_pictures;
-use crate::schedule::{LEAST_SAMPLES, Schedule};
+use crate::schedule::{MIN_SAMPLES, Schedule};
 use crate::settings::{Estimator, Settings};
 use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::state::{Course, Decisions, Reader, StateError, Writer};
 use crate::tolerance::Standing;
 use crate::watch::Watch;
-use quasilux_bvh::Kernel;
+use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
 
@@ -32,20 +32,20 @@ const ROUNDING: f64 = 1e-12;
 /// sense for the scene.
 #[must_use]
 pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
-    simulate_on(Kernel::fastest(), scene, settings, observer)
+    simulate_on(SimdLevel::fastest(), scene, settings, observer)
 }
 
 /// The same with a ray kernel of choice.
 pub(crate) fn simulate_on(
-    kernel: Kernel,
+    simd: SimdLevel,
     scene: &Scene,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Estimates {
     let estimates = if is_grey(scene) {
-        run(&Stage::<f64>::on(kernel, scene, settings), scene, settings, None, observer)
+        run(&Stage::<f64>::on(simd, scene, settings), scene, settings, None, observer)
     } else {
-        run(&Stage::<Rgb>::on(kernel, scene, settings), scene, settings, None, observer)
+        run(&Stage::<Rgb>::on(simd, scene, settings), scene, settings, None, observer)
     };
     estimates.expect("a run from the start needs no state")
 }
@@ -261,12 +261,12 @@ pub(crate) fn look<S: Spectrum>(
     // Without sensors there is nothing to be wrong about, and what is not sampled is exact.
     let is_exact =
         settings.max_bounces == Some(0) && standing.largest().is_some_and(|w| w < ROUNDING);
-    let may_be_done = scene.sensors.is_empty() || is_exact || estimates.samples >= LEAST_SAMPLES;
+    let may_be_done = scene.sensors.is_empty() || is_exact || estimates.samples >= MIN_SAMPLES;
     estimates.tolerance_reached = standing.is_reached && may_be_done;
     if standing.is_reached && !may_be_done {
         estimates.warnings.push(format!(
             "half-widths are within the tolerance, but {} samples are too few to rely on them: nothing is \
-             called done before {LEAST_SAMPLES}",
+             called done before {MIN_SAMPLES}",
             estimates.samples
         ));
     }

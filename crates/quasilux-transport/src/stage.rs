@@ -7,8 +7,8 @@ use crate::spectrum::Spectrum;
 use crate::specular::SpecularImages;
 use crate::trial::Stopwatch;
 use crate::world::World;
-use quasilux_bvh::Kernel;
-use quasilux_sampling::{PointSet, SampleCursor, Sequence, stream_key};
+use quasilux_bvh::SimdLevel;
+use quasilux_sampling::{PointSet, Sampler, Sequence, stream_key};
 use quasilux_scene::Scene;
 
 /// A scene made ready for one simulation.
@@ -90,7 +90,7 @@ impl Stream {
     /// The sequence of its points in a run with this one.
     pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
         match (self, of_run) {
-            (Self::JoinedPlaces(_), Sequence::Random) => Sequence::Random,
+            (Self::JoinedPlaces(_), Sequence::Independent) => Sequence::Independent,
             // Their dimensions are high ones, where other sequences are no good.
             (Self::JoinedPlaces(_), _) => Sequence::Sobol,
             // A plan has its own number of photons.
@@ -112,12 +112,12 @@ impl Stream {
 
 impl<'a, S: Spectrum> Stage<'a, S> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
-        Self::on(Kernel::fastest(), scene, settings)
+        Self::on(SimdLevel::fastest(), scene, settings)
     }
 
     /// The same for a ray kernel of choice: no result depends on it.
-    pub(crate) fn on(kernel: Kernel, scene: &'a Scene, settings: &'a Settings) -> Self {
-        let world = World::new(scene, kernel);
+    pub(crate) fn on(simd: SimdLevel, scene: &'a Scene, settings: &'a Settings) -> Self {
+        let world = World::new(scene, simd);
         let lights = Lights::new(scene, &world);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
         let hides = images.hides(&world, &lights);
@@ -167,14 +167,14 @@ impl<'a, S: Spectrum> Stage<'a, S> {
     #[inline]
     pub(crate) fn draw<'p, T>(
         &self,
-        cursor: &mut SampleCursor<'p>,
+        sampler: &mut Sampler<'p>,
         purpose: Purpose,
-        draw: impl FnOnce(&mut SampleCursor<'p>) -> T,
+        draw: impl FnOnce(&mut Sampler<'p>) -> T,
     ) -> T {
-        let first = cursor.dimension();
-        let drawn = draw(cursor);
+        let first = sampler.dimension();
+        let drawn = draw(sampler);
         if let Some(ledger) = self.ledger {
-            ledger.note(first, cursor, purpose);
+            ledger.note(first, sampler, purpose);
         }
         drawn
     }

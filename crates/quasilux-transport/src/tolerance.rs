@@ -6,9 +6,9 @@ use crate::settings::{Settings, ToleranceOn};
 
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
-const LEAST_TRIES: f64 = (1 << 14) as f64;
+const MIN_TRIES: f64 = (1 << 14) as f64;
 /// The same where narrow lobes were missed: that more paths will meet them is certain.
-const LEAST_TRIES_OF_LOBES: f64 = (1 << 20) as f64;
+const MIN_TRIES_OF_LOBES: f64 = (1 << 20) as f64;
 
 /// How all targets stand at a checkpoint, in the order of their sensors.
 pub(crate) struct Standing {
@@ -34,7 +34,7 @@ impl Standing {
         let is_wanted = settings.has_tolerance() && replicates >= 2;
         let tries = estimates.samples as f64 * f64::from(replicates);
         let had_a_chance =
-            |missed: bool| tries >= if missed { LEAST_TRIES_OF_LOBES } else { LEAST_TRIES };
+            |missed: bool| tries >= if missed { MIN_TRIES_OF_LOBES } else { MIN_TRIES };
         let mut standing = Self {
             relative_widths: Vec::new(),
             excess: Vec::new(),

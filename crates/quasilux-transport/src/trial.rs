@@ -4,7 +4,7 @@
 //! Public because benchmarks and the tests that compare stand outside the crate. The photon trace has no checkpoints and no
 //! intervals: figures come from [`crate::simulate`].
 
-pub use quasilux_bvh::Kernel;
+pub use quasilux_bvh::SimdLevel;
 
 use crate::Estimates;
 use crate::counting::Counting;
@@ -67,10 +67,10 @@ pub trait PhotonTrial: Send {
     fn counters(&self) -> Vec<u64>;
 }
 
-/// What [`crate::simulate`] finds with a ray kernel of choice, one of [`Kernel::all`].
+/// What [`crate::simulate`] finds with a ray kernel of choice, one of [`SimdLevel::all`].
 #[must_use]
-pub fn simulate_with(kernel: Kernel, scene: &Scene, settings: &Settings) -> Estimates {
-    simulate_on(kernel, scene, settings, &mut ())
+pub fn simulate_with(simd: SimdLevel, scene: &Scene, settings: &Settings) -> Estimates {
+    simulate_on(simd, scene, settings, &mut ())
 }
 
 /// Sets a scene up as the estimator `photon` does, and hands it to `measure`.

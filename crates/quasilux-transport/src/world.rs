@@ -4,7 +4,7 @@ use crate::bsdf::Bsdf;
 use crate::frame::Frame;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_bvh::{Hit, Kernel, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::{Light, Scene};
 
@@ -16,7 +16,7 @@ const OFFSET: f64 = 1.0 / (1_u64 << 45) as f64;
 /// Sensor points stand this share of the scene's size in front of where they were put: a hair.
 const HAIR: f64 = 1.0 / (1_u64 << 30) as f64;
 /// Offsets are at least this share of the largest coordinate: a few units of its last place.
-const LEAST_OFFSET: f64 = 8.0 * f64::EPSILON;
+const MIN_OFFSET: f64 = 8.0 * f64::EPSILON;
 /// Shadow rays end this share of their length before the light, which may lie on a surface.
 const SHORTENING: f64 = 1e-9;
 
@@ -86,7 +86,7 @@ struct FlushEmitters {
 }
 
 impl<S: Spectrum> World<S> {
-    pub(crate) fn new(scene: &Scene, kernel: Kernel) -> Self {
+    pub(crate) fn new(scene: &Scene, simd: SimdLevel) -> Self {
         let mesh = &scene.mesh;
         let mut facets: Vec<Facet> = (0..mesh.triangles.len() as u32)
             .map(|triangle| Facet {
@@ -104,11 +104,11 @@ impl<S: Spectrum> World<S> {
             }
         }
         let corners = facets.iter().map(|facet| facet.corners).collect();
-        let bvh = TriangleBvh::build_for(corners, kernel);
+        let bvh = TriangleBvh::build_for(corners, simd);
         let bounds = mesh.bounds();
         let [low, high] = bounds.unwrap_or([DVec3::ZERO, DVec3::ONE]);
         let size_m = (high - low).length();
-        let least_m = LEAST_OFFSET * low.abs().max(high.abs()).max_element();
+        let least_m = MIN_OFFSET * low.abs().max(high.abs()).max_element();
         let mut world = Self {
             facets,
             bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
@@ -121,7 +121,7 @@ impl<S: Spectrum> World<S> {
             offset_m: (OFFSET * size_m).max(least_m),
             hair_m: (HAIR * size_m).max(4.0 * least_m),
         };
-        world.flush_emitters = FlushEmitters::of(&world, kernel);
+        world.flush_emitters = FlushEmitters::of(&world, simd);
         let is_pane = |facet: &Facet| world.bsdf_of(facet).straight_transmittance(1.0).is_some();
         world.has_panes = world.facets.iter().any(is_pane);
         world
@@ -201,7 +201,7 @@ impl<S: Spectrum> World<S> {
     ) {
         hits.clear();
         hits.resize(shots.len(), None);
-        self.bvh.closest_hits(shots, hits);
+        self.bvh.closest_hit_batch(shots, hits);
         found.clear();
         found.extend(shots.iter().zip(hits).map(|(shot, hit)| {
             let hit = self.unless_flush((*hit)?, &shot.ray, shot.excluded[0]);
@@ -213,15 +213,15 @@ impl<S: Spectrum> World<S> {
     pub(crate) fn are_visible(&self, sights: &[Shot], visible: &mut Vec<bool>) {
         visible.clear();
         visible.resize(sights.len(), false);
-        self.bvh.are_occluded(sights, visible);
+        self.bvh.occluded_batch(sights, visible);
         visible.iter_mut().for_each(|visible| *visible = !*visible);
     }
 
     /// The first facets that many rays meet, in their order.
-    pub(crate) fn closest_hits(&self, shots: &[Shot], hits: &mut Vec<Option<Hit>>) {
+    pub(crate) fn closest_hit_batch(&self, shots: &[Shot], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
         hits.resize(shots.len(), None);
-        self.bvh.closest_hits(shots, hits);
+        self.bvh.closest_hit_batch(shots, hits);
     }
 
     /// Where a ray goes on behind the pane that it meets; `None` where it meets something else.
@@ -315,7 +315,7 @@ impl<S: Spectrum> World<S> {
 
 impl FlushEmitters {
     /// Looks a hair in front of and behind each emitting facet, at 16 places spread over it.
-    fn of<S: Spectrum>(world: &World<S>, kernel: Kernel) -> Option<Self> {
+    fn of<S: Spectrum>(world: &World<S>, simd: SimdLevel) -> Option<Self> {
         let emits = |&facet: &u32| world.facets[facet as usize].emitted_cd_m2 > 0.0;
         let facets: Vec<u32> = (0..world.facets.len() as u32).filter(emits).collect();
         let corners = facets.iter().map(|&facet| world.facets[facet as usize].corners).collect();
@@ -329,7 +329,7 @@ impl FlushEmitters {
             })
         };
         let found = facets.iter().any(is_flush);
-        found.then(|| Self { bvh: TriangleBvh::build_for(corners, kernel), facets })
+        found.then(|| Self { bvh: TriangleBvh::build_for(corners, simd), facets })
     }
 
     /// The emitting facet that a ray meets together with `hit`, or just behind it.

@@ -5,7 +5,7 @@
 //! nothing, and bins are merged by minima, maxima and sums of integers.
 
 mod bins;
-mod chop;
+mod clip;
 mod grid;
 mod reference;
 mod spatial;
@@ -16,7 +16,7 @@ pub(crate) use wide::{Leaf, WideTree, collapse};
 use crate::frame::Frame;
 use crate::node::WIDTH;
 use bins::ObjectSplit;
-use chop::Triangles;
+use clip::Triangles;
 use glam::DVec3;
 use reference::{Bounds, Extent, Reference};
 use spatial::SpatialSplit;
@@ -45,7 +45,7 @@ const PARALLEL: usize = 2048;
 const CHILD_COST: f32 = 0.3;
 
 /// At most this many copies are made for each triangle.
-const MOST_COPIES: f64 = 1.0;
+const MAX_COPIES: f64 = 1.0;
 
 /// A spatial split must cost less than this share of the object split: copies make blocks fuller, which
 /// the costs of both halves do not show.
@@ -53,17 +53,17 @@ const WORTHWHILE: f32 = 0.98;
 
 /// Spatial splits are tried where the halves of an object split overlap by this share of the whole
 /// surface,
-const LEAST_OVERLAP: f32 = 1e-4;
+const MIN_OVERLAP: f32 = 1e-4;
 
 /// and by this share of the surface of their own box: below, trees do not get better.
-const LEAST_SHARE: f32 = 0.1;
+const MIN_SHARE: f32 = 0.1;
 
 /// The tree over all triangles, of which there must be some.
 pub(crate) fn build(corners: &[[DVec3; 3]], frame: Frame) -> Binary {
     let count = corners.len();
-    let mut storage = reference::all(corners, &frame, (count as f64 * MOST_COPIES) as usize);
+    let mut storage = reference::all(corners, &frame, (count as f64 * MAX_COPIES) as usize);
     let extent = Extent::of(&storage[..count]);
-    let least_overlap = LEAST_OVERLAP * extent.bounds.half_area();
+    let least_overlap = MIN_OVERLAP * extent.bounds.half_area();
     let builder = Builder { triangles: Triangles { corners, frame }, least_overlap };
     builder.subtree(Share { storage: &mut storage, count, extent, depth: 0 })
 }
@@ -141,7 +141,7 @@ impl Builder<'_> {
         let spare = share.storage.len() - share.count;
         if spare == 0
             || share.count <= WIDTH
-            || overlap < self.least_overlap.max(LEAST_SHARE * bounds.half_area())
+            || overlap < self.least_overlap.max(MIN_SHARE * bounds.half_area())
         {
             return None;
         }

@@ -6,7 +6,7 @@
 //! single precision.
 
 use super::bins::blocks;
-use super::chop::{Chopped, Triangles};
+use super::clip::{ClippedTriangle, Triangles};
 use super::grid::{BINS, Grid};
 use super::reference::{Bounds, Reference, in_parts};
 
@@ -49,7 +49,7 @@ struct Bin {
 
 type Histogram = [[Bin; BINS]; 3];
 
-const NOTHING: Histogram = [[Bin { bounds: Bounds::EMPTY, entering: 0, leaving: 0 }; BINS]; 3];
+const MISS: Histogram = [[Bin { bounds: Bounds::EMPTY, entering: 0, leaving: 0 }; BINS]; 3];
 
 impl SpatialSplit {
     /// The best plane between bins of equal width.
@@ -154,12 +154,12 @@ impl Side {
 }
 
 fn histogram(triangles: Triangles<'_>, grid: &Grid, references: &[Reference]) -> Histogram {
-    let mut histogram = NOTHING;
+    let mut histogram = MISS;
     let mut parts = [Bounds::EMPTY; BINS];
     for reference in references {
         let whole = reference.bounds();
         let (first, last) = (grid.bins(whole.low), grid.bins(whole.high));
-        let mut chopped = None;
+        let mut clipped = None;
         for (axis, bins) in histogram.iter_mut().enumerate() {
             let (first, last) = (first[axis], last[axis]);
             bins[first].entering += 1;
@@ -168,9 +168,10 @@ fn histogram(triangles: Triangles<'_>, grid: &Grid, references: &[Reference]) ->
                 bins[first].bounds = bins[first].bounds.union(whole);
                 continue;
             }
-            let chopped = chopped
-                .get_or_insert_with(|| Chopped::new(grid, triangles.single(reference.triangle())));
-            chopped.parts(axis, first..=last, &mut parts);
+            let clipped = clipped.get_or_insert_with(|| {
+                ClippedTriangle::new(grid, triangles.single(reference.triangle()))
+            });
+            clipped.parts(axis, first..=last, &mut parts);
             for (bin, part) in bins[first..=last].iter_mut().zip(&parts[first..=last]) {
                 let part = part.intersection(whole);
                 if part.low.cmple(part.high).all() {

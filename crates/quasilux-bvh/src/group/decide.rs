@@ -2,9 +2,9 @@
 //!
 //! What [`crate::intersect()`] does with one ray and one triangle, operation by operation, so that the bits are the same.
 
-use crate::group::found::{Another, Found};
+use crate::group::candidates::{ExtraCandidate, GroupCandidates};
 use crate::group::rays::Rays;
-use crate::group::{Heading, Party};
+use crate::group::{Heading, RayGroup};
 use crate::intersect::least_area;
 use crate::lanes::Quad;
 use crate::node::{NONE, WIDTH};
@@ -15,22 +15,22 @@ use glam::DVec3;
 /// Rays decided at once.
 const FOUR: usize = 4;
 
-impl Found {
+impl GroupCandidates {
     /// The closest hit of each ray.
     #[inline(always)]
     pub(crate) fn decide_closest<Q: Quad>(
         &mut self,
-        party: Party<'_>,
+        group: RayGroup<'_>,
         rays: &Rays,
         hits: &mut [Option<Hit>],
     ) {
-        let (corners, shots) = (&party.tree.corners, party.shots);
+        let (corners, shots) = (&group.tree.corners, group.shots);
         let ones = self.one.as_flattened();
         for (i, (shots, hits)) in shots.chunks(FOUR).zip(hits.chunks_mut(FOUR)).enumerate() {
             let triangles = &ones[FOUR * i..FOUR * (i + 1)];
             if let (Ok(shots), Ok(hits)) = (shots.try_into(), (&mut *hits).try_into())
                 && let Ok(triangles) = triangles.try_into()
-                && decide_four::<Q>(party.heading, corners, shots, triangles, hits)
+                && decide_four::<Q>(group.heading, corners, shots, triangles, hits)
             {
                 continue;
             }
@@ -38,7 +38,7 @@ impl Found {
                 *hit = decide(corners, shot, triangle);
             }
         }
-        for Another { ray, triangle, earliest } in self.more.drain(..) {
+        for ExtraCandidate { ray, triangle, earliest } in self.more.drain(..) {
             if earliest <= rays.end[ray / WIDTH][ray % WIDTH]
                 && let Some(hit) = decide(corners, &shots[ray], triangle)
                 && wins(&hit, &hits[ray])
@@ -49,16 +49,16 @@ impl Found {
     }
 
     /// Whether each ray hits anything.
-    pub(crate) fn decide_any(&mut self, party: Party<'_>, rays: &Rays, occluded: &mut [bool]) {
-        let corners = &party.tree.corners;
-        for (i, (shot, occluded)) in party.shots.iter().zip(&mut *occluded).enumerate() {
+    pub(crate) fn decide_any(&mut self, group: RayGroup<'_>, rays: &Rays, occluded: &mut [bool]) {
+        let corners = &group.tree.corners;
+        for (i, (shot, occluded)) in group.shots.iter().zip(&mut *occluded).enumerate() {
             let (k, lane) = (i / WIDTH, i % WIDTH);
             *occluded = self.occluded[k] >> lane & 1 == 1
                 || decide(corners, shot, self.one[k][lane]).is_some();
         }
-        for Another { ray, triangle, .. } in self.more.drain(..) {
+        for ExtraCandidate { ray, triangle, .. } in self.more.drain(..) {
             if !occluded[ray] && rays.active[ray / WIDTH] >> (ray % WIDTH) & 1 == 1 {
-                occluded[ray] = decide(corners, &party.shots[ray], triangle).is_some();
+                occluded[ray] = decide(corners, &group.shots[ray], triangle).is_some();
             }
         }
     }

@@ -1,7 +1,7 @@
-//! Rays that travel together, up to [`MOST`] at a time.
+//! Rays that travel together, up to [`MAX_GROUP`] at a time.
 //!
 //! Photons that leave a lamp in nearly the same direction meet the same boxes and the same triangles. So
-//! what is alike is found out once for all of them: a box is held against the shaft around the
+//! what is alike is candidates out once for all of them: a box is held against the shaft around the
 //! rays (Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm", SIGGRAPH; here
 //! for all eight children of a node at once), and a triangle against the directions of all rays
 //! before it is held against eight rays at a time. As for single rays, all of this only proposes; the
@@ -10,46 +10,46 @@
 //! Where rays part the shaft holds too much; then they are given up as a group.
 //!
 //! Where what is: `run` finds rays that belong together, `rays` has them by coordinate, `shaft` is
-//! what surrounds them, `eye` what they see of triangles, `found` what they may hit, `walk` their
-//! way, `decide` the decision, `pace` how many of them go together.
+//! what surrounds them, `tester` what they see of triangles, `candidates` what they may hit, `walk` their
+//! way, `decide` the decision, `group_size` how many of them go together.
 
+mod candidates;
+mod coherence;
 mod decide;
-mod eye;
-mod found;
-mod pace;
+mod group_size;
 mod rays;
-mod run;
 mod shaft;
-mod walk;
+mod traverse;
+mod triangle_tester;
 
 use crate::frame::Frame;
-use crate::kernel::{Errand, Kernel};
 use crate::lanes::Lanes;
+use crate::simd_level::{SimdLevel, SimdTask};
 use crate::traverse::Tree;
 use crate::{Hit, Shot};
-use eye::{OnePoint, Spread};
-use found::Found;
-pub(crate) use pace::Pace;
+use candidates::GroupCandidates;
+pub(crate) use coherence::{Heading, RayRun};
+pub(crate) use group_size::GroupSize;
 use rays::Rays;
-pub(crate) use run::{Heading, Run};
 use shaft::Shaft;
+use triangle_tester::{CommonOrigin, SeparateOrigins};
 
 /// Rays of a group.
-pub(crate) const MOST: usize = 128;
+pub(crate) const MAX_GROUP: usize = 128;
 
-/// Rays and what they found, for one group after the other.
-pub(crate) struct Group {
+/// Rays and what they candidates, for one group after the other.
+pub(crate) struct GroupTracer {
     rays: Rays,
-    found: Found,
+    candidates: GroupCandidates,
 }
 
 /// The rays of a group are too far apart to be traced together.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Parted;
+pub(crate) struct Diverged;
 
 /// The rays of one group, and where they fly.
 #[derive(Clone, Copy)]
-pub(crate) struct Party<'a> {
+pub(crate) struct RayGroup<'a> {
     pub(crate) tree: &'a Tree,
     pub(crate) frame: &'a Frame,
     pub(crate) heading: Heading,
@@ -63,61 +63,71 @@ pub(crate) enum Answers<'a> {
 }
 
 /// The way of one group.
-struct Together<'a> {
-    group: &'a mut Group,
-    party: Party<'a>,
+struct GroupTask<'a> {
+    tracer: &'a mut GroupTracer,
+    group: RayGroup<'a>,
     answers: Answers<'a>,
 }
 
-impl Errand for Together<'_> {
-    type Result = Result<usize, Parted>;
+impl SimdTask for GroupTask<'_> {
+    type Result = Result<usize, Diverged>;
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Result {
-        self.group.trace::<L>(self.party, self.answers)
+        self.tracer.trace::<L>(self.group, self.answers)
     }
 }
 
-impl Group {
+impl GroupTracer {
     pub(crate) fn new() -> Self {
-        Self { rays: Rays::new(), found: Found::new() }
+        Self { rays: Rays::new(), candidates: GroupCandidates::new() }
     }
 
-    /// Answers a run of rays, and returns what that cost by [`Pace`]'s measure.
+    /// Answers a run of rays, and returns what that cost by [`GroupSize`]'s measure.
     #[inline(always)]
     pub(crate) fn answer(
         &mut self,
-        kernel: Kernel,
-        party: Party<'_>,
+        simd: SimdLevel,
+        group: RayGroup<'_>,
         answers: Answers<'_>,
-    ) -> Result<usize, Parted> {
-        kernel.run(Together { group: self, party, answers })
+    ) -> Result<usize, Diverged> {
+        simd.run(GroupTask { tracer: self, group, answers })
     }
 
     #[inline(always)]
-    fn trace<L: Lanes>(&mut self, party: Party<'_>, answers: Answers<'_>) -> Result<usize, Parted> {
-        let Self { rays, found } = self;
-        rays.fill(party.frame, party.shots);
-        found.clear(rays);
-        let shaft = Shaft::<L>::new(rays, party.heading);
-        let tree = party.tree;
+    fn trace<L: Lanes>(
+        &mut self,
+        group: RayGroup<'_>,
+        answers: Answers<'_>,
+    ) -> Result<usize, Diverged> {
+        let Self { rays, candidates } = self;
+        rays.fill(group.frame, group.shots);
+        candidates.clear(rays);
+        let shaft = Shaft::<L>::new(rays, group.heading);
+        let tree = group.tree;
         let cost = match (&answers, rays.one_origin) {
-            (Answers::Closest(_), true) => {
-                tree.walk_together::<L, _, false>(rays, &shaft, &OnePoint::new(rays, &shaft), found)
-            }
+            (Answers::Closest(_), true) => tree.traverse_group::<L, _, false>(
+                rays,
+                &shaft,
+                &CommonOrigin::new(rays, &shaft),
+                candidates,
+            ),
             (Answers::Closest(_), false) => {
-                tree.walk_together::<L, _, false>(rays, &shaft, &Spread, found)
+                tree.traverse_group::<L, _, false>(rays, &shaft, &SeparateOrigins, candidates)
             }
-            (Answers::Occluded(_), true) => {
-                tree.walk_together::<L, _, true>(rays, &shaft, &OnePoint::new(rays, &shaft), found)
-            }
+            (Answers::Occluded(_), true) => tree.traverse_group::<L, _, true>(
+                rays,
+                &shaft,
+                &CommonOrigin::new(rays, &shaft),
+                candidates,
+            ),
             (Answers::Occluded(_), false) => {
-                tree.walk_together::<L, _, true>(rays, &shaft, &Spread, found)
+                tree.traverse_group::<L, _, true>(rays, &shaft, &SeparateOrigins, candidates)
             }
         }?;
         match answers {
-            Answers::Closest(hits) => found.decide_closest::<L::Quad>(party, rays, hits),
-            Answers::Occluded(occluded) => found.decide_any(party, rays, occluded),
+            Answers::Closest(hits) => candidates.decide_closest::<L::Quad>(group, rays, hits),
+            Answers::Occluded(occluded) => candidates.decide_any(group, rays, occluded),
         }
         Ok(cost)
     }

@@ -2,13 +2,13 @@
 
 use crate::Shot;
 use crate::frame::Frame;
-use crate::group::MOST;
+use crate::group::MAX_GROUP;
 use crate::lanes::Lanes;
 use crate::node::WIDTH;
 use glam::DVec3;
 
 /// Vectors of rays.
-pub(crate) const VECTORS: usize = MOST / WIDTH;
+pub(crate) const VECTORS: usize = MAX_GROUP / WIDTH;
 
 /// A number of each ray.
 pub(crate) type ByRay<T> = [[T; WIDTH]; VECTORS];
@@ -48,7 +48,7 @@ impl Rays {
     /// Takes in the rays of a run.
     #[inline(always)]
     pub(crate) fn fill(&mut self, frame: &Frame, shots: &[Shot]) {
-        debug_assert!(!shots.is_empty() && shots.len() <= MOST);
+        debug_assert!(!shots.is_empty() && shots.len() <= MAX_GROUP);
         self.vectors = shots.len().div_ceil(WIDTH);
         self.excludes = false;
         self.one_origin = true;

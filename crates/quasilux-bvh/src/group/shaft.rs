@@ -10,8 +10,8 @@
 //! by `9`, and by `12 (1 + 3)` more where the corners of a triangle come from its edges. The sum is `124`.
 
 use crate::frame::H;
+use crate::group::coherence::Heading;
 use crate::group::rays::Rays;
-use crate::group::run::Heading;
 use crate::lanes::Lanes;
 use crate::node::{Block, Node};
 

@@ -3,7 +3,7 @@
 use crate::meshes::{Numbers, Triangles, hard_meshes};
 use crate::rays::{BATCHES, bits, hard_shots};
 use glam::DVec3;
-use quasilux_bvh::{Hit, Kernel, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
 
 #[test]
 fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
@@ -11,8 +11,8 @@ fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
     let before = Some(Hit { triangle: 5, distance: 1e-9, barycentric: [1.0, 0.0, 0.0] });
     let numbers = &mut Numbers(7);
     for (name, mesh) in hard_meshes(numbers, 1) {
-        let build = |kernel| TriangleBvh::build_for(mesh.clone(), kernel);
-        let bvhs: Vec<_> = Kernel::all().into_iter().map(build).collect();
+        let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
+        let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         for count in BATCHES {
             let shots = hard_shots(&mesh, count, numbers);
             let slow = |shot: &Shot| bvhs[0].closest_hit_by_brute_force(&shot.ray, &shot.excluded);
@@ -20,8 +20,8 @@ fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
             for bvh in &bvhs {
                 let (mut hits, mut occluded) =
                     (vec![before; count], vec![count.is_multiple_of(2); count]);
-                bvh.closest_hits(&shots, &mut hits);
-                bvh.are_occluded(&shots, &mut occluded);
+                bvh.closest_hit_batch(&shots, &mut hits);
+                bvh.occluded_batch(&shots, &mut occluded);
                 for (i, shot) in shots.iter().enumerate() {
                     let place = || format!("{name}, {i} of {count}: {shot:?}");
                     assert_eq!(bits(hits[i]), bits(wanted[i]), "{}", place());
@@ -38,8 +38,8 @@ fn nothing_is_hit_where_nothing_is() {
     let shots = hard_shots(&vec![[DVec3::ZERO, DVec3::X, DVec3::Y]], 100, &mut Numbers(3));
     let before = Some(Hit { triangle: 0, distance: 1.0, barycentric: [1.0, 0.0, 0.0] });
     let (mut hits, mut occluded) = (vec![before; 100], vec![true; 100]);
-    bvh.closest_hits(&shots, &mut hits);
-    bvh.are_occluded(&shots, &mut occluded);
+    bvh.closest_hit_batch(&shots, &mut hits);
+    bvh.occluded_batch(&shots, &mut occluded);
     assert!(hits.iter().all(Option::is_none) && !occluded.contains(&true));
 }
 
@@ -55,11 +55,11 @@ fn rays_that_need_more_room_are_answered_too() {
             Shot { ray, excluded: [i as u32 % 3, 1] }
         })
         .collect();
-    for kernel in Kernel::all() {
-        let bvh = TriangleBvh::build_for(mesh.clone(), kernel);
+    for simd in SimdLevel::all() {
+        let bvh = TriangleBvh::build_for(mesh.clone(), simd);
         let (mut hits, mut occluded) = ([None; 40], [false; 40]);
-        bvh.closest_hits(&shots, &mut hits);
-        bvh.are_occluded(&shots, &mut occluded);
+        bvh.closest_hit_batch(&shots, &mut hits);
+        bvh.occluded_batch(&shots, &mut occluded);
         for (Shot { ray, excluded }, hit) in shots.iter().zip(hits) {
             assert_eq!(bits(hit), bits(bvh.closest_hit(ray, excluded)), "{ray:?}");
         }

@@ -1,6 +1,6 @@
 //! Hierarchies over meshes on which builders have failed are valid, and no larger than others.
 
-use crate::crowds::crowds;
+use crate::degenerate_meshes::degenerate_meshes;
 use crate::meshes::{Numbers, hard_meshes};
 use glam::DVec3;
 use quasilux_bvh::{Ray, TriangleBvh};
@@ -17,7 +17,7 @@ fn hard_meshes_have_valid_hierarchies_at_every_size() {
 
 #[test]
 fn crowds_of_triangles_have_valid_hierarchies() {
-    for (name, mesh) in crowds(&mut Numbers(5), 20_000) {
+    for (name, mesh) in degenerate_meshes(&mut Numbers(5), 20_000) {
         let count = mesh.len();
         let [a, b, c] = mesh[count - 1];
         let bvh = TriangleBvh::build(mesh);

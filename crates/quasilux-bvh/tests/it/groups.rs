@@ -3,7 +3,7 @@
 use crate::meshes::{Numbers, Triangles, ball, hard_meshes};
 use crate::rays::unit;
 use glam::DVec3;
-use quasilux_bvh::{Hit, Kernel, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
 
 /// Runs of rays at each mesh, and rays of a run.
 const RUNS: usize = 240;
@@ -74,8 +74,8 @@ fn runs_are_answered_as_ray_by_ray() {
     let mut meshes = hard_meshes(numbers, 3);
     meshes.push(("fine ball", ball(DVec3::new(1.0, 2.0, 3.0), 2.0, 5)));
     for (name, mesh) in meshes {
-        let build = |kernel| TriangleBvh::build_for(mesh.clone(), kernel);
-        let bvhs: Vec<_> = Kernel::all().into_iter().map(build).collect();
+        let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
+        let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         let mut found = 0;
         for run in 0..RUNS {
             let kind = KINDS[run % KINDS.len()];
@@ -88,10 +88,10 @@ fn runs_are_answered_as_ray_by_ray() {
             found += alone.iter().flatten().count();
             for bvh in &bvhs {
                 let mut hits = vec![None; shots.len()];
-                bvh.closest_hits(&shots, &mut hits);
+                bvh.closest_hit_batch(&shots, &mut hits);
                 assert_eq!(hits, alone, "{name}, run {run}, {kind:?}");
                 let mut blocked = vec![false; shots.len()];
-                bvh.are_occluded(&shots, &mut blocked);
+                bvh.occluded_batch(&shots, &mut blocked);
                 assert_eq!(blocked, occluded, "{name}, run {run}, {kind:?}");
             }
         }
@@ -132,8 +132,8 @@ fn no_ray_of_a_run_leaves_a_closed_mesh() {
     let numbers = &mut Numbers(42);
     for (centre, radius) in [(DVec3::ZERO, 1.0), (DVec3::new(1e4, -2e4, 5e3), 2.0)] {
         let mesh = ball(centre, radius, 5);
-        for kernel in Kernel::all() {
-            let bvh = TriangleBvh::build_for(mesh.clone(), kernel);
+        for simd in SimdLevel::all() {
+            let bvh = TriangleBvh::build_for(mesh.clone(), simd);
             for part in mesh.chunks(20) {
                 let origin = centre + numbers.direction() * (0.5 * radius);
                 let shots: Vec<Shot> = part
@@ -148,11 +148,11 @@ fn no_ray_of_a_run_leaves_a_closed_mesh() {
                     })
                     .collect();
                 let mut hits = vec![None; shots.len()];
-                bvh.closest_hits(&shots, &mut hits);
+                bvh.closest_hit_batch(&shots, &mut hits);
                 let leak = hits.iter().position(Option::is_none);
                 assert_eq!(leak, None, "{:?}", leak.map(|i| shots[i]));
                 let mut occluded = vec![false; shots.len()];
-                bvh.are_occluded(&shots, &mut occluded);
+                bvh.occluded_batch(&shots, &mut occluded);
                 assert!(occluded.iter().all(|&occluded| occluded));
             }
         }
@@ -162,9 +162,9 @@ fn no_ray_of_a_run_leaves_a_closed_mesh() {
 #[test]
 fn no_rays_are_no_trouble() {
     let bvh = TriangleBvh::build(Vec::new());
-    bvh.closest_hits(&[], &mut []);
+    bvh.closest_hit_batch(&[], &mut []);
     let shot = Shot { ray: Ray::new(DVec3::ZERO, DVec3::Z), excluded: [Shot::NONE; 2] };
     let mut hits = [None; 20];
-    bvh.closest_hits(&[shot; 20], &mut hits);
+    bvh.closest_hit_batch(&[shot; 20], &mut hits);
     assert_eq!(hits, [None; 20]);
 }

@@ -58,8 +58,8 @@ fn leaks(bvh: &TriangleBvh, rays: &[Ray]) -> [usize; 4] {
     let shots: Vec<Shot> =
         rays.iter().map(|&ray| Shot { ray, excluded: [Shot::NONE; 2] }).collect();
     let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
-    bvh.closest_hits(&shots, &mut hits);
-    bvh.are_occluded(&shots, &mut occluded);
+    bvh.closest_hit_batch(&shots, &mut hits);
+    bvh.occluded_batch(&shots, &mut occluded);
     [
         rays.iter().filter(|ray| bvh.closest_hit(ray, &[]).is_none()).count(),
         rays.iter().filter(|ray| !bvh.is_occluded(ray, &[])).count(),

@@ -2,7 +2,7 @@
 
 mod batches;
 mod builds;
-mod crowds;
+mod degenerate_meshes;
 mod groups;
 mod leaks;
 mod meshes;

@@ -3,7 +3,7 @@
 use crate::meshes::{Numbers, Triangles, ball, soup};
 use crate::rays::bits;
 use glam::DVec3;
-use quasilux_bvh::{Kernel, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Ray, Shot, SimdLevel, TriangleBvh};
 
 /// So many of the same ray are traced as a group, and one alone.
 const BATCHES: [usize; 2] = [1, 24];
@@ -18,8 +18,8 @@ fn meshes() -> [Triangles; 3] {
 
 fn each_bvh(check: impl Fn(&TriangleBvh)) {
     for mesh in meshes() {
-        for kernel in Kernel::all() {
-            let bvh = TriangleBvh::build_for(mesh.clone(), kernel);
+        for simd in SimdLevel::all() {
+            let bvh = TriangleBvh::build_for(mesh.clone(), simd);
             assert_eq!(bvh.validate(), Ok(()));
             check(&bvh);
         }
@@ -34,8 +34,8 @@ fn answers(bvh: &TriangleBvh, ray: Ray) -> Vec<(Option<[u64; 5]>, bool)> {
     for count in BATCHES {
         let shots = vec![Shot { ray, excluded: [Shot::NONE; 2] }; count];
         let (mut hits, mut occluded) = (vec![None; count], vec![false; count]);
-        bvh.closest_hits(&shots, &mut hits);
-        bvh.are_occluded(&shots, &mut occluded);
+        bvh.closest_hit_batch(&shots, &mut hits);
+        bvh.occluded_batch(&shots, &mut occluded);
         all.extend(hits.into_iter().map(bits).zip(occluded));
     }
     all
@@ -97,7 +97,7 @@ fn directions_of_many_lengths_come_to_an_end() {
             };
             for start in 0..4 {
                 let shots: Vec<Shot> = (start..40).map(shot).collect();
-                bvh.closest_hits(&shots, &mut vec![None; shots.len()]);
+                bvh.closest_hit_batch(&shots, &mut vec![None; shots.len()]);
             }
         }
     });
@@ -105,8 +105,8 @@ fn directions_of_many_lengths_come_to_an_end() {
 
 #[test]
 fn huge_coordinates_are_answered_as_by_the_slow_twin() {
-    for kernel in Kernel::all() {
-        let bvh = TriangleBvh::build_for(ball(DVec3::ZERO, 1.0, 2), kernel);
+    for simd in SimdLevel::all() {
+        let bvh = TriangleBvh::build_for(ball(DVec3::ZERO, 1.0, 2), simd);
         for size in [1e3, 1e6, 1e7, 1e100, 1e299] {
             for direction in [DVec3::NEG_Z, DVec3::Z, DVec3::X] {
                 let answers = answers(&bvh, Ray::new(DVec3::new(0.1, 0.2, size), direction));

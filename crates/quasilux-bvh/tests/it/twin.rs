@@ -3,7 +3,7 @@
 use crate::meshes::{Numbers, hard_meshes};
 use crate::rays::{HardQuery, bits, hard_query};
 use glam::DVec3;
-use quasilux_bvh::{Kernel, Ray, TriangleBvh};
+use quasilux_bvh::{Ray, SimdLevel, TriangleBvh};
 
 /// Rays at each mesh.
 const RAYS: usize = 9_000;
@@ -12,8 +12,8 @@ const RAYS: usize = 9_000;
 fn hard_meshes_are_hit_as_by_the_slow_twin() {
     let numbers = &mut Numbers(1);
     for (name, mesh) in hard_meshes(numbers, 3) {
-        let build = |kernel| TriangleBvh::build_for(mesh.clone(), kernel);
-        let bvhs: Vec<_> = Kernel::all().into_iter().map(build).collect();
+        let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
+        let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         let mut hits = 0;
         for i in 0..RAYS {
             let HardQuery { ray, short, excluded } = &hard_query(&mesh, i, numbers);

@@ -5,7 +5,7 @@ use super::contour::Line;
 use glam::DVec2;
 
 /// Lines shorter than this many labels carry none.
-const LEAST_LABELS: f64 = 2.5;
+const MIN_LABELS: f64 = 2.5;
 /// Distance between the places that are tried, in pixels.
 const STRIDE_PX: f64 = 4.0;
 
@@ -31,7 +31,7 @@ pub(crate) fn place(
 ) -> Option<LabelPlace> {
     let lengths = lengths_along(line);
     let total = *lengths.last()?;
-    if total < LEAST_LABELS * length_px {
+    if total < MIN_LABELS * length_px {
         return None;
     }
     let radius_px = 0.5 * length_px;

@@ -12,7 +12,7 @@ use quasilux_transport::Pixel;
 /// Share of the lit pixels that may be too dark for the scale.
 const TOO_DARK: f64 = 0.01;
 /// The scale spans at most so many decades.
-const MOST_DECADES: f64 = 4.0;
+const MAX_DECADES: f64 = 4.0;
 
 /// Luminances in 32 bits are this near to a round number where they are meant to be one.
 const HAIR: f64 = 1e-6;
@@ -35,7 +35,7 @@ impl LuminanceScale {
         let dark = lit.get((TOO_DARK * lit.len() as f64) as usize).copied();
         let (dark, bright) = (dark.unwrap_or(1.0), lit.last().copied().unwrap_or(10.0));
         let [dark, bright] = [dark, bright].map(|x| libm::log10(f64::from(x)));
-        let first = step_below(dark.max(bright - MOST_DECADES) + HAIR);
+        let first = step_below(dark.max(bright - MAX_DECADES) + HAIR);
         let last = (step_below(bright - HAIR) + 1).max(first + 1);
         let ticks: Vec<f64> = (first..=last).map(round_number).collect();
         let [low, high] = [first, last].map(|step| libm::log10(round_number(step)));

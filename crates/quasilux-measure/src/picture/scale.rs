@@ -5,9 +5,9 @@ use crate::SensorReport;
 use crate::ticks::Ticks;
 
 /// About as many contour lines as a reader can tell apart.
-const MOST_LEVELS: usize = 8;
+const MAX_LEVELS: usize = 8;
 /// At most this many ticks on the legend.
-const MOST_TICKS: usize = 14;
+const MAX_TICKS: usize = 14;
 
 /// A linear scale of illuminance between two round numbers.
 pub(crate) struct LuxScale {
@@ -34,21 +34,21 @@ impl LuxScale {
         if span <= least_step || span <= 1e-9 * high.abs().max(low.abs()) {
             return Self::constant(low, high);
         }
-        let mut levels = Ticks::within(low, high, MOST_LEVELS, least_step);
+        let mut levels = Ticks::within(low, high, MAX_LEVELS, least_step);
         levels.values.retain(|level| *level > low && *level < high);
         let step = levels.step;
         let base = if low >= 0.0 && low < 0.5 * high { 0.0 } else { low };
         let (low_lx, high_lx) = ((base / step).floor() * step, (high / step).ceil() * step);
-        let ticks = Ticks::within(low_lx, high_lx, MOST_TICKS, step);
+        let ticks = Ticks::within(low_lx, high_lx, MAX_TICKS, step);
         Self { low_lx, high_lx, levels, ticks }
     }
 
     fn constant(low: f64, high: f64) -> Self {
         let (low, high) = (low.min(0.0), if high > 0.0 || low < 0.0 { high.max(0.0) } else { 1.0 });
-        let step = Ticks::within(low, high, MOST_LEVELS, 0.0).step;
+        let step = Ticks::within(low, high, MAX_LEVELS, 0.0).step;
         let (low_lx, high_lx) = ((low / step).floor() * step, (high / step).ceil() * step);
-        let ticks = Ticks::within(low_lx, high_lx, MOST_TICKS, 0.0);
-        let levels = Ticks::within(0.0, 0.0, MOST_LEVELS, 0.0);
+        let ticks = Ticks::within(low_lx, high_lx, MAX_TICKS, 0.0);
+        let levels = Ticks::within(0.0, 0.0, MAX_LEVELS, 0.0);
         Self { low_lx, high_lx, levels, ticks }
     }
 

@@ -90,8 +90,8 @@ pub fn intensities(intensities: &Intensities<'_>) -> String {
 fn panel(curves: &[IntensityCurve]) -> Panel {
     let end_deg = if Extent::of(curves) == Extent::Down { 90.0 } else { 180.0 };
     let values = curves.iter().flat_map(|curve| &curve.points).map(|[_, value]| *value);
-    let greatest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
-    let high = if greatest > 0.0 { 1.05 * greatest } else { 1.0 };
+    let max_value = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let high = if max_value > 0.0 { 1.05 * max_value } else { 1.0 };
     let line = |curve: &IntensityCurve| Line { points: curve.points.clone(), stroke: curve.stroke };
     Panel {
         title: "intensity / cd".to_owned(),

@@ -26,8 +26,8 @@ pub struct Line {
     pub stroke: Stroke,
 }
 
-const MOST_X_LABELS: usize = 7;
-const MOST_Y_LABELS: usize = 6;
+const MAX_X_LABELS: usize = 7;
+const MAX_Y_LABELS: usize = 6;
 const SMALL_PX: f64 = 11.0;
 
 impl Panel {
@@ -56,7 +56,7 @@ impl Panel {
 
     fn draw_x_axis(&self, drawing: &mut Drawing, frame: Frame) {
         let small = TextStyle { size_px: SMALL_PX, ..TextStyle::plain(Anchor::Middle) };
-        for tick in self.x.ticks(MOST_X_LABELS) {
+        for tick in self.x.ticks(MAX_X_LABELS) {
             let [x, bottom] = frame.at([tick.share, 0.0]);
             if let Some(label) = &tick.label {
                 let top = frame.at([tick.share, 1.0]);
@@ -75,7 +75,7 @@ impl Panel {
 
     fn draw_y_axis(&self, drawing: &mut Drawing, frame: Frame) {
         let small = TextStyle { size_px: SMALL_PX, ..TextStyle::plain(Anchor::End) };
-        for tick in self.y.ticks(MOST_Y_LABELS) {
+        for tick in self.y.ticks(MAX_Y_LABELS) {
             let [left, y] = frame.at([0.0, tick.share]);
             if let Some(label) = &tick.label {
                 let right = frame.at([1.0, tick.share]);

@@ -47,7 +47,7 @@ const RIM_PX: f64 = 34.0;
 const SCALE_PX: f64 = 26.0;
 /// Light below this share of the greatest intensity does not show.
 const VISIBLE: f64 = 0.005;
-const MOST_RINGS: usize = 6;
+const MAX_RINGS: usize = 6;
 const RAYS_DEG: u32 = 30;
 /// Curves are straight in gamma, so bent in the diagram: drawn in steps of a degree.
 const STEP_DEG: f64 = 1.0;
@@ -55,14 +55,14 @@ const GRID: Stroke = Stroke::solid("#cccccc", 0.9);
 
 impl Extent {
     pub(super) fn of(curves: &[IntensityCurve]) -> Self {
-        let greatest = |is_below: bool| {
+        let max_value = |is_below: bool| {
             let points = curves.iter().flat_map(|curve| refined(&curve.points));
             let side = points.filter(|[gamma_deg, _]| {
                 if is_below { gamma_deg.abs() < 89.0 } else { gamma_deg.abs() > 91.0 }
             });
             side.map(|[_, value]| value).fold(0.0, f64::max)
         };
-        let (below, above) = (greatest(true), greatest(false));
+        let (below, above) = (max_value(true), max_value(false));
         match (above > VISIBLE * below, below > VISIBLE * above) {
             (false, _) => Self::Down,
             (true, false) => Self::Up,
@@ -119,11 +119,11 @@ impl Polar<'_> {
     /// Round values from 0 to the first one that no curve passes.
     fn rings(&self) -> Ticks {
         let values = self.curves.iter().flat_map(|curve| &curve.points).map(|[_, value]| *value);
-        let greatest = values.fold(0.0, f64::max) * self.factor;
-        let greatest = if greatest > 0.0 && greatest.is_finite() { greatest } else { 1.0 };
-        let step = Ticks::within(0.0, greatest, MOST_RINGS, 0.0).step;
-        let last = (greatest / step - 1e-9).ceil() * step;
-        Ticks::within(0.0, last, MOST_RINGS + 1, step)
+        let max_value = values.fold(0.0, f64::max) * self.factor;
+        let max_value = if max_value > 0.0 && max_value.is_finite() { max_value } else { 1.0 };
+        let step = Ticks::within(0.0, max_value, MAX_RINGS, 0.0).step;
+        let last = (max_value / step - 1e-9).ceil() * step;
+        Ticks::within(0.0, last, MAX_RINGS + 1, step)
     }
 
     fn draw_rays(&self, drawing: &mut Drawing, centre: [f64; 2], extent: Extent) {

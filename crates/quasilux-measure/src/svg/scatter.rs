@@ -24,7 +24,7 @@ const TOP_PX: f64 = 64.0;
 const RIGHT_PX: f64 = 24.0;
 const BOTTOM_PX: f64 = 56.0;
 /// More lines than this along a side are a grey surface.
-const MOST_LINES: u32 = 128;
+const MAX_LINES: u32 = 128;
 
 /// The points as an SVG file.
 #[must_use]
@@ -59,7 +59,7 @@ fn radius_px(points: usize) -> f64 {
 }
 
 fn draw_cells(drawing: &mut Drawing, frame: Frame, cells: u32) {
-    for i in 1..cells.min(MOST_LINES) {
+    for i in 1..cells.min(MAX_LINES) {
         let share = f64::from(i) / f64::from(cells);
         let stroke = Stroke::solid("#bbbbbb", 0.8);
         drawing.line(&[frame.at([share, 0.0]), frame.at([share, 1.0])], stroke);

@@ -109,12 +109,12 @@ impl Distribution {
     /// A bound of the luminance of f times the cosine of `wo`, in sr^-1, over all exits: what rejection would need. It is
     /// reached to within the cosine in a cell, or to within the mixture of lobes.
     #[must_use]
-    pub fn greatest(&self, wi: DVec3) -> f64 {
+    pub fn max_value(&self, wi: DVec3) -> f64 {
         match self {
-            Self::Klems(table) => table.greatest(wi),
-            Self::TensorTree(tree) => tree.greatest(wi),
-            Self::ExchangedTree(tree) => tree.greatest(wi),
-            Self::Gridded(table) => table.greatest(wi),
+            Self::Klems(table) => table.max_value(wi),
+            Self::TensorTree(tree) => tree.max_value(wi),
+            Self::ExchangedTree(tree) => tree.max_value(wi),
+            Self::Gridded(table) => table.max_value(wi),
         }
     }
 

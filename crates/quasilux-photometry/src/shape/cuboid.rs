@@ -21,7 +21,7 @@ pub(super) fn sample(half_m: DVec3, toward: DVec3, u: [f64; 2]) -> SurfacePoint 
         3 => {
             let faces_m2 = projected_faces_m2(half_m, toward);
             let choice = choose_weights(u[0], faces_m2.into_iter());
-            let (axis, rest) = choice.map_or((2, u[0]), |choice| (choice.index, choice.rest));
+            let (axis, rest) = choice.map_or((2, u[0]), |choice| (choice.index, choice.u_remapped));
             on_face(half_m, toward, axis, [rest, u[1]])
         }
         2 => on_face(half_m, toward, flat_axis(half_m), u),

@@ -19,12 +19,12 @@ pub(super) fn projected_area_m2(half_m: DVec3, direction: DVec3) -> f64 {
 pub(super) fn sample(half_m: DVec3, toward: DVec3, u: [f64; 2]) -> SurfacePoint {
     let choice = choose_bool(u[0], Parts::along(half_m, toward).end_share());
     if choice.value || half_m.z == 0.0 {
-        let [x, y] = sample_disk([choice.rest, u[1]]);
+        let [x, y] = sample_disk([choice.u_remapped, u[1]]);
         let normal = DVec3::new(0.0, 0.0, 1.0_f64.copysign(toward.z));
         return SurfacePoint { position_m: DVec3::new(x, y, normal.z) * half_m, normal };
     }
     let facing = facing(half_m, toward);
-    let across = 2.0 * choice.rest - 1.0;
+    let across = 2.0 * choice.u_remapped - 1.0;
     let on_circle = facing * (1.0 - across * across).max(0.0).sqrt() + facing.perp() * across;
     let local = on_circle.extend(2.0 * u[1] - 1.0);
     let normal = (on_circle / half_m.truncate()).normalize().extend(0.0);

@@ -82,8 +82,8 @@ impl LuminousShape {
     /// less than a micrometre or that are not finite are zero. What cannot be (an ellipsoid or a
     /// section with a zero extent) is a point.
     pub fn new(solid: Solid, size_m: DVec3) -> Self {
-        const LEAST_M: f64 = 1e-6;
-        let counts = |size: f64| if size.is_finite() && size >= LEAST_M { size } else { 0.0 };
+        const MIN_M: f64 = 1e-6;
+        let counts = |size: f64| if size.is_finite() && size >= MIN_M { size } else { 0.0 };
         let [x, y, z] = size_m.abs().to_array().map(counts);
         let is_possible = match solid {
             Solid::Cuboid => true,

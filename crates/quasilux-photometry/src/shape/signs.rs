@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::cmp::Ordering::{Equal as Zero, Greater as Plus, Less as Minus};
 
 /// Dimensions below this are zero.
-const LEAST_M: f64 = 1e-6;
+const MIN_M: f64 = 1e-6;
 
 /// A shape, and which table gave it.
 pub(super) struct Found {
@@ -99,7 +99,7 @@ impl Table {
         let LuminousOpening { width_m, length_m, height_m } = *opening;
         let [w, l, h] = [width_m, length_m, height_m].map(f64::abs);
         let sign = |size_m: f64| {
-            if size_m.abs() < LEAST_M { Zero } else { size_m.partial_cmp(&0.0).unwrap_or(Zero) }
+            if size_m.abs() < MIN_M { Zero } else { size_m.partial_cmp(&0.0).unwrap_or(Zero) }
         };
         let signs = [width_m, length_m, height_m].map(sign);
         let of = |solid, size: [f64; 3]| Some(LuminousShape::new(solid, DVec3::from_array(size)));

@@ -173,15 +173,15 @@ impl SphericalTable {
     /// the polar angle, then of the azimuth from the first plane on.
     pub fn maximum(&self) -> Maximum {
         let columns = self.phi.knots().len();
-        let mut greatest = 0;
+        let mut max_index = 0;
         for (index, value) in self.values.iter().enumerate() {
-            if *value > self.values[greatest] {
-                greatest = index;
+            if *value > self.values[max_index] {
+                max_index = index;
             }
         }
-        let theta_rad = self.theta.knots()[greatest / columns];
-        let phi_rad = self.phi_start_rad + self.phi.knots()[greatest % columns];
-        Maximum { value: self.values[greatest], angles: Angles { theta_rad, phi_rad } }
+        let theta_rad = self.theta.knots()[max_index / columns];
+        let phi_rad = self.phi_start_rad + self.phi.knots()[max_index % columns];
+        Maximum { value: self.values[max_index], angles: Angles { theta_rad, phi_rad } }
     }
 
     /// The symmetry that the table was measured with.

@@ -46,7 +46,7 @@ pub struct Grid {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
     /// Fewer than two polar angles.
-    #[error("a spherical table needs at least two polar angles, found {0}")]
+    #[error("a spherical table needs at min two polar angles, found {0}")]
     TooFewPolarAngles(usize),
     /// A polar angle outside [0, pi] or not above its predecessor.
     #[error("polar angle {0} is not above the one before it, or not between 0 and 180 degrees")]
@@ -155,11 +155,11 @@ impl Grid {
     }
 }
 
-fn first_not_ascending(angles: &[f64], least: f64, greatest: f64) -> Option<usize> {
-    if angles.first().is_none_or(|first| !(least..=greatest).contains(first)) {
+fn first_not_ascending(angles: &[f64], min: f64, max: f64) -> Option<usize> {
+    if angles.first().is_none_or(|first| !(min..=max).contains(first)) {
         return Some(0);
     }
-    let outside = |pair: &[f64]| !(pair[1] > pair[0] && pair[1] <= greatest);
+    let outside = |pair: &[f64]| !(pair[1] > pair[0] && pair[1] <= max);
     angles.windows(2).position(outside).map(|index| index + 1)
 }
 

@@ -71,8 +71,8 @@ impl Extent {
                 None => 0.0,
             };
             let range = &mut self.ranges_m[axis as usize];
-            let (least, greatest) = range.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
-            *range = Some((least.min(centre_m - half_m), greatest.max(centre_m + half_m)));
+            let (min, max) = range.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+            *range = Some((min.min(centre_m - half_m), max.max(centre_m + half_m)));
         }
         self.areas += 1;
         self.circles += usize::from(optional_boolean(area, "Circular")? == Some(true));
@@ -81,7 +81,7 @@ impl Extent {
 
     fn opening(&self) -> LuminousOpening {
         let [length_m, width_m, height_m] =
-            self.ranges_m.map(|range| range.map_or(0.0, |(least, greatest)| greatest - least));
+            self.ranges_m.map(|range| range.map_or(0.0, |(min, max)| max - min));
         opening(length_m, width_m, height_m, self.areas == 1 && self.circles == 1)
     }
 }

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 const SAME_AZIMUTH_RAD: f64 = 1e-12;
 
 /// Values of a sum for each one that is given: what symmetries unfold, and room for unequal grids.
-const MOST_VALUES_PER_POINT: usize = 64;
+const MAX_VALUES_PER_POINT: usize = 64;
 
 /// The sum of at least one emitter.
 pub(super) fn sum(emitters: &[Emitter]) -> Result<SphericalTable, ReadError> {
@@ -59,7 +59,7 @@ fn union(emitters: &[Emitter]) -> Result<Grid, ReadError> {
 
     let points: usize = emitters.iter().map(|emitter| emitter.grid.values.len()).sum();
     let values = theta_rad.len().saturating_mul(phi_rad.len());
-    if values > points.saturating_mul(MOST_VALUES_PER_POINT) {
+    if values > points.saturating_mul(MAX_VALUES_PER_POINT) {
         let found = format!("emitters whose sum has {values} values");
         return Err(ReadError::new(emitters[1].at, found, "emitters with angles in common"));
     }

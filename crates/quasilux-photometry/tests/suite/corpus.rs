@@ -26,7 +26,7 @@ const REFUSED: [Refusal; 1] = [
 ];
 
 /// Share of the valid files that must load.
-const LEAST_SHARE: f64 = 0.97;
+const MIN_SHARE: f64 = 0.97;
 
 #[test]
 fn published_files_load_or_are_refused_for_a_known_reason() {
@@ -51,7 +51,7 @@ fn published_files_load_or_are_refused_for_a_known_reason() {
     }
     println!("{loaded} published files load, {refused} are refused as listed, {invalid} invalid");
     assert_eq!(refused, REFUSED.len(), "a file that is listed is not there");
-    assert!(f64::from(loaded) >= LEAST_SHARE * (files.len() - invalid) as f64);
+    assert!(f64::from(loaded) >= MIN_SHARE * (files.len() - invalid) as f64);
 }
 
 pub(crate) fn name(file: &Path) -> String {

@@ -41,7 +41,7 @@ impl Profile {
         (a * (end - x) + b * (x - start)) / (end - start)
     }
 
-    fn greatest(&self) -> f64 {
+    fn max_value(&self) -> f64 {
         self.values.iter().copied().fold(0.0, f64::max)
     }
 
@@ -107,7 +107,7 @@ fn samples_near_theta_0_keep_all_digits() {
                 assert!((back / u0 - 1.0).abs() < 2e-13, "x {x:e}: {u0:e} became {back:e}");
                 let density = profile.value(sampled_rad) / flux;
                 let error = (sample.pdf_sr - density).abs();
-                assert!(error <= 1e-14 * density + 1e-14 * profile.greatest() / flux, "x {x:e}");
+                assert!(error <= 1e-14 * density + 1e-14 * profile.max_value() / flux, "x {x:e}");
                 let inverted = table.invert(sample.direction);
                 assert!((inverted[0] / u0 - 1.0).abs() < 2e-13, "x {x:e}: {inverted:?}");
                 assert!((inverted[1] - u1).abs() < 1e-15, "x {x:e}: {inverted:?}");
@@ -146,7 +146,7 @@ fn densities_near_the_poles_are_those_of_the_distance() {
             let expected = profile.value(x) / flux;
             let density = north.pdf(direction);
             let error = (density - expected).abs();
-            assert!(error <= 1e-14 * expected + 1e-15 * profile.greatest() / flux, "x {x:e}");
+            assert!(error <= 1e-14 * expected + 1e-15 * profile.max_value() / flux, "x {x:e}");
             if x > 1e-6 && profile.knots_rad[1] > 1e-3 {
                 let mirrored = DVec3::new(direction.x, direction.y, -direction.z);
                 assert!((south.pdf(mirrored) / expected - 1.0).abs() < 1e-8, "x {x:e}");

@@ -36,7 +36,7 @@ fn degrees(angle: f64, zero: f64) -> Angles {
 /// Both tables as functions, at their nodes and between them, apart from the reader's own jump
 /// at a closing plane. Returns the greatest difference over the greatest value.
 fn difference(a: &SphericalTable, b: &SphericalTable) -> f64 {
-    let greatest = a.grid().values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let max_value = a.grid().values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let thetas = a.theta_rad();
     let mut worst = 0.0_f64;
     for pair in thetas.windows(2) {
@@ -48,7 +48,7 @@ fn difference(a: &SphericalTable, b: &SphericalTable) -> f64 {
             }
         }
     }
-    worst / greatest
+    worst / max_value
 }
 
 fn same_values(a: &Grid, b: &Grid, relative: f64) {

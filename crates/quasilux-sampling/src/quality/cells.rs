@@ -13,7 +13,7 @@ pub struct CellCounts {
 
 impl CellCounts {
     /// At most this many cells along a side.
-    pub const MOST_PER_SIDE: usize = 1 << 11;
+    pub const MAX_PER_SIDE: usize = 1 << 11;
 
     /// The number of cells without a point.
     #[must_use]
@@ -46,10 +46,10 @@ impl CellCounts {
 /// cell.
 ///
 /// # Panics
-/// When there is no such dimension, or `per_side` is 0 or above [`CellCounts::MOST_PER_SIDE`].
+/// When there is no such dimension, or `per_side` is 0 or above [`CellCounts::MAX_PER_SIDE`].
 #[must_use]
 pub fn cell_counts(points: PointsView<'_>, pair: [usize; 2], per_side: usize) -> CellCounts {
-    let sides = 1..=CellCounts::MOST_PER_SIDE;
+    let sides = 1..=CellCounts::MAX_PER_SIDE;
     assert!(sides.contains(&per_side), "{per_side} cells a side");
     let place = |u: f64| ((u * per_side as f64) as usize).min(per_side - 1);
     let mut counts = vec![0; per_side * per_side];

@@ -86,7 +86,7 @@ impl Integrand {
         Self::Steps,
     ];
     /// The largest number of dimensions among them.
-    pub const MOST_DIMENSIONS: usize = 32;
+    pub const MAX_DIMENSIONS: usize = 32;
 
     /// Its name.
     #[must_use]
@@ -120,7 +120,7 @@ impl Integrand {
         match self {
             Self::Gaussian | Self::Ridge | Self::QuarterDisk => 2,
             Self::Oscillatory | Self::Hinge | Self::HalfSpace => 8,
-            Self::Exponential | Self::GFunction | Self::Steps => Self::MOST_DIMENSIONS,
+            Self::Exponential | Self::GFunction | Self::Steps => Self::MAX_DIMENSIONS,
         }
     }
 

@@ -11,7 +11,7 @@ pub enum PairMeasure {
     /// A mean-square discrepancy of the projection.
     L2(L2Measure),
     /// The share of empty cells of a grid with this many cells a side, 1 to
-    /// [`CellCounts::MOST_PER_SIDE`](super::CellCounts::MOST_PER_SIDE).
+    /// [`CellCounts::MAX_PER_SIDE`](super::CellCounts::MAX_PER_SIDE).
     EmptyCells(usize),
 }
 

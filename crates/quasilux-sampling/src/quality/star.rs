@@ -8,7 +8,7 @@
 use super::PointsView;
 
 /// The sweeps may visit this many points in all: some seconds.
-const MOST_VISITS: u64 = 1 << 30;
+const MAX_VISITS: u64 = 1 << 30;
 
 /// The star discrepancy, in [1/2N, 1]; `None` where the points are too many for it, which is above
 /// 2^30 for n (n + 1)^(d - 1): 32 767 points in two dimensions, 1023 in three, 180 in four. No
@@ -18,7 +18,7 @@ pub fn star_discrepancy(points: PointsView<'_>) -> Option<f64> {
     let n = points.count() as u64;
     let mut visits = n;
     for _ in 1..points.dimensions() {
-        visits = visits.checked_mul(n + 1).filter(|visits| *visits <= MOST_VISITS)?;
+        visits = visits.checked_mul(n + 1).filter(|visits| *visits <= MAX_VISITS)?;
     }
     let last = points.dimensions() - 1;
     let mut sorted: Vec<&[f64]> = points.points().collect();

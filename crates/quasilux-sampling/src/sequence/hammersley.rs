@@ -16,7 +16,7 @@ pub(crate) fn step(points: u64, index: u64, randomization: Randomization, key: u
     let fraction = |place: f64| (place / points as f64).min(ONE_BELOW);
     match randomization {
         Randomization::None => fraction(index as f64),
-        Randomization::Rotation | Randomization::Shift => {
+        Randomization::CranleyPattersonRotation | Randomization::DigitalShift => {
             rotate_unit(fraction(index as f64), key, 0)
         }
         Randomization::Owen => {

@@ -4,15 +4,15 @@ mod binary;
 pub(crate) mod faure4;
 pub(crate) mod halton;
 pub(crate) mod hammersley;
+mod independent;
 mod radical_inverse;
 mod radix;
-mod random;
 pub(crate) mod sobol;
 
 pub(crate) use binary::BinaryMatrices;
+pub(crate) use independent::independent_digits;
 pub use radical_inverse::radical_inverse;
 pub(crate) use radix::Radix;
-pub(crate) use random::random_digits;
 
 /// A sequence of points in the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,7 +36,7 @@ pub enum Sequence {
     /// dimensions are independent.
     Faure4,
     /// Pseudo-random points, by a counter-based generator.
-    Random,
+    Independent,
 }
 
 impl Sequence {
@@ -45,7 +45,7 @@ impl Sequence {
         ("sobol", Self::Sobol),
         ("halton", Self::Halton),
         ("faure4", Self::Faure4),
-        ("random", Self::Random),
+        ("random", Self::Independent),
     ];
 
     /// Every sequence for a known number of points, by the name that users write.
@@ -64,7 +64,7 @@ impl Sequence {
             Self::Halton => "halton",
             Self::Hammersley { .. } => "hammersley",
             Self::Faure4 => "faure4",
-            Self::Random => "random",
+            Self::Independent => "random",
         }
     }
 
@@ -73,7 +73,7 @@ impl Sequence {
     pub const fn points(self) -> Option<u64> {
         match self {
             Self::Hammersley { points } => Some(points),
-            Self::Sobol | Self::Halton | Self::Faure4 | Self::Random => None,
+            Self::Sobol | Self::Halton | Self::Faure4 | Self::Independent => None,
         }
     }
 }

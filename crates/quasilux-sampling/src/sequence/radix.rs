@@ -4,7 +4,7 @@ use super::radical_inverse;
 use crate::ONE_BELOW;
 
 /// Digits are taken in groups with at most so many values.
-const MOST_VALUES: u32 = 256;
+const MAX_VALUES: u32 = 256;
 
 /// A base with what its radical inverses take, but for base 2, where bits are reversed: a table of mirrored groups of digits, and a factor in place of the
 /// division by their number (D. Lemire, O. Kaser and N. Kurz, "Faster remainder by direct computation", Software: Practice and Experience 49, 2019).
@@ -23,7 +23,7 @@ pub(crate) struct Radix {
 impl Radix {
     pub(crate) fn new(base: u32) -> Self {
         let mut digits = 1;
-        while base.pow(digits + 1) <= MOST_VALUES {
+        while base.pow(digits + 1) <= MAX_VALUES {
             digits += 1;
         }
         let values = base.pow(digits);

@@ -8,7 +8,7 @@
 use super::unit;
 
 /// Newton steps and halvings; each step of either kind narrows the bracket, most need five.
-const MOST_STEPS: usize = 64;
+const MAX_STEPS: usize = 64;
 
 /// Barycentric coordinates of a point whose density is proportional to the linear function with these
 /// values at the corners: none negative, not all 0.
@@ -28,7 +28,7 @@ pub fn sample_linear_triangle(corners: [f64; 3], u: [f64; 2]) -> [f64; 3] {
     let slope = |s: f64| 6.0 * s * (first * (1.0 - s) + opposite * s);
     let (mut low, mut high) = (0.0, 1.0);
     let mut s = (1.0 - u[0]).max(0.0).sqrt();
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let value = excess(s);
         if value > 0.0 {
             high = s;
@@ -139,7 +139,7 @@ mod tests {
     /// each at 1e-4; a density that is wrong by 2 % at one corner is rejected.
     #[test]
     fn counts_follow_the_density() {
-        let points = PointSet::new(Sequence::Random, Randomization::None, 1);
+        let points = PointSet::new(Sequence::Independent, Randomization::None, 1);
         let samples = 1 << 16;
         let test = |corners: [f64; 3], claimed: [f64; 3], samples: u64| {
             let mut cells = [CellCount { observed: 0, expected: 0.0 }; 64];

@@ -1,6 +1,6 @@
 //! Coordinates handed out in order, with shared ones for events, against the fixed assignment.
 
-use quasilux_sampling::{SampleCursor, assignment};
+use quasilux_sampling::{Sampler, assignment};
 
 use crate::support::{assert_mean, mean_and_error, random};
 
@@ -8,23 +8,23 @@ const SURVIVAL: f64 = 2.0 / 3.0;
 
 /// A photon in a closed room: a direction from the lamp; at each hit an event, and a direction where
 /// it survives. Gives the coordinates used.
-fn walk(mut cursor: SampleCursor<'_>, is_fixed: bool) -> f64 {
-    let go_to = |cursor: &mut SampleCursor<'_>, dimension| {
+fn walk(mut sampler: Sampler<'_>, is_fixed: bool) -> f64 {
+    let go_to = |sampler: &mut Sampler<'_>, dimension| {
         if is_fixed {
-            cursor.skip_to(dimension);
+            sampler.skip_to(dimension);
         }
     };
-    go_to(&mut cursor, assignment::EMISSION);
-    cursor.next_2d();
+    go_to(&mut sampler, assignment::EMISSION);
+    sampler.next_2d();
     for hit in 0.. {
-        go_to(&mut cursor, assignment::event(hit));
-        if !cursor.choose_bool(SURVIVAL) {
+        go_to(&mut sampler, assignment::event(hit));
+        if !sampler.choose_bool(SURVIVAL) {
             break;
         }
-        go_to(&mut cursor, assignment::scattering(hit));
-        cursor.next_2d();
+        go_to(&mut sampler, assignment::scattering(hit));
+        sampler.next_2d();
     }
-    f64::from(cursor.used())
+    f64::from(sampler.used())
 }
 
 /// Events are 3 on average, 1 / (1 - 2/3), each but the last with a direction: 2 + 3 + 4 = 9
@@ -34,14 +34,14 @@ fn walk(mut cursor: SampleCursor<'_>, is_fixed: bool) -> f64 {
 /// 2^16 walks, seeds 1 and 2: finds means that are off by 0.15.
 #[test]
 fn sharing_saves_two_coordinates_of_nine() {
-    let spent = power(0.5, SampleCursor::SHARED_BITS);
+    let spent = power(0.5, Sampler::SHARED_BITS);
     let shared_by = (1..).find(|m| power(SURVIVAL, *m) <= spent).expect("powers fall");
     let shared = 6.0 + 1.0 / (1.0 - power(SURVIVAL, shared_by));
     assert!((7.0..7.01).contains(&shared), "{shared}");
     for (is_fixed, seed, expected) in [(true, 1, 9.0), (false, 2, shared)] {
         let points = random(seed);
         let used: Vec<f64> =
-            (0..1 << 16).map(|index| walk(SampleCursor::new(&points, index), is_fixed)).collect();
+            (0..1 << 16).map(|index| walk(Sampler::new(&points, index), is_fixed)).collect();
         let (mean, standard_error) = mean_and_error(&used);
         assert_mean(mean, expected, standard_error, "coordinates of a walk");
     }

@@ -14,12 +14,12 @@ fn rests_are_uniform_and_independent_of_the_choice() {
     let (mut by_table, mut by_scan, mut by_bool) = ([0; 64], [0; 64], [0; 16]);
     for index in 0..1 << 20 {
         let u = points.coordinate(index, 0);
-        let choice = distribution.choose(u);
-        by_table[8 * choice.index + cell(choice.rest, 8)] += 1;
+        let choice = distribution.sample(u);
+        by_table[8 * choice.index + cell(choice.u_remapped, 8)] += 1;
         let choice = choose_weights(u, WEIGHTS.into_iter()).unwrap();
-        by_scan[8 * choice.index + cell(choice.rest, 8)] += 1;
+        by_scan[8 * choice.index + cell(choice.u_remapped, 8)] += 1;
         let choice = choose_bool(u, 0.3);
-        by_bool[8 * usize::from(choice.value) + cell(choice.rest, 8)] += 1;
+        by_bool[8 * usize::from(choice.value) + cell(choice.u_remapped, 8)] += 1;
     }
     let positive = |counts: [u64; 64]| -> Vec<u64> {
         (0..64).filter(|i| WEIGHTS[i / 8] > 0.0).map(|i| counts[i]).collect()
@@ -39,13 +39,13 @@ fn probabilities_are_those_of_the_weights() {
     let distribution = Discrete::new(&WEIGHTS).unwrap();
     assert_eq!((distribution.total(), distribution.len()), (8.0, 8));
     for (index, weight) in WEIGHTS.iter().enumerate() {
-        assert_eq!(distribution.probability(index), weight / 8.0);
+        assert_eq!(distribution.pdf(index), weight / 8.0);
     }
     for step in 0..4096 {
         let u = f64::from(step) / 4096.0;
-        let choice = distribution.choose(u);
+        let choice = distribution.sample(u);
         assert_eq!(choose_weights(u, WEIGHTS.into_iter()), Some(choice));
-        assert_eq!(distribution.invert(choice.index, choice.rest), u);
+        assert_eq!(distribution.invert(choice.index, choice.u_remapped), u);
     }
 }
 
@@ -67,13 +67,13 @@ fn guided_search_equals_the_definition() {
         [border.next_down(), border, border.next_up()]
     });
     for u in at_random.chain(on_borders).filter(|u| (0.0..1.0).contains(u)) {
-        let choice = distribution.choose(u);
-        assert!(weights[choice.index] > 0.0 && choice.probability > 0.0);
+        let choice = distribution.sample(u);
+        assert!(weights[choice.index] > 0.0 && choice.pdf > 0.0);
         let definition = borders.partition_point(|border| *border <= u);
         assert!(
             choice.index.abs_diff(definition) <= 1 || borders[choice.index] == borders[definition]
         );
-        assert!((0.0..1.0).contains(&choice.rest));
+        assert!((0.0..1.0).contains(&choice.u_remapped));
     }
 }
 
@@ -84,8 +84,8 @@ fn choice_is_monotone() {
     let distribution = Discrete::new(&weights).unwrap();
     let mut last = (0, 0.0);
     for step in 0..1 << 16 {
-        let choice = distribution.choose(f64::from(step) / 65_536.0);
-        let here = (choice.index, choice.rest);
+        let choice = distribution.sample(f64::from(step) / 65_536.0);
+        let here = (choice.index, choice.u_remapped);
         assert!(here > last || step == 0, "{here:?} after {last:?}");
         last = here;
     }
@@ -116,12 +116,12 @@ fn extremes_are_chosen_without_panic() {
         let distribution = Discrete::new(weights).unwrap();
         for u in [0.0, tiny, 0.5, 1.0 - f64::EPSILON / 2.0, 1.0, 2.0, -1.0, f64::INFINITY] {
             let scan = choose_weights(u, weights.iter().copied()).unwrap();
-            for choice in [distribution.choose(u), scan] {
+            for choice in [distribution.sample(u), scan] {
                 assert!(weights[choice.index] > 0.0, "u = {u}, {weights:?}");
-                assert!((0.0..1.0).contains(&choice.rest));
+                assert!((0.0..1.0).contains(&choice.u_remapped));
             }
         }
-        let _ = (distribution.choose(f64::NAN), choose_weights(f64::NAN, weights.iter().copied()));
+        let _ = (distribution.sample(f64::NAN), choose_weights(f64::NAN, weights.iter().copied()));
     }
 }
 
@@ -130,13 +130,16 @@ fn choose_bool_is_total() {
     let below_one = 1.0 - f64::EPSILON / 2.0;
     for u in [0.0, 1e-300, 0.5, below_one] {
         for never in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            assert_eq!((choose_bool(u, never).value, choose_bool(u, never).rest), (false, u));
+            assert_eq!((choose_bool(u, never).value, choose_bool(u, never).u_remapped), (false, u));
         }
         for always in [1.0, 2.0, f64::INFINITY] {
-            assert_eq!((choose_bool(u, always).value, choose_bool(u, always).rest), (true, u));
+            assert_eq!(
+                (choose_bool(u, always).value, choose_bool(u, always).u_remapped),
+                (true, u)
+            );
         }
         for p_true in [1e-300, 0.5, below_one] {
-            assert!((0.0..1.0).contains(&choose_bool(u, p_true).rest));
+            assert!((0.0..1.0).contains(&choose_bool(u, p_true).u_remapped));
         }
     }
 }

@@ -64,10 +64,11 @@ fn scrambled_errors_fall_faster_than_theory_must_have_it() {
 /// Halton's blocks are no powers of two, so it gains less: see the numbers printed.
 #[test]
 fn other_randomisations_keep_the_order_of_the_sequence() {
-    let sobol_shift = replicate_slope(Sequence::Sobol, Randomization::Shift, 18, 16);
-    let sobol_rotation = replicate_slope(Sequence::Sobol, Randomization::Rotation, 18, 16);
+    let sobol_shift = replicate_slope(Sequence::Sobol, Randomization::DigitalShift, 18, 16);
+    let sobol_rotation =
+        replicate_slope(Sequence::Sobol, Randomization::CranleyPattersonRotation, 18, 16);
     let halton_owen = replicate_slope(Sequence::Halton, Randomization::Owen, 16, 16);
-    let halton_shift = replicate_slope(Sequence::Halton, Randomization::Shift, 16, 16);
+    let halton_shift = replicate_slope(Sequence::Halton, Randomization::DigitalShift, 16, 16);
     println!(
         "slopes: Sobol' shift {sobol_shift:.3}, rotation {sobol_rotation:.3}, Halton Owen \
          {halton_owen:.3}, shift {halton_shift:.3}"
@@ -83,7 +84,7 @@ fn pseudo_random_errors_fall_like_the_root() {
     let random = slope((4..=14).step_by(2).map(|m| {
         let squares = (0..1024).map(|replicate| {
             let key = stream_key(5, replicate, 0);
-            let points = PointSet::new(Sequence::Random, Randomization::None, key);
+            let points = PointSet::new(Sequence::Independent, Randomization::None, key);
             let error = mean(&points, 1 << m) - 1.0;
             error * error
         });
@@ -108,10 +109,14 @@ fn plain_sequences_fall_nearly_like_the_inverse() {
 /// errors, which under Owen scrambling of Sobol' is 0.02 % of the integral.
 #[test]
 fn randomised_means_are_unbiased() {
-    let mut kinds = vec![(Sequence::Random, Randomization::None)];
+    let mut kinds = vec![(Sequence::Independent, Randomization::None)];
     for (_, sequence) in Sequence::names_for(256).into_iter().filter(|(name, _)| *name != "random")
     {
-        for randomization in [Randomization::Rotation, Randomization::Shift, Randomization::Owen] {
+        for randomization in [
+            Randomization::CranleyPattersonRotation,
+            Randomization::DigitalShift,
+            Randomization::Owen,
+        ] {
             kinds.push((sequence, randomization));
         }
     }

@@ -8,7 +8,7 @@ use crate::support::{assert_pairs_are_shuffled, cell};
 /// all a + b + c + d = m <= 5, near and far; and one in each of 2^m parts of each axis.
 #[test]
 fn four_dimensions_are_exact_nets() {
-    for randomization in [Randomization::None, Randomization::Shift, Randomization::Owen] {
+    for randomization in [Randomization::None, Randomization::DigitalShift, Randomization::Owen] {
         let points = PointSet::new(Sequence::Faure4, randomization, stream_key(2, 0, 0));
         for (m, block) in [(1_u32, 0), (2, 3), (3, 0), (4, 1 << 30), (5, 0), (5, 77)] {
             let count = 1_u64 << (2 * m);

@@ -5,8 +5,12 @@ use quasilux_sampling::{
 };
 
 const SEQUENCES: [Sequence; 3] = [Sequence::Sobol, Sequence::Halton, Sequence::Faure4];
-const RANDOMIZATIONS: [Randomization; 4] =
-    [Randomization::None, Randomization::Rotation, Randomization::Shift, Randomization::Owen];
+const RANDOMIZATIONS: [Randomization; 4] = [
+    Randomization::None,
+    Randomization::CranleyPattersonRotation,
+    Randomization::DigitalShift,
+    Randomization::Owen,
+];
 
 /// The inequality |Phi_b(i) - Phi_b(i + n b^k)| < b^-k and its like for matrices, measured; and each
 /// index once, whether or not the count is a multiple of the number of groups. Of Hammersley's points
@@ -47,7 +51,8 @@ fn groups_are_a_partition_within_the_bound() {
 #[test]
 fn spreads_under_rotation_wrap_around() {
     for sequence in SEQUENCES {
-        let points = PointSet::new(sequence, Randomization::Rotation, stream_key(1, 0, 0));
+        let points =
+            PointSet::new(sequence, Randomization::CranleyPattersonRotation, stream_key(1, 0, 0));
         let shared = [SharedDigits { dimension: 1, digits: 2 }];
         let groups = CoherentGroups::new(&points, 1 << 12, &shared).expect("groups");
         let wide = |number: &u64| {
@@ -71,7 +76,7 @@ fn more_indices_than_2_to_the_63_have_no_groups() {
         let groups = |count| CoherentGroups::new(&points, count, &shared);
         assert_eq!(groups(1 << 63).expect("groups").group(1).take(3).count(), 3);
         assert!(groups((1 << 63) + 1).is_none() && groups(u64::MAX).is_none());
-        assert!(CoherentGroups::of_size(&points, u64::MAX, &[0], 32).is_none());
+        assert!(CoherentGroups::with_size(&points, u64::MAX, &[0], 32).is_none());
     }
 }
 
@@ -100,7 +105,7 @@ fn neighbouring_groups_are_close() {
     for sequence in SEQUENCES {
         let points = PointSet::new(sequence, Randomization::Owen, stream_key(1, 0, 0));
         let of_size =
-            |size| CoherentGroups::of_size(&points, 1 << 14, &[0, 1], size).expect("groups");
+            |size| CoherentGroups::with_size(&points, 1 << 14, &[0, 1], size).expect("groups");
         let fine = of_size(16);
         for size in [64, 300, 4096] {
             let coarse = of_size(size);
@@ -125,7 +130,7 @@ fn groups_have_the_size_that_was_asked_for() {
         let points = PointSet::new(sequence, Randomization::Owen, stream_key(1, 0, 0));
         for size in [1, 16, 100, 1 << 14, 1 << 20] {
             let groups =
-                CoherentGroups::of_size(&points, 1 << 14, &[0, 1, 2], size).expect("groups");
+                CoherentGroups::with_size(&points, 1 << 14, &[0, 1, 2], size).expect("groups");
             let members = (1 << 14) / groups.len();
             assert!(members >= size.min(1 << 14), "{sequence:?}, {size}: {members}");
             assert!(members <= 10 * size, "{sequence:?}, {size}: {members}");
@@ -140,7 +145,7 @@ fn what_has_no_digits_has_no_groups() {
         let points = PointSet::new(sequence, Randomization::None, 0);
         CoherentGroups::new(&points, 100, &[SharedDigits { dimension, digits }])
     };
-    assert!(groups(Sequence::Random, 0, 1).is_none());
+    assert!(groups(Sequence::Independent, 0, 1).is_none());
     assert!(groups(Sequence::Hammersley { points: 100 }, 0, 1).is_none());
     assert!(groups(Sequence::Hammersley { points: 100 }, 1, 1).is_some());
     assert!(groups(Sequence::Halton, 1, 64).is_none());

@@ -31,7 +31,7 @@ fn equals_scipy() {
 /// product of two bases one into each box: digit randomisations keep the digits' evenness.
 #[test]
 fn digit_randomisations_keep_the_nets() {
-    for randomization in [Randomization::None, Randomization::Shift, Randomization::Owen] {
+    for randomization in [Randomization::None, Randomization::DigitalShift, Randomization::Owen] {
         let points = halton(randomization, 3);
         for (dimension, base, digits) in
             [(0, 2_u64, 10), (1, 3, 6), (2, 5, 4), (9, 29, 2), (30, 127, 1)]
@@ -97,7 +97,11 @@ fn each_coordinate_is_uniform_over_the_seeds() {
         (Sequence::Sobol, [0, 1, 2, 3, 5000]),
     ];
     for (sequence, dimensions) in sets {
-        for randomization in [Randomization::Rotation, Randomization::Shift, Randomization::Owen] {
+        for randomization in [
+            Randomization::CranleyPattersonRotation,
+            Randomization::DigitalShift,
+            Randomization::Owen,
+        ] {
             for dimension in dimensions {
                 let mut counts = [0; 64];
                 for seed in 0..1 << 14 {
@@ -120,7 +124,9 @@ fn hammersley_is_equal_steps_before_halton() {
         assert_eq!([0, 1, 2].map(|d| points.coordinate(index, d)), expected);
     }
     assert_eq!(points.coordinate(130, 0), 0.3);
-    for randomization in [Randomization::Rotation, Randomization::Shift, Randomization::Owen] {
+    for randomization in
+        [Randomization::CranleyPattersonRotation, Randomization::DigitalShift, Randomization::Owen]
+    {
         let points = PointSet::new(sequence, randomization, stream_key(5, 0, 0));
         let mut axis: Vec<f64> = (0..100).map(|index| points.coordinate(index, 0)).collect();
         axis.sort_unstable_by(f64::total_cmp);
@@ -136,7 +142,8 @@ fn rotation_is_a_rotation() {
     for (_, sequence) in Sequence::names_for(1000).into_iter().filter(|(name, _)| *name != "random")
     {
         let plain = PointSet::new(sequence, Randomization::None, 0);
-        let rotated = PointSet::new(sequence, Randomization::Rotation, stream_key(9, 0, 0));
+        let rotated =
+            PointSet::new(sequence, Randomization::CranleyPattersonRotation, stream_key(9, 0, 0));
         let mut steps = Vec::new();
         for dimension in 0..4 {
             let step = |index| {

@@ -104,7 +104,7 @@ fn integrals_equal_means_over_scrambled_points() {
             .map(|seed| {
                 let key = stream_key(seed, 0, 9);
                 let points = PointSet::new(Sequence::Sobol, Randomization::Owen, key);
-                let mut u = [0.0; Integrand::MOST_DIMENSIONS];
+                let mut u = [0.0; Integrand::MAX_DIMENSIONS];
                 let value = |index| {
                     for (j, u) in u.iter_mut().enumerate().take(integrand.dimensions()) {
                         *u = points.coordinate(index, j as u32);

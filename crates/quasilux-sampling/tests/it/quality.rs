@@ -164,7 +164,7 @@ fn symmetries_are_as_stated() {
 /// 5, a third of the cells stays empty.
 #[test]
 fn figure_six_has_one_point_in_each_cell() {
-    for randomization in [Randomization::None, Randomization::Shift, Randomization::Owen] {
+    for randomization in [Randomization::None, Randomization::DigitalShift, Randomization::Owen] {
         let coordinates = first(&sobol(randomization, 1), 64, 2);
         let cells = cell_counts(view(&coordinates, 2), [0, 1], 8);
         assert_eq!((cells.least(), cells.most(), cells.empty()), (1, 1, 0), "{randomization:?}");

@@ -25,7 +25,7 @@ fn coordinates_are_uniform() {
 fn neighbours_are_independent() {
     let here = random(2);
     let key = stream_key(2, 0, 0);
-    let next_key = PointSet::new(Sequence::Random, Randomization::None, key + 1);
+    let next_key = PointSet::new(Sequence::Independent, Randomization::None, key + 1);
     type Neighbour<'a> = (&'a str, &'a dyn Fn(u64) -> f64);
     let neighbours: [Neighbour<'_>; 6] = [
         ("next index", &|index| here.coordinate(index + 1, 3)),

@@ -5,10 +5,14 @@ use quasilux_sampling::{Randomization, Sequence};
 use crate::support::{assert_pairs_are_shuffled, cell, sobol};
 
 const GOLDEN: &str = include_str!("golden/sobol_scipy.txt");
-const RANDOMIZATIONS: [Randomization; 4] =
-    [Randomization::None, Randomization::Rotation, Randomization::Shift, Randomization::Owen];
+const RANDOMIZATIONS: [Randomization; 4] = [
+    Randomization::None,
+    Randomization::CranleyPattersonRotation,
+    Randomization::DigitalShift,
+    Randomization::Owen,
+];
 const NET_KEEPING: [Randomization; 3] =
-    [Randomization::None, Randomization::Shift, Randomization::Owen];
+    [Randomization::None, Randomization::DigitalShift, Randomization::Owen];
 
 /// Coordinate of point i of scipy, which walks in Gray-code order, in units of 1/4096.
 fn scipy_order(i: u64, dimension: u32) -> u64 {

@@ -7,7 +7,7 @@ pub(crate) const SIGNIFICANCE: f64 = 1e-6;
 
 /// A pseudo-random point set.
 pub(crate) fn random(seed: u64) -> PointSet {
-    PointSet::new(Sequence::Random, Randomization::None, stream_key(seed, 0, 0))
+    PointSet::new(Sequence::Independent, Randomization::None, stream_key(seed, 0, 0))
 }
 
 /// A Sobol' point set.

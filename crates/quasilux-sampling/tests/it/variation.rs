@@ -1,6 +1,6 @@
 //! Points varied in some dimensions: the others keep their bits, one by one and in lists.
 
-use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
 
 /// Past the last dimension of each sequence's own, too.
 const DIMENSIONS: [u32; 8] = [0, 1, 2, 3, 4, 5, 1023, 1024];
@@ -11,10 +11,14 @@ fn sets() -> impl Iterator<Item = [PointSet; 2]> {
         Sequence::Halton,
         Sequence::Hammersley { points: 100 },
         Sequence::Faure4,
-        Sequence::Random,
+        Sequence::Independent,
     ];
-    let randomizations =
-        [Randomization::Owen, Randomization::Shift, Randomization::Rotation, Randomization::None];
+    let randomizations = [
+        Randomization::Owen,
+        Randomization::DigitalShift,
+        Randomization::CranleyPattersonRotation,
+        Randomization::None,
+    ];
     sequences.into_iter().flat_map(move |sequence| {
         randomizations
             .map(|randomization| [3, 4].map(|key| PointSet::new(sequence, randomization, key)))
@@ -70,8 +74,8 @@ fn lists_and_cursors_give_the_same_bits() {
                 varied.fill_at(dimension, &[9, 6], &mut list[..2]);
                 assert_eq!(list[..2], [9, 6].map(|i| varied.coordinate(i, dimension)));
             }
-            let mut cursor = SampleCursor::new(&varied, 11);
-            let handed_out = [(); 4].map(|()| cursor.next_1d());
+            let mut sampler = Sampler::new(&varied, 11);
+            let handed_out = [(); 4].map(|()| sampler.next_1d());
             assert_eq!(handed_out, [0, 1, 2, 3].map(|d| varied.coordinate(11, d)));
         }
     }
@@ -82,10 +86,9 @@ fn lists_and_cursors_give_the_same_bits() {
 fn children_are_those_of_the_original() {
     for [points, _] in sets() {
         let varied = points.exchanged(0..3, 4);
-        let [child, original] =
-            [&varied, &points].map(|points| SampleCursor::new(points, 5).child(1));
+        let [child, original] = [&varied, &points].map(|points| Sampler::new(points, 5).child(1));
         let [drawn, wanted] =
-            [child, original].map(|mut cursor| [(); 4].map(|()| cursor.next_1d()));
+            [child, original].map(|mut sampler| [(); 4].map(|()| sampler.next_1d()));
         assert_eq!(drawn, wanted, "{points:?}");
     }
 }

@@ -62,10 +62,10 @@ pub(super) fn resolve(
 
 /// Names for a message, a few at most.
 pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    const MOST: usize = 12;
+    const MAX: usize = 12;
     let names: Vec<&str> = names.collect();
-    let more = if names.len() > MOST { ", ..." } else { "" };
-    format!("{}{more}", names[..names.len().min(MOST)].join(", "))
+    let more = if names.len() > MAX { ", ..." } else { "" };
+    format!("{}{more}", names[..names.len().min(MAX)].join(", "))
 }
 
 fn entry_of<'a>(project: &'a Project, name: &str) -> Option<&'a MaterialEntry> {

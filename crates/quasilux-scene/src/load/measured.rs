@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Facets must lean at least this far, in rad, from being square to where a table points up.
-const LEAST_LEAN_RAD: f64 = 1e-6;
+const MIN_LEAN_RAD: f64 = 1e-6;
 
 /// The files that a project names, as far as they were read.
 pub(super) struct MeasuredFiles<'a> {
@@ -66,7 +66,7 @@ impl<'a> MeasuredFiles<'a> {
         let along = up.value.normalize();
         let stands = |triangle: &u32| {
             mesh.material_of[*triangle as usize] == material
-                && mesh.front_normal(*triangle).cross(along).length() < LEAST_LEAN_RAD
+                && mesh.front_normal(*triangle).cross(along).length() < MIN_LEAN_RAD
         };
         match (0..mesh.triangles.len() as u32).find(stands) {
             None => Ok(()),

@@ -12,7 +12,7 @@ const MAX_EDGE: u64 = 16_384;
 /// Most pixels that all cameras of a project may have together.
 const MAX_PIXELS: u64 = 1 << 24;
 /// Sine of the smallest angle between `up` and the line of sight: a microradian.
-const LEAST_SINE: f64 = 1e-6;
+const MIN_SINE: f64 = 1e-6;
 
 /// One camera, and where it is.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ fn camera(section: &Section<'_>, names: &mut Names, pixels: &mut u64) -> Result<
 
 /// The direction that is given, or z.
 fn up(section: &Section<'_>, forward: DVec3) -> Result<DVec3, LoadError> {
-    let across = |up: DVec3| forward.cross(up).length() >= LEAST_SINE;
+    let across = |up: DVec3| forward.cross(up).length() >= MIN_SINE;
     let Some(value) = section.get("up") else {
         return Some(DVec3::Z).filter(|up| across(*up)).ok_or_else(|| {
             section.error("the camera looks along the default \"up\", [0, 0, 1]; expected \"up\"")

@@ -23,8 +23,8 @@ const PLANNED_KEYS: [&str; 2] = ["specular", "texture"];
 const DEFAULT_ETA: f64 = 1.5;
 
 /// Roughness below which a surface is as good as smooth; its square is the least alpha.
-const LEAST_ROUGHNESS: f64 = 0.02;
-const LEAST_ALPHA: f64 = 0.0004;
+const MIN_ROUGHNESS: f64 = 0.02;
+const MIN_ALPHA: f64 = 0.0004;
 
 /// What `file` is.
 const FILE_NAME: &str = "the name of a file with a measured BSDF";
@@ -162,11 +162,11 @@ fn index(
 fn alpha(section: &Section<'_>, smooth: &str) -> Result<f64, LoadError> {
     let value = section.exactly_one(&["roughness", "alpha"])?;
     if value.key == "alpha" {
-        let expected = format!("a number within {LEAST_ALPHA} to 1{smooth}");
-        return value.number(&expected, |x| (LEAST_ALPHA..=1.0).contains(&x));
+        let expected = format!("a number within {MIN_ALPHA} to 1{smooth}");
+        return value.number(&expected, |x| (MIN_ALPHA..=1.0).contains(&x));
     }
-    let expected = format!("a number within {LEAST_ROUGHNESS} to 1{smooth}");
-    let roughness = value.number(&expected, |x| (LEAST_ROUGHNESS..=1.0).contains(&x))?;
+    let expected = format!("a number within {MIN_ROUGHNESS} to 1{smooth}");
+    let roughness = value.number(&expected, |x| (MIN_ROUGHNESS..=1.0).contains(&x))?;
     Ok(roughness * roughness)
 }
 

@@ -26,8 +26,8 @@ impl Caught {
 
 /// A direction above the surface, density in solid angle.
 pub(super) fn sample_caught(caught: &Caught, curve: &AlbedoCurve, u: [f64; 2]) -> DVec3 {
-    let choice = caught.cells.choose(u[0]);
-    let cos = curve.place((choice.index as f64 + choice.rest) / CELLS as f64).cos;
+    let choice = caught.cells.sample(u[0]);
+    let cos = curve.place((choice.index as f64 + choice.u_remapped) / CELLS as f64).cos;
     let radius = ((1.0 - cos) * (1.0 + cos)).sqrt();
     let (sin, cos_azimuth) = libm::sincos(TAU * u[1]);
     DVec3::new(radius * cos_azimuth, radius * sin, cos)
@@ -40,7 +40,7 @@ pub(super) fn pdf_caught(caught: &Caught, curve: &AlbedoCurve, wi: DVec3) -> f64
     }
     let s = curve.s_of(wi.z);
     let cell = ((s * CELLS as f64) as usize).min(CELLS - 1);
-    caught.cells.probability(cell) * CELLS as f64 / (TAU * curve.place(s).cos_by_s)
+    caught.cells.pdf(cell) * CELLS as f64 / (TAU * curve.place(s).cos_by_s)
 }
 
 /// The coordinates that [`sample_caught`] maps to `wi`.

@@ -20,7 +20,7 @@ use super::ggx::{Ggx, pdf_reflection, sample_reflection};
 use super::lobes::Lobes;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use std::f64::consts::FRAC_1_PI;
 
 /// The mean of Schlick's `(1 - cos)^5` over diffuse light.
@@ -60,10 +60,10 @@ impl<S: Spectrum> Conductor<S> {
         self.single_albedo(wo.z) + self.repeated * (1.0 - self.full.at(wo.z))
     }
 
-    pub(super) fn sample(&self, wo: DVec3, cursor: &mut SampleCursor<'_>) -> Option<BsdfSample<S>> {
+    pub(super) fn sample(&self, wo: DVec3, sampler: &mut Sampler<'_>) -> Option<BsdfSample<S>> {
         let lobes = self.lobes(wo);
         let once = |u| sample_reflection(self.ggx, wo, u);
-        let wi = lobes.sample(cursor, once, |u| sample_caught(&self.caught, &self.full, u))?;
+        let wi = lobes.sample(sampler, once, |u| sample_caught(&self.caught, &self.full, u))?;
         Some(BsdfSample::reflected(wi, self.evaluate(wo, wi), self.pdf_of(lobes, wo, wi)))
     }
 

@@ -9,7 +9,7 @@ use super::fresnel::Boundary;
 use super::{BsdfSample, Mode};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 
 /// A smooth boundary between the room and a clear medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,11 +28,11 @@ impl Dielectric {
         wo: DVec3,
         front: bool,
         mode: Mode,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
     ) -> BsdfSample<S> {
         let eta = if front { self.eta } else { 1.0 / self.eta };
         let boundary = Boundary::new(wo.z, eta);
-        let is_reflected = cursor.choose_bool(boundary.reflectance());
+        let is_reflected = sampler.choose_bool(boundary.reflectance());
         let wi = if is_reflected {
             DVec3::new(-wo.x, -wo.y, wo.z)
         } else {
@@ -54,7 +54,7 @@ mod tests {
 
     fn sample(eta: f64, wo: DVec3, front: bool, mode: Mode, index: u64) -> BsdfSample<f64> {
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-        Dielectric::new(eta).sample(wo, front, mode, &mut SampleCursor::new(&points, index))
+        Dielectric::new(eta).sample(wo, front, mode, &mut Sampler::new(&points, index))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The choice between a sharp lobe and a broad one.
 
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 
 /// How often directions come from the sharp lobe.
 ///
@@ -22,12 +22,12 @@ impl Lobes {
     /// A direction above the surface; `None` where the sharp lobe points below it.
     pub(super) fn sample(
         self,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
         sharp: impl FnOnce([f64; 2]) -> DVec3,
         broad: impl FnOnce([f64; 2]) -> DVec3,
     ) -> Option<DVec3> {
-        let is_sharp = cursor.choose_bool(self.sharp);
-        let u = [cursor.rest_1d(), cursor.next_1d()];
+        let is_sharp = sampler.choose_bool(self.sharp);
+        let u = [sampler.remapped_1d(), sampler.next_1d()];
         let wi = if is_sharp { sharp(u) } else { broad(u) };
         (wi.z > 0.0).then_some(wi)
     }

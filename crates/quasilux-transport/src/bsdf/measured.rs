@@ -11,13 +11,13 @@ use super::Mode;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 use quasilux_photometry::bsdf::{Distribution, MeasuredBsdf, Side, Way};
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_scene::{Rgb, bsdf as scene};
 
 /// The doubt is the mean defect, within these bounds.
-const LEAST_DOUBT: f64 = 0.05;
-const MOST_DOUBT: f64 = 0.5;
+const MIN_DOUBT: f64 = 0.05;
+const MAX_DOUBT: f64 = 0.5;
 
 /// The sheet.
 #[derive(Clone, Debug)]
@@ -64,14 +64,14 @@ impl Measured {
         wo: DVec3,
         front: bool,
         mode: Mode,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
     ) -> Option<BsdfSample<S>> {
         let side = self.sheet.side(front);
         let from = in_table(wo, side);
         let p_reflected = self.p_reflected(from, side, mode)?;
-        let is_reflected = cursor.choose_bool(p_reflected);
+        let is_reflected = sampler.choose_bool(p_reflected);
         let way = if is_reflected { Way::Reflection } else { Way::Transmission };
-        let to = self.lobe(side, way, mode).sample(from, cursor)?;
+        let to = self.lobe(side, way, mode).sample(from, sampler)?;
         let wi = out_of_table(to, side, way);
         let pdf_sr = self.pdf_of(wo, wi, front, mode);
         let value: S = self.evaluate(wo, wi, front, mode);
@@ -144,9 +144,9 @@ impl Lobe<'_> {
         share / (share + self.doubt)
     }
 
-    fn sample(&self, from: DVec3, cursor: &mut SampleCursor<'_>) -> Option<DVec3> {
-        let is_from_table = self.doubt == 0.0 || cursor.choose_bool(self.p_table(from));
-        let u = [cursor.rest_1d(), cursor.next_1d()];
+    fn sample(&self, from: DVec3, sampler: &mut Sampler<'_>) -> Option<DVec3> {
+        let is_from_table = self.doubt == 0.0 || sampler.choose_bool(self.p_table(from));
+        let u = [sampler.remapped_1d(), sampler.next_1d()];
         match self.table.filter(|_| is_from_table) {
             Some(table) => Some(table.sample(from, u)?.wo),
             None => Some(sample_cosine_hemisphere(u).into()),
@@ -168,7 +168,7 @@ fn doubt(table: &MeasuredBsdf, side: Side, way: Way) -> f64 {
     }
     // A look at some directions cannot tell that a table is reciprocal everywhere.
     let defect = table.analysis().reciprocity(side, way).map(|found| found.mean);
-    defect.map_or(1.0, |defect| defect.clamp(LEAST_DOUBT, MOST_DOUBT))
+    defect.map_or(1.0, |defect| defect.clamp(MIN_DOUBT, MAX_DOUBT))
 }
 
 /// The side that light arrives on which goes on from `side` after it went that way.

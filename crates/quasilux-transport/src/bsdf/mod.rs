@@ -31,7 +31,7 @@ use glam::DVec3;
 use measured::Measured;
 use mirror::Mirror;
 use plastic::Plastic;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_scene::{Rgb, bsdf as scene};
 use translucent::Translucent;
 
@@ -211,17 +211,19 @@ impl<S: Spectrum> Bsdf<S> {
         wo: DVec3,
         front: bool,
         mode: Mode,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
     ) -> Option<BsdfSample<S>> {
         match self {
-            Self::Diffuse(diffuse) => Some(diffuse.sample([cursor.rest_1d(), cursor.next_1d()])),
+            Self::Diffuse(diffuse) => {
+                Some(diffuse.sample([sampler.remapped_1d(), sampler.next_1d()]))
+            }
             Self::Mirror(mirror) => Some(mirror.sample(wo)),
-            Self::Translucent(translucent) => Some(translucent.sample(cursor)),
-            Self::Dielectric(dielectric) => Some(dielectric.sample(wo, front, mode, cursor)),
-            Self::Pane(pane) => pane.sample(wo, cursor),
-            Self::Conductor(conductor) => conductor.sample(wo, cursor),
-            Self::Plastic(plastic) => plastic.sample(wo, cursor),
-            Self::Measured(measured) => measured.sample(wo, front, mode, cursor),
+            Self::Translucent(translucent) => Some(translucent.sample(sampler)),
+            Self::Dielectric(dielectric) => Some(dielectric.sample(wo, front, mode, sampler)),
+            Self::Pane(pane) => pane.sample(wo, sampler),
+            Self::Conductor(conductor) => conductor.sample(wo, sampler),
+            Self::Plastic(plastic) => plastic.sample(wo, sampler),
+            Self::Measured(measured) => measured.sample(wo, front, mode, sampler),
         }
     }
 

@@ -10,7 +10,7 @@ use super::BsdfSample;
 use super::fresnel::Boundary;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_scene::bsdf::{self as scene, AngularTable};
 
 /// A flat pane of no thickness.
@@ -59,14 +59,14 @@ impl<S: Spectrum> Pane<S> {
         self.pane_reflectance(wo.z) + self.pane_transmittance(wo.z)
     }
 
-    pub(super) fn sample(&self, wo: DVec3, cursor: &mut SampleCursor<'_>) -> Option<BsdfSample<S>> {
+    pub(super) fn sample(&self, wo: DVec3, sampler: &mut Sampler<'_>) -> Option<BsdfSample<S>> {
         let (mirrored, straight) = (self.pane_reflectance(wo.z), self.pane_transmittance(wo.z));
         let sum = mirrored.luminance() + straight.luminance();
         if sum <= 0.0 {
             return None;
         }
         let p_mirrored = mirrored.luminance() / sum;
-        let (wi, share, p) = if cursor.choose_bool(p_mirrored) {
+        let (wi, share, p) = if sampler.choose_bool(p_mirrored) {
             (DVec3::new(-wo.x, -wo.y, wo.z), mirrored, p_mirrored)
         } else {
             (-wo, straight, 1.0 - p_mirrored)
@@ -151,7 +151,7 @@ mod tests {
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
         let mut mirrored = 0;
         for index in 0..1024 {
-            let next = pane.sample(wo, &mut SampleCursor::new(&points, index)).unwrap();
+            let next = pane.sample(wo, &mut Sampler::new(&points, index)).unwrap();
             assert!((next.weight - 0.65).abs() < 1e-14 && next.pdf_sr.is_none());
             mirrored += u32::from(next.wi.z > 0.0);
             assert!(next.wi == -wo || next.wi == DVec3::new(0.0, -wo.y, wo.z));

@@ -19,7 +19,7 @@ use super::ggx::{Ggx, pdf_reflection, sample_reflection};
 use super::lobes::Lobes;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use std::f64::consts::FRAC_1_PI;
 
@@ -48,10 +48,10 @@ impl<S: Spectrum> Plastic<S> {
         S::white() * coat + self.reflectance * (1.0 - coat)
     }
 
-    pub(super) fn sample(&self, wo: DVec3, cursor: &mut SampleCursor<'_>) -> Option<BsdfSample<S>> {
+    pub(super) fn sample(&self, wo: DVec3, sampler: &mut Sampler<'_>) -> Option<BsdfSample<S>> {
         let lobes = self.lobes(wo);
         let once = |u| sample_reflection(self.ggx, wo, u);
-        let wi = lobes.sample(cursor, once, |u| sample_cosine_hemisphere(u).into())?;
+        let wi = lobes.sample(sampler, once, |u| sample_cosine_hemisphere(u).into())?;
         Some(BsdfSample::reflected(wi, self.evaluate(wo, wi), self.pdf_of(lobes, wo, wi)))
     }
 

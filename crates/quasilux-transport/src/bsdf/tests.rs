@@ -2,7 +2,7 @@
 
 use super::{Bsdf, BsdfSample, Mode};
 use glam::DVec3;
-use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
 use quasilux_scene::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Pane, Plastic, Translucent};
 use quasilux_scene::{Bsdf as Material, Rgb};
 use quasilux_stats::{CellCount, chi_square_test, sidak};
@@ -154,8 +154,8 @@ fn white_surfaces_give_all_light_back() {
                 );
                 let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
                 for index in 0..64 {
-                    let mut cursor = SampleCursor::new(&points, index);
-                    let next = bsdf.sample(wo, front, Mode::Flux, &mut cursor).unwrap();
+                    let mut sampler = Sampler::new(&points, index);
+                    let next = bsdf.sample(wo, front, Mode::Flux, &mut sampler).unwrap();
                     assert!((next.weight - 1.0).abs() < 1e-12 && next.pdf_sr.is_none());
                 }
             }
@@ -203,9 +203,9 @@ fn weights_are_f_cos_over_pdf() {
         for cos in COSINES {
             let wo = direction(cos, 5.0);
             for index in 0..256 {
-                let mut cursor = SampleCursor::new(&points, index);
+                let mut sampler = Sampler::new(&points, index);
                 let Some(BsdfSample { wi, weight, pdf_sr }) =
-                    bsdf.sample(wo, true, Mode::Radiance, &mut cursor)
+                    bsdf.sample(wo, true, Mode::Radiance, &mut sampler)
                 else {
                     continue;
                 };
@@ -255,10 +255,10 @@ fn p_value(
     );
     let left = total - cells.iter().map(|cell| cell.expected).sum::<f64>();
     cells.push(CellCount { observed: 0, expected: left.max(1e-9) });
-    let points = PointSet::new(Sequence::Random, Randomization::Owen, 4);
+    let points = PointSet::new(Sequence::Independent, Randomization::Owen, 4);
     for index in 0..u64::from(samples) {
-        let mut cursor = SampleCursor::new(&points, index);
-        let cell = match drawn.sample(wo, true, Mode::Radiance, &mut cursor) {
+        let mut sampler = Sampler::new(&points, index);
+        let cell = match drawn.sample(wo, true, Mode::Radiance, &mut sampler) {
             None => cells.len() - 1,
             Some(BsdfSample { wi, .. }) if wi.z < 0.0 => {
                 let ring = ((wi.x * wi.x + wi.y * wi.y) * f64::from(parts[0])) as u32;

@@ -6,7 +6,7 @@
 use super::BsdfSample;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use std::f64::consts::FRAC_1_PI;
 
@@ -27,10 +27,11 @@ impl<S: Spectrum> Translucent<S> {
         self.reflectance + self.transmittance
     }
 
-    pub(super) fn sample(&self, cursor: &mut SampleCursor<'_>) -> BsdfSample<S> {
+    pub(super) fn sample(&self, sampler: &mut Sampler<'_>) -> BsdfSample<S> {
         let p_reflected = self.p_reflected();
-        let is_reflected = cursor.choose_bool(p_reflected);
-        let mut wi: DVec3 = sample_cosine_hemisphere([cursor.rest_1d(), cursor.next_1d()]).into();
+        let is_reflected = sampler.choose_bool(p_reflected);
+        let mut wi: DVec3 =
+            sample_cosine_hemisphere([sampler.remapped_1d(), sampler.next_1d()]).into();
         let (share, p) = if is_reflected {
             (self.reflectance, p_reflected)
         } else {

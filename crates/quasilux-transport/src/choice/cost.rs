@@ -10,7 +10,7 @@
 use super::trial::{REPLICATES, SAMPLES};
 use crate::interval::t_quantile_for;
 use crate::looks::miss_probability_of_a_look;
-use crate::schedule::LEAST_SAMPLES;
+use crate::schedule::MIN_SAMPLES;
 use crate::settings::{Settings, ToleranceOn};
 
 /// Samples that a run is taken to have where no tolerance says how many it needs.
@@ -67,7 +67,7 @@ impl Budget {
         let replicates = settings.effective_replicates();
         let samples = match fixed {
             Some(points) => points as f64,
-            None if is_tolerance => LEAST_SAMPLES as f64,
+            None if is_tolerance => MIN_SAMPLES as f64,
             None => EXPECTED_SAMPLES,
         };
         // The half-width `t sqrt(variance / replicates)` is to be one, in units of the tolerance.

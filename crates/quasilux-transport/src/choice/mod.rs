@@ -123,7 +123,7 @@ impl<S: Spectrum> Tried<S> {
         let found_lx = |(target, exact_lx): (usize, &f64)| exact_lx + trial.moments(target).mean;
         let means_lx = sample.exact_lx.iter().enumerate().map(found_lx).collect();
         let wanted = Wanted::new(settings, &sample, means_lx);
-        let later = if settings.sequence == Sequence::Random { 1.0 } else { LATER };
+        let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
         let noted: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
         let Outcome { of_chances, rays } = paths.walks.alone(&wanted);
         let plain = noted.iter().zip(of_chances).map(|(v, of_chances)| v + of_chances).collect();

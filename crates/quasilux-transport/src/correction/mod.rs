@@ -24,7 +24,7 @@ mod tests;
 mod trips;
 mod walk;
 
-pub(crate) use pilot::{Choice, MOST_PHOTONS, of_plan};
+pub(crate) use pilot::{Choice, MAX_PHOTONS, of_plan};
 pub(crate) use trips::{Outcome, RayCounts, Walks};
 
 use crate::map::{IlluminationMap, MapLayout, MapTally, Place};
@@ -36,8 +36,8 @@ use survival::Survival;
 
 /// With so many wanted bounces or fewer, and no more sides of elements, the map keeps light apart by its bounces, so that
 /// paths may end on it anywhere; else only at the first surface.
-const MOST_LAYERS: u32 = 16;
-const MOST_LAYERED_SIDES: u64 = 1 << 21;
+const MAX_LAYERS: u32 = 16;
+const MAX_LAYERED_SIDES: u64 = 1 << 21;
 
 /// A map with what is known of how good it is.
 pub(crate) struct FrozenMap<S> {
@@ -142,5 +142,5 @@ pub(crate) fn bounces_left(max_bounces: Option<u32>, bounces: u32, sides: u64) -
 }
 
 fn is_layered(max_bounces: u32, sides: u64) -> bool {
-    max_bounces <= MOST_LAYERS && sides <= MOST_LAYERED_SIDES
+    max_bounces <= MAX_LAYERS && sides <= MAX_LAYERED_SIDES
 }

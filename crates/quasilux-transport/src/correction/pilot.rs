@@ -1,7 +1,7 @@
 //! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all, by what a trial of
 //! paths foretells.
 
-use super::survival::{LEAST, Survival};
+use super::survival::{MIN, Survival};
 use super::trips::{Outcome, Trips};
 use super::walk::Ending;
 use super::{FrozenMap, Walks, bounces_left, layers};
@@ -25,7 +25,7 @@ const PHOTONS_SHARE: u64 = 32;
 const FIRST_SHOT_SHARE: u64 = 8;
 /// Bounds on them, and on those of a map.
 const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
-pub(crate) const MOST_PHOTONS: u64 = 1 << 20;
+pub(crate) const MAX_PHOTONS: u64 = 1 << 20;
 /// The search begins where paths go on with about the least probability; each step is a factor of sqrt(2).
 const STEPS: u32 = 16;
 
@@ -86,7 +86,7 @@ impl<S: Spectrum> Choice<S> {
         let mut least = f64::INFINITY;
         for survival in candidates(&trips, &survival) {
             let Outcome { of_chances, rays } = trips.outcome(Ending::OnMap(&survival), wanted);
-            for doublings in 0..=(MOST_PHOTONS / pilots).ilog2() {
+            for doublings in 0..=(MAX_PHOTONS / pilots).ilog2() {
                 let photons = pilots << doublings;
                 // More photons take out noise.
                 let off = 1.0 - noise_share * (1.0 - pilots as f64 / photons as f64);
@@ -148,7 +148,7 @@ impl Use {
 /// Paths that go on seldom, more often, and nearly always.
 fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
     let usual = trips.usual_loss(survival);
-    let first = if usual > 0.0 { LEAST / usual } else { 0.0 };
+    let first = if usual > 0.0 { MIN / usual } else { 0.0 };
     let sureness = |step: u32| first * libm::pow(SQRT_2, f64::from(step));
     (0..=STEPS).map(|step| survival.with_sureness(sureness(step))).collect()
 }

@@ -3,7 +3,7 @@
 use crate::state::Writer;
 
 /// Paths go on with this probability at least, so that no survivor counts too much.
-pub(super) const LEAST: f64 = 1.0 / 64.0;
+pub(super) const MIN: f64 = 1.0 / 64.0;
 /// Where the map has less than this part of the mean, it is taken as if it had so much: it may have missed something.
 const DIM: f64 = 0.1;
 /// What is known of all elements counts in each as much as this many paths of its own, of usual light.
@@ -90,7 +90,7 @@ impl Survival {
     pub(super) fn chance(&self, element: usize, weight: f64, light: f64) -> Option<f64> {
         let is_known = weight > 0.0 && self.mean_lx > 0.0;
         let loss = is_known.then(|| self.loss(element, weight, light))?;
-        Some((self.sureness * loss).clamp(LEAST, 1.0))
+        Some((self.sureness * loss).clamp(MIN, 1.0))
     }
 
     fn light(&self, weight: f64, light: f64) -> f64 {
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn no_survivor_counts_too_much() {
         let survival = survival();
-        assert_eq!(survival.chance(3, 1e-9, 0.0), Some(LEAST));
+        assert_eq!(survival.chance(3, 1e-9, 0.0), Some(MIN));
         assert_eq!(survival.chance(3, 1e9, 0.0), Some(1.0));
         assert_eq!(survival.chance(3, 1.0, f64::NAN), survival.chance(3, 1.0, 0.0));
     }

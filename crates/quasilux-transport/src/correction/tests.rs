@@ -87,7 +87,7 @@ fn mean(values: &[f64]) -> f64 {
 /// A trial of a few hundred paths is itself only good to some tens of percent in variances, which have long tails,
 /// and to a few percent in rays.
 fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
-    let (sequence, randomization) = (Sequence::Random, Randomization::None);
+    let (sequence, randomization) = (Sequence::Independent, Randomization::None);
     let settings = Settings { sequence, randomization, max_bounces, ..Settings::default() };
     let stage = Stage::<f64>::new(scene, &settings);
     let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));

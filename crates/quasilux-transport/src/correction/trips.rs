@@ -11,7 +11,7 @@ use crate::stage::Stage;
 use rayon::prelude::*;
 
 /// At most this part of how far a map is off is taken for noise, which more photons would mend.
-const MOST_NOISE: f64 = 0.75;
+const MAX_NOISE: f64 = 0.75;
 
 /// Paths of a trial.
 #[derive(Debug)]
@@ -180,7 +180,7 @@ impl Trips {
             let squares = trip.findings().map(|f| (f.beyond - f.light) * (f.beyond - f.light));
             [noise + worth * worth * trip.noise, off + worth * worth * squares.sum::<f64>()]
         });
-        if sums[1] > 0.0 { (sums[0] / sums[1]).min(MOST_NOISE) } else { 0.0 }
+        if sums[1] > 0.0 { (sums[0] / sums[1]).min(MAX_NOISE) } else { 0.0 }
     }
 
     /// Whether the map has much more light for some target than its paths found: light that is hard for them.

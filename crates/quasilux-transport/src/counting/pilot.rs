@@ -16,14 +16,14 @@ use crate::stage::{Stage, Stream};
 use crate::steering::{self, Plan, Windows};
 use crate::targets::targets;
 use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// Steered pilot photons, and the most that are not.
 const PILOTS: u64 = 1 << 11;
-const MOST_PLAIN: u64 = 1 << 18;
+const MAX_PLAIN: u64 = 1 << 18;
 /// How many a thread takes at once.
 const PIECE: u64 = 1 << 6;
 
@@ -40,7 +40,7 @@ pub(crate) fn plan<S: Spectrum>(
         let steered = trace(plan.windows.as_ref(), 0..PILOTS);
         let mut plain = trace(None, 0..PILOTS);
         let as_many = PILOTS * steered.rays / plain.rays.max(1);
-        plain.add(&trace(None, PILOTS..as_many.min(MOST_PLAIN)));
+        plain.add(&trace(None, PILOTS..as_many.min(MAX_PLAIN)));
         plan.rays += plain.rays + steered.rays;
         if plain.relative_variance() <= steered.relative_variance() {
             plan.windows = None;
@@ -70,8 +70,8 @@ impl Pilots {
             let mut left = Vec::new();
             for index in first..(first + PIECE).min(photons.end) {
                 let mut found = Found { receivers, left: Vec::new() };
-                let cursor = SampleCursor::new(&points, index);
-                trace_photon(stage, lead, cursor, &mut found, &mut counts);
+                let sampler = Sampler::new(&points, index);
+                trace_photon(stage, lead, sampler, &mut found, &mut counts);
                 left.extend(found.by_counter());
             }
             (left, counts.rays)

@@ -6,7 +6,7 @@ use super::{Pilot, Points, Walk, WalkKind};
 use crate::join::Joined;
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 
 /// Photons.
 const SAMPLES: u64 = 1 << 13;
@@ -59,12 +59,12 @@ impl<S: Spectrum> Walk for BesideWalk<'_, S> {
             [Stream::CoarsePhotons, Stream::JoinedPhotons(0), Stream::JoinedPlaces(0)].map(points);
         Pilot::of_photons(samples, self.whole_lx.len(), |index, counts| match self.role {
             Role::Counted => {
-                let cursor = SampleCursor::new(&counted, index);
-                self.joined.of_counted_lx(self.stage, cursor, counts)
+                let sampler = Sampler::new(&counted, index);
+                self.joined.of_counted_lx(self.stage, sampler, counts)
             }
             Role::Joined => {
-                let cursor = SampleCursor::new(&joined, index);
-                self.joined.of_joined_lx(self.stage, cursor, places, counts)
+                let sampler = Sampler::new(&joined, index);
+                self.joined.of_joined_lx(self.stage, sampler, places, counts)
             }
         })
     }

@@ -5,9 +5,9 @@ use crate::purpose::Purpose;
 use std::collections::BTreeMap;
 
 /// More blocks than this are one.
-const MOST_BLOCKS: usize = 12;
+const MAX_BLOCKS: usize = 12;
 /// Coordinates that fewer samples get to belong to the last block.
-const LEAST_REACHED: f64 = 1.0 / 64.0;
+const MIN_REACHED: f64 = 1.0 / 64.0;
 
 /// The blocks of `samples` samples that drew these dimensions. What decides over joins has a block of its own, for its
 /// dimensions are far from all others.
@@ -37,7 +37,7 @@ fn in_order(uses: &BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
         let reached = drawn as f64 / samples as f64;
         let most = of_dimension(dimension).max_by_key(|&(_, count)| count);
         let purpose = most.map(|(purpose, _)| purpose);
-        let is_rest = reached < LEAST_REACHED;
+        let is_rest = reached < MIN_REACHED;
         match blocks.last_mut() {
             Some(block) if !is_rest && purpose == last_purpose => block.dimensions.end += 1,
             _ => {
@@ -48,7 +48,7 @@ fn in_order(uses: &BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
             }
         }
         last_purpose = purpose;
-        if is_rest || blocks.len() == MOST_BLOCKS {
+        if is_rest || blocks.len() == MAX_BLOCKS {
             break;
         }
     }

@@ -18,7 +18,7 @@ pub(super) fn gain(
     spread: &Spread<'_>,
     rays: &mut u64,
 ) -> Option<Gain> {
-    let is_random = settings.sequence == Sequence::Random;
+    let is_random = settings.sequence == Sequence::Independent;
     if !spread.varies() || (settings.randomization == Randomization::None && !is_random) {
         return None;
     }

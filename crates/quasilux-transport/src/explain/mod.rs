@@ -43,7 +43,7 @@ const PHOTONS_A_PIECE: u64 = 1 << 8;
 /// Steps by which blocks are moved, to see how fast the difference falls.
 const STEPS: [f64; 2] = [1.0 / 16.0, 1.0 / 64.0];
 /// Shares of less are not looked at for jumps.
-const LEAST_SHARE: f64 = 0.01;
+const MIN_SHARE: f64 = 0.01;
 
 /// Where the variance of an estimate comes from, by coordinates.
 #[derive(Clone, Debug, PartialEq)]
@@ -255,7 +255,7 @@ struct Look {
 fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Look {
     let samples = walk.samples();
     let key = |replicate: u32, stream: Stream| stream_key(settings.seed, replicate, stream.id());
-    let random = |key| PointSet::new(Sequence::Random, Randomization::None, key);
+    let random = |key| PointSet::new(Sequence::Independent, Randomization::None, key);
     ledger.set_open(true);
     let pilot = walk.trace(samples, &|stream| random(key(PILOT, stream)));
     ledger.set_open(false);
@@ -287,7 +287,7 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Look {
             let tail = spread.total(&exchange(first..u32::MAX));
             truncation_dimension = (!carries(tail, 0.01)).then_some(first);
         }
-        if carries(block.total, LEAST_SHARE) {
+        if carries(block.total, MIN_SHARE) {
             let squares = STEPS.map(|by| {
                 let moved = vary(&|stream| random(key(PILOT, stream)).moved(first..end, by));
                 spread.total(&moved).map_or(0.0, |share| share.value)

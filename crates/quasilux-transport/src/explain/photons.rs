@@ -10,7 +10,7 @@ use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::steering::Windows;
 use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_scene::Scene;
 
 /// Photons.
@@ -69,9 +69,9 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
         Pilot::of_photons(samples, self.sensors, |index, counts| {
             let Self { receivers, readings, .. } = self;
             let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
-            let cursor = SampleCursor::new(&points, index);
+            let sampler = Sampler::new(&points, index);
             let lead = Lead::by_chance(Source::Lights, self.windows.as_ref());
-            trace_photon(self.stage, lead, cursor, &mut found, counts);
+            trace_photon(self.stage, lead, sampler, &mut found, counts);
             found.lx
         })
     }

@@ -37,12 +37,12 @@ use cell::Cell;
 use lit::{Beam, LitCell};
 use quasilux_bvh::Shot;
 use quasilux_sampling::warp::sample_linear_triangle;
-use quasilux_sampling::{Discrete, SampleCursor};
+use quasilux_sampling::{Discrete, Sampler};
 use rayon::prelude::*;
 
 /// More pairs of a facet and a light that faces it than this are not looked at: photons leave the
 /// lights instead.
-const MOST_PAIRS: usize = 1 << 21;
+const MAX_PAIRS: usize = 1 << 21;
 /// Rays that a pair takes at least.
 const LOOKS: u64 = 6;
 /// Share of the photons that go where light would land if nothing stood in the way.
@@ -113,7 +113,7 @@ impl LitPlace {
 
 impl LitCells {
     /// Looks where the light lands; `None` where no point-like light's goes on, where first looks alone would take more
-    /// rays than these, and for more than [`MOST_PAIRS`].
+    /// rays than these, and for more than [`MAX_PAIRS`].
     pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, most_rays: u64) -> Option<Self> {
         let beams = Beam::all(stage);
         let facets = 0..stage.world.facets.len() as u32;
@@ -121,7 +121,7 @@ impl LitCells {
             facets.clone().filter(|&facet| beam.faces(facet).is_some()).count()
         };
         let pairs = beams.iter().map(facing).sum::<usize>();
-        if pairs > MOST_PAIRS || pairs as u64 * LOOKS > most_rays {
+        if pairs > MAX_PAIRS || pairs as u64 * LOOKS > most_rays {
             return None;
         }
         let (mut lit, mut rays) = (Vec::new(), 0);
@@ -181,15 +181,15 @@ impl LitCells {
         self.flux_share
     }
 
-    /// Where the photon of a cursor starts; its first coordinate chooses, what is left of it and the next
+    /// Where the photon of a sampler starts; its first coordinate chooses, what is left of it and the next
     /// give the place. `None` where no light can arrive.
     pub(crate) fn draw<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
     ) -> Option<Drawn> {
-        let (choice, u) = stage.draw(cursor, Purpose::Emission, |cursor| {
-            (cursor.choose_leading(&self.by_flux), [cursor.rest_1d(), cursor.next_1d()])
+        let (choice, u) = stage.draw(sampler, Purpose::Emission, |sampler| {
+            (sampler.choose_leading(&self.by_flux), [sampler.remapped_1d(), sampler.next_1d()])
         });
         let Some(drawn) = self.cells.get(choice.index) else {
             let number = self.first_area_light + choice.index - self.cells.len();

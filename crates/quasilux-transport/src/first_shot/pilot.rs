@@ -13,7 +13,7 @@ use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stage::{Stage, Stream};
 use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 
 /// Pilot photons of each kind.
 const PILOTS: u64 = 1 << 12;
@@ -58,8 +58,8 @@ fn work<S: Spectrum>(stage: &Stage<'_, S>, source: Source<'_>, counts: &mut Phot
     let points = stage.points(0, Stream::FirstShotPilots);
     let (mut weights, mut of_pilots) = (Weights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
-        let cursor = SampleCursor::new(&points, index);
-        trace_photon(stage, Lead::by_chance(source, None), cursor, &mut weights, &mut of_pilots);
+        let sampler = Sampler::new(&points, index);
+        trace_photon(stage, Lead::by_chance(source, None), sampler, &mut weights, &mut of_pilots);
     }
     counts.rays += of_pilots.rays;
     let Weights { sum, squares } = weights;

@@ -26,7 +26,7 @@ mod spotlight;
 
 const REPLICATES: u32 = 16;
 const PHOTONS: u64 = 1 << 12;
-const MOST_BOUNCES: usize = 3;
+const MAX_BOUNCES: usize = 3;
 
 fn grey(reflectance: f64) -> Bsdf {
     Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(reflectance) })
@@ -120,7 +120,7 @@ fn room_with_glass() -> Scene {
 /// Flux on each of the seven surfaces after one, two and three bounces, over that of the lights; in
 /// `total` of all later ones together.
 struct Landed {
-    shares: [[f64; MOST_BOUNCES]; 7],
+    shares: [[f64; MAX_BOUNCES]; 7],
     total: f64,
 }
 
@@ -131,7 +131,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Landed {
         if bounces > 0 {
             self.total += weight.luminance();
         }
-        if (1..=MOST_BOUNCES as u32).contains(&bounces) {
+        if (1..=MAX_BOUNCES as u32).contains(&bounces) {
             self.shares[at.facet as usize / 2][bounces as usize - 1] += weight.luminance();
         }
     }
@@ -150,10 +150,10 @@ fn landed<S: Spectrum>(
     };
     let lead = Lead::by_chance(source, None);
     let points = stage.points(replicate, stream);
-    let mut landed = Landed { shares: [[0.0; MOST_BOUNCES]; 7], total: 0.0 };
+    let mut landed = Landed { shares: [[0.0; MAX_BOUNCES]; 7], total: 0.0 };
     for index in 0..photons {
-        let cursor = SampleCursor::new(&points, index);
-        trace_photon(stage, lead, cursor, &mut landed, &mut PhotonCounts::default());
+        let sampler = Sampler::new(&points, index);
+        trace_photon(stage, lead, sampler, &mut landed, &mut PhotonCounts::default());
     }
     let each = 1.0 / photons as f64;
     landed.shares = landed.shares.map(|row| row.map(|share| share * each));
@@ -177,10 +177,10 @@ fn assert_kinds_agree<S: Spectrum>(name: &str, scene: &Scene) {
         (0..REPLICATES).map(|replicate| landed(&stage, source, replicate, PHOTONS)).collect()
     };
     let (plain, first_shot) = (all(Source::Lights), all(Source::LitCells(&cells)));
-    let significance = sidak(0.001, 6 * MOST_BOUNCES * 3);
+    let significance = sidak(0.001, 6 * MAX_BOUNCES * 3);
     let (mut works, mut compared) = (0.0, 0);
     for surface in 0..7 {
-        for bounce in 0..MOST_BOUNCES {
+        for bounce in 0..MAX_BOUNCES {
             let of = |rows: &[Landed]| {
                 let values: Vec<f64> = rows.iter().map(|row| row.shares[surface][bounce]).collect();
                 moments(&values)
@@ -241,7 +241,7 @@ fn weights_are_nearly_equal() {
         let points = stage.points(0, Stream::Photons);
         let (mut sum, mut squares) = (0.0, 0.0);
         for index in 0..PHOTONS {
-            let drawn = cells.draw(&stage, &mut SampleCursor::new(&points, index));
+            let drawn = cells.draw(&stage, &mut Sampler::new(&points, index));
             if let Some(Drawn::Place(place)) = drawn
                 && place.is_lit(&stage)
             {

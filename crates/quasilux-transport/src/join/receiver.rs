@@ -13,7 +13,7 @@ use crate::steering::Density;
 use crate::tally::{Quantum, Sum};
 use crate::world::Interaction;
 use quasilux_bvh::Shot;
-use quasilux_sampling::{PointSet, SampleCursor};
+use quasilux_sampling::{PointSet, Sampler};
 use std::f64::consts::PI;
 use std::sync::Mutex;
 
@@ -31,7 +31,7 @@ const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 /// The same in one dimension, for the number that decides it from join to join.
 const STEP: f64 = 0.618_033_988_749_894_9;
 /// One landing is joined to no more places of one cell.
-const MOST_JOINS: f64 = 16.0;
+const MAX_JOINS: f64 = 16.0;
 
 /// Some targets that photons are joined to.
 #[derive(Clone, Copy)]
@@ -86,13 +86,13 @@ struct Offer {
 }
 
 impl Seen {
-    /// The cursor of a photon, at its coordinates of these points.
-    pub(super) fn cursor<'p>(photon: &SampleCursor<'_>, points: &'p PointSet) -> SampleCursor<'p> {
+    /// The sampler of a photon, at its coordinates of these points.
+    pub(super) fn sampler<'p>(photon: &Sampler<'_>, points: &'p PointSet) -> Sampler<'p> {
         photon.among(points, PLACE_DIMENSION)
     }
 
-    pub(super) fn draw(cursor: &mut SampleCursor<'_>) -> Self {
-        Self { in_cell: cursor.next_2d(), chance: cursor.next_1d() }
+    pub(super) fn draw(sampler: &mut Sampler<'_>) -> Self {
+        Self { in_cell: sampler.next_2d(), chance: sampler.next_1d() }
     }
 }
 
@@ -134,11 +134,11 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
             return;
         }
         let joins = if foreseen_lx > certain_lx && !spot.is_point() {
-            (foreseen_lx / certain_lx).ceil().min(MOST_JOINS)
+            (foreseen_lx / certain_lx).ceil().min(MAX_JOINS)
         } else {
             1.0
         };
-        for join in (0..MOST_JOINS as u32).map(f64::from).take_while(|join| *join < joins) {
+        for join in (0..MAX_JOINS as u32).map(f64::from).take_while(|join| *join < joins) {
             let place = [0, 1].map(|axis| fraction(in_cell[axis] + join * STEPS[axis]));
             let u = fraction(chance + join * STEP);
             let view = View::of(&self.stage.world, spot, at, place);
@@ -189,8 +189,8 @@ fn fraction(x: f64) -> f64 {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
-    fn follow(&mut self, cursor: &SampleCursor<'_>) {
-        self.photon = Some(Seen::draw(&mut Seen::cursor(cursor, &self.points)));
+    fn follow(&mut self, sampler: &Sampler<'_>) {
+        self.photon = Some(Seen::draw(&mut Seen::sampler(sampler, &self.points)));
     }
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}

@@ -11,7 +11,7 @@ use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::tally::Sum;
 use crate::world::Interaction;
-use quasilux_sampling::{PointSet, SampleCursor};
+use quasilux_sampling::{PointSet, Sampler};
 use std::sync::Mutex;
 
 /// Gathers what all targets of a group are expected to see of one photon, in lx.
@@ -28,7 +28,7 @@ impl Joined {
     pub(crate) fn of_counted_lx<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
-        cursor: SampleCursor<'_>,
+        sampler: Sampler<'_>,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
         let Group { spots, outlook, .. } = self.group(0);
@@ -36,7 +36,7 @@ impl Joined {
         let Some(outlook) = outlook else { return zeros };
         let (at_once_lx, lx) = (zeros.clone(), zeros);
         let mut receiver = Expected { stage, joining: &self.joining, outlook, at_once_lx, lx };
-        trace_photon(stage, self.joining.lead(), cursor, &mut receiver, counts);
+        trace_photon(stage, self.joining.lead(), sampler, &mut receiver, counts);
         receiver.lx
     }
 
@@ -45,19 +45,19 @@ impl Joined {
     pub(crate) fn of_joined_lx<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
-        cursor: SampleCursor<'_>,
+        sampler: Sampler<'_>,
         places: PointSet,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
         // Noted here once: the receiver draws them anew for each flight.
         if stage.ledger.is_some() {
-            stage.draw(&mut Seen::cursor(&cursor, &places), Purpose::Joins, Seen::draw);
+            stage.draw(&mut Seen::sampler(&sampler, &places), Purpose::Joins, Seen::draw);
         }
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.spots.len() * group.terms]);
         let places = (places, self.quantum);
         let mut receiver = JoinReceiver::new(stage, &self.joining, group, places, &sums);
-        trace_photon(stage, self.joining.lead(), cursor, &mut receiver, counts);
+        trace_photon(stage, self.joining.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish();
         let sums = lock(&sums);
         let of_target = |sums: &[Sum]| sums.iter().map(|sum| self.quantum.value(*sum)).sum();
@@ -120,14 +120,14 @@ mod tests {
         let (coarse_photons, photons) = (coarse_photons * samples, photons * samples);
         let mut means_lx = [[0.0; 2]; 3];
         for index in 0..coarse_photons {
-            let cursor = SampleCursor::new(&counted, index);
-            let lx = joined.of_counted_lx(&stage, cursor, &mut counts);
+            let sampler = Sampler::new(&counted, index);
+            let lx = joined.of_counted_lx(&stage, sampler, &mut counts);
             let means = means_lx.iter_mut().zip(lx);
             means.for_each(|(mean, lx)| mean[0] += lx / coarse_photons as f64);
         }
         for index in 0..photons {
-            let cursor = SampleCursor::new(&fine, index);
-            let lx = joined.of_joined_lx(&stage, cursor, places, &mut counts_of_joined);
+            let sampler = Sampler::new(&fine, index);
+            let lx = joined.of_joined_lx(&stage, sampler, places, &mut counts_of_joined);
             let means = means_lx.iter_mut().zip(lx);
             means.for_each(|(mean, lx)| mean[1] += lx / photons as f64);
         }

@@ -141,7 +141,7 @@ impl Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     use quasilux_scene::Quantity;
 
     /// The mean over a cell of what a photon gives, by both ways to draw a place and by a fine even grid.
@@ -166,7 +166,7 @@ mod tests {
             };
             let count = 1_u64 << 14;
             let drawn = (0..count).filter_map(|index| {
-                let place = spot.place(from, SampleCursor::new(&points, index).next_2d())?;
+                let place = spot.place(from, Sampler::new(&points, index).next_2d())?;
                 Some(place.weight * given(place.position))
             });
             let found = drawn.sum::<f64>() / count as f64;

@@ -22,15 +22,15 @@ use crate::watch::Watch;
 /// Photons for each path of a trial.
 const PHOTONS: u64 = 8;
 /// Most photons for a path.
-const MOST_PHOTONS: u64 = 64;
+const MAX_PHOTONS: u64 = 64;
 /// The same for photons that are only counted.
 const COARSE_PHOTONS: u64 = 64;
-const MOST_COARSE_PHOTONS: u64 = 1024;
+const MAX_COARSE_PHOTONS: u64 = 1024;
 /// In a longer run, the error of the paths falls to about this part of what photons leave by then: they ask for
 /// fewer coordinates. Measured on the office and the cube, where it makes the error least for the rays.
 const LATER: f64 = 0.125;
 /// Photons are not counted by cell where sensors times cells are more than this: they would take 8 bytes each.
-const MOST_VIEWS: usize = 1 << 24;
+const MAX_VIEWS: usize = 1 << 24;
 /// A ray that joins costs this part of a ray on a path: it only asks whether anything is in the way, and
 /// its neighbours end where it does.
 const JOINING_RAY: f64 = 0.25;
@@ -102,7 +102,7 @@ impl Ways {
                 .map(|(target, exact)| exact.sum_lx() + forecast.indirect_lx(target))
                 .collect();
             let asked_lx = sample.of(&expected_lx);
-            let is_coarse = targets.len() * forecast.places.len() <= MOST_VIEWS;
+            let is_coarse = targets.len() * forecast.places.len() <= MAX_VIEWS;
             let joining = Joining {
                 landings: forecast.landings,
                 places: forecast.places,
@@ -246,8 +246,8 @@ impl Way {
             Best { photons, coarse_photons, variances, of_paths, of_photons, beforehand }
         };
         let is_coarse = self.coarse.rays > 0.0;
-        let most_coarse = if is_coarse { MOST_COARSE_PHOTONS } else { 1 };
-        let pairs = powers_up_to(MOST_PHOTONS)
+        let most_coarse = if is_coarse { MAX_COARSE_PHOTONS } else { 1 };
+        let pairs = powers_up_to(MAX_PHOTONS)
             .flat_map(|photons| powers_up_to(most_coarse).map(move |coarse| (photons, coarse)));
         let later = |&(photons, coarse): &(u64, u64)| {
             wanted.effort(&with(LATER, photons, coarse).promise())

@@ -81,8 +81,8 @@ impl<'a> AreaLuminaires<'a> {
         let Some(choice) = choose_weights(u[0], weights.iter().copied()) else {
             return Offer::without_choice(weights.iter().sum());
         };
-        let offer = self.0[choice.index].offer(vertex, [choice.rest, u[1]])?;
-        Some(Offer { light: offer.light * (1.0 / choice.probability), ..offer })
+        let offer = self.0[choice.index].offer(vertex, [choice.u_remapped, u[1]])?;
+        Some(Offer { light: offer.light * (1.0 / choice.pdf), ..offer })
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their light

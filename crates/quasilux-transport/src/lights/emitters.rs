@@ -60,9 +60,9 @@ impl Emitters {
 
     /// A point uniform over area within equal luminance; density in m^-2.
     pub(crate) fn place<S: Spectrum>(&self, world: &World<S>, u: [f64; 2]) -> Place {
-        let choice = self.by_flux.choose(u[0]);
+        let choice = self.by_flux.sample(u[0]);
         let facet = self.facets[choice.index];
-        let weights = sample_triangle([choice.rest, u[1]]);
+        let weights = sample_triangle([choice.u_remapped, u[1]]);
         Place { facet, position: world.facets[facet as usize].point(weights) }
     }
 

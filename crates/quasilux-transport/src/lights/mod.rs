@@ -17,7 +17,7 @@ use crate::world::{Vantage, World};
 use area_luminaires::place_m;
 use glam::DVec3;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
-use quasilux_sampling::{Discrete, SampleCursor};
+use quasilux_sampling::{Discrete, Sampler};
 use quasilux_scene::{Light, Scene};
 use std::f64::consts::PI;
 
@@ -99,26 +99,26 @@ impl<'a> Lights<'a> {
     pub(crate) fn emit<S: Spectrum>(
         &self,
         stage: &Stage<'_, S>,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
     ) -> Option<Emitted> {
         let by_flux = self.by_flux.as_ref()?;
-        let (choice, u) = stage.draw(cursor, Purpose::Emission, |cursor| {
-            (cursor.choose_leading(by_flux), [cursor.rest_1d(), cursor.next_1d()])
+        let (choice, u) = stage.draw(sampler, Purpose::Emission, |sampler| {
+            (sampler.choose_leading(by_flux), [sampler.remapped_1d(), sampler.next_1d()])
         });
-        self.emit_from(choice.index, u, stage, cursor)
+        self.emit_from(choice.index, u, stage, sampler)
     }
 
     /// One photon of a certain light: place and direction from its own distribution. The two coordinates
-    /// come before those of the cursor.
+    /// come before those of the sampler.
     pub(crate) fn emit_from<S: Spectrum>(
         &self,
         number: usize,
         u: [f64; 2],
         stage: &Stage<'_, S>,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
     ) -> Option<Emitted> {
         let world = &stage.world;
-        let mut more = || stage.draw(cursor, Purpose::EmissionOfArea, SampleCursor::next_2d);
+        let mut more = || stage.draw(sampler, Purpose::EmissionOfArea, Sampler::next_2d);
         if let Some(light) = self.pointlikes.get(number) {
             let (position, direction) = match light {
                 Light::Point(light) => {

@@ -92,7 +92,7 @@ impl<'a> PointLikes<'a> {
             return Offer::without_choice(weights.sum());
         };
         let chosen = offers[choice.index];
-        Some(Offer { light: chosen.light * (1.0 / choice.probability), ..chosen })
+        Some(Offer { light: chosen.light * (1.0 / choice.pdf), ..chosen })
     }
 }
 

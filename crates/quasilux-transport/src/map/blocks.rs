@@ -103,15 +103,14 @@ mod tests {
 
     #[test]
     fn counters_carry() {
-        const MOST: u64 = u32::MAX as u64;
+        const MAX: u64 = u32::MAX as u64;
         let blocks = Blocks::new(1000);
-        for (counter, amount) in
-            [(0, 5), (999, MOST), (999, 1), (999, 7), (998, MOST), (3, 5 << 32)]
+        for (counter, amount) in [(0, 5), (999, MAX), (999, 1), (999, 7), (998, MAX), (3, 5 << 32)]
         {
             blocks.add(counter, amount);
         }
         let counters = [0, 1, 3, 998, 999].map(|counter| blocks.get(counter));
-        assert_eq!(counters, [5, 0, 5 << 32, MOST, (1 << 32) + 7]);
+        assert_eq!(counters, [5, 0, 5 << 32, MAX, (1 << 32) + 7]);
     }
 
     #[test]

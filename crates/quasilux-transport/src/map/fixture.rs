@@ -2,7 +2,7 @@
 
 use crate::world::{Interaction, World};
 use glam::DVec3;
-use quasilux_bvh::Kernel;
+use quasilux_bvh::SimdLevel;
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::{Bsdf, Material, Mesh, Rgb, Scene};
@@ -23,7 +23,7 @@ pub(super) fn square() -> World<f64> {
         cameras: Vec::new(),
         sensors: Vec::new(),
     };
-    World::new(&scene, Kernel::fastest())
+    World::new(&scene, SimdLevel::fastest())
 }
 
 /// A place anywhere on the rectangle, on either side; even in each triangle, which have the same area.

@@ -16,9 +16,9 @@ pub(crate) const COARSEST_ELEMENTS_ACROSS: f64 = 5.0;
 /// Marks what is split in a tree.
 const SPLIT: u32 = 1 << 31;
 /// Most elements on one side of all facets.
-const MOST_LEAVES: u64 = SPLIT as u64 - 1;
+const MAX_LEAVES: u64 = SPLIT as u64 - 1;
 /// Most parts along an edge.
-const MOST_PARTS: f64 = 32_768.0;
+const MAX_PARTS: f64 = 32_768.0;
 
 /// Which element a place belongs to.
 pub(crate) struct MapLayout {
@@ -78,14 +78,14 @@ impl MapLayout {
         let mut element_m = settings.map_element_m.unwrap_or(world.size_m() / across);
         let parts = |facet: &Facet, element_m: f64| {
             let counts = world.bsdf_of(facet).keeps_illuminance();
-            let parts = (facet.longest_edge_m() / element_m).ceil().clamp(1.0, MOST_PARTS);
+            let parts = (facet.longest_edge_m() / element_m).ceil().clamp(1.0, MAX_PARTS);
             if counts { parts } else { 0.0 }
         };
         let total = |element_m: f64| -> f64 {
             world.facets.iter().map(|facet| parts(facet, element_m)).map(|n| n * n).sum()
         };
         // Each facet has one element at least.
-        let most = settings.map_elements.min(MOST_LEAVES).max(world.facets.len() as u64) as f64;
+        let most = settings.map_elements.min(MAX_LEAVES).max(world.facets.len() as u64) as f64;
         while total(element_m) > most {
             element_m *= 1.125;
         }

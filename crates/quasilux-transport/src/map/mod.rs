@@ -23,5 +23,5 @@ pub(crate) use layout::{
     COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout, Place,
 };
 pub use reconstruction::Reconstruction;
-pub(crate) use refine::{MOST_NEW_ELEMENTS, refined};
+pub(crate) use refine::{MAX_NEW_ELEMENTS, refined};
 pub(crate) use tally::{IlluminationMap, MapReceiver, MapTally, QUANTA_PER_PHOTON};

@@ -29,9 +29,9 @@ const ROUNDS: u32 = 5;
 /// Parts of an element that are counted.
 const PARTS: usize = 16;
 /// Fewer photons in an element say nothing about its parts.
-const LEAST_PHOTONS: u64 = 4 * PARTS as u64;
+const MIN_PHOTONS: u64 = 4 * PARTS as u64;
 /// Elements that splits add, three each, where every pilot photon lands eight times.
-pub(crate) const MOST_NEW_ELEMENTS: u64 = 3 * 8 * (FIRST_PHOTONS << (ROUNDS - 1)) / LEAST_PHOTONS;
+pub(crate) const MAX_NEW_ELEMENTS: u64 = 3 * 8 * (FIRST_PHOTONS << (ROUNDS - 1)) / MIN_PHOTONS;
 
 /// The layout that the settings ask for, refined by pilot photons if they ask for that, and what
 /// these cost.
@@ -171,7 +171,7 @@ impl Misfit {
     /// significant.
     fn deviation(&self, counts: &[u64; PARTS]) -> Option<f64> {
         let all: u64 = counts.iter().sum();
-        if all < LEAST_PHOTONS {
+        if all < MIN_PHOTONS {
             return None;
         }
         let mean = all as f64 / PARTS as f64;

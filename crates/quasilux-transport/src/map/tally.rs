@@ -9,7 +9,7 @@ use crate::specular::Trail;
 use crate::stage::Stage;
 use crate::state::{Reader, StateError, Stored, Writer};
 use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -194,8 +194,8 @@ pub(super) fn most_bounces<S>(stage: &Stage<'_, S>) -> u32 {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
-    fn follow(&mut self, cursor: &SampleCursor<'_>) {
-        self.is_deep = cursor.dimension() > self.most_dimensions;
+    fn follow(&mut self, sampler: &Sampler<'_>) {
+        self.is_deep = sampler.dimension() > self.most_dimensions;
     }
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}

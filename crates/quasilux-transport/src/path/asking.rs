@@ -7,7 +7,7 @@ use crate::spectrum::Spectrum;
 use crate::stage::Stage;
 use crate::vertex::Vertex;
 use crate::world::Interaction;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 
 impl<S: Spectrum> Path<'_, S> {
     /// Asks for the light of all kinds of lights on a surface.
@@ -36,7 +36,7 @@ impl<S: Spectrum> Path<'_, S> {
     ) {
         if !stage.images.is_empty() {
             let choice = Purpose::Image { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
+            let u = stage.draw(&mut self.sampler, choice, Sampler::next_1d);
             let PathWork { shadows, images, .. } = work;
             stage.images.ask_some(stage, (self.number, vertex), bounces, u, (images, shadows));
         }
@@ -51,7 +51,7 @@ impl<S: Spectrum> Path<'_, S> {
     ) {
         if let Some(emitters) = &stage.lights.emitters {
             let place = Purpose::AreaLight { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, place, SampleCursor::next_2d);
+            let u = stage.draw(&mut self.sampler, place, Sampler::next_2d);
             self.ask(emitters.offer(&stage.world, vertex, u), vertex, work);
         }
     }
@@ -66,7 +66,7 @@ impl<S: Spectrum> Path<'_, S> {
         let lights = &stage.lights.area_luminaires;
         if !lights.is_empty() {
             let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
-            let u = stage.draw(&mut self.cursor, place, SampleCursor::next_2d);
+            let u = stage.draw(&mut self.sampler, place, Sampler::next_2d);
             self.ask(lights.offer(vertex, u, &mut work.weights), vertex, work);
         }
     }
@@ -82,7 +82,7 @@ impl<S: Spectrum> Path<'_, S> {
         if !lights.is_empty() {
             let choice = Purpose::PointLike { surface: self.bounces_asked };
             // A single light is no choice, and takes no coordinate.
-            let draw = || stage.draw(&mut self.cursor, choice, SampleCursor::next_1d);
+            let draw = || stage.draw(&mut self.sampler, choice, Sampler::next_1d);
             let u = (lights.len() > 1).then(draw).unwrap_or_default();
             self.ask(lights.offer(vertex, u, &mut work.offers), vertex, work);
         }

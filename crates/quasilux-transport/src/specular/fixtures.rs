@@ -2,7 +2,7 @@
 
 use crate::world::World;
 use glam::DVec3;
-use quasilux_bvh::Kernel;
+use quasilux_bvh::SimdLevel;
 use quasilux_scene::bsdf::{Diffuse, Mirror};
 use quasilux_scene::{Bsdf, Material, Mesh, Rgb, Scene};
 
@@ -42,7 +42,7 @@ impl Mirrors {
     }
 
     pub(super) fn world(&self) -> World<f64> {
-        World::new(&self.0, Kernel::fastest())
+        World::new(&self.0, SimdLevel::fastest())
     }
 
     fn add_of(&mut self, material: u32, corners: [DVec3; 4]) {

@@ -34,7 +34,7 @@ const PHOTONS_PER_PATH: [u64; 2] = [4, 4096];
 /// Elements are this share of the scene's size where nothing is asked for.
 const ELEMENTS_ACROSS: f64 = 64.0;
 /// Most parts of a facet's edge.
-const MOST_PARTS: f64 = 16384.0;
+const MAX_PARTS: f64 = 16384.0;
 
 /// The photons of all replicates.
 pub(crate) struct HiddenLight<S> {
@@ -319,7 +319,7 @@ impl Key {
 /// In how many parts the edges of a facet are cut.
 fn parts<S: Spectrum>(world: &World<S>, facet: u32, element_m: f64) -> f64 {
     let longest_m = world.facets[facet as usize].longest_edge_m();
-    (longest_m / element_m).ceil().clamp(1.0, MOST_PARTS)
+    (longest_m / element_m).ceil().clamp(1.0, MAX_PARTS)
 }
 
 impl Receivers {

@@ -5,7 +5,7 @@
 //! acoustics"; Borish 1984, "Extension of the image model to arbitrary polyhedra", whose tests of
 //! validity and visibility are the ones here and in `chain`). Left out is what cannot be seen from
 //! anywhere: images of a mirror that the beam of the one before misses. The tree is made level by level
-//! and ends where the mirrors of a chain together reflect less than [`LEAST_REFLECTED`], at the
+//! and ends where the mirrors of a chain together reflect less than [`MIN_REFLECTED`], at the
 //! depth that is asked for, or before the level that would make it too large.
 
 use super::cone::Cone;
@@ -14,9 +14,9 @@ use glam::DVec3;
 use std::ops::Range;
 
 /// Chains of mirrors that reflect less than this, all together, are dropped.
-const LEAST_REFLECTED: f64 = 1e-4;
+const MIN_REFLECTED: f64 = 1e-4;
 /// Images that are taken whatever depth is asked for.
-const MOST_IMAGES: usize = 4096;
+const MAX_IMAGES: usize = 4096;
 /// Where no depth is asked for, levels past [`SURE_DEPTH`] come only while all images stay this few.
 const FEW_IMAGES: usize = 1024;
 const SURE_DEPTH: u32 = 4;
@@ -74,8 +74,8 @@ impl Images {
             let next = images.nodes.len();
             let deeper = images.nodes[level.start].depth + 1;
             let (fits, most) = match depth {
-                Some(depth) => (deeper <= depth, MOST_IMAGES),
-                None if deeper <= SURE_DEPTH => (true, MOST_IMAGES),
+                Some(depth) => (deeper <= depth, MAX_IMAGES),
+                None if deeper <= SURE_DEPTH => (true, MAX_IMAGES),
                 None => (true, FEW_IMAGES),
             };
             // One image past the end tells that there is more.
@@ -135,7 +135,7 @@ impl Images {
         let beam = before.beam.narrower(seen);
         let reflected =
             before.reflected * mirror.most_reflected(beam.least_cos_with(mirror.normal));
-        (reflected >= LEAST_REFLECTED).then(|| Image {
+        (reflected >= MIN_REFLECTED).then(|| Image {
             light: before.light,
             parent: parent as u32,
             plane,

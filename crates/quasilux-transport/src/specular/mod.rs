@@ -165,7 +165,7 @@ impl SpecularImages {
             if let Some(choice) = choose_weights(u, weights) {
                 offers.swap(0, choice.index);
                 offers.truncate(1);
-                offers[0].light = offers[0].light * (1.0 / choice.probability);
+                offers[0].light = offers[0].light * (1.0 / choice.pdf);
             }
         }
         for offer in offers.iter() {

@@ -1,7 +1,7 @@
 //! Mirrors as planes: facets that reflect and lie in one plane are one mirror.
 //!
 //! Every facet is flat, so even a curved mirror is made of planes, of very many. Up to [`FEW_PLANES`] are
-//! taken all; where there are more, only those that hold at least [`LEAST_SHARE`] of the area of all
+//! taken all; where there are more, only those that hold at least [`MIN_SHARE`] of the area of all
 //! mirrors are, and the others count as curved: their light is not followed from image to image.
 
 use crate::bsdf::Bsdf;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// So many planes are taken without a look at their areas.
 const FEW_PLANES: usize = 64;
 /// Share of the mirrors' area that a plane among many has at least.
-const LEAST_SHARE: f64 = 0.01;
+const MIN_SHARE: f64 = 0.01;
 /// Normals that agree to this, and heights over a common point that agree to this share of the scene's
 /// size, are one plane's.
 const SAME_PLANE: f64 = 1e-6;
@@ -94,7 +94,7 @@ impl MirrorPlanes {
     fn choose(mut planes: Vec<MirrorPlane>, reflecting: usize, facets: usize) -> Self {
         planes.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
         if planes.len() > FEW_PLANES {
-            let least_m2 = LEAST_SHARE * planes.iter().map(|plane| plane.area_m2).sum::<f64>();
+            let least_m2 = MIN_SHARE * planes.iter().map(|plane| plane.area_m2).sum::<f64>();
             planes.retain(|plane| plane.area_m2 >= least_m2);
         }
         let mut plane_of_facet = Vec::new();

@@ -18,7 +18,7 @@ impl Stored for DimensionHistogram {
         let counts: Result<Vec<u64>, StateError> =
             (0..from.length(size_of::<u64>())?).map(|_| from.u64()).collect();
         let (counts, coordinates) = (counts?, from.i128()?.cast_unsigned());
-        let other = Self::of_counts(counts, coordinates, from.u32()?);
+        let other = Self::from_counts(counts, coordinates, from.u32()?);
         let other = other.ok_or(StateError::Unfit("a histogram"))?;
         // Their sums then fit, too: no count of samples is larger.
         let all = self.samples().checked_add(other.samples());

@@ -15,7 +15,7 @@
 use crate::steering::survey::{Landing, Survey, Surveyed};
 
 /// Sweeps after which a solution is taken as it is: it only steers.
-const MOST_SWEEPS: usize = 64;
+const MAX_SWEEPS: usize = 64;
 /// Largest relative change of an entry in the last sweep.
 const SETTLED: f64 = 0.05;
 
@@ -50,7 +50,7 @@ fn landing(survey: &Survey) -> Vec<f64> {
     let known = &survey.known;
     let mut landing = vec![0.0; known.len()];
     let mut fresh = survey.first_landings.clone();
-    for sweep in 0..MOST_SWEEPS {
+    for sweep in 0..MAX_SWEEPS {
         let mut largest_change = 0.0_f64;
         let mut push = |cell: usize| {
             let light = std::mem::take(&mut fresh[cell]);
@@ -119,7 +119,7 @@ fn read_worth(
 fn leaving_worth(survey: &Survey, read: &[f64]) -> Vec<f64> {
     let known = &survey.known;
     let mut worth = vec![0.0; known.len()];
-    for sweep in 0..MOST_SWEEPS {
+    for sweep in 0..MAX_SWEEPS {
         let mut largest_change = 0.0_f64;
         let mut pull = |cell: usize| {
             let arrives = |step: Landing| {

@@ -11,7 +11,7 @@ use glam::DVec3;
 /// The edge of the boxes makes about this many cells of the scene's surfaces, one side each.
 const CELLS: f64 = 2048.0;
 /// No more boxes than this, so that tables over all cells stay small.
-const MOST_BOXES: f64 = (1 << 16) as f64;
+const MAX_BOXES: f64 = (1 << 16) as f64;
 /// Cells are seen as small from this many of their edges.
 const FAR_EDGES: f64 = 6.0;
 /// Boxes that meet around a place.
@@ -19,7 +19,7 @@ const CORNERS: usize = 8;
 /// Ways to face: along or against each axis.
 const SIDES: usize = 6;
 /// Parts along an edge of a facet by which its area is told to cells, at most.
-const MOST_PARTS: f64 = 256.0;
+const MAX_PARTS: f64 = 256.0;
 
 /// Cells that are known by a number, told for any place.
 pub(crate) struct Regions {
@@ -98,7 +98,7 @@ impl Cells {
             return None;
         }
         let counts = |edge_m: f64| ((high - low) / edge_m).to_array().map(|n| n.floor() + 1.0);
-        while counts(edge_m).iter().product::<f64>() > MOST_BOXES {
+        while counts(edge_m).iter().product::<f64>() > MAX_BOXES {
             edge_m *= 1.25;
         }
         Some(Self { low, edge_m, counts: counts(edge_m).map(|n| n as usize) })
@@ -173,7 +173,7 @@ impl Cells {
             if !world.bsdf_of(facet).keeps_illuminance() {
                 continue;
             }
-            let parts = (2.0 * facet.longest_edge_m() / self.edge_m).ceil().clamp(1.0, MOST_PARTS);
+            let parts = (2.0 * facet.longest_edge_m() / self.edge_m).ceil().clamp(1.0, MAX_PARTS);
             let part_m2 = facet.area_m2() / (parts * parts);
             for weights in centroids(parts as u32) {
                 let position = facet.point(weights);

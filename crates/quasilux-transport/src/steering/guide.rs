@@ -16,12 +16,12 @@ use std::collections::VecDeque;
 /// A region is halved if more than one part in so many of all worth is in it,
 const PARTS: f64 = 128.0;
 /// and if so many rays tell how the halves differ.
-const LEAST_RAYS: usize = 8;
+const MIN_RAYS: usize = 8;
 /// Halvings, half of them along each edge.
-const MOST_HALVINGS: u32 = 24;
+const MAX_HALVINGS: u32 = 24;
 /// No guide halves more regions.
-pub(crate) const MOST_FORKS: usize = 128;
-const _: () = assert!(MOST_FORKS <= 1 << u8::BITS, "forks are numbered in a byte");
+pub(crate) const MAX_FORKS: usize = 128;
+const _: () = assert!(MAX_FORKS <= 1 << u8::BITS, "forks are numbered in a byte");
 /// In so many parts shares of points are told.
 const WHOLE: f64 = 65_536.0;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
@@ -97,10 +97,10 @@ impl Guide {
         let mut forks: Vec<Fork> = Vec::new();
         let mut open = VecDeque::from([Region { of: None, halvings: 0, from: 0, to: hints.len() }]);
         while let Some(Region { of, halvings, from, to }) = open.pop_front() {
-            let is_halved = to - from >= LEAST_RAYS
+            let is_halved = to - from >= MIN_RAYS
                 && (sums[to] - sums[from]) * PARTS > total
-                && halvings < MOST_HALVINGS
-                && forks.len() < MOST_FORKS;
+                && halvings < MAX_HALVINGS
+                && forks.len() < MAX_FORKS;
             if !is_halved {
                 continue;
             }

@@ -18,7 +18,7 @@ mod windows;
 
 pub(crate) use cells::Around;
 pub(crate) use forecast::{Density, Forecast, Landings};
-pub(crate) use guide::{Fork, Guide, MOST_FORKS};
+pub(crate) use guide::{Fork, Guide, MAX_FORKS};
 pub(crate) use windows::{Performance, Split, Windows};
 
 use crate::settings::Switch;

@@ -17,17 +17,17 @@ use crate::vertex::Vertex;
 use crate::world::Interaction;
 use glam::DVec3;
 use quasilux_sampling::warp::{invert_cosine_hemisphere, sample_cosine_hemisphere};
-use quasilux_sampling::{Discrete, PointSet, SampleCursor};
+use quasilux_sampling::{Discrete, PointSet, Sampler};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Pilot photons from the lights.
 const PHOTONS: u64 = 1 << 12;
 /// Sensor points that are asked, spread over all.
-const MOST_SENSORS: usize = 256;
+const MAX_SENSORS: usize = 256;
 /// Rays of all of them together, and the least of each.
 const SENSOR_RAYS: u64 = 1 << 12;
-const LEAST_SENSOR_RAYS: u64 = 16;
+const MIN_SENSOR_RAYS: u64 = 16;
 /// Rays from each cell for a first look, and for a closer one; and how many of them before new cells
 /// are looked at.
 const CELL_RAYS: u32 = 16;
@@ -35,11 +35,11 @@ const MORE_CELL_RAYS: u32 = 128;
 const RAYS_A_ROUND: u32 = 8;
 /// No more cells than this are surveyed: 2^17 rays at first, 2^20 in all, and
 /// as many connections.
-const MOST_KNOWN: usize = 1 << 13;
+const MAX_KNOWN: usize = 1 << 13;
 /// Places remembered of each cell, from which its rays leave.
 const PLACES: usize = 8;
 /// Specular surfaces that a ray passes before it is given up.
-const MOST_PASSED: u32 = 16;
+const MAX_PASSED: u32 = 16;
 
 /// What is known of cells that light or sensors reach, numbered in the order of their discovery.
 pub(crate) struct Survey {
@@ -134,7 +134,7 @@ impl Survey {
             cells,
             known: Vec::new(),
             sensors: Vec::new(),
-            sensor_step: targets.len().div_ceil(MOST_SENSORS).max(1),
+            sensor_step: targets.len().div_ceil(MAX_SENSORS).max(1),
             first_landings: Vec::new(),
             rays: 0,
             sent: 0,
@@ -174,20 +174,20 @@ impl Survey {
         let points = stage.points(0, Stream::Survey(3));
         let counted = |far_per_m2: f32, cell: usize| {
             let p = f64::from(far_per_m2) * areas_m2[cell];
-            p / (p + choices.probability(cell))
+            p / (p + choices.pdf(cell))
         };
         let (known, far_m) = (&self.known, self.cells.far_m());
         let connect = |number: usize| {
             let from = &known[number];
             let try_one = |ray: u32| {
                 let index = number as u64 * u64::from(MORE_CELL_RAYS) + u64::from(ray);
-                let mut cursor = SampleCursor::new(&points, index);
-                let choice = choices.choose(cursor.next_1d());
+                let mut sampler = Sampler::new(&points, index);
+                let choice = choices.sample(sampler.next_1d());
                 let to = &known[choice.index];
                 let start = &from.places[ray as usize % from.places.len()];
                 let places = to.places.len() as f64;
                 let end =
-                    &to.places[((cursor.next_1d() * places) as usize).min(to.places.len() - 1)];
+                    &to.places[((sampler.next_1d() * places) as usize).min(to.places.len() - 1)];
                 let way = end.position - start.position;
                 let distance_m = way.length();
                 let direction = way / distance_m;
@@ -224,9 +224,9 @@ impl Survey {
     fn look_from_lights<S: Spectrum>(&mut self, stage: &Stage<'_, S>) {
         let points = stage.points(0, Stream::Survey(0));
         let fly = |index: u64| {
-            let mut cursor = SampleCursor::new(&points, index);
-            let start = stage.lights.emit(stage, &mut cursor)?.emission;
-            Some(fly(stage, start, &mut cursor))
+            let mut sampler = Sampler::new(&points, index);
+            let start = stage.lights.emit(stage, &mut sampler)?.emission;
+            Some(fly(stage, start, &mut sampler))
         };
         let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();
         for flown in flown.into_iter().flatten() {
@@ -240,17 +240,17 @@ impl Survey {
     fn look_from_sensors<S: Spectrum>(&mut self, stage: &Stage<'_, S>, targets: &[Target]) {
         let asked = targets.iter().step_by(self.sensor_step).map(centre);
         let asked: Vec<(DVec3, DVec3)> = asked.collect();
-        let rays = (SENSOR_RAYS / asked.len().max(1) as u64).max(LEAST_SENSOR_RAYS);
+        let rays = (SENSOR_RAYS / asked.len().max(1) as u64).max(MIN_SENSOR_RAYS);
         let points = stage.points(0, Stream::Survey(1));
         let direct_lx = direct_lx(stage, &asked);
         for (number, (&(position, n), direct_lx)) in (0..).zip(asked.iter().zip(direct_lx)) {
             let from = stage.world.vantage_of_sensor(position, n);
             let frame = Frame::around(n);
             let look = |index: u64| {
-                let mut cursor = SampleCursor::new(&points, number * rays + index);
-                let wi = DVec3::from_array(sample_cosine_hemisphere(cursor.next_2d()));
+                let mut sampler = Sampler::new(&points, number * rays + index);
+                let wi = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
                 let start = Emission { from, direction: frame.to_world(wi) };
-                fly(stage, start, &mut cursor)
+                fly(stage, start, &mut sampler)
             };
             let flown: Vec<Flown> = (0..rays).into_par_iter().map(look).collect();
             let landings = flown.into_iter().filter_map(|flown| self.enter(stage, flown)).collect();
@@ -304,7 +304,7 @@ impl Survey {
         let place = self.cells.cell(&at);
         let number = &mut self.number_of_cell[place];
         if *number == Regions::UNKNOWN {
-            if self.known.len() == MOST_KNOWN {
+            if self.known.len() == MAX_KNOWN {
                 return None;
             }
             *number = self.known.len() as u32;
@@ -358,13 +358,13 @@ fn go_on<S: Spectrum>(
     at: &Interaction,
     far_m: f64,
 ) -> Option<Flown> {
-    let mut cursor = SampleCursor::new(points, index);
-    let wi = stage.world.bsdf(at).sample(DVec3::Z, at.front, Mode::Flux, &mut cursor)?.wi;
+    let mut sampler = Sampler::new(points, index);
+    let wi = stage.world.bsdf(at).sample(DVec3::Z, at.front, Mode::Flux, &mut sampler)?.wi;
     let world = &stage.world;
     let u = invert_cosine_hemisphere(wi.abs().to_array()).map(|u| u as f32);
     let from = if wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
     let start = Emission { from, direction: world.frame(at).to_world(wi) };
-    let flown = fly(stage, start, &mut cursor);
+    let flown = fly(stage, start, &mut sampler);
     let far_per_m2 = match &flown.found {
         Some(Found { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
             (wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)) as f32
@@ -375,11 +375,11 @@ fn go_on<S: Spectrum>(
 }
 
 /// Flies to the first surface that keeps illuminance.
-fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, cursor: &mut SampleCursor<'_>) -> Flown {
+fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, sampler: &mut Sampler<'_>) -> Flown {
     let world = &stage.world;
     let Emission { mut from, mut direction } = start;
     let mut weight = 1.0;
-    for passed in 0..MOST_PASSED {
+    for passed in 0..MAX_PASSED {
         let rays = u64::from(passed) + 1;
         let nothing = Flown { found: None, rays, ..Flown::NOWHERE };
         let Some(at) = world.trace(from, direction) else { return nothing };
@@ -389,10 +389,10 @@ fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, cursor: &mut SampleCu
             return Flown { found, rays, ..Flown::NOWHERE };
         }
         let wo = frame.to_local(-direction);
-        let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, cursor) else { return nothing };
+        let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, sampler) else { return nothing };
         weight *= next.weight.luminance();
         from = if next.wi.z > 0.0 { world.vantage(&at) } else { world.vantage_behind(&at) };
         direction = frame.to_world(next.wi);
     }
-    Flown { rays: u64::from(MOST_PASSED), ..Flown::NOWHERE }
+    Flown { rays: u64::from(MAX_PASSED), ..Flown::NOWHERE }
 }

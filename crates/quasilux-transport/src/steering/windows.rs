@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// No photon is split into more at one landing.
-pub(crate) const MOST_CHILDREN: f64 = 16.0;
+pub(crate) const MAX_CHILDREN: f64 = 16.0;
 /// Weights stay within these: below the first, fixed-point tallies would have no room; above the
 /// second, photons that the survey took for worthless would matter too much where it was wrong.
 const LIGHTEST: f64 = 1.0 / (1 << 16) as f64;
@@ -148,10 +148,10 @@ pub(crate) struct Split {
 
 impl Split {
     /// Of what is left of a photon after absorption, where photons leave with `target`; of more than
-    /// [`MOST_CHILDREN`] each carries more.
+    /// [`MAX_CHILDREN`] each carries more.
     pub(crate) fn new(left: f64, target: f64) -> Self {
-        let expected = if left > 0.0 { (left / target).min(MOST_CHILDREN) } else { 0.0 };
-        Self { expected, weight: if expected < MOST_CHILDREN { target } else { left / expected } }
+        let expected = if left > 0.0 { (left / target).min(MAX_CHILDREN) } else { 0.0 };
+        Self { expected, weight: if expected < MAX_CHILDREN { target } else { left / expected } }
     }
 
     /// Of their number, which is one of the two integers next to the mean.
@@ -232,7 +232,7 @@ mod tests {
         for (left, target) in [(0.5, 1.0), (1.0, 0.3), (1.0, 1e-6), (1e-3, 8.0), (0.7, 0.7)] {
             let split = Split::new(left, target);
             assert!((split.expected * split.weight / left - 1.0).abs() < 1e-12, "{split:?}");
-            assert!(split.expected <= MOST_CHILDREN && split.variance() <= 0.25);
+            assert!(split.expected <= MAX_CHILDREN && split.variance() <= 0.25);
         }
     }
 }

@@ -15,8 +15,8 @@ const KNOWN: [((f64, f64), f64); 3] =
     [((0.0, 0.0), 892.80), ((0.5, 0.0), 768.69), ((0.5, 0.5), 686.70)];
 const SEEDS: u64 = 80;
 /// One-sided binomial bounds: 0.95 - 3.09 sqrt(0.95 * 0.05 / 720), and 0.95 - 3.26 sqrt(0.95 * 0.05 / 240).
-const LEAST_COVERAGE: f64 = 0.9249;
-const LEAST_COVERAGE_OF_A_WAY: f64 = 0.904;
+const MIN_COVERAGE: f64 = 0.9249;
+const MIN_COVERAGE_OF_A_WAY: f64 = 0.904;
 
 #[test]
 fn intervals_cover_where_runs_stop() {
@@ -51,7 +51,7 @@ fn intervals_cover_where_runs_stop() {
     ends.dedup();
     println!("{of_way:?}, {}, narrow {}; {ends:?}", share(covered), share(covered_by_narrow));
     assert!(ends.len() > 1, "all runs stopped at the same look: nothing was tested");
-    assert!(share(covered) >= LEAST_COVERAGE, "{}", share(covered));
-    assert!(of_way.iter().all(|share| *share >= LEAST_COVERAGE_OF_A_WAY), "{of_way:?}");
-    assert!(share(covered_by_narrow) < LEAST_COVERAGE, "the test has lost its power");
+    assert!(share(covered) >= MIN_COVERAGE, "{}", share(covered));
+    assert!(of_way.iter().all(|share| *share >= MIN_COVERAGE_OF_A_WAY), "{of_way:?}");
+    assert!(share(covered_by_narrow) < MIN_COVERAGE, "the test has lost its power");
 }

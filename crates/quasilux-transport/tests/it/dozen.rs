@@ -22,7 +22,7 @@ const WIDEST: f64 = 0.003;
 /// The standard error of each that leads there.
 const STANDARD_ERROR: f64 = 0.00057;
 const FEWEST_SAMPLES: u64 = 1 << 9;
-const MOST_SAMPLES: u64 = 1 << 17;
+const MAX_SAMPLES: u64 = 1 << 17;
 
 /// The mean of replicates.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +85,7 @@ fn estimate(scene: &Scene, estimator: Estimator, joining: Switch) -> Mean {
         replicates: REPLICATES,
         steering: Switch::Off,
         joining,
-        max_samples: Some(MOST_SAMPLES),
+        max_samples: Some(MAX_SAMPLES),
         rel_tol: 0.0,
         ..Settings::default()
     };

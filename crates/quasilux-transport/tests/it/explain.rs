@@ -88,7 +88,7 @@ fn the_parts_tell_the_error_of_a_run() {
     let settings = Settings {
         estimator: Estimator::Bidirectional,
         joining: Switch::On,
-        sequence: Sequence::Random,
+        sequence: Sequence::Independent,
         replicates: REPLICATES,
         max_samples: Some(INDICES),
         ..Settings::default()

@@ -49,14 +49,14 @@ fn photons_and_paths_agree_where_one_side_lets_nothing_through() {
 }
 
 /// Cosine toward one side, in the frame of a table, from which a table below takes light.
-const LEAST_X: f64 = 0.1;
+const MIN_X: f64 = 0.1;
 /// What that table gives of it.
 const SHARE: f64 = 0.9;
 
 /// A wall that shines only where the lamp is to one side of it: the lit part of each facet is not where its
 /// centroid is.
 fn half_dark_wall() -> Scene {
-    let shines = table(|wi, _| if wi.x < -LEAST_X { SHARE * FRAC_1_PI } else { 0.0 });
+    let shines = table(|wi, _| if wi.x < -MIN_X { SHARE * FRAC_1_PI } else { 0.0 });
     let wall = measured([(Side::Front, Way::Reflection, shines)]);
     let mut scene = room(DVec3::splat(2.0), diffuse(0.3));
     let corner = DVec3::new(0.01, 0.1, 0.1);

@@ -51,7 +51,7 @@ fn waves_count_what_single_photons_count() {
         Sequence::Faure4,
         Sequence::Halton,
         Sequence::Hammersley { points: 6000 },
-        Sequence::Random,
+        Sequence::Independent,
     ];
     for (number, scene) in scenes().iter().enumerate() {
         for sequence in sequences {

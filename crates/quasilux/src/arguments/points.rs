@@ -4,10 +4,10 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// More points than this are no list for anybody.
-const MOST_POINTS: u64 = 1 << 32;
+const MAX_POINTS: u64 = 1 << 32;
 /// The longest comparison takes minutes.
-const MOST_COMPARED: u64 = 1 << 20;
-const LEAST_COMPARED: u64 = 1 << 6;
+const MAX_COMPARED: u64 = 1 << 20;
+const MIN_COMPARED: u64 = 1 << 6;
 
 #[derive(Debug, Args)]
 pub(crate) struct PointsArguments {
@@ -49,11 +49,11 @@ fn dimension(text: &str) -> Result<u32, String> {
 }
 
 fn points(text: &str) -> Result<u64, String> {
-    count(text, 1, MOST_POINTS)
+    count(text, 1, MAX_POINTS)
 }
 
 fn compared(text: &str) -> Result<u64, String> {
-    count(text, LEAST_COMPARED, MOST_COMPARED)
+    count(text, MIN_COMPARED, MAX_COMPARED)
 }
 
 /// A whole number, as digits or as a power of two like 2^16.

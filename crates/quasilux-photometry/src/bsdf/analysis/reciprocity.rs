@@ -8,7 +8,7 @@ use quasilux_sampling::warp::sample_disk;
 use std::f64::consts::PI;
 
 /// Pairs of patches, at most; of more a sample is looked at.
-const MOST_PAIRS: usize = 1 << 22;
+const MAX_PAIRS: usize = 1 << 22;
 
 /// Incidences of tables without patches, at most, and exits for each.
 const INCIDENCES: usize = 512;
@@ -94,7 +94,7 @@ fn exits_of_patches(forth: &Distribution, back: &Distribution) -> Option<Vec<Inc
         return None;
     };
     let pairs = forth.incident_basis().patches().checked_mul(back.incident_basis().patches())?;
-    (pairs <= MOST_PAIRS).then(|| back.parts())
+    (pairs <= MAX_PAIRS).then(|| back.parts())
 }
 
 /// Calls `look` with pairs and with what they count: the inverse of their density.

@@ -4,13 +4,13 @@ use super::exits::Exits;
 use super::records::{Beginning, Key, Records, angle, too_many};
 use crate::bsdf::Way;
 use crate::bsdf::gaps;
-use crate::bsdf::gridded::{GriddedTable, Lobe, MOST_INCIDENCES};
+use crate::bsdf::gridded::{GriddedTable, Lobe, MAX_INCIDENCES};
 use crate::report::{Position, Warnings};
 use crate::{Deviation, ReadError};
 use std::f64::consts::FRAC_PI_2;
 
 /// Exit directions of all lobes together, or as many as values where those are more.
-const LEAST_DIRECTIONS: usize = 1 << 18;
+const MIN_DIRECTIONS: usize = 1 << 18;
 
 /// The incident directions of one way, each azimuth with the same polar angles.
 struct Incidences {
@@ -48,7 +48,7 @@ pub(super) fn table<const N: usize>(
     let values: usize = all()
         .filter_map(|(plane, theta)| Some(records.count(records.beginning(way, plane, theta)?)))
         .sum();
-    let most = values.max(LEAST_DIRECTIONS) / (planes.len() * thetas.len());
+    let most = values.max(MIN_DIRECTIONS) / (planes.len() * thetas.len());
     let lobe = |(plane, theta)| {
         let exits = incidences.exits(records, way, plane, theta)?;
         exits.lobe(most, N).ok_or_else(|| {
@@ -99,7 +99,7 @@ impl Incidences {
             let expected = format!("{} polar angles for each of {azimuths} azimuths", thetas.len());
             return Err(ReadError::new(at, found, expected));
         }
-        if thetas.len() * planes.len() > MOST_INCIDENCES {
+        if thetas.len() * planes.len() > MAX_INCIDENCES {
             return Err(too_many(at));
         }
         Ok(Some(Self { at, planes, thetas }))

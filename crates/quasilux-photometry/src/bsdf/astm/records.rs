@@ -2,7 +2,7 @@
 
 use super::lines::Lines;
 use crate::bsdf::Way;
-use crate::bsdf::gridded::MOST_INCIDENCES;
+use crate::bsdf::gridded::MAX_INCIDENCES;
 use crate::report::{Position, Warnings};
 use crate::{Deviation, ReadError};
 use std::collections::BTreeMap;
@@ -96,7 +96,7 @@ impl<const N: usize> Records<N> {
                 phi: azimuth_key(phi_i),
             });
             let number = known.number;
-            if number >= 2 * MOST_INCIDENCES as u64 {
+            if number >= 2 * MAX_INCIDENCES as u64 {
                 let at = Position { line: line.line, column: 1 };
                 return Err(too_many(at));
             }
@@ -170,6 +170,6 @@ impl<const N: usize> Records<N> {
 }
 
 pub(super) fn too_many(at: Position) -> ReadError {
-    let found = format!("more than {MOST_INCIDENCES} incident directions");
-    ReadError::new(at, found, format_args!("no more than {MOST_INCIDENCES}"))
+    let found = format!("more than {MAX_INCIDENCES} incident directions");
+    ReadError::new(at, found, format_args!("no more than {MAX_INCIDENCES}"))
 }

@@ -2,7 +2,7 @@
 
 use super::Words;
 use crate::ReadError;
-use crate::bsdf::gridded::MOST_INCIDENCES;
+use crate::bsdf::gridded::MAX_INCIDENCES;
 use crate::number::Written;
 use crate::report::{Position, quoted};
 use std::f64::consts::{PI, TAU};
@@ -123,9 +123,9 @@ fn finish(mut header: Header, word: Written<'_>) -> Result<(Header, Written<'_>)
     if header.psi_rad.is_empty() {
         header.psi_rad.push(0.0);
     }
-    if header.incidences() > MOST_INCIDENCES {
+    if header.incidences() > MAX_INCIDENCES {
         let found = format!("{} incident directions", header.incidences());
-        return Err(ReadError::new(word.at, found, format_args!("no more than {MOST_INCIDENCES}")));
+        return Err(ReadError::new(word.at, found, format_args!("no more than {MAX_INCIDENCES}")));
     }
     if header.specular_rad.is_empty() {
         header.specular_rad = header.sigma_rad.clone();

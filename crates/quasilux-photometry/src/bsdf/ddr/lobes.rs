@@ -8,13 +8,13 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// Exit directions of all lobes together, or as many as values where those are more.
-const LEAST_DIRECTIONS: usize = 1 << 18;
+const MIN_DIRECTIONS: usize = 1 << 18;
 
 /// The table, and how far it is from the file's values at its incidences.
 pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, f64)> {
     let (thetas, phis) = (header.theta_rad.len(), header.phi_rad.len());
     let values = header.incidences() * thetas * phis;
-    let most = values.max(LEAST_DIRECTIONS) / header.incidences();
+    let most = values.max(MIN_DIRECTIONS) / header.incidences();
     let is_mirrored = header.symmetry != SpecularSymmetry::None;
     let (mut lobes, mut factors) = (Vec::new(), Vec::new());
     for incidence in 0..header.planes() * header.sigma_rad.len() {

@@ -130,7 +130,7 @@ impl Mixture<'_> {
     }
 
     /// A bound of [`Self::luminance`].
-    pub(super) fn greatest(&self) -> f64 {
+    pub(super) fn max_value(&self) -> f64 {
         let of_part = |part: &Part<'_>| {
             let ratio = part.step.map_or(1.0, Move::most_dense);
             ratio * part.lobe.above().maximum().value

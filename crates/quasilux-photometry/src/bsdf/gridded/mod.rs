@@ -37,7 +37,7 @@ pub(super) use resample::ExitKnots;
 use std::f64::consts::TAU;
 
 /// Incident directions of one file: more than are measured, and few enough for the grids of their lobes.
-pub(super) const MOST_INCIDENCES: usize = 1000;
+pub(super) const MAX_INCIDENCES: usize = 1000;
 
 /// Lobes over a grid of incident directions.
 #[derive(Clone, Debug)]
@@ -136,8 +136,8 @@ impl GriddedTable {
     }
 
     /// The mixture of the greatest values of all lobes, wherever they are.
-    pub(super) fn greatest(&self, wi: DVec3) -> f64 {
-        self.mixture(wi).0.greatest()
+    pub(super) fn max_value(&self, wi: DVec3) -> f64 {
+        self.mixture(wi).0.max_value()
     }
 
     pub(super) fn incidences(&self) -> Vec<DVec3> {

@@ -18,7 +18,7 @@ use glam::DVec3;
 const COMPARED: usize = 233;
 
 /// Nearer to the horizon than half a degree no mirror direction is: the least cosine.
-const LEAST_COSINE: f64 = 0.008_726_535;
+const MIN_COSINE: f64 = 0.008_726_535;
 
 /// How lobes between two stored incidences move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +50,10 @@ pub(super) struct Move {
 impl Mirror {
     pub(super) fn new(theta_rad: f64) -> Self {
         let (sin, cos) = libm::sincos(theta_rad);
-        if cos >= LEAST_COSINE {
+        if cos >= MIN_COSINE {
             return Self { cos, sin };
         }
-        Self { cos: LEAST_COSINE, sin: (1.0 - LEAST_COSINE * LEAST_COSINE).sqrt() }
+        Self { cos: MIN_COSINE, sin: (1.0 - MIN_COSINE * MIN_COSINE).sqrt() }
     }
 
     /// The same, but no nearer to the horizon than half the cosine of another.

@@ -135,7 +135,7 @@ impl KlemsTable {
     }
 
     /// With the cosine at the nearer edge of each patch.
-    pub(super) fn greatest(&self, wi: DVec3) -> f64 {
+    pub(super) fn max_value(&self, wi: DVec3) -> f64 {
         let Some(row) = self.row(wi) else {
             return 0.0;
         };

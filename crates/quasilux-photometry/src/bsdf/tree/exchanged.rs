@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 const MARGIN: f64 = 1e-9;
 
 /// The least t: a corner is wider than its margins.
-const LEAST_PART: f64 = 1e-6;
+const MIN_PART: f64 = 1e-6;
 
 /// An isotropic tree with its directions exchanged.
 #[derive(Clone, Debug)]
@@ -135,7 +135,7 @@ impl ExchangedTree {
         let sine = (wi.x * wi.x + wi.y * wi.y).sqrt();
         let place = sine.min(1.0) * self.half as f64;
         let column = (place as usize).min(self.half - 1);
-        let t = (place - column as f64).clamp(LEAST_PART, 1.0);
+        let t = (place - column as f64).clamp(MIN_PART, 1.0);
         let azimuth = if sine > 0.0 { [wi.x / sine, wi.y / sine] } else { [1.0, 0.0] };
         Square { column, t, azimuth }
     }
@@ -272,18 +272,18 @@ impl ExchangedTree {
     }
 
     /// The greatest value, with the cosine at the inner edge of each ring.
-    pub(in crate::bsdf) fn greatest(&self, wi: DVec3) -> f64 {
+    pub(in crate::bsdf) fn max_value(&self, wi: DVec3) -> f64 {
         let square = self.square(wi);
-        let mut greatest = 0.0_f64;
+        let mut max_value = 0.0_f64;
         for ring in 0..self.half {
             let sine = ring as f64 / self.half as f64;
             let cosine = (1.0 - sine * sine).sqrt();
             self.walk(square, ring, |run| {
-                greatest = greatest.max(cosine * run.value);
+                max_value = max_value.max(cosine * run.value);
                 false
             });
         }
-        greatest
+        max_value
     }
 
     /// The middles of columns, each for its ring: what a column sends is linear in the area before it.

@@ -158,15 +158,15 @@ impl TensorTree {
     }
 
     /// The greatest value of the slice; cosines count as 1.
-    pub(super) fn greatest(&self, wi: DVec3) -> f64 {
-        self.greatest_of(0, 0, self.incidence(wi))
+    pub(super) fn max_value(&self, wi: DVec3) -> f64 {
+        self.max_value_of(0, 0, self.incidence(wi))
     }
 
-    fn greatest_of(&self, node: usize, level: usize, incidence: Incidence) -> f64 {
+    fn max_value_of(&self, node: usize, level: usize, incidence: Incidence) -> f64 {
         match self.children(node, level, incidence) {
             None => self.nodes[node].value,
             Some(children) => {
-                let of_child = |child| self.greatest_of(child, level + 1, incidence);
+                let of_child = |child| self.max_value_of(child, level + 1, incidence);
                 children.into_iter().map(of_child).fold(0.0, f64::max)
             }
         }

@@ -10,7 +10,7 @@ use crate::{Deviation, ReadError};
 use std::f64::consts::FRAC_PI_2;
 
 /// Bands of one basis, and bases of one file: far above what any file has.
-const MOST_BANDS: usize = 256;
+const MAX_BANDS: usize = 256;
 
 /// A basis may end so far from the horizon by rounding.
 const ROUNDING_RAD: f64 = 1e-4;
@@ -18,14 +18,14 @@ const ROUNDING_RAD: f64 = 1e-4;
 /// The bases that the file defines.
 pub(super) fn bases(layer: &Element<'_>) -> Result<Vec<AngleBasis>, ReadError> {
     let definitions = layer.all("DataDefinition").flat_map(|data| data.all("AngleBasis"));
-    definitions.take(MOST_BANDS).map(basis).collect()
+    definitions.take(MAX_BANDS).map(basis).collect()
 }
 
 fn basis(element: &Element<'_>) -> Result<AngleBasis, ReadError> {
     let name = element.child("AngleBasisName").map_or("", |name| name.text());
     let mut bands = Vec::new();
     let mut lower_deg = 0.0;
-    for block in element.all("AngleBasisBlock").take(MOST_BANDS) {
+    for block in element.all("AngleBasisBlock").take(MAX_BANDS) {
         let missing = |what: &str| {
             ReadError::new(block.at, format_args!("no {what}"), "bounds and count of a band")
         };

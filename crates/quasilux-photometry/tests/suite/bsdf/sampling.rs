@@ -190,7 +190,7 @@ fn shares(distribution: &Distribution, wi: DVec3, boxes: Boxes) -> Vec<f64> {
 
 /// The probability of counts of samples under shares.
 fn probability(distribution: &Distribution, wi: DVec3, shares: &[f64], key: u64) -> f64 {
-    let points = PointSet::new(Sequence::Random, Randomization::None, stream_key(9, 0, key));
+    let points = PointSet::new(Sequence::Independent, Randomization::None, stream_key(9, 0, key));
     chi_square_test(&counts(distribution, wi, shares, &points))
 }
 
@@ -348,14 +348,14 @@ fn the_bound_holds() {
     for (name, distribution) in distributions() {
         let mut generator = Generator(11);
         for wi in incidences() {
-            let mut greatest = 0.0_f64;
+            let mut max_value = 0.0_f64;
             for _ in 0..20_000 {
                 let u = [generator.uniform(), generator.uniform()];
                 let wo = distribution.sample(wi, u).unwrap().wo;
-                greatest = greatest.max(distribution.evaluate(wi, wo)[1] * wo.z);
+                max_value = max_value.max(distribution.evaluate(wi, wo)[1] * wo.z);
             }
-            let bound = distribution.greatest(wi);
-            let ratio = greatest / bound;
+            let bound = distribution.max_value(wi);
+            let ratio = max_value / bound;
             let least = if matches!(distribution, Distribution::Klems(_)) { 0.99 } else { 0.2 };
             assert!(ratio <= 1.0 + 1e-12 && ratio > least, "{name} at {wi}: {ratio}");
         }

@@ -151,7 +151,7 @@ mod tests {
     /// 5 % finds one in 5 % of 4000 cases, which these know to 0.35 %.
     #[test]
     fn chance_is_taken_for_a_gain_as_often_as_stated() {
-        let points = PointSet::new(Sequence::Random, Randomization::None, 5);
+        let points = PointSet::new(Sequence::Independent, Randomization::None, 5);
         let share = share_found(|run| {
             let squares = |first: u32| -> Vec<f64> {
                 let square = |r: u32, d: u32| {
@@ -170,7 +170,7 @@ mod tests {
     /// uniform numbers. The same cases, which are known as well.
     #[test]
     fn errors_about_their_own_mean_at_one_place_are_no_exception() {
-        let points = PointSet::new(Sequence::Random, Randomization::None, 6);
+        let points = PointSet::new(Sequence::Independent, Randomization::None, 6);
         for replicates in [8, 16, 32] {
             let share = share_found(|run| {
                 let squares = |setup: u32| -> Vec<f64> {

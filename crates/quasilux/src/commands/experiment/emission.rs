@@ -2,7 +2,7 @@
 
 use super::batwing::Luminaire;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_uniform_hemisphere;
 
 /// A way to make directions.
@@ -24,18 +24,18 @@ impl Method {
     }
 
     /// A direction of the luminaire's frame, its density in proportion to intensity.
-    pub(super) fn direction(self, luminaire: &Luminaire, cursor: &mut SampleCursor<'_>) -> DVec3 {
+    pub(super) fn direction(self, luminaire: &Luminaire, sampler: &mut Sampler<'_>) -> DVec3 {
         let photometry = &luminaire.photometry;
         match self {
             Self::InverseTransform => {
-                let sample = photometry.sample(cursor.next_2d());
+                let sample = photometry.sample(sampler.next_2d());
                 sample.expect("the luminaire gives light").direction
             }
             Self::Rejection => loop {
-                let [x, y, up] = sample_uniform_hemisphere(cursor.next_2d());
+                let [x, y, up] = sample_uniform_hemisphere(sampler.next_2d());
                 let direction = DVec3::new(x, y, -up);
                 let share = photometry.intensity_cd(direction) / luminaire.maximum_cd;
-                if cursor.next_1d() < share {
+                if sampler.next_1d() < share {
                     return direction;
                 }
             },

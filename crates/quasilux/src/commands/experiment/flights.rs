@@ -4,12 +4,12 @@
 use super::closed_box::CELLS;
 use super::contrast::Contrast;
 use quasilux_sampling::{
-    DimensionHistogram, PointSet, Randomization, SampleCursor, Sequence, stream_key,
+    DimensionHistogram, PointSet, Randomization, Sampler, Sequence, stream_key,
 };
 use rayon::prelude::*;
 
 /// The smallest number of photons.
-pub(super) const LEAST: u64 = 1 << 8;
+pub(super) const MIN: u64 = 1 << 8;
 
 /// What photons of one kind did.
 pub(super) struct Flights {
@@ -45,13 +45,13 @@ struct Replicate {
 impl Flights {
     /// Sends photons, each of which tells of every cell that it lands in.
     pub(super) fn of(
-        photon: impl Fn(&mut SampleCursor<'_>, &mut dyn FnMut(usize)) + Sync,
+        photon: impl Fn(&mut Sampler<'_>, &mut dyn FnMut(usize)) + Sync,
         sequence: Sequence,
         effort: Effort,
     ) -> Self {
         let one = |replicate| {
             let randomization = match sequence {
-                Sequence::Random => Randomization::None,
+                Sequence::Independent => Randomization::None,
                 _ => Randomization::Owen,
             };
             let key = stream_key(effort.seed, replicate, 0);
@@ -81,7 +81,7 @@ impl Flights {
 
 impl Replicate {
     fn of(
-        photon: &impl Fn(&mut SampleCursor<'_>, &mut dyn FnMut(usize)),
+        photon: &impl Fn(&mut Sampler<'_>, &mut dyn FnMut(usize)),
         points: &PointSet,
         most: u64,
     ) -> Self {
@@ -90,9 +90,9 @@ impl Replicate {
         let mut index = 0;
         let all = counts(most).map(|photons| {
             while index < photons {
-                let mut cursor = SampleCursor::new(points, index);
-                photon(&mut cursor, &mut |cell| hits[cell] += 1);
-                dimensions.record(cursor.used());
+                let mut sampler = Sampler::new(points, index);
+                photon(&mut sampler, &mut |cell| hits[cell] += 1);
+                dimensions.record(sampler.used());
                 index += 1;
             }
             hits.clone()
@@ -130,5 +130,5 @@ impl Error {
 
 /// Powers of four.
 fn counts(most: u64) -> impl Iterator<Item = u64> {
-    std::iter::successors(Some(LEAST), |count| Some(4 * count)).take_while(move |n| *n <= most)
+    std::iter::successors(Some(MIN), |count| Some(4 * count)).take_while(move |n| *n <= most)
 }

@@ -85,15 +85,19 @@ fn stroke(curve: &Curve) -> Stroke {
 }
 
 fn colour(number: usize, sequence: Sequence) -> &'static str {
-    if sequence == Sequence::Random { "#000000" } else { PALETTE[number % (PALETTE.len() - 1)] }
+    if sequence == Sequence::Independent {
+        "#000000"
+    } else {
+        PALETTE[number % (PALETTE.len() - 1)]
+    }
 }
 
 fn dash(randomization: Randomization, sequence: Sequence) -> Dash {
     match randomization {
-        _ if sequence == Sequence::Random => Dash::Solid,
+        _ if sequence == Sequence::Independent => Dash::Solid,
         Randomization::Owen => Dash::Solid,
-        Randomization::Shift => Dash::Dashed,
-        Randomization::Rotation => Dash::DashDot,
+        Randomization::DigitalShift => Dash::Dashed,
+        Randomization::CranleyPattersonRotation => Dash::DashDot,
         Randomization::None => Dash::Dotted,
     }
 }

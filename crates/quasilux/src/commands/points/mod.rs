@@ -17,9 +17,9 @@ use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 use std::io::{self, Write};
 
 /// More points than this are a blue surface.
-const MOST_DRAWN: u64 = 1 << 16;
+const MAX_DRAWN: u64 = 1 << 16;
 /// Up to this many points the drawing tells the star discrepancy: it takes N^2 steps.
-const MOST_MEASURED: usize = 1 << 12;
+const MAX_MEASURED: usize = 1 << 12;
 
 /// Lists, draws or compares points.
 pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, Refusal> {
@@ -73,9 +73,9 @@ fn drawing(points: &PointSet, arguments: &PointsArguments) -> Result<(String, St
         let given = arguments.dims.len();
         return Err(Refusal::new(format!("--svg draws two dimensions, and --dims names {given}")));
     };
-    if arguments.n > MOST_DRAWN {
+    if arguments.n > MAX_DRAWN {
         return Err(Refusal::new(format!(
-            "--svg draws at most {MOST_DRAWN} points, and -n asks for {}",
+            "--svg draws at most {MAX_DRAWN} points, and -n asks for {}",
             arguments.n
         )));
     }
@@ -85,7 +85,7 @@ fn drawing(points: &PointSet, arguments: &PointsArguments) -> Result<(String, St
     let view = PointsView::new(coordinates.as_flattened(), 2).expect("points of the unit square");
     let facts = facts(view, arguments.cells as usize);
     let randomised = match points.randomization() {
-        Randomization::None if points.sequence() != Sequence::Random => String::new(),
+        Randomization::None if points.sequence() != Sequence::Independent => String::new(),
         Randomization::None => format!(", seed {}", arguments.seed),
         kind => format!(", {}, seed {}", kind.name(), arguments.seed),
     };
@@ -101,7 +101,7 @@ fn drawing(points: &PointSet, arguments: &PointsArguments) -> Result<(String, St
 }
 
 fn facts(points: PointsView<'_>, cells: usize) -> String {
-    let star = (points.count() <= MOST_MEASURED)
+    let star = (points.count() <= MAX_MEASURED)
         .then(|| star_discrepancy(points))
         .flatten()
         .map(|star| format!("star discrepancy {star:.4}"));

@@ -8,10 +8,10 @@ use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 /// Randomisations of each randomised sequence.
 pub(super) const REPLICATES: u32 = 16;
 /// Discrepancies take N^2 steps: of more points than this they are not computed.
-pub(super) const MOST_MEASURED: u64 = 1 << 10;
+pub(super) const MAX_MEASURED: u64 = 1 << 10;
 /// The smallest number of points compared; the others are this times powers of 4, the counts that
 /// suit nets in base 2 and 4 alike.
-const LEAST: u64 = 1 << 4;
+const MIN: u64 = 1 << 4;
 
 /// A sequence under a randomisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,13 +25,13 @@ pub(super) struct Setup {
 impl Setup {
     /// All of them; random points are randomised as they are.
     pub(super) fn all() -> Vec<Self> {
-        let sequences = Sequence::names_for(LEAST).into_iter().enumerate();
+        let sequences = Sequence::names_for(MIN).into_iter().enumerate();
         sequences
             .flat_map(|(number, (_, sequence))| {
                 Randomization::NAMES
                     .into_iter()
                     .filter(move |(_, kind)| {
-                        sequence != Sequence::Random || *kind == Randomization::None
+                        sequence != Sequence::Independent || *kind == Randomization::None
                     })
                     .map(move |(_, randomization)| Self { number, sequence, randomization })
             })
@@ -39,13 +39,14 @@ impl Setup {
     }
 
     pub(super) fn replicates(&self) -> u32 {
-        let fixed = self.sequence != Sequence::Random && self.randomization == Randomization::None;
+        let fixed =
+            self.sequence != Sequence::Independent && self.randomization == Randomization::None;
         if fixed { 1 } else { REPLICATES }
     }
 
     /// What the randomisation is called; nothing where there is none to choose.
     pub(super) fn randomization_name(&self) -> &'static str {
-        if self.sequence == Sequence::Random { "" } else { self.randomization.name() }
+        if self.sequence == Sequence::Independent { "" } else { self.randomization.name() }
     }
 
     fn points(&self, count: u64, seed: u64, replicate: u32) -> PointSet {
@@ -99,7 +100,7 @@ impl Measure {
 
 /// The numbers of points to compare, up to `most`.
 pub(super) fn counts(most: u64) -> Vec<u64> {
-    std::iter::successors(Some(LEAST), |count| Some(4 * count))
+    std::iter::successors(Some(MIN), |count| Some(4 * count))
         .take_while(|count| *count <= most)
         .collect()
 }
@@ -115,7 +116,7 @@ pub(super) fn replicate(setup: &Setup, counts: &[u64], seed: u64, number: u32) -
         let points = setup.points(last, seed, number);
         for (measure, values) in measures.iter().zip(&mut values) {
             if !matches!(measure, Measure::Integration(_)) {
-                let few = run.iter().filter(|count| **count <= MOST_MEASURED);
+                let few = run.iter().filter(|count| **count <= MAX_MEASURED);
                 values.extend(few.map(|count| discrepancy(*measure, &points, *count)));
             }
         }
@@ -144,7 +145,7 @@ fn discrepancy(measure: Measure, points: &PointSet, count: u64) -> f64 {
 fn integration_errors(points: &PointSet, counts: &[u64]) -> Vec<Vec<f64>> {
     let mut sums = [0.0; Integrand::ALL.len()];
     let mut errors = vec![Vec::new(); sums.len()];
-    let mut u = [0.0; Integrand::MOST_DIMENSIONS];
+    let mut u = [0.0; Integrand::MAX_DIMENSIONS];
     let mut next = 0;
     for count in counts {
         for index in next..*count {

@@ -11,7 +11,7 @@ mod walk;
 
 use super::Outcome;
 use super::claim::Claim;
-use super::flights::{Effort, Flights, LEAST};
+use super::flights::{Effort, Flights, MIN};
 use super::significance::{ALIKE, each_of};
 use crate::arguments::ExperimentArguments;
 use quasilux_measure::number::count;
@@ -21,7 +21,7 @@ use walk::{Glossy, Method};
 /// Randomisations of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 64;
 /// The largest number of photons, unless the command line says otherwise.
-const MOST: u64 = 1 << 16;
+const MAX: u64 = 1 << 16;
 /// Comparisons in all; the one of likeness has two sides, of which only one can be passed by chance.
 const TESTS: usize = 3;
 /// What the text says of them.
@@ -36,7 +36,7 @@ struct Setup {
 /// Traces all setups.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let effort = Effort {
-        most: arguments.max_n.unwrap_or(MOST).max(LEAST),
+        most: arguments.max_n.unwrap_or(MAX).max(MIN),
         replicates: arguments.seeds.unwrap_or(REPLICATES),
         seed: arguments.seed,
     };
@@ -49,11 +49,11 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
 
 /// Rejection and inverse transform with random points, then with Sobol' points.
 fn setups(glossy: &Glossy, effort: Effort) -> Vec<Setup> {
-    let sequences = [Sequence::Random, Sequence::Sobol];
+    let sequences = [Sequence::Independent, Sequence::Sobol];
     let all = sequences.into_iter().flat_map(|sequence| Method::ALL.map(|m| (sequence, m)));
     all.map(|(sequence, method)| {
         let flights =
-            Flights::of(|cursor, landed| glossy.photon(method, cursor, landed), sequence, effort);
+            Flights::of(|sampler, landed| glossy.photon(method, sampler, landed), sequence, effort);
         Setup { method, flights }
     })
     .collect()

@@ -25,7 +25,7 @@ fn stroke(setup: &Setup) -> Stroke {
         Method::Rejection => (PALETTE[4], 5.0),
     };
     match setup.flights.sequence {
-        Sequence::Random => Stroke { colour, width_px: random_px, dash: Dash::Dashed },
+        Sequence::Independent => Stroke { colour, width_px: random_px, dash: Dash::Dashed },
         _ => Stroke::solid(colour, 2.5),
     }
 }

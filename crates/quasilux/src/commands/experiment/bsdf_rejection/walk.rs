@@ -3,7 +3,7 @@
 use crate::commands::experiment::closed_box::{ClosedBox, HALF_M};
 use glam::DVec3;
 use quasilux_photometry::bsdf::{AngleBasis, Distribution, KlemsTable};
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{sample_uniform_hemisphere, sample_uniform_sphere};
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -66,37 +66,38 @@ impl Glossy {
     pub(super) fn photon(
         &self,
         method: Method,
-        cursor: &mut SampleCursor<'_>,
+        sampler: &mut Sampler<'_>,
         landed: &mut dyn FnMut(usize),
     ) {
         let mut origin = HALF_M * LIGHT;
-        let mut direction = sample_uniform_sphere([cursor.rest_1d(), cursor.next_1d()]).into();
+        let mut direction =
+            sample_uniform_sphere([sampler.remapped_1d(), sampler.next_1d()]).into();
         loop {
             let hit = ClosedBox::hit(origin, direction);
             landed(hit.cell);
             let (tangent, bitangent) = hit.normal.any_orthonormal_pair();
             let local = |w: DVec3| DVec3::new(tangent.dot(w), bitangent.dot(w), hit.normal.dot(w));
-            let Some(on) = self.scattered(method, local(-direction), cursor) else { return };
+            let Some(on) = self.scattered(method, local(-direction), sampler) else { return };
             (origin, direction) =
                 (hit.position, tangent * on.x + bitangent * on.y + hit.normal * on.z);
         }
     }
 
     /// The direction in which a photon goes on, if it does.
-    fn scattered(&self, method: Method, wi: DVec3, cursor: &mut SampleCursor<'_>) -> Option<DVec3> {
-        if !cursor.choose_bool(self.table.albedo(wi)[0]) {
-            cursor.close();
+    fn scattered(&self, method: Method, wi: DVec3, sampler: &mut Sampler<'_>) -> Option<DVec3> {
+        if !sampler.choose_bool(self.table.albedo(wi)[0]) {
+            sampler.close();
             return None;
         }
         if method == Method::InverseTransform {
-            let sample = self.table.sample(wi, [cursor.rest_1d(), cursor.next_1d()]);
+            let sample = self.table.sample(wi, [sampler.remapped_1d(), sampler.next_1d()]);
             return Some(sample.expect("light is scattered from everywhere").wo);
         }
-        cursor.close();
-        let bound = self.table.greatest(wi);
+        sampler.close();
+        let bound = self.table.max_value(wi);
         loop {
-            let wo: DVec3 = sample_uniform_hemisphere(cursor.next_2d()).into();
-            if cursor.next_1d() < self.table.evaluate(wi, wo)[0] * wo.z / bound {
+            let wo: DVec3 = sample_uniform_hemisphere(sampler.next_2d()).into();
+            if sampler.next_1d() < self.table.evaluate(wi, wo)[0] * wo.z / bound {
                 return Some(wo);
             }
         }

@@ -9,7 +9,7 @@ const PROMISED: [f64; 2] = [0.935, 0.965];
 const SIGNIFICANCE: f64 = 0.01;
 
 /// Where more runs than this share stop at the same look, stopping is not tested.
-const MOST_AT_ONE_LOOK: f64 = 0.9;
+const MAX_AT_ONE_LOOK: f64 = 0.9;
 
 /// When the interval is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,7 +104,7 @@ impl Count {
 
     /// Whether runs stop at several looks.
     pub(super) fn has_looks(&self) -> bool {
-        self.commonest_end() <= MOST_AT_ONE_LOOK
+        self.commonest_end() <= MAX_AT_ONE_LOOK
     }
 
     /// Runs in which intervals of `scale` times the width cover the truth.

@@ -26,7 +26,7 @@ use trial::Trial;
 const SEEDS: u32 = 2000;
 /// The sequences that are compared, with their randomisations.
 const SEQUENCES: [(Sequence, Randomization); 2] =
-    [(Sequence::Sobol, Randomization::Owen), (Sequence::Random, Randomization::Owen)];
+    [(Sequence::Sobol, Randomization::Owen), (Sequence::Independent, Randomization::Owen)];
 
 /// Runs all scenes with all seeds.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {

@@ -55,7 +55,7 @@ fn stroke(figure: Figure, sequence: Sequence) -> Stroke {
     let number = FIGURES.iter().position(|other| *other == figure).unwrap_or(0);
     let colour = PALETTE[2 * number];
     match sequence {
-        Sequence::Random => Stroke { colour, width_px: 1.5, dash: Dash::Dashed },
+        Sequence::Independent => Stroke { colour, width_px: 1.5, dash: Dash::Dashed },
         _ => Stroke::solid(colour, 2.0),
     }
 }

@@ -42,7 +42,7 @@ use truth::Truth;
 const REPLICATES: u32 = 64;
 /// The largest N, and the time for all replicates of a column, unless the command line says otherwise: whichever comes
 /// first.
-const MOST: u64 = 1 << 20;
+const MAX: u64 = 1 << 20;
 const SECONDS: Duration = Duration::from_secs(80);
 /// N of what is beside the columns, unless the command line asks for less, however long it takes: photons with other
 /// sequences, paths with joined photons, photons of elements of other sizes.
@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let mut task = Task::at(Places::all(), &truth);
     task.replicates = arguments.seeds.unwrap_or(REPLICATES);
     task.seed = arguments.seed;
-    task.most = arguments.max_n.unwrap_or(MOST);
+    task.most = arguments.max_n.unwrap_or(MAX);
     task.limit = Some(arguments.seconds_per_point.unwrap_or(SECONDS));
     let columns = columns(ELEMENT_M, PHOTONS_PER_PATH).map(|setup| (setup, task.clone()));
     let others = other_setups().map(|setup| (setup, beside(&task, setup.form)));

@@ -58,8 +58,8 @@ impl Points {
     pub(super) fn randomization(self) -> Randomization {
         match self {
             Self::Random | Self::PlainHalton => Randomization::None,
-            Self::Halton | Self::Hammersley => Randomization::Rotation,
-            Self::Sobol => Randomization::Shift,
+            Self::Halton | Self::Hammersley => Randomization::CranleyPattersonRotation,
+            Self::Sobol => Randomization::DigitalShift,
             Self::ScrambledSobol | Self::Faure4 => Randomization::Owen,
         }
     }
@@ -73,7 +73,7 @@ impl Points {
     /// The sequence of a run of so many indices.
     fn sequence(self, samples: u64) -> Sequence {
         match self {
-            Self::Random => Sequence::Random,
+            Self::Random => Sequence::Independent,
             Self::Halton | Self::PlainHalton => Sequence::Halton,
             Self::Hammersley => Sequence::Hammersley { points: samples },
             Self::Sobol | Self::ScrambledSobol => Sequence::Sobol,

@@ -1,18 +1,18 @@
-//! The coordinates of the paper's cube, counted by the cursor.
+//! The coordinates of the paper's cube, counted by the sampler.
 
 use super::Claim;
 use super::room::{REFLECTANCE, Room};
 use super::walk::{Features, Walk};
 use crate::commands::experiment::building::{grey, lamp, points, room};
 use glam::DVec3;
-use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence, stream_key};
+use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence, stream_key};
 use quasilux_transport::{Dimensions, Estimator, Settings, simulate};
 
 /// Coordinates a photon or path, and standard errors of these means.
 pub(super) struct Cube {
     /// The program's photons: superposition, the absorbing event counted.
     pub(super) photons: f64,
-    /// This experiment's own walk: what the cursor has handed out when the absorbing event comes.
+    /// This experiment's own walk: what the sampler has handed out when the absorbing event comes.
     pub(super) uncounted: f64,
     /// The same walk without superposition, to its end.
     pub(super) separate: f64,
@@ -46,10 +46,10 @@ impl Cube {
             let walk = Walk { room: &cube, features };
             let mut sums = [0; 2];
             for index in 0..count {
-                let mut cursor = SampleCursor::new(&points, index);
-                let before = walk.photon(&mut cursor, &mut |_| ());
+                let mut sampler = Sampler::new(&points, index);
+                let before = walk.photon(&mut sampler, &mut |_| ());
                 sums[0] += u64::from(before);
-                sums[1] += u64::from(cursor.used());
+                sums[1] += u64::from(sampler.used());
             }
             sums.map(|sum| sum as f64 / count as f64)
         };

@@ -15,21 +15,21 @@ mod walk;
 use super::Outcome;
 use super::claim::{Claim, largest, smallest};
 use super::contrast::Contrast;
-use super::flights::{Effort, Flights, LEAST};
+use super::flights::{Effort, Flights, MIN};
 use super::significance::{ALIKE, each_of};
 use crate::arguments::ExperimentArguments;
 use cube::Cube;
 use quasilux_measure::number::count;
-use quasilux_sampling::{SampleCursor, Sequence};
+use quasilux_sampling::{Sampler, Sequence};
 use room::Room;
 use walk::{Features, Walk};
 
 /// Randomisations of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 64;
 /// The largest one, unless the command line says otherwise.
-const MOST: u64 = 1 << 16;
+const MAX: u64 = 1 << 16;
 /// The sequences that are compared, random points last.
-const SEQUENCES: [Sequence; 2] = [Sequence::Sobol, Sequence::Random];
+const SEQUENCES: [Sequence; 2] = [Sequence::Sobol, Sequence::Independent];
 
 /// Photons with some features and points of one kind.
 struct Setup {
@@ -41,7 +41,7 @@ struct Setup {
 /// Traces all setups, and counts coordinates in the cube.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let replicates = arguments.seeds.unwrap_or(REPLICATES);
-    let most = arguments.max_n.unwrap_or(MOST).max(LEAST);
+    let most = arguments.max_n.unwrap_or(MAX).max(MIN);
     let setups = setups(Effort { most, replicates, seed: arguments.seed });
     let cube = Cube::count(most, arguments.seed);
     let claims: Vec<Claim> = cube.claims().into_iter().chain(claims(&setups)).collect();
@@ -54,8 +54,8 @@ fn setups(effort: Effort) -> Vec<Setup> {
     let all = SEQUENCES.into_iter().flat_map(|s| Features::ALL.map(move |named| (s, named)));
     all.map(|(sequence, (name, features))| {
         let walk = Walk { room: &room, features };
-        let photon = |cursor: &mut SampleCursor<'_>, landed: &mut dyn FnMut(usize)| {
-            walk.photon(cursor, landed);
+        let photon = |sampler: &mut Sampler<'_>, landed: &mut dyn FnMut(usize)| {
+            walk.photon(sampler, landed);
         };
         let flights = Flights::of(photon, sequence, effort);
         Setup { name, features, flights }

@@ -22,7 +22,7 @@ fn stroke(setup: &Setup) -> Stroke {
     let place = Features::ALL.iter().position(|(_, features)| *features == setup.features);
     let colour = PALETTE[place.unwrap_or(0) % PALETTE.len()];
     match setup.flights.sequence {
-        Sequence::Random => Stroke { dash: Dash::Dashed, ..Stroke::solid(colour, 1.5) },
+        Sequence::Independent => Stroke { dash: Dash::Dashed, ..Stroke::solid(colour, 1.5) },
         _ => Stroke::solid(colour, 2.5),
     }
 }

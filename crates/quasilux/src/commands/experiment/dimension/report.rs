@@ -33,7 +33,7 @@ pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
 /// Both tables, and what is claimed.
 pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &[Claim]) -> String {
     let mut text = "# What superposition and inverse transform save\n\n\
-                    Coordinates a photon or path in the diffuse cube (the paper has 6 and 2), counted by the cursor that hands them\n\
+                    Coordinates a photon or path in the diffuse cube (the paper has 6 and 2), counted by the sampler that hands them\n\
                     out: in the program, or in the walk of this experiment where features can be turned off.\n\n\
                     | what | coordinates |\n|---|---:|\n"
         .to_owned();
@@ -54,7 +54,7 @@ pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &
     writeln!(text, "\n|---|---:|{}", "---:|".repeat(counts().count())).expect("strings grow");
     for setup in setups {
         let points = match setup.flights.sequence {
-            Sequence::Random => "random",
+            Sequence::Independent => "random",
             _ => "Sobol'",
         };
         write!(text, "| {points}, {} | {:.2} |", setup.name, setup.flights.dimensions.mean())

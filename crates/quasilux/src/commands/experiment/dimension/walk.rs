@@ -4,7 +4,7 @@ use super::room::{REFLECTANCE, Room};
 use crate::commands::experiment::closed_box::{ClosedBox, Hit};
 use crate::commands::experiment::emission::Method;
 use glam::DVec3;
-use quasilux_sampling::SampleCursor;
+use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 
 /// What saves coordinates.
@@ -42,19 +42,15 @@ impl Features {
 }
 
 impl Walk<'_> {
-    /// Sends a photon, and tells of every cell that it lands in. Returns how many coordinates the cursor had handed out
+    /// Sends a photon, and tells of every cell that it lands in. Returns how many coordinates the sampler had handed out
     /// before the event that absorbed it.
-    pub(super) fn photon(
-        &self,
-        cursor: &mut SampleCursor<'_>,
-        landed: &mut dyn FnMut(usize),
-    ) -> u32 {
-        let (mut origin, mut direction) = self.start(cursor);
+    pub(super) fn photon(&self, sampler: &mut Sampler<'_>, landed: &mut dyn FnMut(usize)) -> u32 {
+        let (mut origin, mut direction) = self.start(sampler);
         loop {
             let hit = ClosedBox::hit(origin, direction);
             landed(hit.cell);
-            let before = cursor.used();
-            match self.reflected(&hit, cursor) {
+            let before = sampler.used();
+            match self.reflected(&hit, sampler) {
                 Some(on) => (origin, direction) = (hit.position, on),
                 None => return before,
             }
@@ -62,42 +58,43 @@ impl Walk<'_> {
     }
 
     /// Place and direction at a light.
-    fn start(&self, cursor: &mut SampleCursor<'_>) -> (DVec3, DVec3) {
+    fn start(&self, sampler: &mut Sampler<'_>) -> (DVec3, DVec3) {
         let Room { sources, by_flux, luminaire } = self.room;
         let source = match sources.as_slice() {
             [only] => *only,
-            _ if self.features.light => sources[cursor.choose_leading(by_flux).index],
-            _ => sources[by_flux.choose(cursor.next_1d()).index],
+            _ if self.features.light => sources[sampler.choose_leading(by_flux).index],
+            _ => sources[by_flux.sample(sampler.next_1d()).index],
         };
         let direction = match luminaire {
-            None => sample_uniform_sphere([cursor.rest_1d(), cursor.next_1d()]).into(),
+            None => sample_uniform_sphere([sampler.remapped_1d(), sampler.next_1d()]).into(),
             Some(luminaire) if self.features.inverse => {
-                let sample = luminaire.photometry.sample([cursor.rest_1d(), cursor.next_1d()]);
+                let sample =
+                    luminaire.photometry.sample([sampler.remapped_1d(), sampler.next_1d()]);
                 sample.expect("the luminaire gives light").direction
             }
             Some(luminaire) => {
-                cursor.close();
-                Method::Rejection.direction(luminaire, cursor)
+                sampler.close();
+                Method::Rejection.direction(luminaire, sampler)
             }
         };
         (source, direction)
     }
 
     /// The direction in which a photon goes on, if it does.
-    fn reflected(&self, hit: &Hit, cursor: &mut SampleCursor<'_>) -> Option<DVec3> {
+    fn reflected(&self, hit: &Hit, sampler: &mut Sampler<'_>) -> Option<DVec3> {
         let goes_on = if self.features.event {
-            cursor.choose_bool(REFLECTANCE)
+            sampler.choose_bool(REFLECTANCE)
         } else {
-            cursor.next_1d() < REFLECTANCE
+            sampler.next_1d() < REFLECTANCE
         };
         if !goes_on {
-            cursor.close();
+            sampler.close();
             return None;
         }
         let u = if self.features.event {
-            [cursor.rest_1d(), cursor.next_1d()]
+            [sampler.remapped_1d(), sampler.next_1d()]
         } else {
-            cursor.next_2d()
+            sampler.next_2d()
         };
         let [x, y, up] = sample_cosine_hemisphere(u);
         let (tangent, bitangent) = hit.normal.any_orthonormal_pair();

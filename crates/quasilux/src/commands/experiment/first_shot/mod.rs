@@ -22,7 +22,7 @@ use trial::Trial;
 /// Replicates of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 64;
 /// Photons, and paths for each point, at most in each of them, unless the command line says otherwise.
-const MOST: u64 = 1 << 13;
+const MAX: u64 = 1 << 13;
 
 /// How much is done.
 #[derive(Clone, Copy)]
@@ -37,7 +37,7 @@ struct Effort {
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
     let effort = Effort {
         replicates: arguments.seeds.unwrap_or(REPLICATES),
-        samples: arguments.max_n.unwrap_or(MOST),
+        samples: arguments.max_n.unwrap_or(MAX),
         seed: arguments.seed,
         limit: arguments.seconds_per_point,
     };

@@ -51,7 +51,7 @@ fn panel(trials: &[Trial], (label, base, cost): Cost) -> Panel {
 fn stroke(sequence: Sequence, switch: &str) -> Stroke {
     let colour = PALETTE[usize::from(switch == "off")];
     match sequence {
-        Sequence::Random => Stroke { colour, width_px: 2.0, dash: Dash::Dashed },
+        Sequence::Independent => Stroke { colour, width_px: 2.0, dash: Dash::Dashed },
         _ => Stroke::solid(colour, 2.5),
     }
 }

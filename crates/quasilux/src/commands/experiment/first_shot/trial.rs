@@ -13,7 +13,7 @@ use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::{Estimator, Settings, Switch};
 
 /// The points that are compared.
-pub(super) const SEQUENCES: [Sequence; 2] = [Sequence::Random, Sequence::Sobol];
+pub(super) const SEQUENCES: [Sequence; 2] = [Sequence::Independent, Sequence::Sobol];
 /// Longest edge of an element of the map.
 const ELEMENT_M: f64 = 0.5;
 /// Light of no and of one bounce is found by paths alone; photons bring the rest, which is the third term then.

@@ -60,7 +60,7 @@ impl Way {
 
     fn points(self) -> (Sequence, Randomization) {
         match self {
-            Self::Pseudo => (Sequence::Random, Randomization::None),
+            Self::Pseudo => (Sequence::Independent, Randomization::None),
             Self::Quasi => (Sequence::Halton, Randomization::Owen),
             Self::QuasiOnce => (Sequence::Halton, Randomization::None),
         }

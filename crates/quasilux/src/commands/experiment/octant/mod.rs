@@ -28,7 +28,7 @@ use std::time::Duration;
 /// Randomisations of each setup, unless the command line says otherwise.
 const RANDOMISATIONS: u32 = 32;
 /// Photons at most in each of them, unless the command line says otherwise.
-const MOST: u64 = 1 << 20;
+const MAX: u64 = 1 << 20;
 /// Paths for each place, and photons beside them, are fewer by this factor.
 const FEWER: u64 = 1 << 5;
 
@@ -49,7 +49,7 @@ struct Findings {
 
 /// Measures limits and curves.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
-    let photons = arguments.max_n.unwrap_or(MOST);
+    let photons = arguments.max_n.unwrap_or(MAX);
     let findings = Findings::new(&Effort {
         randomisations: arguments.seeds.unwrap_or(RANDOMISATIONS),
         photons,

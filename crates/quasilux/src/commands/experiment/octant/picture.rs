@@ -20,7 +20,7 @@ const PRINTED: [Stroke; 2] = [
     Stroke { colour: PALETTE[0], width_px: 1.2, dash: Dash::DashDot },
 ];
 /// Smaller errors are luck, and end the axis.
-const LEAST: f64 = 1e-5;
+const MIN: f64 = 1e-5;
 
 /// The plot as an SVG file.
 pub(super) fn svg(findings: &Findings) -> String {
@@ -46,7 +46,7 @@ pub(super) fn svg(findings: &Findings) -> String {
             let points = lines.iter().flat_map(|line| &line.points);
             points.map(move |point| point[axis]).collect::<Vec<f64>>()
         };
-        let errors = values(1).into_iter().map(|error| error.max(LEAST));
+        let errors = values(1).into_iter().map(|error| error.max(MIN));
         Panel {
             title: title.to_owned(),
             x: Axis::around(label, Scale::Log(base), values(0)),

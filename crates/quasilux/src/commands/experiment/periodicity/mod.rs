@@ -59,7 +59,7 @@ fn widths(count: u64, seed: u64) -> Vec<Width> {
         let points = PointSet::new(sequence, randomization, key);
         let sizes = std::iter::successors(Some(count / 4), |size| Some(size / 4));
         for size in sizes.take_while(|size| *size >= 16) {
-            let groups = CoherentGroups::of_size(&points, count, &DIMENSIONS, size);
+            let groups = CoherentGroups::with_size(&points, count, &DIMENSIONS, size);
             widths.extend(groups.map(|groups| width(name, &points, &groups, count)));
         }
     }

@@ -49,7 +49,7 @@ impl Set {
 
     fn random(seed: u64, replicate: u32) -> Self {
         let key = stream_key(seed, replicate, 0);
-        Self::new("random", &PointSet::new(Sequence::Random, Randomization::None, key))
+        Self::new("random", &PointSet::new(Sequence::Independent, Randomization::None, key))
     }
 
     fn all(seed: u64) -> Vec<Self> {

@@ -19,16 +19,16 @@ use crate::arguments::ExperimentArguments;
 use floor::Floor;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_sampling::{
-    DimensionHistogram, PointSet, Randomization, SampleCursor, Sequence, stream_key,
+    DimensionHistogram, PointSet, Randomization, Sampler, Sequence, stream_key,
 };
 use rayon::prelude::*;
 
 /// Randomisations of each setup.
 const REPLICATES: u32 = 32;
 /// The smallest number of photons.
-const LEAST: u64 = 1 << 6;
+const MIN: u64 = 1 << 6;
 /// The largest one, unless the command line says otherwise.
-const MOST: u64 = 1 << 18;
+const MAX: u64 = 1 << 18;
 /// Slopes are fitted from here on: below, cells of the floor are empty.
 const FIT_FROM: f64 = 1024.0;
 
@@ -66,15 +66,15 @@ struct Replicate {
 impl Setup {
     /// The four setups, those of the paper's claim last.
     const ALL: [Self; 4] = [
-        Self { method: Method::Rejection, sequence: Sequence::Random },
-        Self { method: Method::InverseTransform, sequence: Sequence::Random },
+        Self { method: Method::Rejection, sequence: Sequence::Independent },
+        Self { method: Method::InverseTransform, sequence: Sequence::Independent },
         Self { method: Method::Rejection, sequence: Sequence::Sobol },
         Self { method: Method::InverseTransform, sequence: Sequence::Sobol },
     ];
 
     fn points(self, seed: u64, replicate: u32) -> PointSet {
         let randomization = match self.sequence {
-            Sequence::Random => Randomization::None,
+            Sequence::Independent => Randomization::None,
             _ => Randomization::Owen,
         };
         PointSet::new(self.sequence, randomization, stream_key(seed, replicate, 0))
@@ -108,7 +108,7 @@ impl Error {
 
 /// Measures the four curves.
 pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
-    let counts = counts(arguments.max_n.unwrap_or(MOST));
+    let counts = counts(arguments.max_n.unwrap_or(MAX));
     let luminaire = Luminaire::batwing();
     let floor = Floor::under(&luminaire.photometry);
     let curves = Setup::ALL.map(|setup| curve(setup, &luminaire, &floor, &counts, arguments.seed));
@@ -119,8 +119,8 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
 
 /// Powers of two.
 fn counts(most: u64) -> Vec<u64> {
-    std::iter::successors(Some(LEAST), |count| Some(2 * count))
-        .take_while(|count| *count <= most.max(LEAST))
+    std::iter::successors(Some(MIN), |count| Some(2 * count))
+        .take_while(|count| *count <= most.max(MIN))
         .collect()
 }
 
@@ -160,9 +160,9 @@ fn replicate(
         .iter()
         .map(|count| {
             while index < *count {
-                let mut cursor = SampleCursor::new(points, index);
-                hits.record(method.direction(luminaire, &mut cursor));
-                dimensions.record(cursor.used());
+                let mut sampler = Sampler::new(points, index);
+                hits.record(method.direction(luminaire, &mut sampler));
+                dimensions.record(sampler.used());
                 index += 1;
             }
             hits.mean_square_error(*count)

@@ -41,7 +41,7 @@ fn stroke(curve: &Curve) -> Stroke {
         Method::Rejection => (PALETTE[4], 5.0),
     };
     match curve.setup.sequence {
-        Sequence::Random => Stroke { colour, width_px: random_px, dash: Dash::Dashed },
+        Sequence::Independent => Stroke { colour, width_px: random_px, dash: Dash::Dashed },
         _ => Stroke::solid(colour, 2.5),
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn csv(curves: &[Curve]) -> String {
                 curve.setup.sequence.name(),
                 exact(rms),
                 exact(curve.dimensions.mean()),
-                over(curve.setup.method, Sequence::Random),
+                over(curve.setup.method, Sequence::Independent),
                 over(Method::Rejection, curve.setup.sequence),
             )
             .expect("strings grow");

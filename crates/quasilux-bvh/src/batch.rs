@@ -1,10 +1,10 @@
 //! Many rays at once: the same answers as one by one, sooner.
 
 use crate::frame::Framed;
-use crate::group::{Answers, Group, Pace, Parted, Party, Run};
+use crate::group::{Answers, Diverged, GroupSize, GroupTracer, RayGroup, RayRun};
 use crate::intersect::intersect_with;
 use crate::lanes::Quad;
-use crate::stream::{Passenger, Voyage};
+use crate::stream::{ActiveRay, RaySource};
 use crate::triangle_bvh::wins;
 use crate::{Hit, PreparedRay, Shot, TriangleBvh};
 
@@ -16,7 +16,7 @@ impl TriangleBvh {
     ///
     /// # Panics
     /// If there are not as many `hits` as `shots`, or more than 2^32 of them.
-    pub fn closest_hits(&self, shots: &[Shot], hits: &mut [Option<Hit>]) {
+    pub fn closest_hit_batch(&self, shots: &[Shot], hits: &mut [Option<Hit>]) {
         self.answer(shots, hits);
     }
 
@@ -24,34 +24,34 @@ impl TriangleBvh {
     ///
     /// # Panics
     /// If there are not as many answers as `shots`, or more than 2^32 of them.
-    pub fn are_occluded(&self, shots: &[Shot], occluded: &mut [bool]) {
+    pub fn occluded_batch(&self, shots: &[Shot], occluded: &mut [bool]) {
         self.answer(shots, occluded);
     }
 
     /// Answers runs of shots that belong together as groups, and all others alone.
     fn answer<A: Answer>(&self, mut shots: &[Shot], mut answers: &mut [A]) {
         assert_eq!(shots.len(), answers.len(), "as many answers as questions");
-        let mut group = Group::new();
-        let mut pace = Pace::new();
+        let mut tracer = GroupTracer::new();
+        let mut group_size = GroupSize::new();
         while !shots.is_empty() {
-            let run = match pace.pause() {
-                0 => Run::first(shots, &self.frame, pace.most()),
-                pause => Run::Alone(pause.min(shots.len())),
+            let run = match group_size.take_pause() {
+                0 => RayRun::first(shots, &self.frame, group_size.most()),
+                pause => RayRun::Incoherent(pause.min(shots.len())),
             };
-            let (Run::Together(count, _) | Run::Alone(count)) = run;
+            let (RayRun::Coherent(count, _) | RayRun::Incoherent(count)) = run;
             let (now, later) = answers.split_at_mut(count);
             let cost = match run {
-                Run::Together(_, heading) => {
+                RayRun::Coherent(_, heading) => {
                     let (tree, frame) = (&self.tree, &self.frame);
-                    let party = Party { tree, frame, heading, shots: &shots[..count] };
-                    let cost = group.answer(self.kernel, party, A::of_group(now));
-                    pace.learn(count, cost);
+                    let group = RayGroup { tree, frame, heading, shots: &shots[..count] };
+                    let cost = tracer.answer(self.simd, group, A::for_group(now));
+                    group_size.learn(count, cost);
                     cost
                 }
-                Run::Alone(_) => Err(Parted),
+                RayRun::Incoherent(_) => Err(Diverged),
             };
             if cost.is_err() {
-                self.tree.stream(self.kernel, &mut Alone::new(self, &shots[..count], now));
+                self.tree.stream(self.simd, &mut SingleRays::new(self, &shots[..count], now));
             }
             (shots, answers) = (&shots[count..], later);
         }
@@ -59,7 +59,7 @@ impl TriangleBvh {
 }
 
 /// Rays that fly alone, and where their answers go.
-struct Alone<'a, A> {
+struct SingleRays<'a, A> {
     bvh: &'a TriangleBvh,
     shots: &'a [Shot],
     answers: &'a mut [A],
@@ -69,13 +69,13 @@ struct Alone<'a, A> {
 /// What is asked of a ray: the closest hit, or whether there is any.
 trait Answer: Copy {
     /// The answer of a ray that hits nothing.
-    const NOTHING: Self;
+    const MISS: Self;
 
     /// The answer of a ray by itself.
-    fn of(bvh: &TriangleBvh, shot: &Shot) -> Self;
+    fn trace_one(bvh: &TriangleBvh, shot: &Shot) -> Self;
 
     /// Where the answers of a group go.
-    fn of_group(answers: &mut [Self]) -> Answers<'_>;
+    fn for_group(answers: &mut [Self]) -> Answers<'_>;
 
     /// Takes account of a hit and says where the search for others ends, if that has changed.
     fn take(&mut self, hit: Hit, end: impl Fn(f64) -> f32) -> Option<f32>;
@@ -84,27 +84,27 @@ trait Answer: Copy {
     fn needs(&self, triangle: u32) -> bool;
 }
 
-impl<'a, A: Answer> Alone<'a, A> {
+impl<'a, A: Answer> SingleRays<'a, A> {
     fn new(bvh: &'a TriangleBvh, shots: &'a [Shot], answers: &'a mut [A]) -> Self {
         assert!(u32::try_from(shots.len()).is_ok(), "too many rays for 32-bit indices");
         Self { bvh, shots, answers, next: 0 }
     }
 }
 
-impl<A: Answer> Voyage for Alone<'_, A> {
+impl<A: Answer> RaySource for SingleRays<'_, A> {
     #[inline(always)]
-    fn embark(&mut self) -> Option<Passenger> {
+    fn next_ray(&mut self) -> Option<ActiveRay> {
         loop {
             let number = self.next;
             let shot = self.shots.get(number as usize)?;
             self.next += 1;
-            self.answers[number as usize] = A::NOTHING;
+            self.answers[number as usize] = A::MISS;
             match self.bvh.frame.ray(&shot.ray) {
                 Framed::Ray(ray) => {
-                    return Some(Passenger { ray, number, excluded: shot.excluded });
+                    return Some(ActiveRay { ray, number, excluded: shot.excluded });
                 }
                 Framed::Misses => {}
-                Framed::TooFar => self.strand(number),
+                Framed::TooFar => self.trace_alone(number),
             }
         }
     }
@@ -112,7 +112,7 @@ impl<A: Answer> Voyage for Alone<'_, A> {
     #[inline(always)]
     fn decide<Q: Quad>(
         &mut self,
-        &Passenger { ray, number, .. }: &Passenger,
+        &ActiveRay { ray, number, .. }: &ActiveRay,
         triangles: impl Iterator<Item = u32>,
     ) -> f32 {
         let prepared = PreparedRay::new(&self.shots[number as usize].ray);
@@ -132,19 +132,19 @@ impl<A: Answer> Voyage for Alone<'_, A> {
     }
 
     #[cold]
-    fn strand(&mut self, number: u32) {
-        self.answers[number as usize] = A::of(self.bvh, &self.shots[number as usize]);
+    fn trace_alone(&mut self, number: u32) {
+        self.answers[number as usize] = A::trace_one(self.bvh, &self.shots[number as usize]);
     }
 }
 
 impl Answer for Option<Hit> {
-    const NOTHING: Self = None;
+    const MISS: Self = None;
 
-    fn of(bvh: &TriangleBvh, shot: &Shot) -> Self {
+    fn trace_one(bvh: &TriangleBvh, shot: &Shot) -> Self {
         bvh.closest_hit(&shot.ray, &shot.excluded)
     }
 
-    fn of_group(answers: &mut [Self]) -> Answers<'_> {
+    fn for_group(answers: &mut [Self]) -> Answers<'_> {
         Answers::Closest(answers)
     }
 
@@ -164,13 +164,13 @@ impl Answer for Option<Hit> {
 }
 
 impl Answer for bool {
-    const NOTHING: Self = false;
+    const MISS: Self = false;
 
-    fn of(bvh: &TriangleBvh, shot: &Shot) -> Self {
+    fn trace_one(bvh: &TriangleBvh, shot: &Shot) -> Self {
         bvh.is_occluded(&shot.ray, &shot.excluded)
     }
 
-    fn of_group(answers: &mut [Self]) -> Answers<'_> {
+    fn for_group(answers: &mut [Self]) -> Answers<'_> {
         Answers::Occluded(answers)
     }
 

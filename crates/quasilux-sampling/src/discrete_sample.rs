@@ -13,9 +13,9 @@ pub struct Choice {
     /// Which was chosen.
     pub index: usize,
     /// With what probability.
-    pub probability: f64,
+    pub pdf: f64,
     /// The rest of the coordinate, uniform on [0, 1) and independent of the choice.
-    pub rest: f64,
+    pub u_remapped: f64,
 }
 
 /// The outcome of a choice between two.
@@ -24,7 +24,7 @@ pub struct BoolChoice {
     /// Which was chosen.
     pub value: bool,
     /// The rest of the coordinate, uniform on [0, 1) and independent of the choice.
-    pub rest: f64,
+    pub u_remapped: f64,
 }
 
 /// True with probability `p_true`: where u < `p_true`.
@@ -33,18 +33,18 @@ pub struct BoolChoice {
 ///
 /// ```
 /// use quasilux_sampling::{choose_bool, BoolChoice};
-/// assert_eq!(choose_bool(0.125, 0.25), BoolChoice { value: true, rest: 0.5 });
-/// assert_eq!(choose_bool(0.625, 0.25), BoolChoice { value: false, rest: 0.5 });
+/// assert_eq!(choose_bool(0.125, 0.25), BoolChoice { value: true, u_remapped: 0.5 });
+/// assert_eq!(choose_bool(0.625, 0.25), BoolChoice { value: false, u_remapped: 0.5 });
 /// ```
 #[inline]
 #[must_use]
 pub fn choose_bool(u: f64, p_true: f64) -> BoolChoice {
     if u < p_true {
-        BoolChoice { value: true, rest: rest_in(u, 0.0, p_true.min(1.0)) }
+        BoolChoice { value: true, u_remapped: remap(u, 0.0, p_true.min(1.0)) }
     } else if p_true > 0.0 {
-        BoolChoice { value: false, rest: rest_in(u, p_true.min(ONE_BELOW), 1.0) }
+        BoolChoice { value: false, u_remapped: remap(u, p_true.min(ONE_BELOW), 1.0) }
     } else {
-        BoolChoice { value: false, rest: u }
+        BoolChoice { value: false, u_remapped: u }
     }
 }
 
@@ -57,7 +57,7 @@ pub fn choose_bool(u: f64, p_true: f64) -> BoolChoice {
 /// ```
 /// use quasilux_sampling::choose_weights;
 /// let choice = choose_weights(0.625, [1.0, 0.0, 3.0].into_iter()).unwrap();
-/// assert_eq!((choice.index, choice.probability, choice.rest), (2, 0.75, 0.5));
+/// assert_eq!((choice.index, choice.pdf, choice.u_remapped), (2, 0.75, 0.5));
 /// assert_eq!(choose_weights(0.625, [0.0].into_iter()), None);
 /// ```
 #[must_use]
@@ -79,8 +79,8 @@ pub fn choose_weights(u: f64, weights: impl Iterator<Item = f64> + Clone) -> Opt
         let next = sum + weight;
         // A weight below the rounding of the sum has no share of the coordinate.
         if next > sum {
-            let probability = weight / total;
-            chosen = Some(Choice { index, probability, rest: rest_in(target, sum, next) });
+            let pdf = weight / total;
+            chosen = Some(Choice { index, pdf, u_remapped: remap(target, sum, next) });
         }
         if target < next {
             break;
@@ -98,6 +98,6 @@ pub(crate) fn is_weight(weight: f64) -> bool {
 
 /// Where u lies in [low, high), as a fraction in [0, 1).
 #[inline]
-pub(crate) fn rest_in(u: f64, low: f64, high: f64) -> f64 {
+pub(crate) fn remap(u: f64, low: f64, high: f64) -> f64 {
     ((u - low) / (high - low)).clamp(0.0, ONE_BELOW)
 }

@@ -16,7 +16,7 @@ pub(crate) struct Candidate {
 const ROOM: usize = 16;
 
 /// Candidates that await their decision.
-pub(crate) struct Pending {
+pub(crate) struct Candidates {
     candidates: [MaybeUninit<Candidate>; ROOM],
     count: usize,
     /// The least of their distances.
@@ -25,7 +25,7 @@ pub(crate) struct Pending {
     more: Vec<Candidate>,
 }
 
-impl Pending {
+impl Candidates {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         Self {

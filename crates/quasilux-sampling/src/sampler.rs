@@ -5,11 +5,11 @@
 //! points, so the rest soon is no better than pseudo-random, or a constant where nothing is
 //! randomised. The rule: a choice is charged the bits that its distribution needs on average (its
 //! entropy, rounded up), known before its outcome, and opens a fresh coordinate when it would bring
-//! the open one above [`SHARED_BITS`](SampleCursor::SHARED_BITS). It depends neither on N, so that a
+//! the open one above [`SHARED_BITS`](Sampler::SHARED_BITS). It depends neither on N, so that a
 //! longer run extends a shorter one, nor on outcomes: decisions keep their coordinates as long as the
 //! distributions before them are the same.
 
-use crate::choice::{BoolChoice, Choice, choose_bool, choose_weights};
+use crate::discrete_sample::{BoolChoice, Choice, choose_bool, choose_weights};
 use crate::hash::mix;
 use crate::{Discrete, PointSet};
 
@@ -21,15 +21,15 @@ const NONE_AHEAD: u64 = 1 << 32;
 /// The count is the sample's *constructive dimension*: how many coordinates it consumed until it
 /// ended.
 /// ```
-/// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+/// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
 /// let points = PointSet::new(Sequence::Sobol, Randomization::None, 0);
-/// let mut cursor = SampleCursor::new(&points, 1);
-/// assert_eq!(cursor.next_1d(), 0.5);
-/// assert_eq!(cursor.next_2d(), [0.5, 0.5]);
-/// assert_eq!(cursor.used(), 3);
+/// let mut sampler = Sampler::new(&points, 1);
+/// assert_eq!(sampler.next_1d(), 0.5);
+/// assert_eq!(sampler.next_2d(), [0.5, 0.5]);
+/// assert_eq!(sampler.used(), 3);
 /// ```
 #[derive(Clone, Debug)]
-pub struct SampleCursor<'a> {
+pub struct Sampler<'a> {
     points: &'a PointSet,
     index: u64,
     dimension: u32,
@@ -50,7 +50,7 @@ struct Open {
     spent: u32,
 }
 
-impl<'a> SampleCursor<'a> {
+impl<'a> Sampler<'a> {
     /// No coordinate is shared by choices that need more bits together. A run of a million points
     /// has 20 even digits; a choice among a thousand facets takes ten and has its coordinate for
     /// itself, events with two outcomes share one.
@@ -72,8 +72,8 @@ impl<'a> SampleCursor<'a> {
         }
     }
 
-    /// The cursor of child `child` of a sample that is split here, counted from 1; child 0 goes on
-    /// with this cursor itself.
+    /// The sampler of child `child` of a sample that is split here, counted from 1; child 0 goes on
+    /// with this sampler itself.
     ///
     /// It goes on at this dimension with a randomisation of its own, which is a function of the
     /// way to it: the dimensions at which its ancestors were split, and which children they were. So
@@ -83,9 +83,9 @@ impl<'a> SampleCursor<'a> {
     /// decide what becomes of the child, and no number of samples would average that out.
     ///
     /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-    /// let mut parent = SampleCursor::new(&points, 7);
+    /// let mut parent = Sampler::new(&points, 7);
     /// let mut children = [parent.child(1), parent.child(2)];
     /// assert_ne!(children[0].next_1d(), children[1].next_1d());
     /// assert_eq!(parent.next_1d(), points.coordinate(7, 0));
@@ -109,16 +109,16 @@ impl<'a> SampleCursor<'a> {
     /// The same sample, if a split one the same child, among other points: from their coordinate `dimension` on.
     ///
     /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     /// let [points, others] = [1, 2].map(|key| PointSet::new(Sequence::Sobol, Randomization::Owen, key));
-    /// let parent = SampleCursor::new(&points, 7);
+    /// let parent = Sampler::new(&points, 7);
     /// assert_eq!(parent.among(&others, 3).next_1d(), others.coordinate(7, 3));
     /// assert_ne!(parent.child(1).among(&others, 3).next_1d(), others.coordinate(7, 3));
     /// ```
     #[inline]
     #[must_use]
-    pub const fn among<'p>(&self, points: &'p PointSet, dimension: u32) -> SampleCursor<'p> {
-        SampleCursor { branch: self.branch, dimension, ..SampleCursor::new(points, self.index) }
+    pub const fn among<'p>(&self, points: &'p PointSet, dimension: u32) -> Sampler<'p> {
+        Sampler { branch: self.branch, dimension, ..Sampler::new(points, self.index) }
     }
 
     /// The number of the point.
@@ -133,9 +133,9 @@ impl<'a> SampleCursor<'a> {
     /// [branch](Self::is_branch) has others, and leaves these.
     ///
     /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-    /// let (mut alone, mut supplied) = (SampleCursor::new(&points, 7), SampleCursor::new(&points, 7));
+    /// let (mut alone, mut supplied) = (Sampler::new(&points, 7), Sampler::new(&points, 7));
     /// supplied.supply(1, [1, 2].map(|dimension| points.coordinate(7, dimension)));
     /// assert_eq!([(); 4].map(|()| supplied.next_1d()), [(); 4].map(|()| alone.next_1d()));
     /// ```
@@ -170,11 +170,11 @@ impl<'a> SampleCursor<'a> {
     /// where the outcome is certain.
     ///
     /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-    /// let mut cursor = SampleCursor::new(&points, 1);
-    /// let heads = (0..16).filter(|_| cursor.choose_bool(0.5)).count();
-    /// assert_eq!(cursor.used(), 2);
+    /// let mut sampler = Sampler::new(&points, 1);
+    /// let heads = (0..16).filter(|_| sampler.choose_bool(0.5)).count();
+    /// assert_eq!(sampler.used(), 2);
     /// assert!(heads <= 16);
     /// ```
     #[inline]
@@ -182,8 +182,8 @@ impl<'a> SampleCursor<'a> {
         if p_true <= 0.0 || p_true >= 1.0 {
             return p_true > 0.0;
         }
-        let BoolChoice { value, rest } = choose_bool(self.shared_coordinate(1), p_true);
-        self.leave(rest, 1);
+        let BoolChoice { value, u_remapped } = choose_bool(self.shared_coordinate(1), p_true);
+        self.leave(u_remapped, 1);
         value
     }
 
@@ -198,7 +198,7 @@ impl<'a> SampleCursor<'a> {
         let bits = entries.next_power_of_two().trailing_zeros();
         let choice = choose_weights(self.shared_coordinate(bits), weights);
         match choice {
-            Some(choice) => self.leave(choice.rest, bits),
+            Some(choice) => self.leave(choice.u_remapped, bits),
             None => *self = before,
         }
         choice
@@ -206,10 +206,10 @@ impl<'a> SampleCursor<'a> {
 
     /// Chooses from a table, on a coordinate that other choices share.
     #[inline]
-    pub fn choose_from(&mut self, distribution: &Discrete) -> Choice {
+    pub fn sample_discrete(&mut self, distribution: &Discrete) -> Choice {
         let bits = distribution.bits();
-        let choice = distribution.choose(self.shared_coordinate(bits));
-        self.leave(choice.rest, bits);
+        let choice = distribution.sample(self.shared_coordinate(bits));
+        self.leave(choice.u_remapped, bits);
         choice
     }
 
@@ -224,19 +224,19 @@ impl<'a> SampleCursor<'a> {
     /// 0.8 it has 1.1 and 1.0 times (2^16 photons).
     ///
     /// ```
-    /// use quasilux_sampling::{Discrete, PointSet, Randomization, SampleCursor, Sequence};
+    /// use quasilux_sampling::{Discrete, PointSet, Randomization, Sampler, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-    /// let mut cursor = SampleCursor::new(&points, 7);
-    /// let light = cursor.choose_leading(&Discrete::new(&[1.0; 1000]).unwrap()).index;
-    /// let direction = [cursor.rest_1d(), cursor.next_1d()];
-    /// assert_eq!(cursor.used(), 2);
+    /// let mut sampler = Sampler::new(&points, 7);
+    /// let light = sampler.choose_leading(&Discrete::new(&[1.0; 1000]).unwrap()).index;
+    /// let direction = [sampler.remapped_1d(), sampler.next_1d()];
+    /// assert_eq!(sampler.used(), 2);
     /// # let _ = (light, direction);
     /// ```
     #[inline]
     pub fn choose_leading(&mut self, distribution: &Discrete) -> Choice {
-        let choice = distribution.choose(self.next_1d());
+        let choice = distribution.sample(self.next_1d());
         let spent = distribution.bits().min(Self::SHARED_BITS);
-        self.open = Some(Open { rest: choice.rest, spent });
+        self.open = Some(Open { rest: choice.u_remapped, spent });
         choice
     }
 
@@ -244,16 +244,16 @@ impl<'a> SampleCursor<'a> {
     /// they took too much of it, by the rule of this module. Ends the shared coordinate.
     ///
     /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, SampleCursor, Sequence};
+    /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-    /// let mut cursor = SampleCursor::new(&points, 7);
-    /// let survives = cursor.choose_bool(0.5);
-    /// let direction = [cursor.rest_1d(), cursor.next_1d()];
-    /// assert_eq!(cursor.used(), 2);
+    /// let mut sampler = Sampler::new(&points, 7);
+    /// let survives = sampler.choose_bool(0.5);
+    /// let direction = [sampler.remapped_1d(), sampler.next_1d()];
+    /// assert_eq!(sampler.used(), 2);
     /// # let _ = (survives, direction);
     /// ```
     #[inline]
-    pub fn rest_1d(&mut self) -> f64 {
+    pub fn remapped_1d(&mut self) -> f64 {
         match self.open.take() {
             Some(open) if open.spent <= Self::SHARED_BITS => open.rest,
             _ => self.next_1d(),

@@ -4,7 +4,7 @@
 //! has cost what its rays would cost alone it is given up, and the next groups are smaller; where
 //! they are cheap they grow again. Only speed depends on it.
 
-use crate::group::{MOST, Parted};
+use crate::group::{Diverged, MAX_GROUP};
 use crate::node::WIDTH;
 
 /// What holding eight rays against a triangle costs.
@@ -18,21 +18,21 @@ pub(crate) const BLOCK: usize = 4;
 const ALONE: usize = 400;
 
 /// Where not even small groups go together, so many rays go alone before the next attempt.
-const PAUSE: usize = 4 * MOST;
+const SINGLE_RAYS_AFTER_FAILURE: usize = 4 * MAX_GROUP;
 
 /// The size of the next group.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pace {
+pub(crate) struct GroupSize {
     most: usize,
     pause: usize,
 }
 
-impl Pace {
+impl GroupSize {
     /// Smaller groups are better off alone.
-    const LEAST: usize = 2 * WIDTH;
+    const MIN_GROUP: usize = 2 * WIDTH;
 
     pub(crate) const fn new() -> Self {
-        Self { most: MOST, pause: 0 }
+        Self { most: MAX_GROUP, pause: 0 }
     }
 
     /// So many rays may go together.
@@ -46,19 +46,19 @@ impl Pace {
     }
 
     /// Takes note of what a group has cost.
-    pub(crate) fn learn(&mut self, count: usize, cost: Result<usize, Parted>) {
+    pub(crate) fn learn(&mut self, count: usize, cost: Result<usize, Diverged>) {
         self.most = match cost {
-            Err(Parted) => (count / 2).max(Self::LEAST),
-            Ok(cost) if cost < count.div_ceil(WIDTH) * ALONE / 4 => (2 * self.most).min(MOST),
+            Err(Diverged) => (count / 2).max(Self::MIN_GROUP),
+            Ok(cost) if cost < count.div_ceil(WIDTH) * ALONE / 4 => (2 * self.most).min(MAX_GROUP),
             Ok(_) => self.most,
         };
-        if cost.is_err() && count <= Self::LEAST {
-            self.pause = PAUSE;
+        if cost.is_err() && count <= Self::MIN_GROUP {
+            self.pause = SINGLE_RAYS_AFTER_FAILURE;
         }
     }
 
     /// How many of the next rays go alone in any case.
-    pub(crate) fn pause(&mut self) -> usize {
+    pub(crate) fn take_pause(&mut self) -> usize {
         std::mem::take(&mut self.pause)
     }
 }

@@ -9,7 +9,7 @@ use crate::hash::{GOLDEN, dimension_key, mix};
 
 /// 64 random bits of one coordinate.
 #[inline(always)]
-pub(crate) fn random_digits(key: u64, index: u64, dimension: u32) -> u64 {
+pub(crate) fn independent_digits(key: u64, index: u64, dimension: u32) -> u64 {
     let key = dimension_key(key, dimension);
     let word = mix(index.wrapping_mul(GOLDEN).wrapping_add(key));
     mix(word ^ key.rotate_left(32))

@@ -4,7 +4,7 @@ use crate::lanes::{Lanes, Portable};
 
 /// Which instructions are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kernel {
+pub enum SimdLevel {
     /// Those of every machine.
     Portable,
     /// AVX2 and fused multiply-add of x86-64.
@@ -15,7 +15,7 @@ pub enum Kernel {
     Avx512,
 }
 
-impl Kernel {
+impl SimdLevel {
     /// The fastest one on this machine, as far as that is known: [`Self::Avx512`] was never timed, and
     /// Embree is slower with it than with AVX2 on rays like ours.
     #[must_use]
@@ -39,23 +39,23 @@ impl Kernel {
         all
     }
 
-    /// Runs an errand with these instructions.
+    /// Runs an task with these instructions.
     #[inline(always)]
-    pub(crate) fn run<E: Errand>(self, errand: E) -> E::Result {
+    pub(crate) fn run<E: SimdTask>(self, task: E) -> E::Result {
         match self {
-            Self::Portable => errand.run::<Portable>(),
+            Self::Portable => task.run::<Portable>(),
             #[cfg(target_arch = "x86_64")]
             // SAFETY: this kernel is only chosen where the features are there.
-            Self::Avx2 => unsafe { run_avx2(errand) },
+            Self::Avx2 => unsafe { run_avx2(task) },
             #[cfg(target_arch = "x86_64")]
             // SAFETY: this kernel is only chosen where the features are there.
-            Self::Avx512 => unsafe { run_avx512(errand) },
+            Self::Avx512 => unsafe { run_avx512(task) },
         }
     }
 }
 
 /// Work that can be done with any instructions. `run` must be inlined into where they are enabled.
-pub(crate) trait Errand {
+pub(crate) trait SimdTask {
     type Result;
 
     fn run<L: Lanes>(self) -> Self::Result;
@@ -65,14 +65,14 @@ pub(crate) trait Errand {
 /// The machine must have what [`crate::lanes::Avx2::is_supported`] asks for.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-unsafe fn run_avx2<E: Errand>(errand: E) -> E::Result {
-    errand.run::<crate::lanes::Avx2>()
+unsafe fn run_avx2<E: SimdTask>(task: E) -> E::Result {
+    task.run::<crate::lanes::Avx2>()
 }
 
 /// # Safety
 /// The machine must have what [`crate::lanes::Avx512::is_supported`] asks for.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-unsafe fn run_avx512<E: Errand>(errand: E) -> E::Result {
-    errand.run::<crate::lanes::Avx512>()
+unsafe fn run_avx512<E: SimdTask>(task: E) -> E::Result {
+    task.run::<crate::lanes::Avx512>()
 }

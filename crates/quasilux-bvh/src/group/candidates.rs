@@ -6,11 +6,11 @@
 use crate::group::rays::{ByRay, Rays, VECTORS};
 use crate::lanes::Lanes;
 use crate::node::{NONE, WIDTH};
-use crate::sight::View;
+use crate::ray_simd::TriangleTest;
 
 /// A triangle that a ray may hit, and the distance in the frame before which it does not.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Another {
+pub(crate) struct ExtraCandidate {
     pub(crate) ray: usize,
     pub(crate) triangle: u32,
     pub(crate) earliest: f32,
@@ -18,17 +18,17 @@ pub(crate) struct Another {
 
 /// Candidates by ray.
 #[repr(C, align(32))]
-pub(crate) struct Found {
+pub(crate) struct GroupCandidates {
     /// One of each ray, [`NONE`] where there is none.
     pub(crate) one: ByRay<u32>,
     /// The least distance of all of a ray.
     first: ByRay<f32>,
     /// A bit for each ray that hits something for sure, where no more was asked for.
     pub(crate) occluded: [u32; VECTORS],
-    pub(crate) more: Vec<Another>,
+    pub(crate) more: Vec<ExtraCandidate>,
 }
 
-impl Found {
+impl GroupCandidates {
     pub(crate) fn new() -> Self {
         Self {
             one: [[NONE; WIDTH]; VECTORS],
@@ -56,26 +56,26 @@ impl Found {
         k: usize,
         triangle: u32,
         possible: u32,
-        view: &View<'_, L>,
+        test: &TriangleTest<'_, L>,
     ) {
         // A triangle that the builder has split is met more than once.
         let possible = possible & L::differ(&self.one[k], [triangle; 3]);
         if possible == 0 {
             return;
         }
-        let sure = view.sure() & possible;
+        let sure = test.sure() & possible;
         if ANY {
             self.occluded[k] |= sure;
             rays.active[k] &= !sure;
             let done = L::splat(f32::NEG_INFINITY).or_else(sure, L::load(&rays.end[k]));
             rays.end[k] = done.store();
             if possible != sure {
-                self.add(k, triangle, possible & !sure, &view.earliest().store());
+                self.add(k, triangle, possible & !sure, &test.earliest().store());
             }
             return;
         }
-        let (earliest, first) = (view.earliest(), L::load(&self.first[k]));
-        let latest = view.latest().or_else(sure, L::splat(f32::INFINITY));
+        let (earliest, first) = (test.earliest(), L::load(&self.first[k]));
+        let latest = test.latest().or_else(sure, L::splat(f32::INFINITY));
         // One that is hit for sure before all others takes their place.
         let alone = sure & !first.at_most(latest);
         rays.end[k] = latest.min(L::load(&rays.end[k])).store();
@@ -94,7 +94,7 @@ impl Found {
             if *one == NONE {
                 *one = triangle;
             } else {
-                self.more.push(Another { ray: k * WIDTH + lane, triangle, earliest });
+                self.more.push(ExtraCandidate { ray: k * WIDTH + lane, triangle, earliest });
             }
             *first = first.min(earliest);
         }

@@ -11,13 +11,13 @@ pub(crate) const MAX_DEPTH: usize = 64;
 const STACK: usize = MAX_DEPTH * (WIDTH - 1) + WIDTH;
 
 /// A stack of children, each with the distance at which it is entered.
-pub(crate) struct Waiting {
+pub(crate) struct TraversalStack {
     at: [MaybeUninit<f32>; STACK],
     children: [MaybeUninit<Child>; STACK],
     count: usize,
 }
 
-impl Waiting {
+impl TraversalStack {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         Self {
@@ -30,7 +30,13 @@ impl Waiting {
     /// Returns the nearest of the children in `met`, of which there is one at least, and has the others wait;
     /// none of them is entered behind `limit`.
     #[inline(always)]
-    pub(crate) fn enter<L: Lanes>(&mut self, node: &Node, near: L, limit: L, met: u32) -> Child {
+    pub(crate) fn push_children<L: Lanes>(
+        &mut self,
+        node: &Node,
+        near: L,
+        limit: L,
+        met: u32,
+    ) -> Child {
         let nearest = near.smallest(limit);
         let others = met & !(1 << nearest);
         debug_assert!(self.count + WIDTH <= STACK);
@@ -47,7 +53,7 @@ impl Waiting {
 
     /// The newest that is not entered behind `end`; those in front of it in the stack are gone.
     #[inline(always)]
-    pub(crate) fn next(&mut self, end: f32) -> Option<Child> {
+    pub(crate) fn pop(&mut self, end: f32) -> Option<Child> {
         while self.count > 0 {
             self.count -= 1;
             // SAFETY: everything below `count` was written.

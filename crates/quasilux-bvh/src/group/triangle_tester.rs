@@ -6,24 +6,34 @@ use crate::group::shaft::Shaft;
 use crate::lanes::Lanes;
 use crate::lanes::triple::{abs, cross, dot, load, splat, store, sub};
 use crate::node::{Block, NONE, Slack, WIDTH};
-use crate::sight::View;
+use crate::ray_simd::TriangleTest;
 use glam::Vec3A;
 
 /// Where rays look from.
-pub(crate) trait Eye<L: Lanes> {
+pub(crate) trait TriangleTester<L: Lanes> {
     /// The triangles of a block as all rays see them.
-    type Facets;
+    type Prepared;
     /// One of them.
-    type Facet;
+    type PreparedTriangle;
 
     /// The triangles of a block, and a bit for each that any of the rays may hit.
-    fn facets(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> (Self::Facets, u32);
+    fn test_block(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> (Self::Prepared, u32);
 
     /// One of the triangles.
-    fn facet(&self, facets: &Self::Facets, block: &Block, lane: usize) -> Self::Facet;
+    fn prepare(
+        &self,
+        prepared: &Self::Prepared,
+        block: &Block,
+        lane: usize,
+    ) -> Self::PreparedTriangle;
 
     /// How eight of the rays see a triangle.
-    fn view<'a>(&self, facet: &'a Self::Facet, rays: &Rays, k: usize) -> View<'a, L>;
+    fn test<'a>(
+        &self,
+        triangle: &'a Self::PreparedTriangle,
+        rays: &Rays,
+        k: usize,
+    ) -> TriangleTest<'a, L>;
 }
 
 /// Rays with a common origin.
@@ -36,14 +46,14 @@ pub(crate) trait Eye<L: Lanes> {
 /// For all rays at once, directions `d` are divided by their component along the heading, which leaves a rectangle of
 /// slopes: with middle `m` and half-widths `r`, `a.d` lies within `|a|.r` of `a.m`. Such a `d` is shorter than
 /// 4 and computed with at most six more roundings, so eight times the slacks cover it.
-pub(crate) struct OnePoint<L> {
+pub(crate) struct CommonOrigin<L> {
     origin: [L; 3],
     middle: [L; 3],
     half_width: [L; 3],
 }
 
 /// Each triangle's factors, of the determinant, the weights and the distance.
-pub(crate) struct Factors {
+pub(crate) struct LinearForms {
     normal: [[f32; WIDTH]; 3],
     second: [[f32; WIDTH]; 3],
     third: [[f32; WIDTH]; 3],
@@ -52,7 +62,7 @@ pub(crate) struct Factors {
 }
 
 /// Those of one triangle.
-pub(crate) struct Factor<L> {
+pub(crate) struct LinearForm<L> {
     normal: [L; 3],
     second: [L; 3],
     third: [L; 3],
@@ -60,7 +70,7 @@ pub(crate) struct Factor<L> {
     slack: Slack,
 }
 
-impl<L: Lanes> OnePoint<L> {
+impl<L: Lanes> CommonOrigin<L> {
     #[inline(always)]
     pub(crate) fn new(rays: &Rays, shaft: &Shaft<L>) -> Self {
         let origin = rays.first_origin();
@@ -88,12 +98,12 @@ impl<L: Lanes> OnePoint<L> {
     }
 }
 
-impl<L: Lanes> Eye<L> for OnePoint<L> {
-    type Facets = Factors;
-    type Facet = Factor<L>;
+impl<L: Lanes> TriangleTester<L> for CommonOrigin<L> {
+    type Prepared = LinearForms;
+    type PreparedTriangle = LinearForm<L>;
 
     #[inline(always)]
-    fn facets(&self, _: &Shaft<L>, block: &Block, depth: f32) -> (Factors, u32) {
+    fn test_block(&self, _: &Shaft<L>, block: &Block, depth: f32) -> (LinearForms, u32) {
         const MARGIN: f32 = 8.0;
         let (edge_1, edge_2) = (load::<L>(&block.edge_1), load(&block.edge_2));
         let c = sub(load(&block.corner), self.origin);
@@ -122,7 +132,7 @@ impl<L: Lanes> Eye<L> for OnePoint<L> {
         ]);
         let may_turn = size.at_most(distance.mul_add(L::splat(Slack::TURN), size_spread));
         let there = L::differ(&block.triangles, [NONE; 3]);
-        let factors = Factors {
+        let factors = LinearForms {
             normal: store(normal),
             second: store(second),
             third: store(third),
@@ -133,30 +143,36 @@ impl<L: Lanes> Eye<L> for OnePoint<L> {
     }
 
     #[inline(always)]
-    fn facet(&self, facets: &Factors, _: &Block, lane: usize) -> Factor<L> {
-        Factor {
-            normal: splat(&facets.normal, lane),
-            second: splat(&facets.second, lane),
-            third: splat(&facets.third, lane),
-            reach: L::splat(facets.reach[lane % WIDTH]),
+    fn prepare(&self, prepared: &LinearForms, _: &Block, lane: usize) -> LinearForm<L> {
+        LinearForm {
+            normal: splat(&prepared.normal, lane),
+            second: splat(&prepared.second, lane),
+            third: splat(&prepared.third, lane),
+            reach: L::splat(prepared.reach[lane % WIDTH]),
             slack: Slack {
-                weight: facets.slacks[0][lane % WIDTH],
-                rest: facets.slacks[1][lane % WIDTH],
-                distance: facets.slacks[2][lane % WIDTH],
+                weight: prepared.slacks[0][lane % WIDTH],
+                rest: prepared.slacks[1][lane % WIDTH],
+                distance: prepared.slacks[2][lane % WIDTH],
             },
         }
     }
 
     #[inline(always)]
-    fn view<'a>(&self, facet: &'a Factor<L>, rays: &Rays, k: usize) -> View<'a, L> {
+    fn test<'a>(&self, triangle: &'a LinearForm<L>, rays: &Rays, k: usize) -> TriangleTest<'a, L> {
         let direction = rays.direction::<L>(k);
-        let seen = [dot(facet.second, direction), dot(facet.third, direction), facet.reach];
-        View::new(&facet.slack, dot(facet.normal, direction), seen, L::load(&rays.end[k]))
+        let seen =
+            [dot(triangle.second, direction), dot(triangle.third, direction), triangle.reach];
+        TriangleTest::new(
+            &triangle.slack,
+            dot(triangle.normal, direction),
+            seen,
+            L::load(&rays.end[k]),
+        )
     }
 }
 
 /// Rays from different points.
-pub(crate) struct Spread;
+pub(crate) struct SeparateOrigins;
 
 /// A triangle, and its edges' cross product.
 pub(crate) struct Corners<L> {
@@ -167,17 +183,17 @@ pub(crate) struct Corners<L> {
     slack: Slack,
 }
 
-impl<L: Lanes> Eye<L> for Spread {
-    type Facets = ();
-    type Facet = Corners<L>;
+impl<L: Lanes> TriangleTester<L> for SeparateOrigins {
+    type Prepared = ();
+    type PreparedTriangle = Corners<L>;
 
     #[inline(always)]
-    fn facets(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> ((), u32) {
+    fn test_block(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> ((), u32) {
         ((), shaft.meets(block, depth) & L::differ(&block.triangles, [NONE; 3]))
     }
 
     #[inline(always)]
-    fn facet(&self, (): &(), block: &Block, lane: usize) -> Corners<L> {
+    fn prepare(&self, (): &(), block: &Block, lane: usize) -> Corners<L> {
         let (edge_1, edge_2) = (splat(&block.edge_1, lane), splat(&block.edge_2, lane));
         let corner = splat(&block.corner, lane);
         let edge = |of: &[[f32; WIDTH]; 3]| Vec3A::new(of[0][lane], of[1][lane], of[2][lane]);
@@ -186,13 +202,13 @@ impl<L: Lanes> Eye<L> for Spread {
     }
 
     #[inline(always)]
-    fn view<'a>(&self, facet: &'a Corners<L>, rays: &Rays, k: usize) -> View<'a, L> {
+    fn test<'a>(&self, triangle: &'a Corners<L>, rays: &Rays, k: usize) -> TriangleTest<'a, L> {
         let (origin, direction) = (rays.origin::<L>(k), rays.direction::<L>(k));
-        let c = sub(facet.corner, origin);
+        let c = sub(triangle.corner, origin);
         let r = cross(c, direction);
-        let n = facet.normal;
-        let seen = [dot(facet.edge_2, r), dot(facet.edge_1, r), dot(n, c)];
-        View::new(&facet.slack, dot(n, direction), seen, L::load(&rays.end[k]))
+        let n = triangle.normal;
+        let seen = [dot(triangle.edge_2, r), dot(triangle.edge_1, r), dot(n, c)];
+        TriangleTest::new(&triangle.slack, dot(n, direction), seen, L::load(&rays.end[k]))
     }
 }
 
@@ -202,7 +218,7 @@ fn slacks<L: Lanes>(edge_1: [L; 3], edge_2: [L; 3]) -> [L; 3] {
     let ([x, y, z], [u, v, w]) = (abs(edge_1), abs(edge_2));
     let (norm_1, norm_2) = (x.add(y).add(z), u.add(v).add(w));
     let (s, q) = (norm_1.max(norm_2), norm_1.mul(norm_2));
-    let least = L::splat(Slack::LEAST);
+    let least = L::splat(Slack::UNDERFLOW);
     let [[s_weight, q_weight], [s_rest, q_rest]] = [Slack::WEIGHT, Slack::REST];
     let weight = s.mul_add(L::splat(s_weight), q.mul_add(L::splat(q_weight), least));
     let rest = s.mul_add(L::splat(s_rest), q.mul_add(L::splat(q_rest), least));

@@ -1,28 +1,28 @@
-//! The cursor: which coordinates, and how many.
+//! The sampler: which coordinates, and how many.
 
-use quasilux_sampling::{DimensionHistogram, Discrete, Randomization, SampleCursor};
+use quasilux_sampling::{DimensionHistogram, Discrete, Randomization, Sampler};
 
 use crate::support::sobol;
 
 #[test]
 fn hands_out_coordinates_in_order() {
     let points = sobol(Randomization::Owen, 1);
-    let mut cursor = SampleCursor::new(&points, 77);
-    let coordinates = [cursor.next_1d(), cursor.next_2d()[0], cursor.clone().next_1d()];
+    let mut sampler = Sampler::new(&points, 77);
+    let coordinates = [sampler.next_1d(), sampler.next_2d()[0], sampler.clone().next_1d()];
     assert_eq!(coordinates, [0, 1, 3].map(|dimension| points.coordinate(77, dimension)));
-    assert_eq!((cursor.used(), cursor.dimension()), (3, 3));
+    assert_eq!((sampler.used(), sampler.dimension()), (3, 3));
 }
 
 #[test]
 fn skips_forward_only_and_counts_what_it_gives() {
     let points = sobol(Randomization::Owen, 1);
-    let mut cursor = SampleCursor::new(&points, 5);
-    cursor.skip_to(4);
-    assert_eq!((cursor.used(), cursor.dimension()), (0, 4));
-    assert_eq!(cursor.next_1d(), points.coordinate(5, 4));
-    cursor.skip_to(2);
-    assert_eq!(cursor.next_1d(), points.coordinate(5, 5));
-    assert_eq!((cursor.used(), cursor.dimension()), (2, 6));
+    let mut sampler = Sampler::new(&points, 5);
+    sampler.skip_to(4);
+    assert_eq!((sampler.used(), sampler.dimension()), (0, 4));
+    assert_eq!(sampler.next_1d(), points.coordinate(5, 4));
+    sampler.skip_to(2);
+    assert_eq!(sampler.next_1d(), points.coordinate(5, 5));
+    assert_eq!((sampler.used(), sampler.dimension()), (2, 6));
 }
 
 /// Choices of one coordinate are the digits of its superposition; a fresh one begins after eight
@@ -31,18 +31,18 @@ fn skips_forward_only_and_counts_what_it_gives() {
 fn choices_share_a_coordinate_up_to_its_useful_bits() {
     let points = sobol(Randomization::Owen, 2);
     for index in 0..100 {
-        let mut cursor = SampleCursor::new(&points, index);
+        let mut sampler = Sampler::new(&points, index);
         let mut digits = 0;
         for _ in 0..8 {
-            digits = 2 * digits + u64::from(!cursor.choose_bool(0.5));
+            digits = 2 * digits + u64::from(!sampler.choose_bool(0.5));
         }
-        assert_eq!(cursor.used(), 1);
+        assert_eq!(sampler.used(), 1);
         assert_eq!(digits, (points.coordinate(index, 0) * 256.0) as u64);
-        assert_eq!(cursor.choose_bool(0.5), points.coordinate(index, 1) < 0.5);
-        assert_eq!(cursor.next_1d(), points.coordinate(index, 2));
-        cursor.close();
-        assert!(cursor.choose_bool(1.0) && !cursor.choose_bool(0.0));
-        assert_eq!(cursor.used(), 3);
+        assert_eq!(sampler.choose_bool(0.5), points.coordinate(index, 1) < 0.5);
+        assert_eq!(sampler.next_1d(), points.coordinate(index, 2));
+        sampler.close();
+        assert!(sampler.choose_bool(1.0) && !sampler.choose_bool(0.0));
+        assert_eq!(sampler.used(), 3);
     }
 }
 
@@ -51,20 +51,20 @@ fn choices_share_a_coordinate_up_to_its_useful_bits() {
 #[test]
 fn choices_are_charged_by_their_distribution() {
     let points = sobol(Randomization::Owen, 2);
-    let mut cursor = SampleCursor::new(&points, 3);
-    assert_eq!(cursor.choose([0.0].into_iter()), None);
-    assert_eq!((cursor.used(), cursor.dimension()), (0, 0));
+    let mut sampler = Sampler::new(&points, 3);
+    assert_eq!(sampler.choose([0.0].into_iter()), None);
+    assert_eq!((sampler.used(), sampler.dimension()), (0, 0));
     for _ in 0..100 {
-        assert!(cursor.choose_bool(1.0));
+        assert!(sampler.choose_bool(1.0));
     }
-    assert_eq!(cursor.used(), 0);
+    assert_eq!(sampler.used(), 0);
     let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
-    let luminaire = cursor.choose_from(&luminaires).index;
+    let luminaire = sampler.sample_discrete(&luminaires).index;
     assert_eq!(luminaire, (points.coordinate(3, 0) * 1024.0) as usize);
-    assert_eq!(cursor.used(), 1);
-    let second = cursor.choose([1.0, 1.0].into_iter()).expect("weights").index;
+    assert_eq!(sampler.used(), 1);
+    let second = sampler.choose([1.0, 1.0].into_iter()).expect("weights").index;
     assert_eq!(second, (points.coordinate(3, 1) * 2.0) as usize);
-    assert_eq!(cursor.used(), 2);
+    assert_eq!(sampler.used(), 2);
 }
 
 /// Small choices before a large one leave it a coordinate that can tell all its entries apart, even
@@ -75,12 +75,12 @@ fn a_large_choice_reaches_all_its_entries() {
     let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
     let mut reached = vec![false; 1024];
     for index in 0..4096 {
-        let mut cursor = SampleCursor::new(&points, index);
+        let mut sampler = Sampler::new(&points, index);
         for _ in 0..7 {
-            cursor.choose_bool(0.5);
+            sampler.choose_bool(0.5);
         }
-        reached[cursor.choose_from(&luminaires).index] = true;
-        let direction = cursor.rest_1d();
+        reached[sampler.sample_discrete(&luminaires).index] = true;
+        let direction = sampler.remapped_1d();
         assert_eq!(direction, points.coordinate(index, 2), "ten bits are too many to share");
     }
     assert!(reached.iter().all(|reached| *reached));
@@ -93,14 +93,14 @@ fn a_leading_choice_goes_on_whatever_its_bits() {
     let points = sobol(Randomization::Owen, 2);
     let luminaires = Discrete::new(&[1.0; 1024]).expect("weights");
     for index in 0..100 {
-        let mut cursor = SampleCursor::new(&points, index);
+        let mut sampler = Sampler::new(&points, index);
         let scaled = points.coordinate(index, 0) * 1024.0;
-        assert_eq!(cursor.choose_leading(&luminaires).index, scaled as usize);
-        assert!((cursor.rest_1d() - scaled.fract()).abs() < 1e-12);
-        assert_eq!(cursor.used(), 1);
-        cursor.choose_leading(&luminaires);
-        assert_eq!(cursor.choose_bool(0.5), points.coordinate(index, 2) < 0.5);
-        assert_eq!(cursor.used(), 3);
+        assert_eq!(sampler.choose_leading(&luminaires).index, scaled as usize);
+        assert!((sampler.remapped_1d() - scaled.fract()).abs() < 1e-12);
+        assert_eq!(sampler.used(), 1);
+        sampler.choose_leading(&luminaires);
+        assert_eq!(sampler.choose_bool(0.5), points.coordinate(index, 2) < 0.5);
+        assert_eq!(sampler.used(), 3);
     }
 }
 
@@ -110,13 +110,13 @@ fn outcomes_do_not_move_later_decisions() {
     let points = sobol(Randomization::Owen, 3);
     let skewed = Discrete::new(&[0.001, 0.999]).expect("weights");
     for index in 0..2000 {
-        let mut cursor = SampleCursor::new(&points, index);
-        cursor.choose_bool(0.01);
-        cursor.choose_from(&skewed);
+        let mut sampler = Sampler::new(&points, index);
+        sampler.choose_bool(0.01);
+        sampler.sample_discrete(&skewed);
         for _ in 0..3 {
-            cursor.choose_bool(0.5);
+            sampler.choose_bool(0.5);
         }
-        assert_eq!((cursor.used(), cursor.dimension()), (1, 1));
+        assert_eq!((sampler.used(), sampler.dimension()), (1, 1));
     }
 }
 
@@ -147,7 +147,7 @@ fn histograms_of_parts_merge_to_that_of_the_whole() {
 fn children_of_one_way_are_as_even_as_their_sequence() {
     let points = sobol(Randomization::Owen, 1);
     let child = |index: u64, dimension: u32, number: u32| {
-        let mut parent = SampleCursor::new(&points, index);
+        let mut parent = Sampler::new(&points, index);
         parent.skip_to(dimension);
         parent.child(number)
     };
@@ -174,7 +174,7 @@ fn children_do_not_repeat_their_ancestors() {
         let points = sobol(Randomization::Owen, seed);
         let mut bins = [0; 8];
         for index in 0..512 {
-            let mut parent = SampleCursor::new(&points, index);
+            let mut parent = Sampler::new(&points, index);
             if parent.next_1d() < 0.125 {
                 bins[(parent.child(1).next_1d() * 8.0) as usize] += 1;
             }
@@ -186,7 +186,7 @@ fn children_do_not_repeat_their_ancestors() {
 #[test]
 fn children_are_randomised_where_their_sequence_is_not() {
     let points = sobol(Randomization::None, 1);
-    let [mut one, mut two] = [1, 2].map(|number| SampleCursor::new(&points, 5).child(number));
+    let [mut one, mut two] = [1, 2].map(|number| Sampler::new(&points, 5).child(number));
     let plain = points.coordinate(5, 0);
     let (a, b) = (one.next_1d(), two.next_1d());
     assert!(a != plain && b != plain && a != b);

@@ -3,52 +3,52 @@
 //! As that of a ray ([`crate::traverse`]), with a shaft in its place: children are met in the order of the depth
 //! at which their boxes begin, and none that begins behind the ends of all rays.
 
-use crate::group::Parted;
-use crate::group::eye::Eye;
-use crate::group::found::Found;
-use crate::group::pace::{BLOCK, NODE, Pace, TRIAL};
+use crate::group::Diverged;
+use crate::group::candidates::GroupCandidates;
+use crate::group::group_size::{BLOCK, GroupSize, NODE, TRIAL};
 use crate::group::rays::Rays;
 use crate::group::shaft::Shaft;
+use crate::group::triangle_tester::TriangleTester;
 use crate::lanes::Lanes;
 use crate::node::{Child, Node, WIDTH};
 use crate::prefetch::prefetch;
+use crate::traversal_stack::TraversalStack;
 use crate::traverse::Tree;
-use crate::waiting::Waiting;
 
 impl Tree {
     /// Collects what the rays may hit, and returns what that cost.
     #[inline(always)]
-    pub(crate) fn walk_together<L: Lanes, E: Eye<L>, const ANY: bool>(
+    pub(crate) fn traverse_group<L: Lanes, E: TriangleTester<L>, const ANY: bool>(
         &self,
         rays: &mut Rays,
         shaft: &Shaft<L>,
-        eye: &E,
-        found: &mut Found,
-    ) -> Result<usize, Parted> {
-        let limit = Pace::limit(rays.vectors);
+        tester: &E,
+        candidates: &mut GroupCandidates,
+    ) -> Result<usize, Diverged> {
+        let limit = GroupSize::limit(rays.vectors);
         let mut cost = 0;
         let mut depth = shaft.depth(rays);
-        let mut waiting = Waiting::new();
+        let mut stack = TraversalStack::new();
         let mut child = Child::node(0);
         loop {
             if child.is_block() {
                 // SAFETY: the children of a valid tree exist.
                 let block = unsafe { self.blocks.get_unchecked(child.index()) };
-                let (facets, mut met) = eye.facets(shaft, block, depth);
+                let (prepared, mut met) = tester.test_block(shaft, block, depth);
                 cost += BLOCK + met.count_ones() as usize * rays.vectors * TRIAL;
                 let mut is_new = false;
                 while met != 0 {
                     let lane = met.trailing_zeros() as usize % WIDTH;
                     met &= met - 1;
-                    let facet = eye.facet(&facets, block, lane);
+                    let facet = tester.prepare(&prepared, block, lane);
                     let triangle = block.triangles[lane];
                     for k in 0..rays.vectors {
-                        let view = eye.view(&facet, rays, k);
-                        let possible = view.possible() & rays.counted::<L>(k, triangle);
+                        let test = tester.test(&facet, rays, k);
+                        let possible = test.possible() & rays.counted::<L>(k, triangle);
                         if possible != 0 {
                             is_new = true;
                             prefetch(&self.corners, triangle as usize);
-                            found.note::<L, ANY>(rays, k, triangle, possible, &view);
+                            candidates.note::<L, ANY>(rays, k, triangle, possible, &test);
                         }
                     }
                 }
@@ -56,7 +56,7 @@ impl Tree {
                     depth = shaft.depth(rays);
                 }
                 if cost > limit {
-                    return Err(Parted);
+                    return Err(Diverged);
                 }
             } else {
                 // SAFETY: the children of a valid tree exist.
@@ -66,11 +66,11 @@ impl Tree {
                 let met = near.at_most(limit);
                 if met != 0 {
                     self.prefetch(node, met);
-                    child = waiting.enter(node, near, limit, met);
+                    child = stack.push_children(node, near, limit, met);
                     continue;
                 }
             }
-            match waiting.next(depth) {
+            match stack.pop(depth) {
                 Some(next) => child = next,
                 None => return Ok(cost),
             }

@@ -49,14 +49,14 @@ impl Triangles<'_> {
 }
 
 /// A triangle on a grid. Boxes of its parts are rounded to nearest: good enough to choose a plane by.
-pub(crate) struct Chopped<'a> {
+pub(crate) struct ClippedTriangle<'a> {
     grid: &'a Grid,
     corners: [Vec3A; 3],
     /// The bins of the corners.
     bins: [[usize; 3]; 3],
 }
 
-impl<'a> Chopped<'a> {
+impl<'a> ClippedTriangle<'a> {
     #[inline(always)]
     pub(crate) fn new(grid: &'a Grid, corners: [Vec3A; 3]) -> Self {
         Self { grid, corners, bins: corners.map(|corner| grid.bins(corner)) }

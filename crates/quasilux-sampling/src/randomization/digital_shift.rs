@@ -6,6 +6,6 @@ use crate::hash::dimension_key;
 
 /// The shifted digits of a coordinate.
 #[inline(always)]
-pub(crate) fn shift(digits: u64, key: u64, dimension: u32) -> u64 {
+pub(crate) fn digital_shift(digits: u64, key: u64, dimension: u32) -> u64 {
     digits ^ dimension_key(key, dimension)
 }

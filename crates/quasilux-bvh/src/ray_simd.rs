@@ -46,12 +46,12 @@ impl<L: Lanes> Slabs<L> {
 }
 
 /// A ray as triangles see it.
-pub(crate) struct Sight<L> {
+pub(crate) struct RaySimd<L> {
     origin: [L; 3],
     direction: [L; 3],
 }
 
-impl<L: Lanes> Sight<L> {
+impl<L: Lanes> RaySimd<L> {
     #[inline(always)]
     pub(crate) fn new(ray: &FrameRay) -> Self {
         Self {
@@ -66,7 +66,7 @@ impl<L: Lanes> Sight<L> {
 
     /// [`Self::new`] of a ray in memory.
     #[inline(always)]
-    pub(crate) fn of(ray: &FrameRay) -> Self {
+    pub(crate) fn from_memory(ray: &FrameRay) -> Self {
         let (origin, direction): (&[f32; 3], &[f32; 3]) =
             (ray.origin.as_ref(), ray.direction.as_ref());
         Self {
@@ -77,19 +77,24 @@ impl<L: Lanes> Sight<L> {
 
     /// What the ray sees of a block, up to `end`.
     #[inline(always)]
-    pub(crate) fn view<'a>(&self, block: &'a Block, end: f32) -> View<'a, L> {
+    pub(crate) fn test<'a>(&self, block: &'a Block, end: f32) -> TriangleTest<'a, L> {
         let (edge_1, edge_2) = (load::<L>(&block.edge_1), load(&block.edge_2));
         let c = sub(load(&block.corner), self.origin);
         let r = cross(c, self.direction);
         let n = cross(edge_2, edge_1);
         let (second, third) = (dot(edge_2, r), dot(edge_1, r));
-        View::new(&block.slack, dot(n, self.direction), [second, third, dot(n, c)], L::splat(end))
+        TriangleTest::new(
+            &block.slack,
+            dot(n, self.direction),
+            [second, third, dot(n, c)],
+            L::splat(end),
+        )
     }
 }
 
 /// What a ray sees of the triangles of a block, or rays of a triangle, all times the size of the
 /// determinant.
-pub(crate) struct View<'a, L> {
+pub(crate) struct TriangleTest<'a, L> {
     slack: &'a Slack,
     /// The smaller of the weights of second and third corner.
     weights: L,
@@ -103,8 +108,8 @@ pub(crate) struct View<'a, L> {
     left: L,
 }
 
-impl<'a, L: Lanes> View<'a, L> {
-    /// A view of the determinant and, times that, of the weights of second and third corner and the
+impl<'a, L: Lanes> TriangleTest<'a, L> {
+    /// A test of the determinant and, times that, of the weights of second and third corner and the
     /// distance.
     #[inline(always)]
     pub(crate) fn new(
@@ -116,7 +121,7 @@ impl<'a, L: Lanes> View<'a, L> {
         let size = determinant.flip_by(determinant);
         let (second, third) = (second.flip_by(determinant), third.flip_by(determinant));
         let reach = reach.flip_by(determinant);
-        View {
+        TriangleTest {
             slack,
             weights: second.min(third),
             rest: size.sub(second).sub(third),

@@ -4,7 +4,7 @@
 //! processor's table of pages as well as its caches.
 
 /// An empty list with room for so many elements, in large pages where the system has them.
-pub(crate) fn list_in_large_pages<T>(capacity: usize) -> Vec<T> {
+pub(crate) fn vec_in_huge_pages<T>(capacity: usize) -> Vec<T> {
     let list = Vec::with_capacity(capacity);
     #[cfg(target_os = "linux")]
     linux::advise(list.as_ptr() as usize, capacity * size_of::<T>());

@@ -4,7 +4,10 @@ use crate::meshes::{Numbers, Triangles};
 use glam::DVec3;
 
 /// The meshes, each of `count` triangles, with their names.
-pub(crate) fn crowds(numbers: &mut Numbers, count: usize) -> Vec<(&'static str, Triangles)> {
+pub(crate) fn degenerate_meshes(
+    numbers: &mut Numbers,
+    count: usize,
+) -> Vec<(&'static str, Triangles)> {
     let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let scaled = |size: f64| face.map(|p| size * (p - DVec3::new(0.5, 0.5, 0.0)));
     let mut all = |make: &dyn Fn(&mut Numbers, usize) -> [DVec3; 3]| -> Triangles {

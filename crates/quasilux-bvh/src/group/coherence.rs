@@ -2,17 +2,17 @@
 
 use crate::Shot;
 use crate::frame::Frame;
-use crate::group::MOST;
+use crate::group::MAX_GROUP;
 use crate::intersect::longest_axis;
 use glam::DVec3;
 
 /// Fewer are better off alone.
-const LEAST: usize = 8;
+const MIN_GROUP: usize = 8;
 
 /// The least cosine between the first direction of a run and the others: 14 degrees. The axis along
 /// which the first one moves most is at most 55 degrees away from it, so no ray of a run is more
 /// than 69 degrees away from that axis: its slopes aside are below 3.
-const LEAST_COSINE: f64 = 0.97;
+const MIN_COSINE: f64 = 0.97;
 
 /// Larger than any cosine of unit vectors, as they come out of rounding.
 const LARGE: f64 = 1.1;
@@ -32,32 +32,36 @@ pub(crate) struct Heading {
 
 /// What the next shots are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Run {
+pub(crate) enum RayRun {
     /// So many that belong together.
-    Together(usize, Heading),
+    Coherent(usize, Heading),
     /// So many that do not.
-    Alone(usize),
+    Incoherent(usize),
 }
 
-impl Run {
+impl RayRun {
     /// The first run among `shots`, of which there is at least one; at most `most` of them belong together.
     #[inline]
     pub(crate) fn first(shots: &[Shot], frame: &Frame, most: usize) -> Self {
         let mut start = 0;
         while start < shots.len() {
-            let count = together(&shots[start..], frame, most.min(MOST));
-            if count >= LEAST {
-                let heading = Heading::of(shots[0].ray.direction);
-                return if start > 0 { Self::Alone(start) } else { Self::Together(count, heading) };
+            let count = together(&shots[start..], frame, most.min(MAX_GROUP));
+            if count >= MIN_GROUP {
+                let heading = Heading::new(shots[0].ray.direction);
+                return if start > 0 {
+                    Self::Incoherent(start)
+                } else {
+                    Self::Coherent(count, heading)
+                };
             }
             start += count;
         }
-        Self::Alone(start)
+        Self::Incoherent(start)
     }
 }
 
 impl Heading {
-    fn of(direction: DVec3) -> Self {
+    fn new(direction: DVec3) -> Self {
         let axis = longest_axis(direction);
         Self { axis, backward: direction[axis] < 0.0 }
     }
@@ -73,11 +77,11 @@ impl Heading {
 fn together(shots: &[Shot], frame: &Frame, most: usize) -> usize {
     let first = &shots[0].ray;
     let near = |shot: &Shot| {
-        (LEAST_COSINE..LARGE).contains(&first.direction.dot(shot.ray.direction))
+        (MIN_COSINE..LARGE).contains(&first.direction.dot(shot.ray.direction))
             && (shot.ray.origin == first.origin || near_by(frame, shot.ray.origin, first.origin))
     };
     // Nearly all rays that belong to no run are told by this one.
-    if !shots.get(LEAST - 1).is_some_and(near) {
+    if !shots.get(MIN_GROUP - 1).is_some_and(near) {
         return 1;
     }
     let inside = frame.point(first.origin).abs().cmple(DVec3::splat(INSIDE - SPREAD)).all();
