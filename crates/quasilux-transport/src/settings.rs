@@ -1,6 +1,5 @@
 //! What a simulation is asked to do.
 
-pub use crate::map::Reconstruction;
 use quasilux_sampling::{Randomization, Sequence};
 
 /// How illuminance is estimated: a closed set.
@@ -224,6 +223,30 @@ impl Default for Settings {
             image_depth: None,
             steering: Switch::Auto,
             joining: Switch::Auto,
+        }
+    }
+}
+
+/// What the photons in an element of the illumination map say about its illuminance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reconstruction {
+    /// It is the same all over the element.
+    Constant,
+    /// It is linear in the element; neighbours need not meet.
+    Linear,
+}
+
+impl Reconstruction {
+    /// All of them, with their names in project files.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("constant", Self::Constant), ("linear", Self::Linear)];
+
+    /// The name in project files and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::Linear => "linear",
         }
     }
 }

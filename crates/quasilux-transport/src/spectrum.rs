@@ -1,6 +1,6 @@
 //! One channel for grey scenes, three for coloured ones: transport is written once for both.
 
-use quasilux_scene::Rgb;
+use quasilux_scene::{Rgb, Scene};
 use std::ops::{Add, AddAssign, Mul};
 
 /// Light or reflectance in as many channels as the scene needs.
@@ -74,4 +74,9 @@ impl Spectrum for Rgb {
     fn max_channel(self) -> f64 {
         Self::max_channel(self)
     }
+}
+
+/// Whether one channel is enough for a scene: all its reflectances are grey.
+pub(crate) fn is_grey(scene: &Scene) -> bool {
+    scene.materials.iter().all(|material| material.bsdf.is_grey())
 }

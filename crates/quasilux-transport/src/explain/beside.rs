@@ -3,9 +3,9 @@
 //! What steered photons split off draws coordinates that belong to no block.
 
 use super::{Pilot, Points, Walk, WalkKind};
-use crate::join::Joined;
+use crate::context::{Stage, Stream};
+use crate::estimator::connection::Joined;
 use crate::spectrum::Spectrum;
-use crate::stage::{Stage, Stream};
 use quasilux_sampling::Sampler;
 
 /// Photons.

@@ -2,8 +2,8 @@
 
 use super::shares::{Spread, power};
 use super::{FIRST_OF_GAIN, Gain, Walk};
+use crate::context::Stream;
 use crate::settings::Settings;
-use crate::stage::Stream;
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 
 /// Independent randomisations.

@@ -18,12 +18,11 @@ mod paths;
 mod photons;
 mod shares;
 
-use crate::photon::PhotonCounts;
+use crate::context::{Stage, Stream};
+use crate::photon::trace::PhotonCounts;
 use crate::purpose::{Ledger, Purpose};
 use crate::settings::{Estimator, Settings};
-use crate::simulate::is_grey;
-use crate::spectrum::Spectrum;
-use crate::stage::{Stage, Stream};
+use crate::spectrum::{Spectrum, is_grey};
 use gain::gain;
 use paths::PathWalk;
 use photons::PhotonWalk;

@@ -3,12 +3,12 @@
 //! Steered photons split; what they split off draws coordinates that belong to no block.
 
 use super::{Pilot, Points, Walk, WalkKind};
-use crate::counting::{self, Receivers};
-use crate::photon::{Flight, Lead, PhotonReceiver, Source, trace_photon};
+use crate::context::{Stage, Stream};
+use crate::estimator::photons::{self, Receivers};
+use crate::importance::Windows;
+use crate::photon::trace::{Flight, Lead, PhotonReceiver, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
-use crate::stage::{Stage, Stream};
-use crate::steering::Windows;
 use crate::world::Interaction;
 use quasilux_sampling::Sampler;
 use quasilux_scene::Scene;
@@ -50,7 +50,7 @@ impl<'s, S: Spectrum> PhotonWalk<'s, S> {
             let lx = stage.lights.flux_lm / (area_m2 * points as f64);
             readings[counter as usize].push(Reading { sensor, lx });
         }
-        let windows = counting::plan(stage, scene, &receivers, settings).windows;
+        let windows = photons::plan(stage, scene, &receivers, settings).windows;
         Self { stage, receivers, windows, readings, sensors: scene.sensors.len() }
     }
 }

@@ -11,10 +11,10 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
-use crate::shadow::Offer;
 use crate::spectrum::Spectrum;
-use crate::vertex::Vertex;
 use crate::world::World;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::Offer;
 use glam::DVec3;
 use quasilux_photometry::SurfacePoint;
 use quasilux_sampling::choose_weights;

@@ -5,9 +5,9 @@
 //! on, which may happen to meet a light; each is weighted by the balance heuristic (Veach 1997, section 9.2.2).
 //! Densities are compared in solid angle, sr^-1.
 
-use crate::shadow::Offer;
 use crate::spectrum::Spectrum;
-use crate::vertex::Vertex;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::Offer;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_sampling::Discrete;

@@ -2,17 +2,18 @@
 
 mod area_luminaires;
 mod emitters;
+pub(crate) mod images;
 mod pointlike;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
 pub(crate) use pointlike::{Incidence, PointLikes};
 
-use crate::frame::Frame;
+use crate::context::Stage;
+use crate::lights::images::Trail;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
-use crate::specular::Trail;
-use crate::stage::Stage;
+use crate::world::frame::Frame;
 use crate::world::{Vantage, World};
 use area_luminaires::place_m;
 use glam::DVec3;

@@ -1,9 +1,9 @@
 //! Point-like lights seen from a surface: their direct light is computed, not sampled.
 
-use crate::shadow::{Asker, Offer, Shadows};
 use crate::spectrum::Spectrum;
-use crate::vertex::Vertex;
 use crate::world::World;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::{Asker, Offer, Shadows};
 use glam::DVec3;
 use quasilux_sampling::choose_weights;
 use quasilux_scene::{Light, Scene};

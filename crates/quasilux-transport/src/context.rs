@@ -1,0 +1,201 @@
+//! Everything that stays the same while light moves.
+
+use crate::lights::Lights;
+use crate::lights::images::SpecularImages;
+use crate::purpose::{Ledger, Purpose};
+use crate::settings::{Estimator, Settings};
+use crate::spectrum::Spectrum;
+use crate::world::World;
+use quasilux_bvh::SimdLevel;
+use quasilux_sampling::{PointSet, Sampler, Sequence, stream_key};
+use quasilux_scene::Scene;
+
+/// What a wave spends its time on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Making coordinates, where they are made for many photons at once.
+    Sampling,
+    /// From coordinates to light, place and direction.
+    Emission,
+    /// From rays to places on facets.
+    Traversal,
+    /// Counting flights and landings.
+    Tally,
+    /// Survival and the next direction.
+    Scattering,
+}
+
+/// Is told when a wave ends a step, so that somebody with a clock can tell the steps apart.
+pub trait Stopwatch: Sync {
+    /// The thread that calls has just ended a piece of this step.
+    fn lap(&self, step: Step);
+}
+
+/// A scene made ready for one simulation.
+pub(crate) struct Stage<'a, S> {
+    pub(crate) world: World<S>,
+    pub(crate) lights: Lights<'a>,
+    /// Of the point-like lights, in mirrors.
+    pub(crate) images: SpecularImages,
+    /// What light of points and luminaires only photons find, in words.
+    pub(crate) hides: Option<String>,
+    pub(crate) max_bounces: Option<u32>,
+    /// Coordinates that photons on maps may have used.
+    pub(crate) map_dimensions: Option<u32>,
+    /// Terms of the Neumann series to keep apart; 0 for none.
+    pub(crate) listed_terms: u32,
+    /// What a reader of the results must know of the lights' places.
+    pub(crate) warning: Option<String>,
+    /// Told of the steps of waves, in benchmarks.
+    pub(crate) stopwatch: Option<&'a dyn Stopwatch>,
+    /// Told what coordinates are drawn for, where that is to be explained.
+    pub(crate) ledger: Option<&'a Ledger>,
+    settings: &'a Settings,
+}
+
+/// What a stream of coordinates is for. Streams never share coordinates; but at one index they have the same
+/// digits in each dimension, permuted, so what is drawn together must come from different dimensions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Stream {
+    /// Photons that enter the estimate.
+    Photons,
+    /// Photons of a plan, left out of the estimate.
+    PlanPhotons,
+    /// Photons that show where the elements of a map are to be split.
+    MapPilots,
+    /// Photons that show whether to begin where light lands.
+    FirstShotPilots,
+    /// Photons that show whether steering pays where they are counted.
+    SteeringPilots,
+    /// Photons that look for what paths cannot find.
+    HiddenPhotons,
+    /// Pilot rays that plan where photons are split, numbered by what they start from.
+    Survey(u64),
+    /// Photons that are joined to a group of sensor points.
+    JoinedPhotons(u64),
+    /// Photons that are counted by the cell they land in.
+    CoarsePhotons,
+    /// Places in the cells of a group that photons are joined to, in dimensions that photons leave alone.
+    JoinedPlaces(u64),
+    /// Paths from one sensor point, numbered through all sensors.
+    Paths(u64),
+    /// Paths through one pixel of one camera.
+    Pixel {
+        /// Number of the camera.
+        camera: u32,
+        /// Number of the pixel in its picture.
+        pixel: u32,
+    },
+}
+
+impl Stream {
+    /// The stream's number in keys.
+    pub(crate) fn id(self) -> u64 {
+        match self {
+            Self::Photons => 0,
+            Self::PlanPhotons => 1,
+            Self::MapPilots => 1 << 62,
+            Self::FirstShotPilots => 1 << 62 | 1,
+            Self::SteeringPilots => u64::MAX - 65,
+            Self::HiddenPhotons => u64::MAX,
+            Self::Survey(kind) => u64::MAX - 1 - kind,
+            Self::JoinedPhotons(group) => (1 << 62) + 2 + 2 * group,
+            Self::CoarsePhotons => u64::MAX - 64,
+            Self::JoinedPlaces(group) => (1 << 62) + 3 + 2 * group,
+            Self::Paths(point) => 2 + point,
+            Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
+        }
+    }
+
+    /// The sequence of its points in a run with this one.
+    pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
+        match (self, of_run) {
+            (Self::JoinedPlaces(_), Sequence::Independent) => Sequence::Independent,
+            // Their dimensions are high ones, where other sequences are no good.
+            (Self::JoinedPlaces(_), _) => Sequence::Sobol,
+            // A plan has its own number of photons.
+            (
+                Self::PlanPhotons
+                | Self::MapPilots
+                | Self::FirstShotPilots
+                | Self::SteeringPilots
+                | Self::HiddenPhotons
+                | Self::JoinedPhotons(_)
+                | Self::CoarsePhotons
+                | Self::Survey(_),
+                Sequence::Hammersley { .. },
+            ) => Sequence::Halton,
+            _ => of_run,
+        }
+    }
+}
+
+impl<'a, S: Spectrum> Stage<'a, S> {
+    pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
+        Self::on(SimdLevel::fastest(), scene, settings)
+    }
+
+    /// The same for a ray kernel of choice: no result depends on it.
+    pub(crate) fn on(simd: SimdLevel, scene: &'a Scene, settings: &'a Settings) -> Self {
+        let world = World::new(scene, simd);
+        let lights = Lights::new(scene, &world);
+        let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
+        let hides = images.hides(&world, &lights);
+        let cut = lights.area_luminaires.cut_by_surfaces(&world);
+        let warning = (cut > 0).then(|| {
+            format!(
+                "surfaces pass through the luminous shapes of {cut} luminaires, and light that \
+                 starts behind them stays there; a shape is centred on `position`, so on a ceiling \
+                 it belongs half its height lower"
+            )
+        });
+        Self {
+            world,
+            lights,
+            images,
+            hides,
+            max_bounces: settings.max_bounces,
+            map_dimensions: settings.map_dimensions,
+            listed_terms: settings.list_terms,
+            warning,
+            stopwatch: None,
+            ledger: None,
+            settings,
+        }
+    }
+
+    /// The same of a few points of a trial: those of a set with a fixed number of points are no sample of it.
+    pub(crate) fn points_of_trial(&self, replicate: u32, stream: Stream) -> PointSet {
+        let Settings { sequence, randomization, seed, .. } = *self.settings;
+        let sequence = if sequence.points().is_some() { Sequence::Halton } else { sequence };
+        PointSet::new(sequence, randomization, stream_key(seed, replicate, stream.id()))
+    }
+
+    /// The randomised point set of one stream in one replicate.
+    pub(crate) fn points(&self, replicate: u32, stream: Stream) -> PointSet {
+        let Settings { sequence, randomization, seed, .. } = *self.settings;
+        let mut sequence = stream.sequence(sequence);
+        if let (Sequence::Hammersley { points }, Stream::Photons, Estimator::BidirectionalMap) =
+            (&mut sequence, stream, self.settings.estimator)
+        {
+            *points = points.saturating_mul(u64::from(self.settings.map_photons.max(1)));
+        }
+        PointSet::new(sequence, randomization, stream_key(seed, replicate, stream.id()))
+    }
+
+    /// Draws coordinates for a purpose.
+    #[inline]
+    pub(crate) fn draw<'p, T>(
+        &self,
+        sampler: &mut Sampler<'p>,
+        purpose: Purpose,
+        draw: impl FnOnce(&mut Sampler<'p>) -> T,
+    ) -> T {
+        let first = sampler.dimension();
+        let drawn = draw(sampler);
+        if let Some(ledger) = self.ledger {
+            ledger.note(first, sampler, purpose);
+        }
+        drawn
+    }
+}

@@ -1,0 +1,156 @@
+//! Photons counted by the cells around where they land.
+
+use super::Joining;
+use super::joined::lock;
+use super::leaving::Leaving;
+use super::outlook::{CLASSES, Outlook};
+use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::context::{Stage, Stream};
+use crate::photon::batch::{PhotonBatch, trace_photons};
+use crate::photon::order::Way;
+use crate::photon::trace::{Flight, PhotonCounts, PhotonReceiver};
+use crate::spectrum::Spectrum;
+use crate::stats::tally::{Quantum, Sum};
+use crate::stats::watch::Watch;
+use crate::world::Interaction;
+use std::ops::Range;
+use std::sync::Mutex;
+
+/// What leaves each cell of the survey, in all replicates.
+pub(super) struct Coarse {
+    /// Light of 0, 1, .. bounces before it landed, the last all from there on; straight light is always
+    /// told apart.
+    slots: usize,
+    terms: usize,
+    quantum: Quantum,
+    cells: usize,
+    /// By replicate; of cell c from `c * slots` on, in lm/sr.
+    sums: Vec<Mutex<Vec<Sum>>>,
+    /// By replicate, for a photon: of class k of all terms together from cell c at `k * cells + c`, then
+    /// the same of each term.
+    means_lm_sr: Vec<Vec<f64>>,
+    replicates: Range<u32>,
+}
+
+impl Coarse {
+    pub(super) fn new(
+        cells: usize,
+        terms: usize,
+        quantum: Quantum,
+        replicates: Range<u32>,
+    ) -> Self {
+        let slots = terms.max(2);
+        let zeros = |_| Mutex::new(vec![Sum::default(); cells * slots]);
+        let sums = replicates.clone().map(zeros).collect();
+        let means_lm_sr = vec![Vec::new(); replicates.len()];
+        Self { slots, terms, quantum, cells, sums, means_lm_sr, replicates }
+    }
+
+    /// Adds these photons in each replicate; `None` when the observer stopped it.
+    pub(super) fn grow<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        joining: &Joining,
+        photons: Range<u64>,
+        watch: &mut Watch<'_>,
+    ) -> Option<PhotonCounts> {
+        let receiver = |r: u32| {
+            let sums = &self.sums[(r - self.replicates.start) as usize];
+            let own = vec![Sum::default(); self.cells * self.slots];
+            CellReceiver { stage, joining, slots: self.slots, quantum: self.quantum, sums, own }
+        };
+        let batch = PhotonBatch {
+            stream: Stream::CoarsePhotons,
+            replicates: self.replicates.clone(),
+            indices: photons,
+            way: Way::CoherentWaves,
+            lead: joining.lead(),
+        };
+        trace_photons(stage, &batch, receiver, watch)
+    }
+
+    /// Takes it that the sums are those of so many photons in each replicate.
+    pub(super) fn settle(&mut self, photons: u64) {
+        let means_of = |sums: &Mutex<Vec<Sum>>| self.means_of(&lock(sums), photons.max(1) as f64);
+        self.means_lm_sr = self.sums.iter().map(means_of).collect();
+    }
+
+    fn means_of(&self, sums: &[Sum], photons: f64) -> Vec<f64> {
+        // Quanta first, so that listing terms changes no bit.
+        let mut totals = vec![Sum::default(); (1 + self.terms) * CLASSES * self.cells];
+        for (cell, sums) in sums.chunks_exact(self.slots).enumerate() {
+            for (slot, sum) in sums.iter().enumerate() {
+                let (term, class) = ((slot + 1).min(self.terms - 1), usize::from(slot > 0));
+                for part in [0, 1 + term] {
+                    totals[(part * CLASSES + class) * self.cells + cell] += *sum;
+                }
+            }
+        }
+        totals.into_iter().map(|sum| self.quantum.value(sum) / photons).collect()
+    }
+
+    /// What a target with this outlook got in one replicate, in lx: of one term of the Neumann series, or
+    /// of all.
+    pub(super) fn lx(
+        &self,
+        replicate: usize,
+        outlook: &Outlook,
+        target: usize,
+        term: Option<usize>,
+    ) -> f64 {
+        let (part, cells) = (term.map_or(0, |term| 1 + term), self.cells);
+        let of_class = |class: usize| -> f64 {
+            let leaving = self.means_lm_sr[replicate].iter().skip((part * CLASSES + class) * cells);
+            let seen = outlook.of_target(target, class == 0);
+            leaving.zip(seen).map(|(lm_sr, lx)| lm_sr * f64::from(lx)).sum()
+        };
+        (0..CLASSES).map(of_class).sum()
+    }
+
+    /// Contributions that are not in the sums.
+    pub(super) fn invalid(&self) -> u64 {
+        self.sums.iter().flat_map(|sums| lock(sums).clone()).map(|sum| sum.invalid).sum()
+    }
+}
+
+impl Stored for Coarse {
+    fn put(&self, out: &mut Writer) {
+        self.sums.iter().for_each(|sums| lock(sums).as_slice().put(out));
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.iter().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))
+    }
+}
+
+/// Counts the photons of one wave.
+struct CellReceiver<'a, S> {
+    stage: &'a Stage<'a, S>,
+    joining: &'a Joining,
+    slots: usize,
+    quantum: Quantum,
+    /// Where what this wave found is added in the end.
+    sums: &'a Mutex<Vec<Sum>>,
+    own: Vec<Sum>,
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
+    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
+
+    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
+        let Some(leaving) = leaving else { return };
+        let slot = (bounces as usize).min(self.slots - 1);
+        for side in leaving.sides {
+            for (cell, lm_sr) in side.parts_lm_sr() {
+                self.own[cell * self.slots + slot].add(lm_sr, self.quantum);
+            }
+        }
+    }
+
+    fn finish(self) -> u64 {
+        let mut sums = lock(self.sums);
+        sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
+        0
+    }
+}

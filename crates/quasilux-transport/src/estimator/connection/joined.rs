@@ -1,0 +1,303 @@
+//! What joined photons gave to all targets, in all replicates.
+
+use super::Joining;
+use super::coarse::Coarse;
+use super::outlook::Outlook;
+use super::receiver::{Group, JoinReceiver};
+use super::spot::Spot;
+use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::context::{Stage, Stream};
+use crate::photon::batch::{PhotonBatch, trace_photons};
+use crate::photon::order::Way;
+use crate::photon::trace::PhotonCounts;
+use crate::spectrum::Spectrum;
+use crate::stats::tally::{Quantum, Sum};
+use crate::stats::targets::Target;
+use crate::stats::watch::Watch;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Targets that the same photons are joined to; others have photons of their own.
+const GROUP: usize = 256;
+/// A photon that is joined takes as long as so many others, about.
+const JOINING: u64 = 4;
+
+/// Sums that grow with a run.
+pub(crate) struct Joined {
+    pub(crate) joining: Joining,
+    spots: Vec<Spot>,
+    /// Illuminance to expect at each, in lx.
+    expected_lx: Vec<f64>,
+    /// Terms of the Neumann series that are told apart.
+    terms: usize,
+    pub(super) quantum: Quantum,
+    /// By group of targets and replicate; those of target t of a group from `t * terms` on.
+    sums: Vec<Vec<Mutex<Vec<Sum>>>>,
+    /// What each group of targets sees of the survey's cells, and the photons counted there.
+    coarse: Option<(Vec<Outlook>, Coarse)>,
+    /// Rays that it took to find out what targets see.
+    pub(crate) rays: u64,
+    replicates: Range<u32>,
+    /// Indices so far.
+    samples: u64,
+    /// Of each target that gets no more, the indices that it has.
+    ends: Vec<Option<u64>>,
+    /// What photons that are counted had given to each of them by then, see [`Self::coarse_parts_lx`].
+    settled: Vec<Option<Vec<f64>>>,
+}
+
+impl Joined {
+    pub(crate) fn new<S: Spectrum>(
+        stage: &Stage<'_, S>,
+        joining: Joining,
+        targets: &[Target],
+        expected_lx: Vec<f64>,
+        replicates: Range<u32>,
+        (listed_terms, quantum): (u32, Quantum),
+    ) -> Self {
+        let terms = listed_terms as usize + 1;
+        let spots: Vec<Spot> =
+            targets.iter().map(|target| Spot::new(&stage.world, target)).collect();
+        let of_group = |group: &[Spot]| -> Vec<Mutex<Vec<Sum>>> {
+            let zeros = || Mutex::new(vec![Sum::default(); group.len() * terms]);
+            replicates.clone().map(|_| zeros()).collect()
+        };
+        let sums = spots.chunks(GROUP).map(of_group).collect();
+        let mut rays = 0;
+        let coarse = (joining.coarse_photons > 0).then(|| {
+            let look = |group: &[Spot]| {
+                let (outlook, looks) = Outlook::new(stage, &joining, group);
+                rays += looks;
+                outlook
+            };
+            let quantum = Quantum::for_reference(stage.lights.flux_lm);
+            let cells = joining.places.len();
+            let outlooks = spots.chunks(GROUP).map(look).collect();
+            (outlooks, Coarse::new(cells, terms, quantum, replicates.clone()))
+        });
+        let (samples, ends) = (0, vec![None; targets.len()]);
+        let settled = vec![None; targets.len()];
+        Self {
+            joining,
+            spots,
+            expected_lx,
+            terms,
+            quantum,
+            sums,
+            coarse,
+            rays,
+            replicates,
+            samples,
+            ends,
+            settled,
+        }
+    }
+
+    /// The same from its beginning, for one replicate of some of the targets.
+    pub(crate) fn of_some<S: Spectrum>(
+        self,
+        stage: &Stage<'_, S>,
+        targets: impl Iterator<Item = (usize, Target)>,
+    ) -> Self {
+        let of_target = |(number, target): (usize, Target)| (self.expected_lx[number], target);
+        let (expected_lx, targets): (Vec<f64>, Vec<Target>) = targets.map(of_target).unzip();
+        Self::new(stage, self.joining, &targets, expected_lx, 0..1, (0, self.quantum))
+    }
+
+    /// Puts what was found out before the first photon among the decisions.
+    pub(crate) fn put_decisions(&self, out: &mut Writer) {
+        self.joining.put(out);
+        out.f64s(&self.expected_lx);
+        let outlooks = self.coarse.iter().flat_map(|(outlooks, _)| outlooks);
+        outlooks.for_each(|outlook| outlook.put(out));
+    }
+
+    /// The illuminance that the survey foretells for each target, in lx.
+    pub(crate) fn foretold_lx(&self) -> &[f64] {
+        &self.expected_lx
+    }
+
+    /// Indices so far.
+    pub(crate) fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// Takes it that the photons of all indices before this one are with others.
+    pub(crate) fn go_to(&mut self, index: u64) {
+        self.samples = index;
+        self.count();
+    }
+
+    /// Takes it that all sums are those of as many photons as belong to the indices so far.
+    fn count(&mut self) {
+        if let Some((_, coarse)) = &mut self.coarse {
+            coarse.settle(self.samples * self.joining.coarse_photons);
+        }
+    }
+
+    /// How much work an index is, in photons that are not joined.
+    pub(crate) fn work_of_an_index(&self) -> u64 {
+        let joined = self.joining.photons * self.sums.len() as u64 * JOINING;
+        (joined + self.joining.coarse_photons) * self.replicates.len() as u64
+    }
+
+    /// Adds the photons that belong to the indices up to `samples`, those that are joined and those that are
+    /// counted; `None` when the observer stopped it.
+    pub(crate) fn grow<S: Spectrum>(
+        &mut self,
+        stage: &Stage<'_, S>,
+        samples: u64,
+        watch: &mut Watch<'_>,
+    ) -> Option<[PhotonCounts; 2]> {
+        let photons = self.joining.photons;
+        let mut counts = PhotonCounts::default();
+        let mut counted = PhotonCounts::default();
+        if let Some((_, coarse)) = &mut self.coarse {
+            let each = self.joining.coarse_photons;
+            let photons = self.samples * each..samples * each;
+            counted = coarse.grow(stage, &self.joining, photons, watch)?;
+        }
+        for (number, sums) in (0..).zip(&self.sums) {
+            let group = self.group(number as usize);
+            if group.ends.iter().all(Option::is_some) {
+                continue;
+            }
+            let receiver = |r: u32| {
+                let points = stage.points(r, Stream::JoinedPlaces(number));
+                let sums = &sums[(r - self.replicates.start) as usize];
+                JoinReceiver::new(stage, &self.joining, group, (points, self.quantum), sums)
+            };
+            let batch = PhotonBatch {
+                stream: Stream::JoinedPhotons(number),
+                replicates: self.replicates.clone(),
+                indices: self.samples * photons..samples * photons,
+                way: Way::CoherentWaves,
+                lead: self.joining.lead(),
+            };
+            counts += trace_photons(stage, &batch, receiver, watch)?;
+        }
+        self.samples = samples;
+        self.count();
+        Some([counts, counted])
+    }
+
+    /// A group of targets that photons are joined to.
+    pub(super) fn group(&self, number: usize) -> Group<'_> {
+        let first = number * GROUP;
+        let range = first..(first + GROUP).min(self.spots.len());
+        Group {
+            spots: &self.spots[range.clone()],
+            expected_lx: &self.expected_lx[range.clone()],
+            outlook: self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number]),
+            ends: &self.ends[range],
+            terms: self.terms,
+        }
+    }
+
+    /// Joins no more photons to targets that have an end.
+    pub(crate) fn settle(&mut self, ends: &[Option<u64>]) {
+        self.ends.copy_from_slice(ends);
+        // Photons that are counted go on to serve the others.
+        for (target, end) in ends.iter().enumerate() {
+            if end.is_some() && self.settled[target].is_none() {
+                self.settled[target] = Some(self.coarse_parts_lx(target));
+            }
+        }
+    }
+
+    /// What photons that are counted gave to a target: in each replicate all, then each term.
+    fn coarse_parts_lx(&self, target: usize) -> Vec<f64> {
+        let parts = || std::iter::once(None).chain((0..self.terms).map(Some));
+        let replicates = 0..self.replicates.len();
+        let of_replicate = |r| parts().map(move |part| self.coarse_lx(r, target, part));
+        replicates.flat_map(of_replicate).collect()
+    }
+
+    /// What a target got in one replicate, in lx.
+    pub(crate) fn lx(&self, replicate: usize, target: usize) -> f64 {
+        self.fine_lx(replicate, target) + self.coarse_lx(replicate, target, None)
+    }
+
+    /// By photons that are joined, beyond what was foreseen of them.
+    pub(super) fn fine_lx(&self, replicate: usize, target: usize) -> f64 {
+        // Quanta first, so that listing terms changes no bit.
+        let mut sum = Sum::default();
+        (0..self.terms).for_each(|term| sum += self.sum(replicate, target, term));
+        self.value_lx(target, sum)
+    }
+
+    /// By photons that are counted, of one term or of all.
+    pub(super) fn coarse_lx(&self, replicate: usize, target: usize, term: Option<usize>) -> f64 {
+        if let Some(parts) = &self.settled[target] {
+            return parts[replicate * (1 + self.terms) + term.map_or(0, |term| 1 + term)];
+        }
+        self.coarse.as_ref().map_or(0.0, |(outlooks, coarse)| {
+            coarse.lx(replicate, &outlooks[target / GROUP], target % GROUP, term)
+        })
+    }
+
+    /// What it got of one term of the Neumann series; of the last, of all that follow too.
+    pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
+        let fine_lx = self.value_lx(target, self.sum(replicate, target, term));
+        fine_lx + self.coarse_lx(replicate, target, Some(term))
+    }
+
+    /// What a sum of a target means so far.
+    fn value_lx(&self, target: usize, sum: Sum) -> f64 {
+        let samples = self.ends[target].unwrap_or(self.samples);
+        let photons = (samples * self.joining.photons).max(1) as f64;
+        self.quantum.value(sum) / photons
+    }
+
+    /// Whether any replicate found light of one term.
+    pub(crate) fn found_term(&self, target: usize, term: usize) -> bool {
+        (0..self.replicates.len()).any(|r| {
+            !self.sum(r, target, term).is_zero() || self.coarse_lx(r, target, Some(term)) != 0.0
+        })
+    }
+
+    /// Whether any replicate found light.
+    pub(crate) fn found(&self, target: usize) -> bool {
+        (0..self.terms).any(|term| self.found_term(target, term))
+    }
+
+    /// Contributions that are not in the sums.
+    pub(crate) fn invalid(&self) -> u64 {
+        let lists = self.sums.iter().flatten();
+        let fine: u64 = lists.flat_map(|sums| lock(sums).clone()).map(|sum| sum.invalid).sum();
+        fine + self.coarse.as_ref().map_or(0, |(_, coarse)| coarse.invalid())
+    }
+
+    fn sum(&self, replicate: usize, target: usize, term: usize) -> Sum {
+        lock(&self.sums[target / GROUP][replicate])[target % GROUP * self.terms + term]
+    }
+}
+
+impl Stored for Joined {
+    fn put(&self, out: &mut Writer) {
+        self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
+        if let Some((_, coarse)) = &self.coarse {
+            coarse.put(out);
+        }
+        for parts in &self.settled {
+            out.option(parts.as_ref(), |out, parts| out.f64s(parts));
+        }
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.iter().flatten().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))?;
+        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.take_in(from))?;
+        let length = self.replicates.len() * (1 + self.terms);
+        for parts in &mut self.settled {
+            *parts = from.option(Reader::f64s)?;
+            if parts.as_ref().is_some_and(|parts| parts.len() != length) {
+                return Err(StateError::Unfit("the number of terms"));
+            }
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn lock(sums: &Mutex<Vec<Sum>>) -> std::sync::MutexGuard<'_, Vec<Sum>> {
+    sums.lock().unwrap_or_else(PoisonError::into_inner)
+}

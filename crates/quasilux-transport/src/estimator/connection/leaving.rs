@@ -1,0 +1,66 @@
+//! What leaves a place where a photon landed.
+
+use super::Joining;
+use crate::bsdf::Mode;
+use crate::context::Stage;
+use crate::importance::Around;
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use glam::DVec3;
+
+/// What a photon sends on from where it landed.
+pub(super) struct Leaving {
+    /// To the side that it came from, and to the other.
+    pub(super) sides: [Side; 2],
+}
+
+/// What leaves to one side.
+#[derive(Clone, Copy)]
+pub(super) struct Side {
+    /// The same in all directions, but for the cosine.
+    pub(super) lm_sr: f64,
+    /// The cells around the place, where anything leaves it.
+    pub(super) around: Around,
+}
+
+impl Leaving {
+    /// What a photon of this weight sends on after so many bounces, on a surface that keeps illuminance; `None` where
+    /// no more are wanted.
+    pub(super) fn new<S: Spectrum>(
+        stage: &Stage<'_, S>,
+        joining: &Joining,
+        at: &Interaction,
+        weight: S,
+        bounces: u32,
+    ) -> Option<Self> {
+        if stage.max_bounces.is_some_and(|most| bounces >= most) {
+            return None;
+        }
+        let bsdf = stage.world.bsdf(at);
+        let side = |n: DVec3, wi: DVec3| {
+            let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
+            let lm_sr = scattered.luminance() * stage.lights.flux_lm;
+            let around = match lm_sr > 0.0 {
+                true => joining.landings.around(at.position, n),
+                false => Around::default(),
+            };
+            Side { lm_sr, around }
+        };
+        let nothing = Side { lm_sr: 0.0, around: Around::default() };
+        let behind = if bsdf.transmits() { side(-at.n, -DVec3::Z) } else { nothing };
+        Some(Self { sides: [side(at.n, DVec3::Z), behind] })
+    }
+
+    /// To both sides.
+    pub(super) fn lm_sr(&self) -> f64 {
+        self.sides[0].lm_sr + self.sides[1].lm_sr
+    }
+}
+
+impl Side {
+    /// What is told to each cell around, in lm/sr, in proportion to linear interpolation: where it is told jumps
+    /// nowhere.
+    pub(super) fn parts_lm_sr(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.around.iter().map(|(cell, weight)| (cell, weight * self.lm_sr))
+    }
+}

@@ -1,0 +1,101 @@
+//! What sensors are expected to see of each cell of the survey.
+//!
+//! What a photon gives to a sensor changes little within a cell. What it gives on the mean is found once, from
+//! the few places that the survey remembers of each cell, before any photon counts: a coarse picture of the
+//! sensors' views. It need not be right, see [`super`].
+
+use super::Joining;
+use super::leaving::{Leaving, Side};
+use super::spot::Spot;
+use super::view::View;
+use crate::codec::Writer;
+use crate::context::Stage;
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Where in cells of grids places are looked at from: each from another quarter than the one before.
+const IN_CELL: [[f64; 2]; 4] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75], [0.75, 0.25]];
+/// Photons straight from their lights, and others: their shares differ.
+pub(super) const CLASSES: usize = 2;
+
+/// Illuminance in lx that each of some targets gets of a lm/sr that leaves a cell, mean over the cell.
+pub(super) struct Outlook {
+    targets: usize,
+    /// Of target t by class k from cell c at `(c * CLASSES + k) * targets + t`.
+    lx_sr_lm: Vec<f32>,
+}
+
+impl Outlook {
+    /// Looks from all targets at all cells; also says how many rays that took.
+    pub(super) fn new<S: Spectrum>(
+        stage: &Stage<'_, S>,
+        joining: &Joining,
+        spots: &[Spot],
+    ) -> (Self, u64) {
+        let look = |places: &Vec<Interaction>| look(stage, joining, places, spots);
+        let (rows, rays): (Vec<Vec<f32>>, Vec<u64>) = joining.places.par_iter().map(look).unzip();
+        (Self { targets: spots.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
+    }
+
+    /// Puts it among the decisions.
+    pub(super) fn put(&self, out: &mut Writer) {
+        self.lx_sr_lm.iter().for_each(|lx| out.f32(*lx));
+    }
+
+    /// What all targets get from a cell, by what comes there straight from the lights or otherwise.
+    fn of_cell(&self, cell: usize, is_first: bool) -> &[f32] {
+        let row = cell * CLASSES + usize::from(!is_first);
+        &self.lx_sr_lm[row * self.targets..(row + 1) * self.targets]
+    }
+
+    /// Finds out what all targets are taken to get of what leaves a place.
+    pub(super) fn foresee(&self, leaving: &Leaving, is_first: bool, lx: &mut [f64]) {
+        lx.fill(0.0);
+        for (cell, lm_sr) in leaving.sides.iter().flat_map(Side::parts_lm_sr) {
+            let seen = self.of_cell(cell, is_first);
+            let sums = lx.iter_mut().zip(seen);
+            sums.for_each(|(sum, lx_sr_lm)| *sum += lm_sr * f64::from(*lx_sr_lm));
+        }
+    }
+
+    /// What one target gets from all cells.
+    pub(super) fn of_target(&self, target: usize, is_first: bool) -> impl Iterator<Item = f32> {
+        let from = usize::from(!is_first) * self.targets + target;
+        self.lx_sr_lm.iter().skip(from).step_by(CLASSES * self.targets).copied()
+    }
+}
+
+/// What all targets see of one cell, first light that comes there straight, then other light; and the
+/// number of rays.
+fn look<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    joining: &Joining,
+    places: &[Interaction],
+    spots: &[Spot],
+) -> (Vec<f32>, u64) {
+    let densities: Vec<_> = places.iter().map(|at| joining.landings(at.position, at.n)).collect();
+    let (mut sights, mut offers) = (Vec::new(), Vec::new());
+    for (number, spot) in spots.iter().enumerate() {
+        for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL.iter().cycle()) {
+            let Some(view) = View::of(&stage.world, spot, at, *in_cell) else { continue };
+            if view.behind {
+                continue;
+            }
+            let shares = joining.path_shares(view.pdf_m2, *density);
+            let lx = PI * view.pdf_m2 * view.weight / places.len() as f64;
+            sights.push(view.sight());
+            offers.push((number, lx * (1.0 - shares.first), lx * (1.0 - shares.rest)));
+        }
+    }
+    let mut visible = Vec::new();
+    stage.world.are_visible(&sights, &mut visible);
+    let mut row = vec![0.0; CLASSES * spots.len()];
+    for ((number, first, rest), _) in offers.into_iter().zip(visible).filter(|(_, seen)| *seen) {
+        row[number] += first as f32;
+        row[spots.len() + number] += rest as f32;
+    }
+    row.iter_mut().filter(|lx| !lx.is_finite()).for_each(|lx| *lx = 0.0);
+    (row, sights.len() as u64)
+}

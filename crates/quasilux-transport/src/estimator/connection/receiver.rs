@@ -1,0 +1,221 @@
+//! What joins each landing of a photon to the sensors that see it.
+
+use super::Joining;
+use super::joined::lock;
+use super::leaving::Leaving;
+use super::outlook::Outlook;
+use super::spot::Spot;
+use super::view::View;
+use crate::context::Stage;
+use crate::importance::Density;
+use crate::photon::trace::{Flight, PhotonReceiver};
+use crate::spectrum::Spectrum;
+use crate::stats::tally::{Quantum, Sum};
+use crate::world::Interaction;
+use quasilux_bvh::Shot;
+use quasilux_sampling::{PointSet, Sampler};
+use std::f64::consts::PI;
+use std::sync::Mutex;
+
+/// Rays that are traced together.
+const RAYS: usize = 512;
+/// What is right in the open may be in a shadow: it is asked for as if so large a part of it were wrong.
+const DOUBT: f64 = 0.25;
+/// The first of the coordinates for places in cells. In two streams a dimension has the same digits, permuted: those
+/// that photons draw first would decide where they are joined.
+const PLACE_DIMENSION: u32 = 512;
+/// Steps from target to target, and from bounce to bounce, of the number that decides it, and of the place in a
+/// cell from join to join: the additive sequence in two dimensions with the evenest gaps (M. Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
+const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
+/// The same in one dimension, for the number that decides it from join to join.
+const STEP: f64 = 0.618_033_988_749_894_9;
+/// One landing is joined to no more places of one cell.
+const MAX_JOINS: f64 = 16.0;
+
+/// Some targets that photons are joined to.
+#[derive(Clone, Copy)]
+pub(super) struct Group<'a> {
+    pub(super) spots: &'a [Spot],
+    /// Illuminance to expect at each, in lx.
+    pub(super) expected_lx: &'a [f64],
+    /// What photons are taken to give by the cell they land in.
+    pub(super) outlook: Option<&'a Outlook>,
+    /// Those with an end get no more.
+    pub(super) ends: &'a [Option<u64>],
+    /// Terms of the Neumann series that are told apart.
+    pub(super) terms: usize,
+}
+
+/// Joins the photons of one wave to all targets of a group.
+pub(super) struct JoinReceiver<'a, S> {
+    stage: &'a Stage<'a, S>,
+    joining: &'a Joining,
+    group: Group<'a>,
+    quantum: Quantum,
+    /// Where what this wave found is added in the end.
+    sums: &'a Mutex<Vec<Sum>>,
+    own: Vec<Sum>,
+    /// Coordinates of the places in cells that photons are joined to.
+    points: PointSet,
+    photon: Option<Seen>,
+    /// How close photons are to be expected where it landed, by side.
+    landings: [Density; 2],
+    /// What each target is taken to get in any case.
+    foreseen_lx: Vec<f64>,
+    sights: Vec<Shot>,
+    offers: Vec<Offer>,
+    visible: Vec<bool>,
+    rays: u64,
+}
+
+/// The photon that is being followed.
+pub(super) struct Seen {
+    /// The place in every cell.
+    in_cell: [f64; 2],
+    /// What decides over small contributions.
+    chance: f64,
+}
+
+/// What a target gets if nothing stands in the way, beside what it is taken to get in any case.
+struct Offer {
+    /// Number of the sum.
+    sum: usize,
+    lx: f64,
+    foreseen_lx: f64,
+}
+
+impl Seen {
+    /// The sampler of a photon, at its coordinates of these points.
+    pub(super) fn sampler<'p>(photon: &Sampler<'_>, points: &'p PointSet) -> Sampler<'p> {
+        photon.among(points, PLACE_DIMENSION)
+    }
+
+    pub(super) fn draw(sampler: &mut Sampler<'_>) -> Self {
+        Self { in_cell: sampler.next_2d(), chance: sampler.next_1d() }
+    }
+}
+
+impl<'a, S: Spectrum> JoinReceiver<'a, S> {
+    pub(super) fn new(
+        stage: &'a Stage<'a, S>,
+        joining: &'a Joining,
+        group: Group<'a>,
+        (points, quantum): (PointSet, Quantum),
+        sums: &'a Mutex<Vec<Sum>>,
+    ) -> Self {
+        Self {
+            stage,
+            joining,
+            group,
+            quantum,
+            sums,
+            own: vec![Sum::default(); group.spots.len() * group.terms],
+            points,
+            photon: None,
+            landings: [Density::default(); 2],
+            foreseen_lx: vec![0.0; group.spots.len()],
+            sights: Vec::new(),
+            offers: Vec::new(),
+            visible: Vec::new(),
+            rays: 0,
+        }
+    }
+
+    /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
+    fn ask(&mut self, number: usize, at: &Interaction, leaving: &Leaving, bounces: u32) {
+        let Some(Seen { in_cell, chance }) = self.photon else { return };
+        let (foreseen_lx, spot) = (self.foreseen_lx[number], &self.group.spots[number]);
+        let certain_lx = self.joining.small * self.group.expected_lx[number];
+        let chance = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
+        let most_lx = leaving.lm_sr() * spot.most_lx_sr_lm(at);
+        let is_surely_left = |lx: f64| (1.0 + DOUBT) * lx <= fraction(chance) * certain_lx;
+        if is_surely_left(most_lx) && is_surely_left(foreseen_lx) {
+            return;
+        }
+        let joins = if foreseen_lx > certain_lx && !spot.is_point() {
+            (foreseen_lx / certain_lx).ceil().min(MAX_JOINS)
+        } else {
+            1.0
+        };
+        for join in (0..MAX_JOINS as u32).map(f64::from).take_while(|join| *join < joins) {
+            let place = [0, 1].map(|axis| fraction(in_cell[axis] + join * STEPS[axis]));
+            let u = fraction(chance + join * STEP);
+            let view = View::of(&self.stage.world, spot, at, place);
+            let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
+            let asked =
+                ((lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx)) / (joins * certain_lx);
+            if asked <= u {
+                continue;
+            }
+            let factor = if asked < 1.0 { 1.0 / (joins * asked) } else { 1.0 / joins };
+            let term = (bounces as usize + 1).min(self.group.terms - 1);
+            let sum = number * self.group.terms + term;
+            let offer = Offer { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
+            match view {
+                // What is not a number counts: the tally must refuse it.
+                Some(view) if lx != 0.0 => {
+                    self.sights.push(view.sight());
+                    self.offers.push(offer);
+                }
+                _ => self.own[sum].add_signed(-offer.foreseen_lx, self.quantum),
+            }
+        }
+    }
+
+    /// What a target gets if nothing stands in the way.
+    fn unshadowed_lx(&self, view: &View, leaving: &Leaving, bounces: u32) -> f64 {
+        let side = usize::from(view.behind);
+        let shares = self.joining.path_shares(view.pdf_m2, self.landings[side]);
+        let share = if bounces == 0 { shares.first } else { shares.rest };
+        leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
+    }
+
+    /// Traces the rays that wait.
+    fn answer(&mut self) {
+        self.rays += self.sights.len() as u64;
+        self.stage.world.are_visible(&self.sights, &mut self.visible);
+        for (offer, visible) in self.offers.drain(..).zip(&self.visible) {
+            let lx = if *visible { offer.lx } else { 0.0 };
+            self.own[offer.sum].add_signed(lx - offer.foreseen_lx, self.quantum);
+        }
+        self.sights.clear();
+    }
+}
+
+/// Of a number that is not negative.
+fn fraction(x: f64) -> f64 {
+    x - (x as u64) as f64
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
+    fn follow(&mut self, sampler: &Sampler<'_>) {
+        self.photon = Some(Seen::draw(&mut Seen::sampler(sampler, &self.points)));
+    }
+
+    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
+
+    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
+        let Some(leaving) = leaving else { return };
+        self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
+        if let Some(outlook) = self.group.outlook {
+            outlook.foresee(&leaving, bounces == 0, &mut self.foreseen_lx);
+        }
+        for number in 0..self.group.spots.len() {
+            if self.group.ends[number].is_none() {
+                self.ask(number, at, &leaving, bounces);
+            }
+        }
+        if self.sights.len() >= RAYS {
+            self.answer();
+        }
+    }
+
+    fn finish(mut self) -> u64 {
+        self.answer();
+        let mut sums = lock(self.sums);
+        sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
+        self.rays
+    }
+}

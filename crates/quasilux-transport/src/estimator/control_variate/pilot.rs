@@ -1,0 +1,196 @@
+//! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all, by what a trial of
+//! paths foretells.
+
+use super::survival::{MIN, Survival};
+use super::trips::{Outcome, Trips};
+use super::walk::Ending;
+use super::{FrozenMap, Walks, bounces_left, layers};
+use crate::context::{Stage, Stream};
+use crate::estimator::selection::{Promise, Wanted};
+use crate::photon::batch::{PhotonBatch, trace_photons};
+use crate::photon::first_shot::{LitCells, decide};
+use crate::photon::map::{MapLayout, MapReceiver, MapTally};
+use crate::photon::order::Way;
+use crate::photon::trace::{Lead, PhotonCounts, Source};
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::stats::watch::Watch;
+use std::f64::consts::SQRT_2;
+use std::ops::Range;
+
+/// Photons of the pilot for each side of an element, and the part of the run's rays, 1 over this, that they may be.
+const PHOTONS_PER_ELEMENT: u64 = 8;
+const PHOTONS_SHARE: u64 = 32;
+/// The part of them, 1 over this, that it may take to find where light lands.
+const FIRST_SHOT_SHARE: u64 = 8;
+/// Bounds on them, and on those of a map.
+const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
+pub(crate) const MAX_PHOTONS: u64 = 1 << 20;
+/// The search begins where paths go on with about the least probability; each step is a factor of sqrt(2).
+const STEPS: u32 = 16;
+
+/// A map as a pilot left it, and what is best made of it.
+pub(crate) struct Choice<S> {
+    map: Growing<S>,
+    use_of_it: Use,
+    /// Whether its photons found much that the paths of the trial did not.
+    pub(crate) misses_light: bool,
+}
+
+/// What may be made of a map, and what that promises.
+struct Use {
+    survival: Survival,
+    photons: u64,
+    /// Of each target that is seen, for a trial.
+    variances: Vec<f64>,
+    /// Rays of a trial.
+    rays: f64,
+    /// Rays before the first path that are still to be traced.
+    beforehand: f64,
+}
+
+/// A map that gets its photons.
+struct Growing<S> {
+    layout: MapLayout,
+    tally: MapTally<S>,
+    lit_cells: Option<LitCells>,
+    /// Of photons that count.
+    most_bounces: u32,
+    photons: u64,
+    counts: PhotonCounts,
+}
+
+impl<S: Spectrum> Choice<S> {
+    /// Tries a map on the paths of a trial, which promise `noted` as they are, and `alone` if they end as paths without a
+    /// map do; `None` where too few bounces are wanted for any.
+    pub(crate) fn new(
+        stage: &Stage<'_, S>,
+        settings: &Settings,
+        (walks, noted, alone): (&Walks<S>, &Promise<'_>, &Promise<'_>),
+        wanted: &Wanted,
+        watch: &mut Watch<'_>,
+    ) -> Option<Self> {
+        let affordable = wanted.rays(alone, alone) as u64;
+        let mut map = Growing::new(stage, settings, affordable / FIRST_SHOT_SHARE)?;
+        let before = map.counts.rays;
+        let pilots = PHOTONS_PER_ELEMENT * map.layout.len() as u64;
+        let pilots = pilots.min(affordable / PHOTONS_SHARE);
+        let pilots = pilots.clamp(PILOT_PHOTONS.0, PILOT_PHOTONS.1).next_power_of_two();
+        map.grow(stage, pilots, watch);
+        let rays_for_photon = (map.counts.rays - before) as f64 / pilots as f64;
+        let read = map.tally.read(map.photon_lm(stage));
+        let trips = walks.on(stage, (&map.layout, &read), wanted);
+        let survival = trips.survival();
+        let noise_share = trips.noise_share();
+        let mut best = None;
+        let mut least = f64::INFINITY;
+        for survival in candidates(&trips, &survival) {
+            let Outcome { of_chances, rays } = trips.outcome(Ending::OnMap(&survival), wanted);
+            for doublings in 0..=(MAX_PHOTONS / pilots).ilog2() {
+                let photons = pilots << doublings;
+                // More photons take out noise.
+                let off = 1.0 - noise_share * (1.0 - pilots as f64 / photons as f64);
+                let beforehand = (photons - pilots) as f64 * rays_for_photon;
+                let chances = of_chances.iter().zip(noted.variances);
+                let variances: Vec<f64> = chances.map(|(chance, v)| v + off * chance).collect();
+                let promise =
+                    Promise { variances: &variances, of_paths: rays, of_photons: 0.0, beforehand };
+                let in_all = wanted.rays(alone, &promise);
+                if in_all < least {
+                    least = in_all;
+                    let survival = survival.clone();
+                    best = Some(Use { survival, photons, variances, rays, beforehand });
+                }
+            }
+        }
+        let misses_light = trips.miss_light(wanted);
+        best.map(|use_of_it| Self { map, use_of_it, misses_light })
+    }
+
+    /// What it promises.
+    pub(crate) fn promise(&self) -> Promise<'_> {
+        self.use_of_it.promise()
+    }
+
+    /// Its photons where it is not taken, if they left the lights and so say where the flux goes; of others it adds the rays.
+    pub(crate) fn give_up(self, rays: &mut u64) -> Option<PhotonCounts> {
+        let Growing { lit_cells, counts, .. } = self.map;
+        if lit_cells.is_some() {
+            *rays += counts.rays;
+        }
+        lit_cells.is_none().then_some(counts)
+    }
+
+    /// The map with all its photons, for targets where a lux counts so much; and what it took from the start.
+    pub(crate) fn freeze(
+        mut self,
+        stage: &Stage<'_, S>,
+        worth_per_lx: Vec<f64>,
+        watch: &mut Watch<'_>,
+    ) -> (FrozenMap<S>, PhotonCounts) {
+        let Use { survival, photons, .. } = self.use_of_it;
+        self.map.grow(stage, photons, watch);
+        let photon_lm = self.map.photon_lm(stage);
+        let Growing { layout, tally, lit_cells, counts, .. } = self.map;
+        let first_shot = lit_cells.is_some();
+        let frozen = FrozenMap { layout, tally, photon_lm, first_shot, survival, worth_per_lx };
+        (frozen, counts)
+    }
+}
+
+impl Use {
+    fn promise(&self) -> Promise<'_> {
+        let Self { variances, rays, beforehand, .. } = self;
+        Promise { variances, of_paths: *rays, of_photons: 0.0, beforehand: *beforehand }
+    }
+}
+
+/// Paths that go on seldom, more often, and nearly always.
+fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
+    let usual = trips.usual_loss(survival);
+    let first = if usual > 0.0 { MIN / usual } else { 0.0 };
+    let sureness = |step: u32| first * libm::pow(SQRT_2, f64::from(step));
+    (0..=STEPS).map(|step| survival.with_sureness(sureness(step))).collect()
+}
+
+impl<S: Spectrum> Growing<S> {
+    fn new(stage: &Stage<'_, S>, settings: &Settings, most_rays: u64) -> Option<Self> {
+        let layout = MapLayout::coarsest(&stage.world, settings);
+        let sides = layout.len() as u64;
+        let most_bounces = bounces_left(stage.max_bounces, 0, sides)?;
+        let mut counts = PhotonCounts::default();
+        let lit_cells = decide(stage, settings, most_rays, &mut counts);
+        let layers = layers(stage.max_bounces, stage.listed_terms, sides);
+        let lightest = Source::of(lit_cells.as_ref()).usual_weight();
+        let tally = MapTally::new(&layout, lightest, layers);
+        Some(Self { layout, tally, lit_cells, most_bounces, photons: 0, counts })
+    }
+
+    /// Adds photons up to this one.
+    fn grow(&mut self, stage: &Stage<'_, S>, photons: u64, watch: &mut Watch<'_>) {
+        let Self { layout, tally, lit_cells, most_bounces, .. } = &*self;
+        let source = Source::of(lit_cells.as_ref());
+        let receiver = MapReceiver::up_to(*most_bounces, stage.map_dimensions, layout, tally);
+        let batch = of_plan(source, self.photons..photons);
+        // Before the first checkpoint the observer stops nothing, so there are always counts.
+        let counts = trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default();
+        self.counts += source.counted(counts);
+        self.photons = photons;
+    }
+
+    /// Flux of a photon.
+    fn photon_lm(&self, stage: &Stage<'_, S>) -> f64 {
+        stage.lights.flux_lm / self.photons as f64
+    }
+}
+
+/// Photons that come before all paths, and that no estimate counts.
+pub(crate) fn of_plan(source: Source<'_>, indices: Range<u64>) -> PhotonBatch<'_> {
+    PhotonBatch {
+        stream: Stream::PlanPhotons,
+        replicates: 0..1,
+        indices,
+        way: Way::CoherentWaves,
+        lead: Lead::by_chance(source, None),
+    }
+}

@@ -1,0 +1,217 @@
+//! The paths of a trial, and what they say of a map.
+
+use super::survival::Finding;
+use super::walk::{Ending, Price, Step, Walk};
+use super::{Note, Survival, bounces_left};
+use crate::context::Stage;
+use crate::estimator::selection::{MUCH_MORE, SAMPLES, Wanted};
+use crate::path::trace::Ended;
+use crate::photon::map::{IlluminationMap, MapLayout};
+use crate::spectrum::Spectrum;
+use rayon::prelude::*;
+
+/// At most this part of how far a map is off is taken for noise, which more photons would mend.
+const MAX_NOISE: f64 = 0.75;
+
+/// Paths of a trial.
+#[derive(Debug)]
+pub(crate) struct Walks<S> {
+    paths: Vec<Path<S>>,
+    rays: RayCounts,
+}
+
+/// What the paths of a trial took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RayCounts {
+    /// In all.
+    pub(crate) all: f64,
+    /// Of these, rays by which they asked for light where they started.
+    pub(crate) at_start: f64,
+    /// Rays of one path more, if it had ended on a map.
+    pub(crate) at_end: f64,
+}
+
+/// One of them.
+#[derive(Debug)]
+struct Path<S> {
+    target: usize,
+    notes: Vec<Note<S>>,
+    flights: u32,
+}
+
+/// The same paths on a map.
+pub(super) struct Trips {
+    /// With what a unit is worth where each starts.
+    trips: Vec<(f64, Trip)>,
+    rays: RayCounts,
+    /// For each that a path takes itself, those that ask for light on its way included.
+    rays_for_flight: f64,
+}
+
+struct Trip {
+    target: usize,
+    walk: Walk,
+    /// Variance of the map by the noise of its photons, by what it counts at the start.
+    noise: f64,
+}
+
+/// What a trial would have been with paths that end by chance.
+pub(crate) struct Outcome {
+    /// What chances add to the variance, of each target that is seen.
+    pub(crate) of_chances: Vec<f64>,
+    pub(crate) rays: f64,
+}
+
+impl<S> Default for Walks<S> {
+    fn default() -> Self {
+        Self { paths: Vec::new(), rays: RayCounts::default() }
+    }
+}
+
+impl<S: Spectrum> Walks<S> {
+    /// Remembers a path of one of the targets.
+    pub(crate) fn add(&mut self, target: usize, path: &mut Ended<S>) {
+        let notes = std::mem::take(&mut path.notes);
+        self.paths.push(Path { target, notes, flights: path.flights });
+    }
+
+    /// All of them together.
+    pub(crate) fn all(parts: Vec<Self>, rays: RayCounts) -> Self {
+        Self { paths: parts.into_iter().flat_map(|part| part.paths).collect(), rays }
+    }
+
+    /// With no map.
+    pub(crate) fn alone(&self, wanted: &Wanted) -> Outcome {
+        self.trips(wanted, |_| None).outcome(Ending::Alone, wanted)
+    }
+
+    /// On a map.
+    pub(super) fn on(
+        &self,
+        stage: &Stage<'_, S>,
+        (layout, map): (&MapLayout, &IlluminationMap<'_, S>),
+        wanted: &Wanted,
+    ) -> Trips {
+        self.trips(wanted, |note| {
+            let weight = note.weight?;
+            let sides = layout.len() as u64;
+            let most_bounces = bounces_left(stage.max_bounces, note.bounces, sides)?;
+            let place = layout.locate(&note.at);
+            let light = (weight * map.illuminance_lx(&place, most_bounces)).luminance();
+            let noise = (weight * map.noise_lx(&place, most_bounces)).luminance();
+            Some(Reading { element: place.element, light, noise })
+        })
+    }
+
+    fn trips(&self, wanted: &Wanted, read: impl Fn(&Note<S>) -> Option<Reading> + Sync) -> Trips {
+        let trip = |path: &Path<S>| (wanted.worth_per_lx(path.target), path.trip(&read));
+        let flights: u64 = self.paths.iter().map(|path| u64::from(path.flights)).sum();
+        let flights = flights.max(1) as f64;
+        let RayCounts { all, at_start, .. } = self.rays;
+        // Not all lights that may be asked for are before a start.
+        let at_start = at_start.min(all - flights).max(0.0);
+        Trips {
+            trips: self.paths.par_iter().map(trip).collect(),
+            rays: RayCounts { at_start, ..self.rays },
+            rays_for_flight: (all - at_start) / flights,
+        }
+    }
+}
+
+/// What a map says at a note, by what it counts at the start.
+struct Reading {
+    element: usize,
+    light: f64,
+    /// Standard deviation of that.
+    noise: f64,
+}
+
+impl<S: Spectrum> Path<S> {
+    fn trip(&self, read: impl Fn(&Note<S>) -> Option<Reading>) -> Trip {
+        let mut variance = 0.0;
+        let ends = self.notes.iter().skip(1).map(|note| note.flights).chain([self.flights]);
+        let step = |(note, end): (&Note<S>, u32)| {
+            let read = read(note);
+            let is_on_map = read.is_some();
+            let none = Reading { element: 0, light: 0.0, noise: 0.0 };
+            let Reading { element, light, noise } = read.unwrap_or(none);
+            variance += noise * noise;
+            let [beyond_alone, beyond] = note.beyond;
+            let [weight, missed, beyond] = [note.weight.unwrap_or_default(), beyond_alone, beyond]
+                .map(|light| light.luminance())
+                // The run counts and reports what is no number.
+                .map(|lx| if lx.is_finite() { lx } else { 0.0 });
+            let finding = Finding { element, weight, light, beyond };
+            Step { finding, is_on_map, missed, flights: end - note.flights, alone: note.alone }
+        };
+        let steps: Vec<Step> = self.notes.iter().zip(ends).map(step).collect();
+        let flights = self.notes.first().map_or(self.flights, |note| note.flights);
+        Trip { target: self.target, walk: Walk { flights, steps }, noise: variance }
+    }
+}
+
+impl Trip {
+    /// Where it might have ended on the map.
+    fn findings(&self) -> impl Iterator<Item = Finding> {
+        self.walk.steps.iter().filter(|step| step.is_on_map).map(|step| step.finding)
+    }
+}
+
+impl Trips {
+    /// How far off the map is.
+    pub(super) fn survival(&self) -> Survival {
+        let trips = self.trips.iter();
+        Survival::of(trips.flat_map(|(worth, trip)| trip.findings().map(|f| f.worth(*worth))))
+    }
+
+    /// What ending on the map at their first surface would cost the trips on average.
+    pub(super) fn usual_loss(&self, survival: &Survival) -> f64 {
+        let loss = |(worth, trip): &(f64, Trip)| {
+            let Finding { element, weight, light, .. } = trip.findings().next()?;
+            Some(survival.loss(element, worth * weight, worth * light))
+        };
+        let losses: Vec<f64> = self.trips.iter().filter_map(loss).collect();
+        losses.iter().sum::<f64>() / losses.len().max(1) as f64
+    }
+
+    /// The part of how far it is off that more photons would mend.
+    pub(super) fn noise_share(&self) -> f64 {
+        let sums = self.trips.iter().fold([0.0, 0.0], |[noise, off], (worth, trip)| {
+            let squares = trip.findings().map(|f| (f.beyond - f.light) * (f.beyond - f.light));
+            [noise + worth * worth * trip.noise, off + worth * worth * squares.sum::<f64>()]
+        });
+        if sums[1] > 0.0 { (sums[0] / sums[1]).min(MAX_NOISE) } else { 0.0 }
+    }
+
+    /// Whether the map has much more light for some target than its paths found: light that is hard for them.
+    pub(super) fn miss_light(&self, wanted: &Wanted) -> bool {
+        let mut sums = vec![[0.0; 2]; wanted.targets()];
+        for (_, trip) in &self.trips {
+            if let Some(first) = trip.findings().next() {
+                let [on_map, found] = &mut sums[trip.target];
+                *on_map += first.light;
+                *found += first.beyond;
+            }
+        }
+        sums.iter().any(|[on_map, found]| *on_map > MUCH_MORE * found)
+    }
+
+    /// With these chances.
+    pub(super) fn outcome(&self, ending: Ending<'_>, wanted: &Wanted) -> Outcome {
+        let at_end = self.rays.at_end / self.rays_for_flight;
+        let price = |(worth, trip): &(f64, Trip)| trip.walk.price(ending, *worth, at_end);
+        let prices: Vec<Price> = self.trips.par_iter().map(price).collect();
+        let mut sums = vec![(0.0, 0.0); wanted.targets()];
+        for ((_, trip), price) in self.trips.iter().zip(&prices) {
+            let (sum, count) = &mut sums[trip.target];
+            *sum += price.variance;
+            *count += 1.0;
+        }
+        // Of the mean of the samples of a trial.
+        let of_chances =
+            wanted.seen().map(|target| sums[target].0 / sums[target].1 / SAMPLES as f64);
+        let flights: f64 = prices.iter().map(|price| price.flights).sum();
+        let rays = self.rays.at_start + flights * self.rays_for_flight;
+        Outcome { of_chances: of_chances.collect(), rays }
+    }
+}

@@ -1,0 +1,84 @@
+//! Estimators of sensor values, and the selection between them.
+
+pub(crate) mod connection;
+pub(crate) mod control_variate;
+pub(crate) mod paths;
+pub(crate) mod photons;
+pub(crate) mod selection;
+
+use crate::codec::{Reader, StateError, Writer};
+use crate::context::Stage;
+use crate::estimator::paths::Gathering;
+use crate::estimator::photons::Counting;
+use crate::settings::{Estimator, Settings};
+use crate::spectrum::Spectrum;
+use crate::stats::decisions::Decisions;
+use crate::stats::estimates::Estimates;
+use crate::stats::watch::Watch;
+use quasilux_scene::Scene;
+use std::ops::Range;
+
+/// An estimator at work: one variant of [`Estimator`] or several close ones.
+pub(crate) trait Estimation {
+    /// Adds the indices up to `samples` to all replicates; `false` when the observer stopped it
+    /// half-way, which leaves it unusable.
+    #[must_use]
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool;
+
+    /// What was decided before the first sample.
+    fn decisions(&self) -> Decisions;
+
+    /// Puts out all that has grown; called between pieces of the work.
+    fn put(&self, out: &mut Writer);
+
+    /// Takes that in before the first sample, so that [`Self::advance`] to the checkpoint `coming` does
+    /// what is left.
+    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Before the first sample: traces the indices of a part of a run of so many `samples`, and what
+    /// serves all of them; `false` when the observer stopped it.
+    #[must_use]
+    fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool;
+
+    /// Puts out what serves all indices, as far as estimates need it: the same in all parts.
+    fn put_served(&self, out: &mut Writer);
+
+    /// Takes that in, once.
+    fn take_in_served(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Puts out what belongs to the indices of a part.
+    fn put_part(&self, out: &mut Writer);
+
+    /// Adds that.
+    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Takes it that all indices before `samples` were added.
+    fn complete_at(&mut self, samples: u64);
+
+    /// What is known now. Settings, intervals and warnings are filled in by the caller.
+    fn estimates(&self) -> Estimates;
+
+    /// Leaves it at that for the targets that are `done`, and samples the others alone from now on; `false`
+    /// where samples are for all targets.
+    fn settle(&mut self, _done: &[bool]) -> bool {
+        false
+    }
+
+    /// Indices per replicate of the first checkpoint: enough to plan by, little work.
+    fn first_checkpoint(&self) -> u64;
+}
+
+/// The estimator of the settings, its surveys and pilots done.
+pub(crate) fn estimation<'a, S: Spectrum>(
+    stage: &'a Stage<'a, S>,
+    scene: &'a Scene,
+    settings: &Settings,
+    watch: &mut Watch<'_>,
+) -> Box<dyn Estimation + 'a> {
+    match settings.estimator {
+        Estimator::Photon => Box::new(Counting::new(stage, scene, settings)),
+        Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
+            Box::new(Gathering::new(stage, scene, settings, watch))
+        }
+    }
+}

@@ -1,0 +1,456 @@
+//! The estimators that gather: paths from every sensor point, alone or ending on a map.
+
+mod advance;
+mod moment;
+mod resolved;
+mod state;
+
+use crate::codec::{Reader, StateError, Writer};
+use crate::context::{Stage, Stream};
+use crate::cutoff;
+use crate::estimator::Estimation;
+use crate::estimator::connection::Joined;
+use crate::estimator::selection::{Decision, decide};
+use crate::path::end::PathEnd;
+use crate::path::lobes;
+use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
+use crate::path::wave::PathWave;
+use crate::photon::caustics::HiddenLight;
+use crate::photon::trace::PhotonCounts;
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::stats::decisions::Decisions;
+use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
+use crate::stats::tally::{Quantum, Sum};
+use crate::stats::targets::{Target, by_sensor, targets};
+use crate::stats::watch::Watch;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::{Asker, Shadows};
+use quasilux_scene::Scene;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Targets whose light from the point-like lights is computed together.
+const TARGETS: usize = 256;
+/// The first checkpoint takes at most this many indices, and about this many paths in all.
+const FIRST_SAMPLES: u64 = 16;
+const FIRST_PATHS: u64 = 1 << 22;
+
+/// Paths from all sensor points, in all replicates.
+pub(crate) struct Gathering<'a, S> {
+    stage: &'a Stage<'a, S>,
+    scene: &'a Scene,
+    targets: Vec<Target>,
+    /// Of each target that is a point.
+    exact: Vec<Exact>,
+    end: PathEnd<S>,
+    hidden: Option<HiddenLight<S>>,
+    /// Photons that find a part of the light.
+    joined: Option<Joined>,
+    replicates: u32,
+    quantum: Quantum,
+    /// Of target t in replicate r at `t * replicates + r`.
+    sums: Vec<PathSums>,
+    /// The first index.
+    first: u64,
+    /// Indices of the last checkpoint.
+    samples: u64,
+    /// Targets that get more paths, in order.
+    growing: Vec<usize>,
+    /// Of each target that gets no more, the indices that it has.
+    ends: Vec<Option<u64>>,
+    /// Paths that are over since then, in the order of `sums`.
+    done: u64,
+    /// Before the first sample.
+    prepared: Costs,
+    /// Of photons that serve all paths.
+    served: Costs,
+    /// Of the paths, and of photons that come with each.
+    gathered: Costs,
+    /// Targets whose direct light is not finite.
+    invalid_points: u64,
+    /// Targets to which light that is sampled may come straight.
+    samples_direct: Vec<bool>,
+    /// What each target showed before the maps last changed.
+    last_lx: Vec<Option<f64>>,
+}
+
+/// What was traced.
+#[derive(Clone, Debug, Default)]
+struct Costs {
+    work: WorkCounts,
+    photons: PhotonCounts,
+}
+
+/// What a sensor point gets of point-like lights, without sampling, in lx.
+#[derive(Clone, Default)]
+pub(crate) struct Exact {
+    direct_lx: f64,
+    /// By mirrors and panes alone.
+    mirrored_lx: f64,
+    /// Both by the number of bounces, the last all from there on; empty where terms are not listed.
+    terms_lx: Vec<f64>,
+}
+
+impl<'a, S: Spectrum> Gathering<'a, S> {
+    pub(crate) fn new(
+        stage: &'a Stage<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Self {
+        let targets = targets(scene);
+        let replicates = settings.effective_replicates();
+        let mut work = WorkCounts::default();
+        let mut exact = exact(stage, &targets, &mut work.rays);
+        let mut invalid_points = 0;
+        for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
+            // A light right at a sensor point has no illuminance to speak of.
+            *value_lx = 0.0;
+            invalid_points += 1;
+        }
+        let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
+        let hidden = HiddenLight::new(stage, settings, &targets);
+        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
+        let Decision { joined, frozen, photons, rays } =
+            decide(stage, (settings, replicates), (&targets, &exact), quantum, watch);
+        work.rays += rays;
+        let (end, photons) = PathEnd::prepare(stage, settings, &targets, (frozen, photons), watch);
+        Self {
+            stage,
+            scene,
+            exact,
+            end,
+            hidden,
+            joined,
+            replicates,
+            last_lx: vec![None; targets.len()],
+            quantum,
+            sums: vec![PathSums::default(); targets.len() * replicates as usize],
+            growing: (0..targets.len()).collect(),
+            ends: vec![None; targets.len()],
+            targets,
+            first: 0,
+            samples: 0,
+            done: 0,
+            prepared: Costs { work, photons },
+            served: Costs::default(),
+            gathered: Costs::default(),
+            invalid_points,
+            samples_direct,
+        }
+    }
+
+    /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing targets and
+    /// replicates, in the order of [`Self::sums`], are put in one row.
+    fn trace_piece(
+        &self,
+        piece: &Range<u64>,
+        indices: &Range<u64>,
+        wave: &mut PathWave<S>,
+    ) -> Piece {
+        let each = indices.end - indices.start;
+        let numbers = piece.start / each..piece.end.div_ceil(each);
+        let sections: Vec<Section<'_, S>> = numbers
+            .map(|number| {
+                let first = indices.start + piece.start.saturating_sub(number * each);
+                let end = indices.start + (piece.end - number * each).min(each);
+                self.section(number, first..end)
+            })
+            .collect();
+        trace_sections(self.stage, &sections, self.quantum, wave)
+    }
+
+    /// The paths `indices` of the pair `number` of a growing target and a replicate.
+    fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
+        let target = self.growing[(number / u64::from(self.replicates)) as usize];
+        let replicate = (number % u64::from(self.replicates)) as u32;
+        Section {
+            number: number as usize,
+            target: self.targets[target],
+            points: self.stage.points(replicate, Stream::Paths(target as u64)),
+            rest: self.end.rest(self.stage, replicate, target),
+            hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
+            joining: self.joined.as_ref().map(|joined| &joined.joining),
+            indices,
+        }
+    }
+}
+
+impl<S: Spectrum> Gathering<'_, S> {
+    /// Where the pair `number` of a growing target and a replicate has its sums.
+    fn place(&self, number: usize) -> usize {
+        let replicates = self.replicates as usize;
+        self.growing[number / replicates] * replicates + number % replicates
+    }
+
+    /// Leaves targets that have an end at that, with what else is done for each of them alone; other paths and
+    /// photons stay what they are.
+    fn keep_to_ends(&mut self) {
+        self.growing.retain(|&target| self.ends[target].is_none());
+        if let Some(hidden) = &mut self.hidden {
+            hidden.settle(&self.ends);
+        }
+        if let Some(joined) = &mut self.joined {
+            joined.settle(&self.ends);
+        }
+    }
+
+    /// Indices that a target has.
+    fn samples_of(&self, target: usize) -> u64 {
+        self.ends[target].unwrap_or(self.samples)
+    }
+
+    /// Mean of a sum over the paths of a target in one replicate.
+    fn mean(&self, target: usize, sum: Sum) -> f64 {
+        self.quantum.value(sum) / self.samples_of(target) as f64
+    }
+
+    /// What photons gave to a target in one replicate.
+    fn joined_lx(&self, replicate: usize, target: usize) -> f64 {
+        self.joined.as_ref().map_or(0.0, |joined| joined.lx(replicate, target))
+    }
+
+    /// The terms of the Neumann series that are listed, and the rest.
+    fn terms(&self) -> Vec<TermEstimates> {
+        let (listed, replicates) = (self.stage.listed_terms as usize, self.replicates as usize);
+        if listed == 0 {
+            return Vec::new();
+        }
+        let sum = |sums: &PathSums, term: usize| sums.terms.get(term).copied().unwrap_or_default();
+        let hidden_lx = |r: usize, target: usize, term: usize| {
+            self.hidden.as_ref().map_or(0.0, |hidden| hidden.term_lx(r, target, term))
+        };
+        let joined_lx = |r: usize, target: usize, term: usize| {
+            self.joined.as_ref().map_or(0.0, |joined| joined.term_lx(r, target, term))
+        };
+        let row = |term: usize, r: usize| -> Vec<f64> {
+            let own = self.sums.iter().skip(r).step_by(replicates).zip(&self.exact).enumerate();
+            own.map(|(target, (sums, exact))| {
+                let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
+                exact_lx.unwrap_or(0.0)
+                    + self.mean(target, sum(sums, term))
+                    + hidden_lx(r, target, term)
+                    + joined_lx(r, target, term)
+            })
+            .collect()
+        };
+        let resolved = |term: usize| -> Vec<bool> {
+            let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
+            let targets = self.sums.chunks_exact(replicates).zip(&self.samples_direct);
+            let targets = targets.enumerate();
+            targets
+                .map(|(target, (own, samples_direct))| {
+                    let joined = self.joined.as_ref();
+                    let found = own.iter().any(|sums| !sum(sums, term).is_zero())
+                        || joined.is_some_and(|joined| joined.found_term(target, term));
+                    let may_be = if term == 0 {
+                        *samples_direct
+                    } else {
+                        own.iter().any(|sums| sums.reflected > 0)
+                    };
+                    found || cut || !may_be
+                })
+                .collect()
+        };
+        (0..=listed)
+            .map(|term| TermEstimates {
+                replicate_lx: (0..replicates).map(|r| row(term, r)).collect(),
+                resolved: resolved(term),
+            })
+            .collect()
+    }
+
+    /// All that was traced.
+    fn costs(&self) -> Costs {
+        let Self { prepared, served, gathered, .. } = self;
+        [served, gathered].into_iter().fold(prepared.clone(), |mut sum, costs| {
+            sum.work += costs.work.clone();
+            sum.photons += costs.photons.clone();
+            sum
+        })
+    }
+}
+
+impl<S: Spectrum> Estimation for Gathering<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        self.serve(samples, watch) && self.gather(samples, watch)
+    }
+
+    fn estimates(&self) -> Estimates {
+        let Costs { work, photons } = self.costs();
+        let replicates = self.replicates as usize;
+        let hidden_lx = |r: usize, target: usize| {
+            self.hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(r, target))
+        };
+        let row = |r: usize| -> Vec<f64> {
+            let own = self.sums.iter().skip(r).step_by(replicates);
+            let own = own.zip(&self.exact).enumerate();
+            own.map(|(target, (sums, exact))| {
+                let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
+                exact.sum_lx() + sampled_lx + hidden_lx(r, target) + self.joined_lx(r, target)
+            })
+            .collect()
+        };
+        let direct_lx = self
+            .sums
+            .chunks_exact(replicates)
+            .zip(&self.exact)
+            .enumerate()
+            .map(|(target, (own, Exact { direct_lx, .. }))| {
+                let sampled_lx = own.iter().map(|sums| self.mean(target, sums.direct));
+                direct_lx + sampled_lx.sum::<f64>() / replicates as f64
+            })
+            .collect();
+        let missed_lobes = self.missed_lobes();
+        let of_lobes = lobes::warning(missed_lobes.iter().filter(|missed| **missed).count());
+        let all = SensorEstimates {
+            replicate_lx: (0..replicates).map(row).collect(),
+            direct_lx,
+            resolved: self.resolved(&missed_lobes),
+            missed_lobes,
+            samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
+            terms: self.terms(),
+        };
+        let of_paths = cutoff::warning(work.endless, "paths", "values");
+        let warnings = photons.warning().into_iter().chain(of_paths).chain(of_lobes).collect();
+        Estimates {
+            sensors: by_sensor(self.scene, &all),
+            samples: self.samples,
+            rays: work.rays + photons.rays,
+            flux: photons.balance(self.stage.lights.flux_lm),
+            biased: work.endless + photons.trapped > 0,
+            warnings,
+            dimensions: Dimensions {
+                photon: photons.dimensions,
+                photons: photons.begun,
+                photon_events: photons.events,
+                path: work.dimensions,
+            },
+            invalid_contributions: self.invalid_points
+                + self.joined.as_ref().map_or(0, Joined::invalid)
+                + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
+            ..Estimates::default()
+        }
+    }
+
+    fn decisions(&self) -> Decisions {
+        self.decided()
+    }
+
+    fn put(&self, out: &mut Writer) {
+        self.put_all(out);
+    }
+
+    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_all(coming, from)
+    }
+
+    fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
+        (self.first, self.samples) = (part.start, part.start);
+        if let Some(joined) = &mut self.joined {
+            joined.go_to(part.start);
+        }
+        self.serve(samples, watch) && self.gather(part.end, watch)
+    }
+
+    fn put_served(&self, out: &mut Writer) {
+        self.put_shared(out);
+    }
+
+    fn put_part(&self, out: &mut Writer) {
+        self.put_own(out);
+    }
+
+    fn take_in_served(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_shared(from)
+    }
+
+    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_own(from)
+    }
+
+    fn complete_at(&mut self, samples: u64) {
+        self.complete(samples);
+    }
+
+    fn settle(&mut self, done: &[bool]) -> bool {
+        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
+            end.get_or_insert(self.samples);
+        }
+        self.keep_to_ends();
+        true
+    }
+
+    fn first_checkpoint(&self) -> u64 {
+        let affordable = FIRST_PATHS / (self.sums.len() as u64).max(1);
+        let powers = (affordable + 1).next_power_of_two() / 2;
+        powers.clamp(1, FIRST_SAMPLES)
+    }
+}
+
+/// Whether light whose direct part is sampled may come straight to a target: not to one with all such
+/// luminaires behind it.
+fn samples_direct<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> bool {
+    let luminaires = &stage.lights.area_luminaires;
+    stage.lights.emitters.is_some()
+        || match *target {
+            Target::Point { position, normal } => luminaires.may_light(position, normal),
+            Target::Cell { .. } => !luminaires.is_empty(),
+        }
+}
+
+impl Exact {
+    fn new(listed_terms: u32) -> Self {
+        let terms = if listed_terms > 0 { listed_terms as usize + 1 } else { 0 };
+        Self { terms_lx: vec![0.0; terms], ..Self::default() }
+    }
+
+    pub(crate) fn sum_lx(&self) -> f64 {
+        self.direct_lx + self.mirrored_lx
+    }
+
+    /// Adds light that comes by this many mirrors and panes.
+    fn add(&mut self, bounces: u32, lx: f64) {
+        *if bounces == 0 { &mut self.direct_lx } else { &mut self.mirrored_lx } += lx;
+        if let Some(rest) = self.terms_lx.len().checked_sub(1) {
+            self.terms_lx[rest.min(bounces as usize)] += lx;
+        }
+    }
+
+    /// What the results cannot hold.
+    fn invalid(&mut self) -> impl Iterator<Item = &mut f64> {
+        let Self { direct_lx, mirrored_lx, .. } = self;
+        [direct_lx, mirrored_lx].into_iter().filter(|value_lx| !value_lx.is_finite())
+    }
+}
+
+/// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of them
+/// tested.
+pub(crate) fn exact<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    rays: &mut u64,
+) -> Vec<Exact> {
+    let mut exact = vec![Exact::new(stage.listed_terms); targets.len()];
+    let light = |(targets, exact): (&[Target], &mut [Exact])| {
+        let asker = |(who, target): (u32, &Target)| match *target {
+            Target::Point { position, normal: n } => {
+                let from = stage.world.vantage_of_sensor(position, n);
+                Some(Asker { who, vertex: Vertex::sensor(from, n) })
+            }
+            Target::Cell { .. } => None,
+        };
+        let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
+        let mut shadows = Shadows::default();
+        shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
+        let mut receive =
+            |who: u32, lx: S, bounces: u32| exact[who as usize].add(bounces, lx.luminance());
+        stage.lights.pointlikes.all(&stage.world, &askers, &mut shadows, &mut receive);
+        stage.images.all(stage, &askers, &mut shadows, &mut receive);
+        shadows.rays
+    };
+    let chunks = targets.par_chunks(TARGETS).zip(exact.par_chunks_mut(TARGETS));
+    *rays += chunks.map(light).sum::<u64>();
+    exact
+}

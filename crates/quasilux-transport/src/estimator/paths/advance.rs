@@ -1,0 +1,108 @@
+//! The way from one checkpoint to the next: photons that serve all paths, photons that come with each,
+//! and the paths themselves.
+//!
+//! Between pieces of each of them the state can be kept. Each knows how far it is, so that a run that
+//! goes on from a state finds what is left.
+
+use super::Gathering;
+use crate::estimator::connection::Joined;
+use crate::path::end::{GrowingMaps, PathEnd};
+use crate::path::sections::{PathSums, Piece, WorkCounts};
+use crate::path::wave::{PathWave, WAVE};
+use crate::photon::trace::PhotonCounts;
+use crate::spectrum::Spectrum;
+use crate::stats::watch::Watch;
+use rayon::prelude::*;
+
+/// Paths between two words to the observer.
+const ROUND: u64 = 1 << 17;
+
+impl<S: Spectrum> Gathering<'_, S> {
+    /// Traces the photons that serve all paths of the indices up to `samples`; `false` when the observer
+    /// stopped it, as below.
+    pub(super) fn serve(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let replicates = u64::from(self.replicates);
+        for piece in watch.pieces(self.end.photons(samples).unwrap_or(0..0), replicates) {
+            let mut end = std::mem::replace(&mut self.end, PathEnd::Nothing);
+            let before = self.before();
+            let look = |maps: &GrowingMaps<'_, S>| Some(before.snapshot(maps));
+            let grown = end.grow(self.stage, piece.end, look, watch);
+            let before_lx = before.into_lx();
+            self.end = end;
+            let Some(photons) = grown else { return false };
+            self.last_lx = before_lx;
+            self.served.photons += photons;
+            if !watch.keep(|out| self.put_all(out)) {
+                return false;
+            }
+        }
+        let photons = self.hidden.as_ref().map_or(0..0, |h| h.photons()..h.photons_for(samples));
+        for piece in watch.pieces(photons, replicates) {
+            let Some(hidden) = &mut self.hidden else { break };
+            let Some(rays) = hidden.grow(self.stage, piece.end, watch) else { return false };
+            self.served.work.rays += rays;
+            if !watch.keep(|out| self.put_all(out)) {
+                return false;
+            }
+        }
+        if let Some(hidden) = &mut self.hidden {
+            hidden.show(self.stage);
+        }
+        true
+    }
+
+    /// Traces the paths of the indices up to `samples`, and photons that come with them.
+    pub(super) fn gather(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let joined = self.joined.as_ref();
+        let photons = joined.map_or(0..0, |joined| joined.samples()..samples);
+        for piece in watch.pieces(photons, joined.map_or(1, Joined::work_of_an_index)) {
+            let Some(joined) = &mut self.joined else { break };
+            let Some(photons) = joined.grow(self.stage, piece.end, watch) else { return false };
+            let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
+            photons.for_each(|photons| self.gathered.photons += photons);
+            if !watch.keep(|out| self.put_all(out)) {
+                return false;
+            }
+        }
+        let mut indices = self.samples..samples;
+        if self.end.photons(samples).is_some() {
+            // The maps have changed, and what was read from them with them.
+            indices.start = self.first;
+            if self.done == 0 {
+                let replicates = self.replicates as usize;
+                for target in &self.growing {
+                    self.sums[target * replicates..][..replicates].fill(PathSums::default());
+                }
+            }
+        }
+        let each = (indices.end - indices.start) * u64::from(self.replicates);
+        let paths = each * self.growing.len() as u64;
+        for round in watch.rounds(self.done..paths, ROUND) {
+            let pieces = (round.end - round.start).div_ceil(WAVE);
+            let trace = |wave: &mut PathWave<S>, piece: u64| {
+                let first = round.start + piece * WAVE;
+                self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
+            };
+            let found: Vec<Piece> =
+                (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
+            let mut of_round = WorkCounts::default();
+            for Piece { first, sums, work } in found {
+                for (number, found) in (first..).zip(sums) {
+                    let place = self.place(number);
+                    self.sums[place] += found;
+                }
+                of_round += work;
+            }
+            let (now, rays) = (of_round.paths, of_round.rays);
+            self.gathered.work += of_round;
+            self.done = round.end;
+            watch.show(|| Some(self.snapshot(&indices, self.done)));
+            let goes_on = watch.tick(0, now, rays);
+            if !goes_on || !watch.keep(|out| self.put_all(out)) {
+                return false;
+            }
+        }
+        (self.samples, self.done) = (samples, 0);
+        true
+    }
+}

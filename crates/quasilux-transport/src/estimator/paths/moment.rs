@@ -1,0 +1,95 @@
+//! What the targets show between two checkpoints, for those who look on.
+//!
+//! The sums of all replicates are taken together, over all paths that they stand for: part of the
+//! paths of a replicate is a part of its sequence from the start, so nothing is left out but the rest.
+
+use super::Gathering;
+use crate::path::end::GrowingMaps;
+use crate::path::sections::PathSums;
+use crate::spectrum::Spectrum;
+use crate::stats::observer::Snapshot;
+use crate::stats::tally::Sum;
+use crate::stats::targets::snapshot;
+use std::ops::Range;
+
+/// What a target shows after some paths, in lx; `None` where there were none to tell.
+#[derive(Clone, Copy)]
+pub(super) struct Moment {
+    /// Straight from the lights, and what only mirrors and lenses lead there.
+    straight_lx: Option<f64>,
+    pub(super) all_lx: Option<f64>,
+}
+
+/// What all targets showed before their maps changed.
+pub(super) struct Before<'g, 'a, S> {
+    gathering: &'g Gathering<'a, S>,
+    moments: Vec<Moment>,
+}
+
+impl<'a, S: Spectrum> Gathering<'a, S> {
+    /// What the targets show at the last checkpoint.
+    pub(super) fn before(&self) -> Before<'_, 'a, S> {
+        let paths = |target: usize| self.samples_of(target) * u64::from(self.replicates);
+        let targets = 0..self.targets.len();
+        let moments = targets.map(|target| self.moment(target, paths(target))).collect();
+        Before { gathering: self, moments }
+    }
+
+    /// What the sensors show when `done` of the paths `indices` of all growing targets and replicates are
+    /// over, in the order of [`Gathering::sums`].
+    pub(super) fn snapshot(&self, indices: &Range<u64>, done: u64) -> Snapshot {
+        let replicates = u64::from(self.replicates);
+        let each = (indices.end - indices.start) * replicates;
+        let value_lx = |target: usize| {
+            let paths = match self.growing.binary_search(&target) {
+                Ok(rank) => {
+                    let own = done.saturating_sub(rank as u64 * each).min(each);
+                    indices.start * replicates + own
+                }
+                Err(_) => self.samples_of(target) * replicates,
+            };
+            self.moment(target, paths).all_lx.or(self.last_lx[target])
+        };
+        snapshot(self.scene, (0..self.targets.len()).map(value_lx))
+    }
+
+    /// What a target shows after so many paths of all replicates together.
+    pub(super) fn moment(&self, target: usize, paths: u64) -> Moment {
+        let replicates = self.replicates as usize;
+        let own = &self.sums[target * replicates..][..replicates];
+        let sum_lx = |sum: fn(&PathSums) -> Sum| -> f64 {
+            own.iter().map(|sums| self.quantum.value(sum(sums))).sum()
+        };
+        let hidden_lx = self.hidden.as_ref().map_or(0.0, |hidden| {
+            (0..replicates).map(|r| hidden.target_lx(r, target)).sum::<f64>() / replicates as f64
+        });
+        let computed_lx = self.exact[target].sum_lx() + hidden_lx;
+        if paths == 0 {
+            let is_all_computed = !self.samples_direct[target];
+            return Moment { straight_lx: is_all_computed.then_some(computed_lx), all_lx: None };
+        }
+        let straight_lx = computed_lx + sum_lx(|sums| sums.direct) / paths as f64;
+        let joined_lx = (0..replicates).map(|r| self.joined_lx(r, target)).sum::<f64>();
+        let all_lx = straight_lx
+            + sum_lx(|sums| sums.indirect) / paths as f64
+            + joined_lx / replicates as f64;
+        Moment { straight_lx: Some(straight_lx), all_lx: Some(all_lx) }
+    }
+}
+
+impl<S: Spectrum> Before<'_, '_, S> {
+    /// The same with what growing maps have under the targets, in place of what paths read from them.
+    pub(super) fn snapshot(&self, maps: &GrowingMaps<'_, S>) -> Snapshot {
+        let Gathering { stage, scene, targets, .. } = self.gathering;
+        let value_lx = |(target, before): (_, &Moment)| {
+            let from_map = before.straight_lx.zip(maps.illuminance_lx(stage, target));
+            from_map.map(|(straight_lx, lx)| straight_lx + lx).or(before.all_lx)
+        };
+        snapshot(scene, targets.iter().zip(&self.moments).map(value_lx))
+    }
+
+    /// What each target showed.
+    pub(super) fn into_lx(self) -> Vec<Option<f64>> {
+        self.moments.into_iter().map(|moment| moment.all_lx).collect()
+    }
+}

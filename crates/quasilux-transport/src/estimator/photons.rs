@@ -1,0 +1,394 @@
+//! The estimator that counts: photons that pass through grids or land on map elements.
+//!
+//! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
+//! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
+
+mod pilot;
+
+pub(crate) use pilot::plan;
+
+use crate::codec::{Reader, StateError, Stored, Writer, digest};
+use crate::context::{Stage, Stream};
+use crate::estimator::Estimation;
+use crate::importance::{Plan, Windows};
+use crate::photon::batch::{PhotonBatch, trace_photons_in_view};
+use crate::photon::map::{MapLayout, QUANTA_PER_PHOTON};
+use crate::photon::order::Way;
+use crate::photon::trace::{Flight, Lead, PhotonCounts, PhotonReceiver, Source};
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::stats::decisions::Decisions;
+use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
+use crate::stats::observer::Snapshot;
+use crate::stats::targets::{by_sensor, snapshot};
+use crate::stats::watch::Watch;
+use crate::world::grid_plane::GridPlane;
+use crate::world::{Interaction, World};
+use quasilux_scene::sensor::Grid;
+use quasilux_scene::{Scene, SensorShape};
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Indices per replicate of the first checkpoint.
+const FIRST_SAMPLES: u64 = 1 << 8;
+/// Marks elements that no sensor reads.
+const UNREAD: u32 = u32::MAX;
+
+/// Photons counted by all sensors, in all replicates.
+pub(crate) struct Counting<'a, S> {
+    stage: &'a Stage<'a, S>,
+    scene: &'a Scene,
+    receivers: Receivers,
+    /// What steers the photons.
+    plan: Plan,
+    /// One row of counters a replicate.
+    counters: Vec<Counters>,
+    samples: u64,
+    /// Without those of the plan.
+    photons: PhotonCounts,
+}
+
+/// What counts photons, the same for all replicates.
+pub(crate) struct Receivers {
+    grids: Vec<GridReceiver>,
+    layout: MapLayout,
+    /// Whether a sensor reads an element of the facet: most facets have none, and the table of
+    /// elements is too large for the caches.
+    reads_facet: Vec<bool>,
+    /// The counter that an element feeds, or [`UNREAD`].
+    counter_of_element: Vec<u32>,
+    /// For each target, in order: the counter it reads and the area behind it in m^2.
+    pub(crate) targets: Vec<(u32, f64)>,
+    pub(crate) counters: usize,
+}
+
+/// A grid as photons see it.
+struct GridReceiver {
+    plane: GridPlane,
+    first_counter: usize,
+}
+
+/// Photons counted in one replicate, in quanta: all, and those of 0, 1, .. bounces as far as terms are
+/// listed; those straight from a light always are.
+struct Counters {
+    all: Vec<AtomicU64>,
+    by_bounces: Vec<Vec<AtomicU64>>,
+    quanta_per_photon: f64,
+}
+
+struct SensorReceiver<'a> {
+    receivers: &'a Receivers,
+    counters: &'a Counters,
+}
+
+impl<'a, S: Spectrum> Counting<'a, S> {
+    pub(crate) fn new(stage: &'a Stage<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
+        let receivers = Receivers::new(&stage.world, scene, settings);
+        let replicates = settings.effective_replicates();
+        let plan = plan(stage, scene, &receivers, settings);
+        let lightest = plan.windows.as_ref().map_or(1.0, Windows::lightest);
+        let (quanta, terms) = (QUANTA_PER_PHOTON / lightest, settings.list_terms.max(1));
+        let counters = || Counters::new(receivers.counters, terms, quanta);
+        let counters = (0..replicates).map(|_| counters()).collect();
+        let photons = PhotonCounts::default();
+        Self { stage, scene, receivers, plan, counters, samples: 0, photons }
+    }
+
+    /// Traces and counts the photons `indices` of all replicates.
+    pub(crate) fn count(
+        &self,
+        way: Way,
+        indices: Range<u64>,
+        watch: &mut Watch<'_>,
+    ) -> Option<PhotonCounts> {
+        let (receivers, counters) = (&self.receivers, &self.counters);
+        let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
+        let (replicates, windows) = (0..counters.len() as u32, self.plan.windows.as_ref());
+        let batch = PhotonBatch {
+            stream: Stream::Photons,
+            replicates,
+            indices,
+            way,
+            lead: Lead::by_chance(Source::Lights, windows),
+        };
+        let before = self.samples * counters.len() as u64;
+        let look = |emitted: u64| Some(self.snapshot(before + emitted));
+        trace_photons_in_view(self.stage, &batch, receiver, look, watch)
+    }
+
+    /// What the sensors show after so many photons of all replicates together.
+    fn snapshot(&self, photons: u64) -> Snapshot {
+        let photon_lm = self.stage.lights.flux_lm / photons as f64;
+        let value_lx = |&(counter, area_m2): &(u32, f64)| {
+            let photons = |own: &Counters| own.all(counter as usize) as f64 / own.quanta_per_photon;
+            Some(self.counters.iter().map(photons).sum::<f64>() * photon_lm / area_m2)
+        };
+        snapshot(self.scene, self.receivers.targets.iter().map(value_lx))
+    }
+
+    /// All counters of all replicates.
+    pub(crate) fn counters(&self) -> impl Iterator<Item = u64> {
+        let all = self
+            .counters
+            .iter()
+            .flat_map(|own| own.all.iter().chain(own.by_bounces.iter().flatten()));
+        all.map(|counter| counter.load(Ordering::Relaxed))
+    }
+}
+
+impl<S: Spectrum> Estimation for Counting<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
+            let end = piece.end;
+            let Some(counts) = self.count(Way::CoherentWaves, piece, watch) else { return false };
+            self.photons += counts;
+            self.samples = end;
+            if !watch.keep(|out| self.put(out)) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn estimates(&self) -> Estimates {
+        let photon_lm = self.stage.lights.flux_lm / self.samples as f64;
+        // One row a replicate, from the quanta of each counter.
+        let read = |quanta: &dyn Fn(&Counters, usize) -> u64| -> Vec<Vec<f64>> {
+            let value_lx = |own: &Counters, counter: u32, area_m2: f64| {
+                let photons = quanta(own, counter as usize) as f64 / own.quanta_per_photon;
+                photons * photon_lm / area_m2
+            };
+            let targets = || self.receivers.targets.iter();
+            let row = |own| targets().map(|&(at, area_m2)| value_lx(own, at, area_m2)).collect();
+            self.counters.iter().map(row).collect()
+        };
+        let replicate_lx = read(&|own, counter| own.all(counter));
+        let mut direct_lx = vec![0.0; self.receivers.targets.len()];
+        for row in read(&|own, counter| own.term(0, counter)) {
+            for (sum, value) in direct_lx.iter_mut().zip(row) {
+                *sum += value / self.counters.len() as f64;
+            }
+        }
+        let found = |rows: &[Vec<f64>]| -> Vec<bool> {
+            (0..direct_lx.len()).map(|target| rows.iter().any(|row| row[target] != 0.0)).collect()
+        };
+        let listed = self.stage.listed_terms as usize;
+        let terms = (0..=listed).take_while(|_| listed > 0).map(|term| {
+            let replicate_lx = read(&|own, counter| own.term(term, counter));
+            let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
+            let resolved = found(&replicate_lx).into_iter().map(|found| found || cut).collect();
+            TermEstimates { replicate_lx, resolved }
+        });
+        let terms = terms.collect();
+        let resolved = found(&replicate_lx);
+        let samples = vec![self.samples; direct_lx.len()];
+        let missed_lobes = vec![false; direct_lx.len()];
+        let all =
+            SensorEstimates { replicate_lx, direct_lx, resolved, missed_lobes, samples, terms };
+        Estimates {
+            sensors: by_sensor(self.scene, &all),
+            samples: self.samples,
+            rays: self.plan.rays + self.photons.rays,
+            flux: self.photons.balance(self.stage.lights.flux_lm),
+            dimensions: Dimensions {
+                photon: self.photons.dimensions.clone(),
+                photons: self.photons.begun,
+                photon_events: self.photons.events,
+                ..Dimensions::default()
+            },
+            biased: self.photons.endless > 0,
+            warnings: self.photons.warning().into_iter().collect(),
+            ..Estimates::default()
+        }
+    }
+
+    fn decisions(&self) -> Decisions {
+        let windows = &self.plan.windows;
+        Decisions {
+            is_steered: windows.is_some(),
+            digest: digest(|out| {
+                windows.iter().for_each(|windows| windows.put(out));
+                out.u64(self.plan.rays);
+                self.receivers.targets.iter().for_each(|(counter, area_m2)| {
+                    out.u32(*counter);
+                    out.f64(*area_m2);
+                });
+            }),
+            ..Decisions::default()
+        }
+    }
+
+    fn put(&self, out: &mut Writer) {
+        out.u64(self.samples);
+        self.put_part(out);
+    }
+
+    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.samples = from.u64()?;
+        self.take_in_part(from)?;
+        let is_fine = self.samples <= coming;
+        if is_fine { Ok(()) } else { Err(StateError::Unfit("the number of samples")) }
+    }
+
+    fn trace_part(&mut self, part: Range<u64>, _samples: u64, watch: &mut Watch<'_>) -> bool {
+        self.samples = part.start;
+        self.advance(part.end, watch)
+    }
+
+    /// Each photon serves itself.
+    fn put_served(&self, _out: &mut Writer) {}
+
+    fn take_in_served(&mut self, _from: &mut Reader<'_>) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    fn put_part(&self, out: &mut Writer) {
+        self.photons.put(out);
+        self.counters.as_slice().put(out);
+    }
+
+    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.photons.take_in(from)?;
+        self.counters.as_mut_slice().take_in(from)
+    }
+
+    fn complete_at(&mut self, samples: u64) {
+        self.samples = samples;
+    }
+
+    fn first_checkpoint(&self) -> u64 {
+        FIRST_SAMPLES
+    }
+}
+
+impl Receivers {
+    pub(crate) fn new<S: Spectrum>(world: &World<S>, scene: &Scene, settings: &Settings) -> Self {
+        let layout = MapLayout::new(world, settings);
+        let mut receivers = Self {
+            grids: Vec::new(),
+            reads_facet: vec![false; world.facets.len()],
+            counter_of_element: vec![UNREAD; layout.len()],
+            layout,
+            targets: Vec::new(),
+            counters: 0,
+        };
+        for sensor in &scene.sensors {
+            match &sensor.shape {
+                SensorShape::Grid(grid) => receivers.add_grid(world, grid),
+                SensorShape::Points(points) => {
+                    for point in points {
+                        receivers.add_point(world.facet_under(point.position, point.normal));
+                    }
+                }
+            }
+        }
+        receivers
+    }
+
+    fn add_grid<S: Spectrum>(&mut self, world: &World<S>, grid: &Grid) {
+        let plane = GridPlane::new(world, grid);
+        let cell_area_m2 = plane.cell_area_m2();
+        self.grids.push(GridReceiver { plane, first_counter: self.counters });
+        let first = self.counters as u32;
+        self.targets.extend((0..grid.cells() as u32).map(|cell| (first + cell, cell_area_m2)));
+        self.counters += grid.cells();
+    }
+
+    /// A point off all surfaces reads a counter that nothing feeds; [`crate::run::check`] refuses it.
+    fn add_point(&mut self, at: Option<Interaction>) {
+        let fresh = self.counters as u32;
+        let (counter, area_m2) = match at {
+            None => (fresh, 1.0),
+            Some(at) => {
+                self.reads_facet[at.facet as usize] = true;
+                let place = self.layout.locate(&at);
+                let counter = &mut self.counter_of_element[place.element];
+                if *counter == UNREAD {
+                    *counter = fresh;
+                }
+                (*counter, place.area_m2)
+            }
+        };
+        self.targets.push((counter, area_m2));
+        self.counters = self.counters.max(counter as usize + 1);
+    }
+
+    /// The counters of the grids that a flight passes through.
+    pub(crate) fn passed<'s>(&'s self, flight: &'s Flight) -> impl Iterator<Item = usize> + 's {
+        let cell = |grid: &'s GridReceiver| Some(grid.first_counter + grid.plane.cell(flight)?);
+        self.grids.iter().filter_map(cell)
+    }
+
+    /// The counter of the map element that a photon lands on, if a sensor reads it.
+    pub(crate) fn landed_on(&self, at: &Interaction) -> Option<usize> {
+        if !self.reads_facet[at.facet as usize] {
+            return None;
+        }
+        let counter = self.counter_of_element[self.layout.locate(at).element];
+        (counter != UNREAD).then_some(counter as usize)
+    }
+}
+
+impl Counters {
+    fn new(counters: usize, terms: u32, quanta_per_photon: f64) -> Self {
+        let zeros = || (0..counters).map(|_| AtomicU64::new(0)).collect();
+        let by_bounces = (0..terms).map(|_| zeros()).collect();
+        Self { all: zeros(), by_bounces, quanta_per_photon }
+    }
+
+    fn all(&self, counter: usize) -> u64 {
+        self.all[counter].load(Ordering::Relaxed)
+    }
+
+    /// Those of one number of bounces; past the last that is counted, the rest.
+    fn term(&self, bounces: usize, counter: usize) -> u64 {
+        let counted = |counts: &Vec<AtomicU64>| counts[counter].load(Ordering::Relaxed);
+        match self.by_bounces.get(bounces) {
+            Some(counts) => counted(counts),
+            None => self.all(counter) - self.by_bounces.iter().map(counted).sum::<u64>(),
+        }
+    }
+
+    fn count(&self, counter: usize, photons: f64, bounces: u32) {
+        let quanta = (photons * self.quanta_per_photon).round_ties_even() as u64;
+        self.all[counter].fetch_add(quanta, Ordering::Relaxed);
+        if let Some(counts) = self.by_bounces.get(bounces as usize) {
+            counts[counter].fetch_add(quanta, Ordering::Relaxed);
+        }
+    }
+}
+
+impl Stored for Counters {
+    fn put(&self, out: &mut Writer) {
+        let counters = self.all.iter().chain(self.by_bounces.iter().flatten());
+        out.u64((self.all.len() * (1 + self.by_bounces.len())) as u64);
+        counters.for_each(|counter| out.u64(counter.load(Ordering::Relaxed)));
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        from.expect_length(self.all.len() * (1 + self.by_bounces.len()))?;
+        let counters = self.all.iter_mut().chain(self.by_bounces.iter_mut().flatten());
+        counters.map(AtomicU64::get_mut).try_for_each(|counter| from.add_u64(counter))?;
+        let told_apart = |counter: usize| {
+            let counts =
+                self.by_bounces.iter().map(|counts| counts[counter].load(Ordering::Relaxed));
+            counts.map(u128::from).sum::<u128>()
+        };
+        let is_fine = |counter: usize| told_apart(counter) <= u128::from(self.all(counter));
+        if (0..self.all.len()).all(is_fine) { Ok(()) } else { Err(StateError::Unfit("a counter")) }
+    }
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
+    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
+        for counter in self.receivers.passed(flight) {
+            self.counters.count(counter, weight.luminance(), bounces);
+        }
+    }
+
+    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+        if let Some(counter) = self.receivers.landed_on(at) {
+            self.counters.count(counter, weight.luminance(), bounces);
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! How the estimator `bidirectional` goes about a scene, by what pilots measure.
+//!
+//! It has three ways. Paths go alone to their ends; or they end on a frozen map, which some of them correct
+//! ([`crate::estimator::control_variate`]); or photons are joined to the targets and share the light with them ([`crate::estimator::connection`]). All
+//! three have the right mean, so any choice is right, and the cheapest is best: by the rays of the whole run,
+//! foreseen from variances and rays of trials ([`Wanted`]). Trials themselves cost rays, most of all those of joined photons, for
+//! which the scene is surveyed. So a few paths are tried first, and a map of a few photons; photons are only joined where what is
+//! best without them takes many rays, or where paths do not find the light that photons do.
+
+mod cost;
+mod trial;
+mod wanted;
+
+pub(crate) use cost::Promise;
+pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial};
+pub(crate) use wanted::{BY_CHANCE, MUCH_MORE, Wanted};
+
+use crate::context::Stage;
+use crate::estimator::connection::{self, Alone, Joined};
+use crate::estimator::control_variate::{Choice, FrozenMap, Outcome};
+use crate::estimator::paths::Exact;
+use crate::photon::trace::PhotonCounts;
+use crate::settings::{Estimator, Settings};
+use crate::spectrum::Spectrum;
+use crate::stats::tally::Quantum;
+use crate::stats::targets::Target;
+use crate::stats::watch::Watch;
+use quasilux_sampling::Sequence;
+
+/// Runs of fewer rays are not worth a survey, which takes about as many.
+const TRYING_TO_JOIN: f64 = (1 << 20) as f64;
+/// In a run, the variance of paths falls to about this part of what it is in the trial, beyond what more of them
+/// bring: quasi-random points. Random ones bring nothing.
+const LATER: f64 = 0.5;
+
+/// What was decided, and what it took. Without joined photons and map, paths go alone.
+pub(crate) struct Decision<S> {
+    pub(crate) joined: Option<Joined>,
+    /// With its photons.
+    pub(crate) frozen: Option<(FrozenMap<S>, PhotonCounts)>,
+    /// Photons of a map that was not taken, if they left the lights.
+    pub(crate) photons: Option<PhotonCounts>,
+    /// Rays of all trials, and of what joined photons need beforehand; but for those of photons above.
+    pub(crate) rays: u64,
+}
+
+impl<S> Default for Decision<S> {
+    fn default() -> Self {
+        Self { joined: None, frozen: None, photons: None, rays: 0 }
+    }
+}
+
+/// Tries what the settings leave open, and decides, for so many replicates.
+pub(crate) fn decide<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    (settings, replicates): (&Settings, u32),
+    (targets, exact): (&[Target], &[Exact]),
+    quantum: Quantum,
+    watch: &mut Watch<'_>,
+) -> Decision<S> {
+    let is_possible = settings.estimator == Estimator::Bidirectional
+        && settings.max_bounces != Some(0)
+        && !targets.is_empty();
+    if !is_possible {
+        return Decision::default();
+    }
+    let joins = settings.joins();
+    let tried = Tried::new(stage, settings, (targets, exact), quantum);
+    let mut rays = tried.paths.trial.rays as u64;
+    let tries_map = joins != Some(true);
+    let choice = if tries_map { tried.map(stage, settings, watch) } else { None };
+    let of_plain = tried.rays(&tried.plain());
+    let of_map = choice.as_ref().map_or(f64::INFINITY, |choice| tried.rays(&choice.promise()));
+    let best = of_plain.min(of_map);
+    let misses_light = choice.as_ref().is_some_and(|choice| choice.misses_light);
+    let finds_light = tried.paths.finds_light && !misses_light;
+    if joins.unwrap_or(best > TRYING_TO_JOIN || !finds_light) {
+        let given = (targets, exact, &tried.sample);
+        let ways = connection::Ways::try_all(stage, settings, given, quantum, watch);
+        rays += ways.rays;
+        let alone = Alone { trial: &tried.paths.trial, part: tried.part(best), finds_light };
+        let kept = (quantum, replicates);
+        if let Some(joined) = ways.choose(stage, settings, &tried.sample, &alone, (targets, kept)) {
+            rays += joined.rays;
+            let photons = choice.and_then(|choice| choice.give_up(&mut rays));
+            return Decision { joined: Some(joined), frozen: None, photons, rays };
+        }
+    }
+    match choice {
+        Some(choice) if joins == Some(false) || of_map < of_plain => {
+            let worth = tried.worth_per_lx(stage, (targets, exact), quantum, &mut rays);
+            let frozen = choice.freeze(stage, worth, watch);
+            Decision { frozen: Some(frozen), rays, ..Decision::default() }
+        }
+        unused => {
+            let photons = unused.and_then(|choice| choice.give_up(&mut rays));
+            Decision { photons, rays, ..Decision::default() }
+        }
+    }
+}
+
+/// A trial of paths that hardly end, and what it foretells of those that do.
+struct Tried<S> {
+    sample: Sample,
+    paths: PathTrial<S>,
+    wanted: Wanted,
+    /// Variances of these paths in a run.
+    noted: Vec<f64>,
+    /// Of paths alone, and their rays in a trial.
+    plain: (Vec<f64>, f64),
+}
+
+impl<S: Spectrum> Tried<S> {
+    fn new(
+        stage: &Stage<'_, S>,
+        settings: &Settings,
+        (targets, exact): (&[Target], &[Exact]),
+        quantum: Quantum,
+    ) -> Self {
+        let sample = Sample::new(targets, exact);
+        let paths = PathTrial::new(stage, &sample, quantum);
+        let trial = &paths.trial;
+        let found_lx = |(target, exact_lx): (usize, &f64)| exact_lx + trial.moments(target).mean;
+        let means_lx = sample.exact_lx.iter().enumerate().map(found_lx).collect();
+        let wanted = Wanted::new(settings, &sample, means_lx);
+        let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
+        let noted: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
+        let Outcome { of_chances, rays } = paths.walks.alone(&wanted);
+        let plain = noted.iter().zip(of_chances).map(|(v, of_chances)| v + of_chances).collect();
+        Self { sample, paths, wanted, noted, plain: (plain, rays) }
+    }
+
+    fn noted(&self) -> Promise<'_> {
+        Promise::of_paths(&self.noted, self.paths.trial.rays)
+    }
+
+    fn plain(&self) -> Promise<'_> {
+        Promise::of_paths(&self.plain.0, self.plain.1)
+    }
+
+    /// Of a run that keeps a promise.
+    fn rays(&self, promise: &Promise<'_>) -> f64 {
+        self.wanted.rays(&self.plain(), promise)
+    }
+
+    /// A map that these paths would end on.
+    fn map(
+        &self,
+        stage: &Stage<'_, S>,
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Option<Choice<S>> {
+        let promises = (&self.paths.walks, &self.noted(), &self.plain());
+        Choice::new(stage, settings, promises, &self.wanted, watch)
+    }
+
+    /// So many rays over those of paths like these.
+    fn part(&self, rays: f64) -> f64 {
+        let of_noted = self.rays(&self.noted());
+        if of_noted > 0.0 { rays / of_noted } else { 1.0 }
+    }
+
+    /// What a lux counts at each target, by a short look at those that are not in the trial.
+    fn worth_per_lx(
+        &self,
+        stage: &Stage<'_, S>,
+        (targets, exact): (&[Target], &[Exact]),
+        quantum: Quantum,
+        rays: &mut u64,
+    ) -> Vec<f64> {
+        if self.sample.step == 1 {
+            return (0..targets.len()).map(|target| self.wanted.worth_per_lx(target)).collect();
+        }
+        let (looks_lx, of_looks) = trial::looks(stage, targets, quantum);
+        *rays += of_looks;
+        let found = exact.iter().zip(&looks_lx);
+        found.map(|(exact, lx)| self.wanted.worth_of(exact.sum_lx() + lx)).collect()
+    }
+}

@@ -1,0 +1,145 @@
+//! How much light comes to each surveyed cell, and what light that leaves it is worth to the sensors.
+//!
+//! With s the first landings, T the steps between cells (mean over the rays from a cell, absorption
+//! left out) and a the albedo, the flux that lands is `phi = s + T^t a phi`. A photon that lands after
+//! a bounce is read by the sensors: its worth to sensor i is the share `a p / (A E)` of that sensor's
+//! illuminance E, where p is the share of the sensor's view that the cell of area A fills. The sum over
+//! the sensors, r, makes the *relative* errors of all sensors count alike, and photons that leave a
+//! cell are worth `d = T (r + a d)`: forward-weighted importance (J. C. Wagner, D. E. Peplow,
+//! S. W. Mosher, "FW-CADIS method for global and regional variance reduction of Monte Carlo radiation
+//! transport calculations", Nuclear Science and Engineering 176(1), 2014; M. A. Cooper, E. W. Larsen,
+//! "Automated weight windows for global Monte Carlo particle transport calculations", Nuclear Science
+//! and Engineering 137(1), 2001).
+//! Deviation: both systems are solved on one sampled matrix instead of by a deterministic code.
+
+use crate::importance::survey::{Landing, Survey, Surveyed};
+
+/// Sweeps after which a solution is taken as it is: it only steers.
+const MAX_SWEEPS: usize = 64;
+/// Largest relative change of an entry in the last sweep.
+const SETTLED: f64 = 0.05;
+
+/// Light and worth by surveyed cell.
+pub(crate) struct Balance {
+    /// Flux that lands, as a share of what all lights emit.
+    pub(crate) landing: Vec<f64>,
+    /// What a photon of weight one is worth that has landed after a bounce, before its next.
+    pub(crate) landed_worth: Vec<f64>,
+    /// What a photon of weight one is worth that leaves.
+    pub(crate) leaving_worth: Vec<f64>,
+    /// Illuminance at each surveyed sensor, in lx.
+    pub(crate) sensors_lx: Vec<f64>,
+}
+
+impl Balance {
+    /// Both systems solved; `None` where no sensor gets light that way.
+    pub(crate) fn new(survey: &Survey, areas_m2: &[f64], flux_lm: f64) -> Option<Self> {
+        let landing = landing(survey);
+        let sensors_lx = sensors_lx(survey, areas_m2, &landing, flux_lm);
+        let read = read_worth(survey, areas_m2, &sensors_lx, flux_lm)?;
+        let leaving_worth = leaving_worth(survey, &read);
+        let landed_worth = (0..read.len())
+            .map(|cell| read[cell] + survey.known[cell].albedo * leaving_worth[cell])
+            .collect();
+        Some(Self { landing, landed_worth, leaving_worth, sensors_lx })
+    }
+}
+
+/// `phi = s + T^t a phi` by sweeps that push what is new in each cell on at once.
+fn landing(survey: &Survey) -> Vec<f64> {
+    let known = &survey.known;
+    let mut landing = vec![0.0; known.len()];
+    let mut fresh = survey.first_landings.clone();
+    for sweep in 0..MAX_SWEEPS {
+        let mut largest_change = 0.0_f64;
+        let mut push = |cell: usize| {
+            let light = std::mem::take(&mut fresh[cell]);
+            if light == 0.0 {
+                return;
+            }
+            landing[cell] += light;
+            largest_change = largest_change.max(light / landing[cell]);
+            let leaving = light * known[cell].albedo;
+            for step in known[cell].steps() {
+                fresh[step.cell as usize] += leaving * step.share * step.weight;
+            }
+        };
+        if sweep % 2 == 0 {
+            (0..known.len()).for_each(&mut push);
+        } else {
+            (0..known.len()).rev().for_each(&mut push);
+        }
+        if largest_change < SETTLED {
+            break;
+        }
+    }
+    landing
+}
+
+/// The share of a sensor's view that each of its rays found, in m^-2, absorption folded in: what a lumen
+/// that lands in the cell is read as, in lx.
+fn views<'s>(
+    survey: &'s Survey,
+    areas_m2: &'s [f64],
+    sensor: &'s Surveyed,
+) -> impl Iterator<Item = (usize, f64)> + 's {
+    sensor.landings.iter().map(|ray| {
+        let cell = ray.cell as usize;
+        let albedo = survey.known[cell].albedo;
+        (cell, ray.weight * albedo / (sensor.rays as f64 * areas_m2[cell]))
+    })
+}
+
+fn sensors_lx(survey: &Survey, areas_m2: &[f64], landing: &[f64], flux_lm: f64) -> Vec<f64> {
+    let sensor_lx = |sensor: &Surveyed| {
+        let views = views(survey, areas_m2, sensor);
+        sensor.direct_lx + flux_lm * views.map(|(cell, view)| view * landing[cell]).sum::<f64>()
+    };
+    survey.sensors.iter().map(sensor_lx).collect()
+}
+
+/// What a landing is worth by being read, summed over the sensors that get any light so.
+fn read_worth(
+    survey: &Survey,
+    areas_m2: &[f64],
+    sensors_lx: &[f64],
+    flux_lm: f64,
+) -> Option<Vec<f64>> {
+    let mut worth = vec![0.0; survey.known.len()];
+    for (sensor, &lx) in survey.sensors.iter().zip(sensors_lx) {
+        if lx > sensor.direct_lx {
+            views(survey, areas_m2, sensor)
+                .for_each(|(cell, view)| worth[cell] += view * flux_lm / lx);
+        }
+    }
+    worth.iter().any(|worth| *worth > 0.0).then_some(worth)
+}
+
+/// `d = T (r + a d)` by sweeps in place.
+fn leaving_worth(survey: &Survey, read: &[f64]) -> Vec<f64> {
+    let known = &survey.known;
+    let mut worth = vec![0.0; known.len()];
+    for sweep in 0..MAX_SWEEPS {
+        let mut largest_change = 0.0_f64;
+        let mut pull = |cell: usize| {
+            let arrives = |step: Landing| {
+                let next = step.cell as usize;
+                step.share * step.weight * (read[next] + known[next].albedo * worth[next])
+            };
+            let new: f64 = known[cell].steps().map(arrives).sum();
+            if new > 0.0 {
+                largest_change = largest_change.max((new - worth[cell]).abs() / new);
+            }
+            worth[cell] = new;
+        };
+        if sweep % 2 == 0 {
+            (0..known.len()).for_each(&mut pull);
+        } else {
+            (0..known.len()).rev().for_each(&mut pull);
+        }
+        if largest_change < SETTLED {
+            break;
+        }
+    }
+    worth
+}

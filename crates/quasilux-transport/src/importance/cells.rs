@@ -1,0 +1,257 @@
+//! Coarse places: boxes of space, and in each the way that a surface faces.
+//!
+//! Bounded whatever the mesh, and the two sides of a wall are apart in it. A box holds what faces one
+//! of six ways together: coarse, which costs effort and never bias.
+
+use crate::codec::Writer;
+use crate::spectrum::Spectrum;
+use crate::world::{Interaction, World};
+use glam::DVec3;
+
+/// The edge of the boxes makes about this many cells of the scene's surfaces, one side each.
+const CELLS: f64 = 2048.0;
+/// No more boxes than this, so that tables over all cells stay small.
+const MAX_BOXES: f64 = (1 << 16) as f64;
+/// Cells are seen as small from this many of their edges.
+const FAR_EDGES: f64 = 6.0;
+/// Boxes that meet around a place.
+const CORNERS: usize = 8;
+/// Ways to face: along or against each axis.
+const SIDES: usize = 6;
+/// Parts along an edge of a facet by which its area is told to cells, at most.
+const MAX_PARTS: f64 = 256.0;
+
+/// Cells that are known by a number, told for any place.
+pub(crate) struct Regions {
+    cells: Cells,
+    number_of_cell: Vec<u32>,
+}
+
+/// The regions around a place, and what part of it is told to each.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Around {
+    parts: [(u32, f64); CORNERS],
+    known: usize,
+}
+
+/// A grid of boxes over the scene.
+#[derive(Clone)]
+pub(crate) struct Cells {
+    low: DVec3,
+    edge_m: f64,
+    counts: [usize; 3],
+}
+
+impl Regions {
+    /// Marks cells without a number.
+    pub(crate) const UNKNOWN: u32 = u32::MAX;
+
+    /// Puts them among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        let Cells { low, edge_m, counts: _ } = self.cells;
+        out.f64s(&[low.x, low.y, low.z, edge_m]);
+        self.number_of_cell.iter().for_each(|number| out.u32(*number));
+    }
+
+    /// By the number of each cell, [`Self::UNKNOWN`] for none.
+    pub(crate) fn new(cells: Cells, number_of_cell: Vec<u32>) -> Self {
+        Self { cells, number_of_cell }
+    }
+
+    /// The number of the region that a place on the side `n` of a surface lies in.
+    pub(crate) fn number(&self, position: DVec3, n: DVec3) -> Option<usize> {
+        let number = self.number_of_cell[self.cells.cell_of(position, n)];
+        (number != Self::UNKNOWN).then_some(number as usize)
+    }
+
+    /// The known regions around a place on the side `n` of a surface, with the weights of linear
+    /// interpolation between the middles of their boxes.
+    pub(crate) fn around(&self, position: DVec3, n: DVec3) -> Around {
+        let mut around = Around::default();
+        for (cell, weight) in self.cells.corners(position, n) {
+            let number = self.number_of_cell[cell];
+            if number != Self::UNKNOWN && weight > 0.0 {
+                around.parts[around.known] = (number, weight);
+                around.known += 1;
+            }
+        }
+        let sum: f64 = around.iter().map(|(_, weight)| weight).sum();
+        around.parts.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        around
+    }
+}
+
+impl Around {
+    /// Each known region with its weight; the weights sum to 1. None where no region is known.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.parts[..self.known].iter().map(|(number, weight)| (*number as usize, *weight))
+    }
+}
+
+impl Cells {
+    /// `None` where nothing has an area.
+    pub(crate) fn new<S: Spectrum>(world: &World<S>) -> Option<Self> {
+        let [low, high] = world.bounds()?;
+        let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+        let mut edge_m = (area_m2 / CELLS).sqrt();
+        if !(edge_m > 0.0 && edge_m.is_finite()) {
+            return None;
+        }
+        let counts = |edge_m: f64| ((high - low) / edge_m).to_array().map(|n| n.floor() + 1.0);
+        while counts(edge_m).iter().product::<f64>() > MAX_BOXES {
+            edge_m *= 1.25;
+        }
+        Some(Self { low, edge_m, counts: counts(edge_m).map(|n| n as usize) })
+    }
+
+    /// Number of cells, most of them empty.
+    pub(crate) fn len(&self) -> usize {
+        self.counts.iter().product::<usize>() * SIDES
+    }
+
+    /// Two places this far apart, in m, see cells as small.
+    pub(crate) fn far_m(&self) -> f64 {
+        FAR_EDGES * self.edge_m
+    }
+
+    /// The cell of a place, on the side that was hit.
+    pub(crate) fn cell(&self, at: &Interaction) -> usize {
+        self.cell_of(at.position, at.n)
+    }
+
+    fn cell_of(&self, position: DVec3, n: DVec3) -> usize {
+        let place = ((position - self.low) / self.edge_m).to_array();
+        self.cell_in(place.map(|x| x.max(0.0) as usize), n)
+    }
+
+    /// The cells in the boxes around a place, and the weights of linear interpolation. Where there is no such box,
+    /// the nearest stands for it.
+    fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); CORNERS] {
+        let from_middles =
+            ((position - self.low) / self.edge_m).to_array().map(|x| (x + 0.5).max(0.0));
+        let along = |axis: usize| {
+            let high = from_middles[axis] as usize;
+            let high_share = from_middles[axis] - high as f64;
+            let boxes = [high.saturating_sub(1), high].map(|place| self.bounded(place, axis));
+            [(boxes[0], 1.0 - high_share), (boxes[1], high_share)]
+        };
+        let (along, side) = ([0, 1, 2].map(along), side(n));
+        std::array::from_fn(|corner| {
+            let [x, y, z] = std::array::from_fn(|axis| along[axis][corner >> axis & 1]);
+            (self.number([x.0, y.0, z.0], side), x.1 * y.1 * z.1)
+        })
+    }
+
+    /// The cell in a box, or the nearest box that there is, on the side `n`.
+    fn cell_in(&self, boxes: [usize; 3], n: DVec3) -> usize {
+        self.number(std::array::from_fn(|axis| self.bounded(boxes[axis], axis)), side(n))
+    }
+
+    fn bounded(&self, place: usize, axis: usize) -> usize {
+        place.min(self.counts[axis] - 1)
+    }
+
+    fn number(&self, [x, y, z]: [usize; 3], side: usize) -> usize {
+        ((z * self.counts[1] + y) * self.counts[0] + x) * SIDES + side
+    }
+
+    /// The cell and those of the boxes around it, as far as they face the same way.
+    pub(crate) fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let [nx, ny, nz] = self.counts;
+        let (side, place) = (cell % SIDES, cell / SIDES);
+        let [x, y, z] = [place % nx, place / nx % ny, place / (nx * ny)];
+        let near = |place: usize, count: usize| place.saturating_sub(1)..(place + 2).min(count);
+        near(z, nz).flat_map(move |z| {
+            near(y, ny).flat_map(move |y| near(x, nx).map(move |x| self.number([x, y, z], side)))
+        })
+    }
+
+    /// The area in m^2 in each cell of what keeps illuminance, to the parts that facets are cut into.
+    pub(crate) fn areas_m2<S: Spectrum>(&self, world: &World<S>) -> Vec<f64> {
+        let mut areas_m2 = vec![0.0; self.len()];
+        for facet in &world.facets {
+            if !world.bsdf_of(facet).keeps_illuminance() {
+                continue;
+            }
+            let parts = (2.0 * facet.longest_edge_m() / self.edge_m).ceil().clamp(1.0, MAX_PARTS);
+            let part_m2 = facet.area_m2() / (parts * parts);
+            for weights in centroids(parts as u32) {
+                let position = facet.point(weights);
+                for n in [facet.front_normal, -facet.front_normal] {
+                    areas_m2[self.cell_of(position, n)] += part_m2;
+                }
+            }
+        }
+        areas_m2
+    }
+}
+
+/// The way that a normal faces, of [`SIDES`].
+fn side(n: DVec3) -> usize {
+    let size = n.abs();
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    2 * axis + usize::from(n[axis] > 0.0)
+}
+
+/// Barycentric weights of the centroids of the equal triangles that a triangle is cut into.
+fn centroids(parts: u32) -> impl Iterator<Item = [f64; 3]> {
+    let n = f64::from(parts);
+    let columns = move |row: u32| (0..parts - row).map(move |column| (row, column));
+    (0..parts).flat_map(columns).flat_map(move |(row, column)| {
+        let hangs = row + column + 1 < parts;
+        let thirds = [Some(1.0 / 3.0), hangs.then_some(2.0 / 3.0)];
+        thirds.into_iter().flatten().map(move |d| {
+            let (b, c) = ((f64::from(row) + d) / n, (f64::from(column) + d) / n);
+            [1.0 - b - c, b, c]
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Linear interpolation between the middles of boxes gives back each place, and next to the faces of the grid the
+    /// nearest place between middles.
+    #[test]
+    fn corners_interpolate() {
+        let (low, edge_m, counts) = (DVec3::new(-1.0, 2.0, 0.5), 0.25, [5, 3, 4]);
+        let cells = Cells { low, edge_m, counts };
+        let [nx, ny, _] = counts;
+        let middle = |cell: usize| {
+            let place = cell / SIDES;
+            let boxes = [place % nx, place / nx % ny, place / (nx * ny)];
+            low + DVec3::from(boxes.map(|place| (place as f64 + 0.5) * edge_m))
+        };
+        let size_m = DVec3::from(counts.map(|count| count as f64 * edge_m));
+        let half = DVec3::splat(0.5 * edge_m);
+        for i in 0..1000 {
+            let part = [31, 57, 83].map(|step| f64::from(i * step % 1000) / 990.0 - 0.005);
+            let at = low + size_m * DVec3::from(part);
+            let corners = cells.corners(at, -DVec3::Y);
+            let found: DVec3 = corners.iter().map(|&(cell, weight)| middle(cell) * weight).sum();
+            let wanted = at.clamp(low + half, low + size_m - half);
+            assert!(found.distance(wanted) < 1e-12, "{at}: {found}");
+            assert!(corners.iter().all(|&(cell, weight)| cell % SIDES == 2 && weight >= 0.0));
+        }
+    }
+
+    #[test]
+    fn centroids_are_those_of_equal_parts() {
+        for parts in [1, 2, 5, 16] {
+            let all: Vec<[f64; 3]> = centroids(parts).collect();
+            assert_eq!(all.len(), (parts * parts) as usize);
+            for corner in 0..3 {
+                let mean =
+                    all.iter().map(|weights| weights[corner]).sum::<f64>() / all.len() as f64;
+                assert!((mean - 1.0 / 3.0).abs() < 1e-12, "{parts}: {mean}");
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Steering photons to where sensors need them.
+//!
+//! In a long corridor lit from one end photons die out, and the far end is found by hardly any. A coarse
+//! [`survey`] of the scene says, by linear algebra ([`balance`]), how much light there is and what it
+//! is worth to the sensors; [`windows`] then say how many photons should follow each that lands, and
+//! [`guide`] in which directions. The survey has pilot rays of its own, their number is fixed and their
+//! coordinates serve nothing else: whatever it says, the estimate has the same mean. It also foretells
+//! what steering saves; where that is little, as in a plain room, photons are left alone.
+
+mod balance;
+mod cells;
+mod forecast;
+mod guide;
+mod survey;
+#[cfg(test)]
+mod tests;
+mod windows;
+
+pub(crate) use cells::Around;
+pub(crate) use forecast::{Density, Forecast, Landings};
+pub(crate) use guide::{Fork, Guide, MAX_FORKS};
+pub(crate) use windows::{Performance, Split, Windows};
+
+use crate::context::Stage;
+use crate::settings::Switch;
+use crate::spectrum::Spectrum;
+use crate::stats::targets::Target;
+use balance::Balance;
+use std::sync::Arc;
+use survey::Survey;
+
+/// Photons are steered by themselves where the same error then costs this many times fewer rays. A small
+/// gain would not repay the closer look that steering takes.
+pub(crate) const WORTHWHILE: f64 = 8.0;
+
+/// Times that far cells are connected on a closer look, each time chosen by what was learnt before.
+const LOOKS: u32 = 2;
+
+/// What comes of the survey.
+#[derive(Default)]
+pub(crate) struct Plan {
+    /// `None` where photons are left alone.
+    pub(crate) windows: Option<Windows>,
+    /// What to expect then; `None` where the survey found no light on its way to sensors.
+    pub(crate) forecast: Option<Forecast>,
+    /// Of photons that are steered.
+    pub(crate) steered: Option<Performance>,
+    /// Times that the same error costs fewer rays where photons are steered, as foretold before the closer look.
+    pub(crate) gain: f64,
+    /// Rays of the survey.
+    pub(crate) rays: u64,
+}
+
+/// Surveys the scene, if `steering` asks for it, and decides.
+pub(crate) fn plan<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    steering: Switch,
+) -> Plan {
+    match steering {
+        Switch::Off => Plan::default(),
+        Switch::Auto | Switch::On => foresee(stage, targets, steering),
+    }
+}
+
+/// Surveys the scene, whether photons are to be steered or not, and decides.
+pub(crate) fn foresee<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    targets: &[Target],
+    steering: Switch,
+) -> Plan {
+    let Some(mut survey) = Survey::new(stage, targets) else { return Plan::default() };
+    let Some((mut balance, mut areas_m2)) = look_far(stage, &mut survey, 1) else {
+        return Plan { rays: survey.rays, ..Plan::default() };
+    };
+    let plain = Performance::plain(&survey, &balance);
+    let gain = plain.cost_of_error() / Performance::steered(&survey, &balance).cost_of_error();
+    let is_steered = match steering {
+        Switch::Auto => gain >= WORTHWHILE,
+        Switch::On => true,
+        Switch::Off => false,
+    };
+    if is_steered {
+        survey.refine(stage);
+        let Some(refined) = look_far(stage, &mut survey, LOOKS) else {
+            return Plan { rays: survey.rays, ..Plan::default() };
+        };
+        (balance, areas_m2) = refined;
+    }
+    let regions = Arc::new(survey.regions());
+    let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
+    let steered = windows.as_ref().map(|windows| windows.performance(&survey, &balance));
+    let steered = steered.map(|of_all| of_all.of_each_sensor(&survey));
+    let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
+    let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
+    Plan { windows, forecast: Some(forecast), steered, gain, rays: survey.rays }
+}
+
+/// Connects cells over distances, to where light is worth most by what is known so far; what follows
+/// from all of it, and the cells' areas in m^2.
+fn look_far<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    survey: &mut Survey,
+    looks: u32,
+) -> Option<(Balance, Vec<f64>)> {
+    let flux_lm = stage.lights.flux_lm;
+    let areas_m2 = areas_m2(stage, survey);
+    for _ in 0..looks {
+        let balance = Balance::new(survey, &areas_m2, flux_lm)?;
+        survey.connect(stage, &areas_m2, &balance.landed_worth);
+    }
+    Some((Balance::new(survey, &areas_m2, flux_lm)?, areas_m2))
+}
+
+/// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets the
+/// least that another has.
+fn areas_m2<S: Spectrum>(stage: &Stage<'_, S>, survey: &Survey) -> Vec<f64> {
+    let of_cell = survey.cells.areas_m2(&stage.world);
+    let least = of_cell.iter().copied().filter(|area| *area > 0.0).fold(f64::INFINITY, f64::min);
+    let mut areas_m2 = vec![least; survey.known.len()];
+    for (number, area_m2) in survey.number_of_cell.iter().zip(of_cell) {
+        if let (Some(area), true) = (areas_m2.get_mut(*number as usize), area_m2 > 0.0) {
+            *area = area_m2;
+        }
+    }
+    areas_m2
+}

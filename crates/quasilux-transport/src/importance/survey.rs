@@ -1,0 +1,398 @@
+//! A coarse survey of where light goes: pilot rays from the lights, from sensors, and on from every
+//! place that any of them finds.
+//!
+//! A pilot of whole photons never sees the far end of a corridor. A survey of single steps does: each
+//! cell sends as many rays as any other, however little light comes to it, and chains of steps are
+//! left to linear algebra ([`crate::importance::balance`]). Cells are discovered as rays land in them.
+
+use crate::bsdf::Mode;
+use crate::context::{Stage, Stream};
+use crate::importance::cells::{Cells, Regions};
+use crate::lights::Emission;
+use crate::spectrum::Spectrum;
+use crate::stats::targets::Target;
+use crate::world::Interaction;
+use crate::world::frame::Frame;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::{Asker, Shadows};
+use glam::DVec3;
+use quasilux_sampling::warp::{invert_cosine_hemisphere, sample_cosine_hemisphere};
+use quasilux_sampling::{Discrete, PointSet, Sampler};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Pilot photons from the lights.
+const PHOTONS: u64 = 1 << 12;
+/// Sensor points that are asked, spread over all.
+const MAX_SENSORS: usize = 256;
+/// Rays of all of them together, and the least of each.
+const SENSOR_RAYS: u64 = 1 << 12;
+const MIN_SENSOR_RAYS: u64 = 16;
+/// Rays from each cell for a first look, and for a closer one; and how many of them before new cells
+/// are looked at.
+const CELL_RAYS: u32 = 16;
+const MORE_CELL_RAYS: u32 = 128;
+const RAYS_A_ROUND: u32 = 8;
+/// No more cells than this are surveyed: 2^17 rays at first, 2^20 in all, and
+/// as many connections.
+const MAX_KNOWN: usize = 1 << 13;
+/// Places remembered of each cell, from which its rays leave.
+const PLACES: usize = 8;
+/// Specular surfaces that a ray passes before it is given up.
+const MAX_PASSED: u32 = 16;
+
+/// What is known of cells that light or sensors reach, numbered in the order of their discovery.
+pub(crate) struct Survey {
+    pub(crate) cells: Cells,
+    /// Number of each cell, [`Regions::UNKNOWN`] for none.
+    pub(crate) number_of_cell: Vec<u32>,
+    pub(crate) known: Vec<Known>,
+    pub(crate) sensors: Vec<Surveyed>,
+    /// Every so many targets one was surveyed.
+    pub(crate) sensor_step: usize,
+    /// Share of the photons that land first in each known cell.
+    pub(crate) first_landings: Vec<f64>,
+    pub(crate) rays: u64,
+    /// Rays sent on from cells.
+    sent: u64,
+}
+
+/// A cell that rays have found.
+pub(crate) struct Known {
+    pub(crate) cell: usize,
+    pub(crate) places: Vec<Interaction>,
+    /// Luminance of the albedo, mean over the places.
+    pub(crate) albedo: f64,
+    /// Rays sent on from here.
+    pub(crate) rays: u32,
+    /// Where they landed.
+    landings: Vec<Landing>,
+    /// Far places that light goes to, as many times tried as rays had left by then.
+    connections: Vec<Landing>,
+}
+
+impl Known {
+    /// Where light goes that leaves here.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = Landing> {
+        let of_each = 1.0 / f64::from(self.rays.max(1));
+        let steps = self.landings.iter().chain(&self.connections);
+        steps.map(move |step| Landing { share: step.share * of_each, ..*step })
+    }
+}
+
+/// A ray's end in a cell, or a place that one may end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Landing {
+    /// Number of the cell.
+    pub(crate) cell: u32,
+    /// The part of all rays that it stands for; while it is kept, the rays.
+    pub(crate) share: f64,
+    /// What specular surfaces on the way let through.
+    pub(crate) weight: f64,
+    /// The share of the light that goes to a square metre there, in m^-2, where a connection may find it
+    /// too; 0 elsewhere.
+    far_per_m2: f32,
+    /// The point of the unit square that its direction comes from.
+    pub(crate) u: [f32; 2],
+}
+
+/// A sensor point with what its rays found.
+pub(crate) struct Surveyed {
+    /// Illuminance straight from the point-like lights, in lx.
+    pub(crate) direct_lx: f64,
+    pub(crate) rays: u64,
+    pub(crate) landings: Vec<Landing>,
+}
+
+/// A ray's end on a surface that keeps illuminance.
+struct Found {
+    at: Interaction,
+    weight: f64,
+    /// Whether it came past no other surface.
+    is_straight: bool,
+}
+
+/// What became of a ray that may have passed specular surfaces.
+struct Flown {
+    /// See [`Landing`].
+    u: [f32; 2],
+    far_per_m2: f32,
+    found: Option<Found>,
+    rays: u64,
+}
+
+impl Flown {
+    const NOWHERE: Self = Self { u: [0.0; 2], far_per_m2: 0.0, found: None, rays: 0 };
+}
+
+impl Survey {
+    /// Looks around from all lights and from some of the targets; `None` where there is nothing.
+    pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target]) -> Option<Self> {
+        let cells = Cells::new(&stage.world)?;
+        let mut survey = Self {
+            number_of_cell: vec![Regions::UNKNOWN; cells.len()],
+            cells,
+            known: Vec::new(),
+            sensors: Vec::new(),
+            sensor_step: targets.len().div_ceil(MAX_SENSORS).max(1),
+            first_landings: Vec::new(),
+            rays: 0,
+            sent: 0,
+        };
+        survey.look_from_lights(stage);
+        survey.look_from_sensors(stage, targets);
+        survey.explore(stage, CELL_RAYS);
+        Some(survey)
+    }
+
+    /// The known cells, for any place.
+    pub(crate) fn regions(&self) -> Regions {
+        Regions::new(self.cells.clone(), self.number_of_cell.clone())
+    }
+
+    /// Looks closer.
+    pub(crate) fn refine<S: Spectrum>(&mut self, stage: &Stage<'_, S>) {
+        self.explore(stage, MORE_CELL_RAYS);
+    }
+
+    /// Connects each cell to far ones that matter, as many times as rays left it: these are chosen in
+    /// proportion to `worths`. Rays find such ways so seldom that a survey by rays alone takes a dark
+    /// end for darker, and a chance to get there at once for none.
+    ///
+    /// From a place with normal n the share of the light that goes to one with n' in a cell of area A
+    /// is `p = cos cos' A / (pi d^2)`, if nothing stands between. Where such a cell is chosen with probability q,
+    /// what a ray or a connection finds there counts `p / (p + q)` (balance heuristic, Veach and Guibas 1995): worths that were wrong leave
+    /// the light that goes elsewhere to the rays.
+    pub(crate) fn connect<S: Spectrum>(
+        &mut self,
+        stage: &Stage<'_, S>,
+        areas_m2: &[f64],
+        worths: &[f64],
+    ) {
+        let weights: Vec<f64> = areas_m2.iter().zip(worths).map(|(a, w)| a * w).collect();
+        let Some(choices) = Discrete::new(&weights) else { return };
+        let points = stage.points(0, Stream::Survey(3));
+        let counted = |far_per_m2: f32, cell: usize| {
+            let p = f64::from(far_per_m2) * areas_m2[cell];
+            p / (p + choices.pdf(cell))
+        };
+        let (known, far_m) = (&self.known, self.cells.far_m());
+        let connect = |number: usize| {
+            let from = &known[number];
+            let try_one = |ray: u32| {
+                let index = number as u64 * u64::from(MORE_CELL_RAYS) + u64::from(ray);
+                let mut sampler = Sampler::new(&points, index);
+                let choice = choices.sample(sampler.next_1d());
+                let to = &known[choice.index];
+                let start = &from.places[ray as usize % from.places.len()];
+                let places = to.places.len() as f64;
+                let end =
+                    &to.places[((sampler.next_1d() * places) as usize).min(to.places.len() - 1)];
+                let way = end.position - start.position;
+                let distance_m = way.length();
+                let direction = way / distance_m;
+                let (cos, cos_end) = (start.n.dot(direction), -end.n.dot(direction));
+                if !(distance_m > far_m && cos > 0.0 && cos_end > 0.0) {
+                    return None;
+                }
+                let vantage = stage.world.vantage(start);
+                let lit = stage.world.is_visible(vantage, direction, distance_m, end.facet);
+                let far_per_m2 = (cos * cos_end / (PI * distance_m * distance_m)) as f32;
+                let local = stage.world.frame(start).to_local(direction);
+                let connection = Landing {
+                    cell: choice.index as u32,
+                    share: counted(far_per_m2, choice.index),
+                    weight: 1.0,
+                    far_per_m2,
+                    u: invert_cosine_hemisphere(local.to_array()).map(|u| u as f32),
+                };
+                Some((lit, connection))
+            };
+            (0..from.rays).filter_map(try_one).collect::<Vec<_>>()
+        };
+        let found: Vec<Vec<(bool, Landing)>> =
+            (0..known.len()).into_par_iter().map(connect).collect();
+        for (cell, found) in self.known.iter_mut().zip(found) {
+            self.rays += found.len() as u64;
+            cell.connections = found.into_iter().filter(|(lit, _)| *lit).map(|(_, c)| c).collect();
+            for ray in cell.landings.iter_mut().filter(|ray| ray.far_per_m2 > 0.0) {
+                ray.share = counted(ray.far_per_m2, ray.cell as usize);
+            }
+        }
+    }
+
+    fn look_from_lights<S: Spectrum>(&mut self, stage: &Stage<'_, S>) {
+        let points = stage.points(0, Stream::Survey(0));
+        let fly = |index: u64| {
+            let mut sampler = Sampler::new(&points, index);
+            let start = stage.lights.emit(stage, &mut sampler)?.emission;
+            Some(fly(stage, start, &mut sampler))
+        };
+        let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();
+        for flown in flown.into_iter().flatten() {
+            if let Some(Landing { cell, weight, .. }) = self.enter(stage, flown) {
+                self.first_landings.resize(self.known.len(), 0.0);
+                self.first_landings[cell as usize] += weight / PHOTONS as f64;
+            }
+        }
+    }
+
+    fn look_from_sensors<S: Spectrum>(&mut self, stage: &Stage<'_, S>, targets: &[Target]) {
+        let asked = targets.iter().step_by(self.sensor_step).map(centre);
+        let asked: Vec<(DVec3, DVec3)> = asked.collect();
+        let rays = (SENSOR_RAYS / asked.len().max(1) as u64).max(MIN_SENSOR_RAYS);
+        let points = stage.points(0, Stream::Survey(1));
+        let direct_lx = direct_lx(stage, &asked);
+        for (number, (&(position, n), direct_lx)) in (0..).zip(asked.iter().zip(direct_lx)) {
+            let from = stage.world.vantage_of_sensor(position, n);
+            let frame = Frame::around(n);
+            let look = |index: u64| {
+                let mut sampler = Sampler::new(&points, number * rays + index);
+                let wi = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
+                let start = Emission { from, direction: frame.to_world(wi) };
+                fly(stage, start, &mut sampler)
+            };
+            let flown: Vec<Flown> = (0..rays).into_par_iter().map(look).collect();
+            let landings = flown.into_iter().filter_map(|flown| self.enter(stage, flown)).collect();
+            self.sensors.push(Surveyed { direct_lx, rays, landings });
+        }
+    }
+
+    /// Sends rays on from every known cell, and from those that they find.
+    fn explore<S: Spectrum>(&mut self, stage: &Stage<'_, S>, rays_each: u32) {
+        let points = stage.points(0, Stream::Survey(2));
+        loop {
+            let unfinished = (0..self.known.len()).filter(|&c| self.known[c].rays < rays_each);
+            let round: Vec<usize> = unfinished.collect();
+            if round.is_empty() {
+                self.first_landings.resize(self.known.len(), 0.0);
+                return;
+            }
+            let jobs: Vec<(u64, usize, u32)> = round
+                .iter()
+                .flat_map(|&cell| (0..RAYS_A_ROUND).map(move |ray| (cell, ray)))
+                .zip(self.sent..)
+                .map(|((cell, ray), index)| (index, cell, ray))
+                .collect();
+            self.sent += jobs.len() as u64;
+            let (known, far_m) = (&self.known, self.cells.far_m());
+            let send = |&(index, cell, ray): &(u64, usize, u32)| {
+                let Known { places, rays, .. } = &known[cell];
+                let at = &places[(rays + ray) as usize % places.len()];
+                go_on(stage, &points, index, at, far_m)
+            };
+            let flown: Vec<Option<Flown>> = jobs.par_iter().map(send).collect();
+            for ((_, cell, _), flown) in jobs.into_iter().zip(flown) {
+                let landing = flown.and_then(|flown| self.enter(stage, flown));
+                self.known[cell].rays += 1;
+                self.known[cell].landings.extend(landing);
+            }
+        }
+    }
+
+    /// Numbers of a known cell and of those around it.
+    pub(crate) fn numbers_around(&self, known: &Known) -> impl Iterator<Item = usize> {
+        let numbers = self.cells.around(known.cell).map(|cell| self.number_of_cell[cell]);
+        numbers.filter(|number| *number != Regions::UNKNOWN).map(|number| number as usize)
+    }
+
+    /// Counts a flight's rays and takes its end to its cell, which may be new; `None` where it ended
+    /// nowhere, or there is no room for new cells.
+    fn enter<S: Spectrum>(&mut self, stage: &Stage<'_, S>, flown: Flown) -> Option<Landing> {
+        self.rays += flown.rays;
+        let Found { at, weight, .. } = flown.found?;
+        let place = self.cells.cell(&at);
+        let number = &mut self.number_of_cell[place];
+        if *number == Regions::UNKNOWN {
+            if self.known.len() == MAX_KNOWN {
+                return None;
+            }
+            *number = self.known.len() as u32;
+            self.known.push(Known {
+                cell: place,
+                places: Vec::new(),
+                albedo: 0.0,
+                rays: 0,
+                landings: Vec::new(),
+                connections: Vec::new(),
+            });
+        }
+        let cell = *number;
+        let known = &mut self.known[cell as usize];
+        if known.places.len() < PLACES {
+            let albedo = stage.world.bsdf(&at).albedo(DVec3::Z, at.front, Mode::Flux).luminance();
+            known.albedo += (albedo - known.albedo) / (known.places.len() + 1) as f64;
+            known.places.push(at);
+        }
+        let Flown { u, far_per_m2, .. } = flown;
+        Some(Landing { cell, share: 1.0, weight, far_per_m2, u })
+    }
+}
+
+/// A target's middle and its normal.
+fn centre(target: &Target) -> (DVec3, DVec3) {
+    match target {
+        Target::Point { position, normal } => (*position, *normal),
+        Target::Cell { grid, cell } => (grid.point_in_cell(*cell, [0.5, 0.5]), grid.normal),
+    }
+}
+
+/// Illuminance straight from the point-like lights, in lx.
+fn direct_lx<S: Spectrum>(stage: &Stage<'_, S>, asked: &[(DVec3, DVec3)]) -> Vec<f64> {
+    let mut direct_lx = vec![0.0; asked.len()];
+    let askers = (0..).zip(asked).map(|(who, &(position, n))| {
+        let from = stage.world.vantage_of_sensor(position, n);
+        Asker { who, vertex: Vertex::sensor(from, n) }
+    });
+    let askers: Vec<Asker<'_, S>> = askers.collect();
+    let receive = |who: u32, lx: S, _| direct_lx[who as usize] += lx.luminance();
+    stage.lights.pointlikes.all(&stage.world, &askers, &mut Shadows::default(), receive);
+    direct_lx
+}
+
+/// A ray on from a place whose albedo is counted elsewhere.
+fn go_on<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    points: &PointSet,
+    index: u64,
+    at: &Interaction,
+    far_m: f64,
+) -> Option<Flown> {
+    let mut sampler = Sampler::new(points, index);
+    let wi = stage.world.bsdf(at).sample(DVec3::Z, at.front, Mode::Flux, &mut sampler)?.wi;
+    let world = &stage.world;
+    let u = invert_cosine_hemisphere(wi.abs().to_array()).map(|u| u as f32);
+    let from = if wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+    let start = Emission { from, direction: world.frame(at).to_world(wi) };
+    let flown = fly(stage, start, &mut sampler);
+    let far_per_m2 = match &flown.found {
+        Some(Found { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
+            (wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)) as f32
+        }
+        _ => 0.0,
+    };
+    Some(Flown { u, far_per_m2, ..flown })
+}
+
+/// Flies to the first surface that keeps illuminance.
+fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, sampler: &mut Sampler<'_>) -> Flown {
+    let world = &stage.world;
+    let Emission { mut from, mut direction } = start;
+    let mut weight = 1.0;
+    for passed in 0..MAX_PASSED {
+        let rays = u64::from(passed) + 1;
+        let nothing = Flown { found: None, rays, ..Flown::NOWHERE };
+        let Some(at) = world.trace(from, direction) else { return nothing };
+        let (bsdf, frame) = (world.bsdf(&at), world.frame(&at));
+        if bsdf.keeps_illuminance() {
+            let found = Some(Found { at, weight, is_straight: passed == 0 });
+            return Flown { found, rays, ..Flown::NOWHERE };
+        }
+        let wo = frame.to_local(-direction);
+        let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, sampler) else { return nothing };
+        weight *= next.weight.luminance();
+        from = if next.wi.z > 0.0 { world.vantage(&at) } else { world.vantage_behind(&at) };
+        direction = frame.to_world(next.wi);
+    }
+    Flown { rays: u64::from(MAX_PASSED), ..Flown::NOWHERE }
+}

@@ -1,0 +1,238 @@
+//! Weight windows of no width: the weight that photons leave each place with.
+//!
+//! A photon of weight w that lands where photons leave with weight W is followed by `m = w a / W`
+//! photons on average, a the albedo: splitting where m is above one, roulette and absorption in one
+//! decision where it is below (T. E. Booth and J. S. Hendricks, "Importance estimation in forward Monte
+//! Carlo calculations", Nuclear Technology/Fusion 5(1), 1984). W is in inverse proportion to what a
+//! photon that leaves is worth, in the mean square over its next step, so that rays times variance are
+//! least; a photon at its light is worth as much as the mean of those that leave where it lands.
+
+use crate::codec::Writer;
+use crate::importance::balance::Balance;
+use crate::importance::cells::Regions;
+use crate::importance::guide::{Guide, Hint};
+use crate::importance::survey::{Known, Landing, Survey};
+use crate::world::Interaction;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// No photon is split into more at one landing.
+pub(crate) const MAX_CHILDREN: f64 = 16.0;
+/// Weights stay within these: below the first, fixed-point tallies would have no room; above the
+/// second, photons that the survey took for worthless would matter too much where it was wrong.
+const LIGHTEST: f64 = 1.0 / (1 << 16) as f64;
+const HEAVIEST: f64 = 8.0;
+
+/// What the survey says of the place that a photon has landed on.
+pub(crate) struct Windows {
+    regions: Arc<Regions>,
+    /// By number of the cell.
+    windows: Vec<Window>,
+}
+
+/// What the survey says of one cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Window {
+    /// Weight with which photons leave, on average over their directions.
+    pub(crate) weight: f64,
+    /// In which directions.
+    pub(crate) guide: Guide,
+}
+
+/// What a plan of weights costs and gives, both for each emitted photon.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Performance {
+    pub(crate) rays: f64,
+    /// Variance of the sum over the sensors of what a photon gives to each, in units of the sensor.
+    pub(crate) variance: f64,
+}
+
+impl Windows {
+    /// By worth.
+    pub(crate) fn new(survey: &Survey, regions: Arc<Regions>, balance: &Balance) -> Self {
+        Self { regions, windows: steered_windows(survey, balance) }
+    }
+
+    /// What they cost and give.
+    pub(crate) fn performance(&self, survey: &Survey, balance: &Balance) -> Performance {
+        Performance::of(survey, balance, &self.windows)
+    }
+
+    /// The weight with which photons leave each known cell.
+    pub(crate) fn weights(&self) -> Vec<f64> {
+        self.windows.iter().map(|window| window.weight).collect()
+    }
+
+    /// Puts them among the decisions.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        self.regions.put(out);
+        for Window { weight, guide } in &self.windows {
+            out.f64(*weight);
+            guide.put(out);
+        }
+    }
+
+    /// A power of two that no photon leaves below, but for what guiding and rough surfaces take from it.
+    pub(crate) fn lightest(&self) -> f64 {
+        let least = self.windows.iter().map(|window| window.weight).fold(1.0, f64::min);
+        libm::ldexp(1.0, libm::ilogb(least))
+    }
+
+    /// What is known of a place; `None` where the survey found nothing.
+    pub(crate) fn at(&self, at: &Interaction) -> Option<&Window> {
+        self.windows.get(self.regions.number(at.position, at.n)?)
+    }
+}
+
+impl Performance {
+    /// Of photons of equal weight.
+    pub(crate) fn plain(survey: &Survey, balance: &Balance) -> Self {
+        let even = Window { weight: 1.0, guide: Guide::even() };
+        Self::of(survey, balance, &vec![even; survey.known.len()])
+    }
+
+    /// Of photons that are steered.
+    pub(crate) fn steered(survey: &Survey, balance: &Balance) -> Self {
+        Self::of(survey, balance, &steered_windows(survey, balance))
+    }
+
+    /// The same with the sum of the variances at the sensors, if each gets about the same of every photon.
+    pub(crate) fn of_each_sensor(self, survey: &Survey) -> Self {
+        Self { variance: self.variance / survey.sensors.len().max(1) as f64, ..self }
+    }
+
+    /// Rays times variance: what an error costs.
+    pub(crate) fn cost_of_error(self) -> f64 {
+        self.rays * self.variance
+    }
+
+    /// Sums over all landings of the variance that the decision there and the next step bring. From
+    /// weight w come `m = w a / W` photons, n of them by chance; what one of them brings has mean d and
+    /// mean square q: in all `W^2 (m (q - d^2) + Var n d^2)`.
+    fn of(survey: &Survey, balance: &Balance, windows: &[Window]) -> Self {
+        let known = &survey.known;
+        let guides = windows.iter().map(|window| &window.guide);
+        let next_square = next_squares(survey, balance, guides);
+        let mut performance = Self { rays: 1.0, variance: 0.0 };
+        let mut land = |cell: usize, photons: f64, weight: f64| {
+            let split = Split::new(weight * known[cell].albedo, windows[cell].weight);
+            let (d, q) = (balance.leaving_worth[cell], next_square[cell]);
+            let of_next = split.expected * (q - d * d).max(0.0) + split.variance() * d * d;
+            performance.rays += photons * split.expected;
+            performance.variance += photons * split.weight * split.weight * of_next;
+        };
+        for (cell, &photons) in survey.first_landings.iter().enumerate() {
+            land(cell, photons, 1.0);
+        }
+        for (cell, from) in known.iter().enumerate() {
+            let window = &windows[cell];
+            let photons = balance.landing[cell] * from.albedo / window.weight;
+            for step in from.steps() {
+                let density = window.guide.density(step.u.map(f64::from));
+                let weight = window.weight * step.weight / density;
+                land(step.cell as usize, photons * step.share * density, weight);
+            }
+        }
+        performance
+    }
+}
+
+/// How many photons follow one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Split {
+    /// Their mean number.
+    pub(crate) expected: f64,
+    /// The weight of each.
+    pub(crate) weight: f64,
+}
+
+impl Split {
+    /// Of what is left of a photon after absorption, where photons leave with `target`; of more than
+    /// [`MAX_CHILDREN`] each carries more.
+    pub(crate) fn new(left: f64, target: f64) -> Self {
+        let expected = if left > 0.0 { (left / target).min(MAX_CHILDREN) } else { 0.0 };
+        Self { expected, weight: if expected < MAX_CHILDREN { target } else { left / expected } }
+    }
+
+    /// Of their number, which is one of the two integers next to the mean.
+    fn variance(self) -> f64 {
+        let rest = self.expected - self.expected.floor();
+        rest * (1.0 - rest)
+    }
+}
+
+/// What the survey says of each known cell.
+fn steered_windows(survey: &Survey, balance: &Balance) -> Vec<Window> {
+    let guides = guides(survey, balance);
+    let weights = steered_weights(survey, balance, &guides);
+    let windows = weights.into_iter().zip(guides);
+    windows.map(|(weight, guide)| Window { weight, guide }).collect()
+}
+
+/// Directions from each known cell by what its rays, and those of the cells around it, were worth.
+fn guides(survey: &Survey, balance: &Balance) -> Vec<Guide> {
+    let hints = |cell: &Known| -> Vec<Hint> {
+        let hint = |step: Landing| {
+            let worth = step.share * step.weight * balance.landed_worth[step.cell as usize];
+            Hint::new(step.u.map(f64::from), worth)
+        };
+        cell.steps().map(hint).collect()
+    };
+    let own: Vec<Vec<Hint>> = survey.known.par_iter().map(hints).collect();
+    let guide = |cell: &Known| {
+        let around = survey.numbers_around(cell);
+        Guide::new(around.flat_map(|number| own[number].iter().copied()).collect())
+    };
+    survey.known.par_iter().map(guide).collect()
+}
+
+/// Mean squares of what photons that leave each known cell by its guide are worth where they land:
+/// over even rays, worth^2 / density.
+fn next_squares<'g>(
+    survey: &Survey,
+    balance: &Balance,
+    guides: impl Iterator<Item = &'g Guide>,
+) -> Vec<f64> {
+    let of_cell = |(cell, guide): (&Known, &Guide)| {
+        let squares = cell.steps().map(|step| {
+            let worth = step.weight * balance.landed_worth[step.cell as usize];
+            step.share * worth * worth / guide.density(step.u.map(f64::from))
+        });
+        squares.sum::<f64>()
+    };
+    survey.known.iter().zip(guides).map(of_cell).collect()
+}
+
+/// The weight with which photons leave each known cell: in inverse proportion to the root mean square
+/// of what they are worth next, which makes rays times variance least. Mean squares are those of the
+/// cells around.
+fn steered_weights(survey: &Survey, balance: &Balance, guides: &[Guide]) -> Vec<f64> {
+    let squares = next_squares(survey, balance, guides.iter());
+    let root_mean = |cell: &Known| {
+        let around = survey.numbers_around(cell);
+        let (sum, count) =
+            around.fold((0.0, 0.0), |(sum, n), number| (sum + squares[number], n + 1.0));
+        (sum / count).sqrt()
+    };
+    let worths: Vec<f64> = survey.known.iter().map(root_mean).collect();
+    let leaving = survey.first_landings.iter().zip(&survey.known);
+    let leaving = leaving.map(|(share, cell)| share * cell.albedo);
+    let total = leaving.clone().zip(&worths).map(|(share, worth)| share * worth).sum::<f64>();
+    let mean_worth = total / leaving.sum::<f64>();
+    let weight = |worth: &f64| (mean_worth / worth).clamp(LIGHTEST, HEAVIEST);
+    if mean_worth > 0.0 { worths.iter().map(weight).collect() } else { vec![1.0; worths.len()] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn splits_keep_the_weight() {
+        for (left, target) in [(0.5, 1.0), (1.0, 0.3), (1.0, 1e-6), (1e-3, 8.0), (0.7, 0.7)] {
+            let split = Split::new(left, target);
+            assert!((split.expected * split.weight / left - 1.0).abs() < 1e-12, "{split:?}");
+            assert!(split.expected <= MAX_CHILDREN && split.variance() <= 0.25);
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The way of light from an image to a place, unfolded: where it meets each mirror.
+//!
+//! Seen from the place, the last mirror shows the image of the whole chain, and the straight line to it
+//! meets the mirror where the light leaves it; from there the line to the image before meets the
+//! mirror before, and so on to the light. The way exists where each line meets its mirror's facets,
+//! from the side that the light is on, and nothing stands between one mirror and the next.
+//!
+//! Where mirrors meet in an edge, several chains share an image, and a line through the edge itself
+//! meets the mirrors of all of them: the points agree then ([`Links::are_same`]), and one of them counts.
+
+use super::planes::MirrorPlanes;
+use super::tree::Images;
+use crate::spectrum::Spectrum;
+use crate::world::{Vantage, World};
+use glam::DVec3;
+use quasilux_bvh::Shot;
+use std::ops::Range;
+
+/// Points in mirrors are drawn this many hairs toward the middle of their facet, so that rays do not
+/// meet what adjoins the facet's edge; lines may pass a facet at one hair.
+const HAIRS_INWARD: f64 = 4.0;
+/// Points of two chains that are this many hairs apart are one.
+const HAIRS_APART: f64 = 64.0;
+
+/// Where light of images meets its mirrors: the links of many ways in one list, those of one way the
+/// mirror nearest to the place first.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Links(Vec<Link>);
+
+/// A point in a mirror.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    point: DVec3,
+    /// The same, off the edges of its facet.
+    inner: DVec3,
+    facet: u32,
+    /// Unit normal on the side that reflects.
+    n: DVec3,
+}
+
+/// A way, but for its visibility.
+#[derive(Clone, Debug)]
+pub(crate) struct Way<S> {
+    /// Its links.
+    links: Range<usize>,
+    /// Unit direction in which the light leaves its light.
+    pub(crate) leaves: DVec3,
+    /// What all mirrors together reflect.
+    pub(crate) reflected: S,
+}
+
+impl Links {
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Follows the way from `place` to an image; `None` where it leads past a mirror.
+    pub(crate) fn unfold<S: Spectrum>(
+        &mut self,
+        world: &World<S>,
+        mirrors: &MirrorPlanes,
+        images: &Images,
+        image: u32,
+        place: DVec3,
+    ) -> Option<Way<S>> {
+        let first = self.0.len();
+        let way = self.unfold_after(first, world, mirrors, (images, image), place);
+        if way.is_none() {
+            self.0.truncate(first);
+        }
+        way
+    }
+
+    fn unfold_after<S: Spectrum>(
+        &mut self,
+        first: usize,
+        world: &World<S>,
+        mirrors: &MirrorPlanes,
+        (images, image): (&Images, u32),
+        place: DVec3,
+    ) -> Option<Way<S>> {
+        let slack_m = world.hair_m();
+        let mut reflected = S::white();
+        let mut at = place;
+        let mut node = &images.nodes[image as usize];
+        while node.depth > 0 {
+            let mirror = &mirrors.planes[node.plane as usize];
+            let behind_m = mirror.height_m(node.position);
+            let side = -behind_m.signum();
+            let height_m = mirror.height_m(at) * side;
+            if height_m < -slack_m {
+                return None;
+            }
+            let height_m = height_m.max(0.0);
+            let apart_m = height_m + behind_m.abs();
+            let line = node.position - at;
+            let point = at + line * (height_m / apart_m);
+            let facet = mirror.facet_at(point, slack_m)?;
+            let cos = (apart_m / line.length()).min(1.0);
+            let bsdf = world.bsdf_of(&world.facets[facet.facet as usize]);
+            reflected = reflected * bsdf.image_reflectance(cos)?;
+            let inward = (facet.centroid() - point).normalize_or_zero();
+            let inner = point + inward * (HAIRS_INWARD * slack_m);
+            self.0.push(Link { point, inner, facet: facet.facet, n: mirror.normal * side });
+            at = point;
+            node = &images.nodes[node.parent as usize];
+        }
+        let leaves = (at - node.position).normalize_or_zero();
+        Some(Way { links: first..self.0.len(), leaves, reflected })
+    }
+
+    /// The rays that see whether anything stands in a way from `from` over its mirrors to the light
+    /// at `light`.
+    pub(crate) fn sights<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        way: &Way<S>,
+        from: Vantage,
+        light: DVec3,
+        sights: &mut Vec<Shot>,
+    ) {
+        let mut from = from;
+        for link in &self.0[way.links.clone()] {
+            sights.extend(sight(from, link.inner, link.facet));
+            from = world.vantage_before(link.facet, link.inner, link.n);
+        }
+        sights.extend(sight(from, light, Shot::NONE));
+    }
+
+    /// Whether two ways are one, point by point.
+    pub(crate) fn are_same<S>(&self, a: &Way<S>, b: &Way<S>, hair_m: f64) -> bool {
+        let [a, b] = [a, b].map(|way| &self.0[way.links.clone()]);
+        let near = |(a, b): (&Link, &Link)| (a.point - b.point).length() <= HAIRS_APART * hair_m;
+        a.len() == b.len() && a.iter().zip(b).all(near)
+    }
+}
+
+/// The ray between two points; `None` where they are one.
+fn sight(from: Vantage, to: DVec3, target: u32) -> Option<Shot> {
+    let toward = to - from.position();
+    let distance_m = toward.length();
+    (distance_m > 0.0).then(|| from.sight(toward / distance_m, distance_m, target))
+}

@@ -1,0 +1,238 @@
+//! Point-like lights in plane mirrors: light that no sampling finds, since nothing runs into a point.
+//!
+//! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
+//! to a place, and `trail` which photons took such a way and are left out where images are counted.
+//!
+//! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
+//! reflect, I in the direction in which the light really leaves.
+
+mod chain;
+mod cone;
+#[cfg(test)]
+mod fixtures;
+mod planes;
+mod trail;
+mod tree;
+
+use crate::context::Stage;
+use crate::lights::{Lights, PointLikes};
+use crate::spectrum::Spectrum;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::{Asker, Shadows};
+use crate::world::{Facet, World};
+use chain::{Links, Way};
+use planes::MirrorPlanes;
+use quasilux_sampling::choose_weights;
+use tree::Images;
+
+pub(crate) use trail::Trail;
+
+/// So many images at a vertex are all tested; of more one is chosen.
+const ALL_TESTED: usize = 8;
+/// So many images, those of least depth, are considered at each vertex, and at most so many of the others,
+/// evenly spaced: far images are many and give little.
+const SURE: usize = 64;
+const THINNED: usize = 64;
+
+/// All that mirrors show of point-like lights.
+pub(crate) struct SpecularImages {
+    mirrors: MirrorPlanes,
+    images: Images,
+}
+
+/// What images offer to one place, and working space.
+pub(crate) struct ImageOffers<S> {
+    links: Links,
+    offers: Vec<ImageOffer<S>>,
+}
+
+/// What one image gives to a place unless something stands in the way.
+struct ImageOffer<S> {
+    image: u32,
+    way: Way<S>,
+    light: S,
+}
+
+/// Which images are considered past the first [`SURE`]: every `stride`th from `phase` on.
+#[derive(Clone, Copy)]
+struct Thinning {
+    stride: usize,
+    phase: f64,
+}
+
+impl Thinning {
+    const NONE: Self = Self { stride: 1, phase: 0.0 };
+}
+
+impl SpecularImages {
+    /// The images that count, through up to `depth` mirrors.
+    pub(crate) fn new<S: Spectrum>(
+        world: &World<S>,
+        lights: &PointLikes<'_>,
+        depth: Option<u32>,
+    ) -> Self {
+        let mirrors = MirrorPlanes::new(world);
+        let positions = lights.iter().map(|(position, _)| position);
+        let images = Images::new(&mirrors, positions, depth, world.hair_m());
+        Self { mirrors, images }
+    }
+
+    /// What a mirror facet shows of an image.
+    fn shown_by(&self, image: u32, facet: u32) -> Option<u32> {
+        self.images.child(image, self.mirrors.of_facet(facet)?)
+    }
+
+    /// What specular surfaces do with the light of points and luminaires that no image shows and no
+    /// path finds, in words.
+    pub(crate) fn hides<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        lights: &Lights<'_>,
+    ) -> Option<String> {
+        let is_specular = |facet: &Facet| world.bsdf_of(facet).is_specular();
+        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0).is_some();
+        let mut specular = world.facets.iter().filter(|facet| is_specular(facet)).peekable();
+        let no_light = lights.pointlikes.is_empty() && lights.area_luminaires.is_empty();
+        if no_light || specular.peek().is_none() {
+            return None;
+        }
+        let mut ways = Vec::new();
+        if !lights.area_luminaires.is_empty() {
+            ways.push("from luminous shapes by mirrors".to_owned());
+        }
+        if specular.any(|facet| !is_shown(facet)) {
+            ways.push("through refracting bodies".to_owned());
+        }
+        if self.mirrors.curved_facets > 0 {
+            let facets = self.mirrors.curved_facets;
+            ways.push(format!("by curved mirrors ({facets} facets in many small planes)"));
+        }
+        if self.images.goes_on {
+            let depth = self.images.nodes.last().map_or(0, |image| image.depth);
+            ways.push(format!("over more than {depth} mirrors one after the other"));
+        }
+        (!ways.is_empty()).then(|| ways.join(", "))
+    }
+
+    /// Whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.images.nodes.len() == self.images.lights
+    }
+
+    /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.
+    pub(crate) fn all<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        askers: &[Asker<'_, S>],
+        shadows: &mut Shadows<S>,
+        receive: impl FnMut(u32, S, u32),
+    ) {
+        if self.is_empty() {
+            return;
+        }
+        let mut found = ImageOffers::default();
+        for Asker { who, vertex } in askers {
+            self.find(stage, vertex, 0, Thinning::NONE, &mut found);
+            for offer in &found.offers {
+                self.ask(stage, (*who, vertex), offer, &found.links, shadows);
+            }
+        }
+        shadows.answer(&stage.world, receive);
+    }
+
+    /// Asks for the light that a path gets from images at a vertex after `bounces` bounces, with the
+    /// coordinate `u`: of all where they are few. Of very many, far ones are thinned out; of those that
+    /// give anything unshadowed, one is chosen in proportion to what it gives where they are more than
+    /// [`ALL_TESTED`].
+    pub(crate) fn ask_some<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        (who, vertex): (u32, &Vertex<'_, S>),
+        bounces: u32,
+        u: f64,
+        (found, shadows): (&mut ImageOffers<S>, &mut Shadows<S>),
+    ) {
+        let others = self.images.nodes.len().saturating_sub(self.images.lights + SURE);
+        let stride = others.div_ceil(THINNED).max(1);
+        self.find(stage, vertex, bounces, Thinning { stride, phase: u }, found);
+        let u = (u * stride as f64).fract();
+        let ImageOffers { links, offers } = found;
+        if offers.len() > ALL_TESTED {
+            let weights = offers.iter().map(|offer| offer.light.luminance());
+            // Without a choice a figure is not finite: then the tally must see it.
+            if let Some(choice) = choose_weights(u, weights) {
+                offers.swap(0, choice.index);
+                offers.truncate(1);
+                offers[0].light = offers[0].light * (1.0 / choice.pdf);
+            }
+        }
+        for offer in offers.iter() {
+            self.ask(stage, (who, vertex), offer, links, shadows);
+        }
+    }
+
+    /// Finds what all images may give to a vertex after `bounces` bounces.
+    fn find<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        vertex: &Vertex<'_, S>,
+        bounces: u32,
+        Thinning { stride, phase }: Thinning,
+        found: &mut ImageOffers<S>,
+    ) {
+        let ImageOffers { links, offers } = found;
+        links.clear();
+        offers.clear();
+        let (world, lights) = (&stage.world, &stage.lights.pointlikes);
+        let most = stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(bounces));
+        let place = vertex.position();
+        for (count, number) in self.images.mirrored(SURE, stride, phase).enumerate() {
+            let (image, node) = (number as u32, &self.images.nodes[number]);
+            if node.depth > most {
+                break;
+            }
+            let toward_m = node.position - place;
+            if vertex.cos(toward_m) <= 0.0 || !node.beam.holds(-toward_m) {
+                continue;
+            }
+            let Some(way) = links.unfold(world, &self.mirrors, &self.images, image, place) else {
+                continue;
+            };
+            let distance_m = toward_m.length();
+            let direction = toward_m / distance_m;
+            let intensity_cd = lights.intensity_cd(node.light, way.leaves);
+            let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
+            let stands_for = if count < SURE { 1.0 } else { stride as f64 };
+            let light = vertex.weight(direction) * way.reflected * (illuminance_lx * stands_for);
+            let is_known = |other: &ImageOffer<S>| {
+                self.images.nodes[other.image as usize].light == node.light
+                    && links.are_same(&other.way, &way, world.hair_m())
+            };
+            if light.luminance() != 0.0 && !offers.iter().any(is_known) {
+                offers.push(ImageOffer { image, way, light });
+            }
+        }
+    }
+
+    fn ask<S: Spectrum>(
+        &self,
+        stage: &Stage<'_, S>,
+        (who, vertex): (u32, &Vertex<'_, S>),
+        offer: &ImageOffer<S>,
+        links: &Links,
+        shadows: &mut Shadows<S>,
+    ) {
+        let image = &self.images.nodes[offer.image as usize];
+        let from = vertex.vantage(image.position - vertex.position());
+        let light_m = self.images.nodes[image.light as usize].position;
+        shadows.ask_way(who, offer.light, image.depth, |sights| {
+            links.sights(&stage.world, &offer.way, from, light_m, sights);
+        });
+    }
+}
+
+impl<S> Default for ImageOffers<S> {
+    fn default() -> Self {
+        Self { links: Links::default(), offers: Vec::new() }
+    }
+}

@@ -1,0 +1,242 @@
+//! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
+
+use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::context::{Stage, Stream};
+use crate::estimator::control_variate::{FrozenEnd, FrozenMap, of_plan};
+use crate::importance::{self, Plan, Windows};
+use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_in_view};
+use crate::photon::first_shot::{LitCells, decide};
+use crate::photon::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
+use crate::photon::order::Way;
+use crate::photon::trace::{Lead, PhotonCounts, Source};
+use crate::settings::{Estimator, Settings};
+use crate::spectrum::Spectrum;
+use crate::stats::observer::Snapshot;
+use crate::stats::targets::Target;
+use crate::stats::watch::Watch;
+use std::ops::Range;
+
+/// Photons that only balance the flux, where the estimator needs none.
+const BALANCE_PHOTONS: u64 = 1 << 12;
+
+/// What the paths end on.
+pub(crate) enum PathEnd<S> {
+    Nothing,
+    /// One map, frozen before the first path, whose error is corrected.
+    Frozen(FrozenMap<S>),
+    /// A map for each replicate that grows with it.
+    Own {
+        layout: MapLayout,
+        tallies: Vec<MapTally<S>>,
+        /// Photons of each so far.
+        photons: u64,
+        /// Photons for every path of a sensor point.
+        photons_per_path: u64,
+        /// Where photons leave from instead of the point-like lights.
+        lit_cells: Option<LitCells>,
+        /// What steers their photons.
+        windows: Option<Windows>,
+    },
+}
+
+/// Where the light at a diffuse surface comes from, but for the direct light.
+pub(crate) enum Rest<'m, S> {
+    /// From the path itself.
+    Path,
+    /// The same, and the path notes where it might have ended on a map.
+    Noted,
+    /// From a map.
+    Map(MapEnd<'m, S>),
+    /// From a map that is corrected.
+    Frozen(FrozenEnd<'m, S>),
+}
+
+/// How paths end on a map that is not corrected.
+pub(crate) struct MapEnd<'m, S> {
+    pub(crate) layout: &'m MapLayout,
+    pub(crate) map: IlluminationMap<'m, S>,
+}
+
+/// What is to know of what the paths end on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MapFacts {
+    /// Sides of elements; `None` without a map.
+    pub(crate) elements: Option<u64>,
+    /// Whether photons of maps that grow leave lit places.
+    pub(crate) first_shot: bool,
+    /// Whether they are steered.
+    pub(crate) is_steered: bool,
+}
+
+/// The maps of all replicates at a moment when no photon flies.
+pub(crate) struct GrowingMaps<'m, S> {
+    layout: &'m MapLayout,
+    tallies: &'m [MapTally<S>],
+    /// Flux of a photon, were all of them one replicate's.
+    photon_lm: f64,
+}
+
+impl<S: Spectrum> GrowingMaps<'_, S> {
+    /// Illuminance in lx by light that bounced, at a target that lies on a surface with a map.
+    pub(crate) fn illuminance_lx(&self, stage: &Stage<'_, S>, target: &Target) -> Option<f64> {
+        let Target::Point { position, normal } = *target else { return None };
+        let at = stage.world.facet_under(position, normal)?;
+        // With a limit, the map leaves out light that has no bounce left for the way to a sensor.
+        if !stage.world.bsdf(&at).keeps_illuminance() || stage.max_bounces.is_some() {
+            return None;
+        }
+        let place = self.layout.locate(&at);
+        let map_lx =
+            |tally: &MapTally<S>| tally.read(self.photon_lm).illuminance_lx(&place, u32::MAX);
+        Some(self.tallies.iter().map(|tally| map_lx(tally).luminance()).sum())
+    }
+}
+
+impl<S: Spectrum> PathEnd<S> {
+    /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the photons that come
+    /// before all paths, if there are none yet that say where the flux goes.
+    pub(crate) fn prepare(
+        stage: &Stage<'_, S>,
+        settings: &Settings,
+        targets: &[Target],
+        (frozen, photons): (Option<(FrozenMap<S>, PhotonCounts)>, Option<PhotonCounts>),
+        watch: &mut Watch<'_>,
+    ) -> (Self, PhotonCounts) {
+        // Before the first checkpoint the observer stops nothing, so there are always counts.
+        let balance = |watch: &mut Watch<'_>| {
+            let batch = of_plan(Source::Lights, 0..BALANCE_PHOTONS);
+            let none: Option<MapReceiver<'_, S>> = None;
+            trace_photons(stage, &batch, |_| none, watch).unwrap_or_default()
+        };
+        if let Some((map, mut counts)) = frozen {
+            if map.facts().first_shot {
+                // Photons of the lit cells do not say where the flux of the lights goes.
+                counts += balance(watch);
+            }
+            return (Self::Frozen(map), counts);
+        }
+        if settings.estimator != Estimator::BidirectionalMap || settings.max_bounces == Some(0) {
+            return (Self::Nothing, photons.unwrap_or_else(|| balance(watch)));
+        }
+        let mut counts = PhotonCounts::default();
+        let lit_cells = decide(stage, settings, u64::MAX, &mut counts);
+        if lit_cells.is_some() {
+            counts += balance(watch);
+        }
+        let source = Source::of(lit_cells.as_ref());
+        let (layout, pilots) = refined(stage, settings, watch);
+        counts += pilots;
+        let Plan { windows, rays, .. } = importance::plan(stage, targets, settings.steering);
+        counts.rays += rays;
+        let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
+        let replicates = 0..settings.effective_replicates();
+        // Light of b bounces on the map has b + 1 at the sensor.
+        let layers = stage.listed_terms.saturating_sub(1).max(1);
+        let tallies = replicates.map(|_| MapTally::new(&layout, lightest, layers)).collect();
+        let photons_per_path = u64::from(settings.map_photons.max(1));
+        let own = Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
+        (own, counts)
+    }
+
+    /// Photons of each map that grows, from those so far to those that so many paths of a sensor point ask for;
+    /// `None` where no map grows.
+    pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
+        match self {
+            Self::Nothing | Self::Frozen(_) => None,
+            Self::Own { photons, photons_per_path, .. } => {
+                Some(*photons..samples.saturating_mul(*photons_per_path))
+            }
+        }
+    }
+
+    /// What there is to know of it.
+    pub(crate) fn facts(&self) -> MapFacts {
+        match self {
+            Self::Nothing => MapFacts::default(),
+            Self::Frozen(map) => map.facts(),
+            Self::Own { layout, lit_cells, windows, .. } => MapFacts {
+                elements: Some(layout.len() as u64),
+                first_shot: lit_cells.is_some(),
+                is_steered: windows.is_some(),
+            },
+        }
+    }
+
+    /// Puts out what was decided before the first path, a frozen map included.
+    pub(crate) fn put_decisions(&self, out: &mut Writer) {
+        match self {
+            Self::Nothing => {}
+            Self::Frozen(map) => map.put(out),
+            Self::Own { layout, lit_cells, windows, .. } => {
+                layout.put(out);
+                lit_cells.iter().for_each(|cells| cells.put(out));
+                windows.iter().for_each(|windows| windows.put(out));
+            }
+        }
+    }
+
+    /// Adds the photons up to `end` to maps that grow; `look` sees them grow. `None` when the observer
+    /// stopped it.
+    pub(crate) fn grow(
+        &mut self,
+        stage: &Stage<'_, S>,
+        end: u64,
+        look: impl Fn(&GrowingMaps<'_, S>) -> Option<Snapshot>,
+        watch: &mut Watch<'_>,
+    ) -> Option<PhotonCounts> {
+        let Self::Own { layout, tallies, photons, lit_cells, windows, .. } = self else {
+            return Some(PhotonCounts::default());
+        };
+        let indices = *photons..end;
+        let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
+        let source = Source::of(lit_cells.as_ref());
+        let batch = PhotonBatch {
+            stream: Stream::Photons,
+            replicates: 0..tallies.len() as u32,
+            indices,
+            way: Way::CoherentWaves,
+            lead: Lead::by_chance(source, windows.as_ref()),
+        };
+        let before = batch.indices.start * tallies.len() as u64;
+        let look = |emitted: u64| {
+            let photon_lm = stage.lights.flux_lm / (before + emitted) as f64;
+            look(&GrowingMaps { layout, tallies, photon_lm })
+        };
+        let counts = trace_photons_in_view(stage, &batch, receiver, look, watch)?;
+        *photons = end;
+        Some(source.counted(counts))
+    }
+
+    /// Where the paths of one target in one replicate end.
+    pub(crate) fn rest(&self, stage: &Stage<'_, S>, replicate: u32, target: usize) -> Rest<'_, S> {
+        match self {
+            Self::Nothing => Rest::Path,
+            Self::Frozen(map) => Rest::Frozen(map.end(target)),
+            Self::Own { layout, tallies, photons, .. } => {
+                let flux_lm = stage.lights.flux_lm / *photons as f64;
+                let map = tallies[replicate as usize].read(flux_lm);
+                Rest::Map(MapEnd { layout, map })
+            }
+        }
+    }
+}
+
+/// Maps that grow.
+impl<S> Stored for PathEnd<S> {
+    fn put(&self, out: &mut Writer) {
+        if let Self::Own { tallies, photons, .. } = self {
+            out.u64(*photons);
+            tallies.as_slice().put(out);
+        }
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        match self {
+            Self::Nothing | Self::Frozen(_) => Ok(()),
+            Self::Own { tallies, photons, .. } => {
+                from.add_u64(photons)?;
+                tallies.as_mut_slice().take_in(from)
+            }
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Path tracing from sensors and cameras, with next-event estimation.
+
+pub(crate) mod contribution;
+pub(crate) mod end;
+pub(crate) mod lobes;
+pub(crate) mod sections;
+pub(crate) mod trace;
+pub(crate) mod wave;

@@ -1,0 +1,177 @@
+//! Paths of several targets and replicates that travel together, and what each of these gets of them.
+
+use crate::context::Stage;
+use crate::estimator::connection::Joining;
+use crate::path::contribution::Gathered;
+use crate::path::end::Rest;
+use crate::path::lobes::LobeSums;
+use crate::path::trace::{Ended, Seeks, Start};
+use crate::path::wave::PathWave;
+use crate::photon::caustics::HiddenEnd;
+use crate::purpose::Purpose;
+use crate::spectrum::Spectrum;
+use crate::stats::tally::{Quantum, Sum};
+use crate::stats::targets::Target;
+use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
+use std::ops::{AddAssign, Range};
+
+/// What the paths of one target in one replicate found, in all.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PathSums {
+    pub(crate) direct: Sum,
+    pub(crate) indirect: Sum,
+    /// Both by the number of bounces, as [`Gathered::terms`].
+    pub(crate) terms: Vec<Sum>,
+    /// Paths that came to a surface that reflects.
+    pub(crate) reflected: u64,
+    pub(crate) lobes: LobeSums,
+}
+
+/// What paths cost.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WorkCounts {
+    pub(crate) paths: u64,
+    pub(crate) rays: u64,
+    pub(crate) dimensions: DimensionHistogram,
+    pub(crate) endless: u64,
+}
+
+/// Some paths of one target in one replicate.
+pub(crate) struct Section<'g, S> {
+    /// Which of all pairs of target and replicate.
+    pub(crate) number: usize,
+    pub(crate) target: Target,
+    pub(crate) points: PointSet,
+    pub(crate) rest: Rest<'g, S>,
+    pub(crate) hidden: Option<HiddenEnd<'g, S>>,
+    /// What photons that are joined to the target leave to the paths.
+    pub(crate) joining: Option<&'g Joining>,
+    pub(crate) indices: Range<u64>,
+}
+
+/// What the paths of neighbouring sections found.
+pub(crate) struct Piece {
+    /// Number of the first section.
+    pub(crate) first: usize,
+    /// Of each section.
+    pub(crate) sums: Vec<PathSums>,
+    pub(crate) work: WorkCounts,
+}
+
+/// Traces the paths of at least one section together; the numbers of sections follow each other.
+pub(crate) fn trace_sections<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    sections: &[Section<'_, S>],
+    quantum: Quantum,
+    wave: &mut PathWave<S>,
+) -> Piece {
+    trace_and_look(stage, sections, quantum, wave, |_| ())
+}
+
+/// The same, and shows each path that is over.
+pub(crate) fn trace_and_look<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    sections: &[Section<'_, S>],
+    quantum: Quantum,
+    wave: &mut PathWave<S>,
+    mut look: impl FnMut(&mut Ended<S>),
+) -> Piece {
+    let starts = sections.iter().flat_map(|section| section.starts(stage));
+    let mut paths = wave.trace(stage, starts).into_iter();
+    let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
+    let mut add = |section: &Section<'_, S>| {
+        let mut sums = PathSums::default();
+        for path in paths.by_ref().take(section.len()) {
+            let mut path = path.end();
+            sums.add(&path, quantum);
+            work.add(&path);
+            look(&mut path);
+        }
+        sums
+    };
+    let sums = sections.iter().map(&mut add).collect();
+    Piece { first: sections[0].number, sums, work }
+}
+
+impl<S: Spectrum> Section<'_, S> {
+    fn len(&self) -> usize {
+        (self.indices.end - self.indices.start) as usize
+    }
+
+    /// Where its paths start.
+    pub(crate) fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
+        self.indices.clone().map(|index| {
+            let mut sampler = Sampler::new(&self.points, index);
+            let (position, n, tests_pointlikes) = match self.target {
+                Target::Point { position, normal } => (position, normal, false),
+                Target::Cell { grid, cell } => {
+                    let u = stage.draw(&mut sampler, Purpose::Cell, Sampler::next_2d);
+                    (grid.point_in_cell(cell, u), grid.normal, true)
+                }
+            };
+            let from = stage.world.vantage_of_sensor(position, n);
+            let seeks = Seeks::Illuminance { n, tests_pointlikes };
+            Start {
+                from,
+                seeks,
+                rest: &self.rest,
+                hidden: self.hidden,
+                joining: self.joining,
+                sampler,
+            }
+        })
+    }
+}
+
+impl PathSums {
+    fn add<S: Spectrum>(&mut self, Ended { found, .. }: &Ended<S>, quantum: Quantum) {
+        self.direct.add(found.direct.luminance(), quantum);
+        self.indirect.add_signed(found.indirect.luminance(), quantum);
+        self.reflected += u64::from(found.reflected);
+        self.lobes.add(found.lobes, quantum);
+        self.add_terms(found, quantum);
+    }
+
+    fn add_terms<S: Spectrum>(&mut self, found: &Gathered<S>, quantum: Quantum) {
+        self.terms.resize(found.terms.len(), Sum::default());
+        for (sum, light) in self.terms.iter_mut().zip(&found.terms) {
+            sum.add_signed(light.luminance(), quantum);
+        }
+    }
+
+    /// Contributions that are not in the sums.
+    pub(crate) fn invalid(&self) -> u64 {
+        self.direct.invalid + self.indirect.invalid
+    }
+}
+
+impl AddAssign for PathSums {
+    fn add_assign(&mut self, other: Self) {
+        self.direct += other.direct;
+        self.indirect += other.indirect;
+        self.reflected += other.reflected;
+        self.lobes += &other.lobes;
+        self.terms.resize(self.terms.len().max(other.terms.len()), Sum::default());
+        for (sum, found) in self.terms.iter_mut().zip(other.terms) {
+            *sum += found;
+        }
+    }
+}
+
+impl WorkCounts {
+    /// Counts one path; its rays are counted where they are traced.
+    pub(crate) fn add<S>(&mut self, path: &Ended<S>) {
+        self.paths += 1;
+        self.dimensions.record(path.dimensions);
+        self.endless += u64::from(path.found.endless);
+    }
+}
+
+impl AddAssign for WorkCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.paths += other.paths;
+        self.rays += other.rays;
+        self.dimensions.merge(&other.dimensions);
+        self.endless += other.endless;
+    }
+}

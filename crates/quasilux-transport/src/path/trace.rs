@@ -1,0 +1,468 @@
+//! One path, from a sensor point toward the lights.
+//!
+//! The illuminance at x is `E(x) = integral of L(x, w) cos dw`. A cosine-distributed direction has
+//! density cos / pi, so the light that arrives along it counts pi-fold. At each diffuse surface the
+//! light that comes there straight from the lights is estimated on the spot (next-event
+//! estimation), and the path goes on for the rest. A path may end on an illumination map instead:
+//! the map's value stands for the rest. Where the map is to be corrected, those that survive Russian
+//! roulette go on and take the difference to the map with them, weighted by how few they are: the map
+//! is a control variate, its elements cause no bias, and no light is lost with those that end.
+//!
+//! Read on at `asking` for what lights are asked.
+
+mod asking;
+
+use crate::bsdf::Mode;
+use crate::context::Stage;
+use crate::cutoff::Gain;
+use crate::estimator::connection::{Joining, Shares};
+use crate::estimator::control_variate::{FrozenEnd, Note, bounces_left};
+use crate::lights::images::ImageOffers;
+use crate::path::contribution::Gathered;
+use crate::path::end::{MapEnd, Rest};
+use crate::path::lobes::{self, Met};
+use crate::photon::caustics::HiddenEnd;
+use crate::photon::map::{IlluminationMap, Place};
+use crate::purpose::Purpose;
+use crate::spectrum::Spectrum;
+use crate::world::frame::Frame;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::{Offer, Shadows};
+use crate::world::{Interaction, Vantage};
+use glam::DVec3;
+use quasilux_bvh::Shot;
+use quasilux_sampling::Sampler;
+use quasilux_sampling::warp::sample_cosine_hemisphere;
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// Bounces after which a path goes on for certain; after later ones by chance.
+const CERTAIN_BOUNCES: u32 = 2;
+
+/// Those that note where they might have ended go on for certain while so much is left, and up to so many notes.
+const NOTED: f64 = 1.0 / 32.0;
+const MAX_NOTES: usize = 32;
+
+/// A path that is over.
+pub(crate) struct Ended<S> {
+    pub(crate) found: Gathered<S>,
+    /// How many coordinates it used.
+    pub(crate) dimensions: u32,
+    /// Where it might have ended on a map, if it was to note that.
+    pub(crate) notes: Vec<Note<S>>,
+    /// Its rays, but for those that ask for light.
+    pub(crate) flights: u32,
+}
+
+/// Where a path starts, and on what.
+pub(crate) struct Start<'p, S> {
+    pub(crate) from: Vantage,
+    pub(crate) seeks: Seeks,
+    pub(crate) rest: &'p Rest<'p, S>,
+    /// Light that it cannot find by itself.
+    pub(crate) hidden: Option<HiddenEnd<'p, S>>,
+    /// What photons leave to it.
+    pub(crate) joining: Option<&'p Joining>,
+    pub(crate) sampler: Sampler<'p>,
+}
+
+/// What a path is to find.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Seeks {
+    /// The illuminance on the side `n`.
+    Illuminance {
+        n: DVec3,
+        /// Whether with the direct light of the point-like lights.
+        tests_pointlikes: bool,
+    },
+    /// The luminance seen along this unit vector.
+    Luminance { direction: DVec3 },
+}
+
+/// A path on its way.
+pub(crate) struct Path<'p, S> {
+    /// Its number among those that travel together.
+    number: u32,
+    rest: &'p Rest<'p, S>,
+    hidden: Option<HiddenEnd<'p, S>>,
+    joining: Option<&'p Joining>,
+    /// The parts that it is to find of the light at its first surface.
+    shares: Shares,
+    sampler: Sampler<'p>,
+    from: Vantage,
+    /// Unit direction in which it goes on.
+    direction: DVec3,
+    /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
+    pdf_sr: Option<f64>,
+    /// Factors from radiance along the path to what its start seeks.
+    beta: S,
+    /// The same for what the next surface emits itself.
+    beta_emitted: S,
+    /// Bounces behind the light that its last vertex asks for.
+    bounces_asked: u32,
+    gain: Gain,
+    /// From lights that its last vertex turned out to see.
+    arrived: S,
+    /// From the point-like lights at its start.
+    pointlikes: S,
+    found: Gathered<S>,
+    notes: Vec<Note<S>>,
+    flights: u32,
+}
+
+/// What the paths that travel together ask of the lights, with working space.
+pub(crate) struct PathWork<S> {
+    pub(crate) shadows: Shadows<S>,
+    offers: Vec<Offer<S>>,
+    images: ImageOffers<S>,
+    weights: Vec<f64>,
+}
+
+/// How a path goes on from a surface: factors on what the next surface sends.
+struct Onward {
+    /// On the light that the next surface emits itself.
+    emitted: f64,
+    /// On everything else; 0 ends the path there.
+    everything: f64,
+}
+
+impl<S: Spectrum> Start<'_, S> {
+    /// The start where it wants all point-like lights tested.
+    pub(crate) fn vertex_that_tests_pointlikes(&self) -> Option<Vertex<'static, S>> {
+        match self.seeks {
+            Seeks::Illuminance { n, tests_pointlikes: true } => Some(Vertex::sensor(self.from, n)),
+            _ => None,
+        }
+    }
+}
+
+impl<'p, S: Spectrum> Path<'p, S> {
+    /// The path number `number`; where it seeks illuminance it asks for the light of the area lights
+    /// and the luminaires with an area at its start.
+    pub(crate) fn start(
+        stage: &Stage<'_, S>,
+        number: u32,
+        start: Start<'p, S>,
+        work: &mut PathWork<S>,
+    ) -> Self {
+        let Start { from, seeks, rest, hidden, joining, mut sampler } = start;
+        let (direction, pdf_sr, beta) = match seeks {
+            Seeks::Illuminance { n, .. } => {
+                let u = stage.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
+                let first = DVec3::from_array(sample_cosine_hemisphere(u));
+                let direction = Frame::around(n).to_world(first);
+                (direction, Some(first.z * FRAC_1_PI), S::white() * PI)
+            }
+            Seeks::Luminance { direction } => (direction, None, S::white()),
+        };
+        let mut path = Self {
+            number,
+            rest,
+            hidden,
+            joining,
+            shares: Shares::ALL,
+            sampler,
+            from,
+            direction,
+            pdf_sr,
+            beta,
+            beta_emitted: beta,
+            bounces_asked: 0,
+            gain: Gain::NONE,
+            arrived: S::black(),
+            pointlikes: S::black(),
+            found: Gathered::default(),
+            notes: Vec::new(),
+            flights: 0,
+        };
+        if let Seeks::Illuminance { n, tests_pointlikes } = seeks {
+            path.found.list_terms(stage.listed_terms);
+            let vertex = Vertex::sensor(from, n);
+            work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
+            if tests_pointlikes {
+                path.ask_images(stage, &vertex, 0, work);
+            }
+            path.ask_emitters(stage, &vertex, work);
+            path.ask_area_luminaires(stage, &vertex, work);
+        }
+        path
+    }
+
+    /// The ray along which it goes on.
+    pub(crate) fn shot(&self) -> Shot {
+        self.from.shot(self.direction)
+    }
+
+    /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
+    pub(crate) fn receive(&mut self, light: S, bounces: u32) {
+        if bounces == 0 {
+            self.arrived += light * if self.bounces_asked == 1 { self.shares.first } else { 1.0 };
+        } else {
+            let share = if self.bounces_asked == 1 { self.shares.rest } else { 1.0 };
+            self.found.add(self.bounces_asked + bounces, light * share);
+        }
+    }
+
+    /// Light of a point-like light has arrived at its start, through this many panes.
+    pub(crate) fn receive_at_start(&mut self, light: S, panes: u32) {
+        if panes == 0 {
+            self.pointlikes += light;
+        } else {
+            self.found.add(panes, light);
+        }
+    }
+
+    /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere; whether
+    /// the path goes on. All that it asked for before must have arrived.
+    pub(crate) fn arrive(
+        &mut self,
+        stage: &Stage<'_, S>,
+        bounces: u32,
+        at: Option<&Interaction>,
+        work: &mut PathWork<S>,
+    ) -> bool {
+        self.add_arrived();
+        self.flights += 1;
+        let before = self.found.indirect;
+        if let Some(at) = at {
+            self.add_emitted(stage, bounces, at);
+        }
+        if let Some(note) = self.notes.last_mut() {
+            note.begin([before, self.found.indirect]);
+        }
+        let Some(at) = at else { return false };
+        let bsdf = stage.world.bsdf(at);
+        let frame = stage.world.frame(at);
+        let wo = frame.to_local(-self.direction);
+        let goes_on = self.beta * bsdf.albedo(wo, at.front, Mode::Radiance);
+        let is_last = stage.max_bounces.is_some_and(|most| bounces >= most);
+        if is_last || goes_on.max_channel() == 0.0 {
+            return false;
+        }
+        // Past mirrors alone, paths find nothing but facets that emit.
+        self.found.reflected |= !bsdf.is_specular() || stage.lights.emitters.is_some();
+        self.bounces_asked = bounces + 1;
+        if let (0, Some(joining)) = (bounces, self.joining)
+            && bsdf.keeps_illuminance()
+        {
+            self.shares = self.shares_at(joining, at);
+        }
+        if !bsdf.is_specular() {
+            self.ask_all(stage, bounces + 1, at, work);
+        }
+        if bsdf.keeps_illuminance() {
+            self.add_hidden(stage, bounces, at);
+        }
+        let albedo = goes_on.max_channel() / self.beta.max_channel();
+        if !self.gain.grow(albedo, bounces) {
+            self.cut();
+            return false;
+        }
+        let from_map = match self.rest {
+            Rest::Map(end) if bsdf.keeps_illuminance() => self.end_on(end, stage, bounces, at),
+            Rest::Frozen(end) if bsdf.keeps_illuminance() => {
+                self.end_on_frozen(end, stage, bounces, at)
+            }
+            Rest::Noted if self.gain.left() > NOTED && self.notes.len() < MAX_NOTES => {
+                self.note(stage, bounces, at, albedo);
+                Some(Onward { emitted: 1.0, everything: 1.0 })
+            }
+            Rest::Path | Rest::Noted | Rest::Map(_) | Rest::Frozen(_) => None,
+        };
+        let onward = from_map.unwrap_or_else(|| self.survive(stage, bounces, albedo));
+        let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
+        if onward.everything == 0.0 && !seeks_emitters {
+            return false;
+        }
+        let bounce = Purpose::Bounce { surface: bounces + 1 };
+        let next = stage.draw(&mut self.sampler, bounce, |sampler| {
+            bsdf.sample(wo, at.front, Mode::Radiance, sampler)
+        });
+        let Some(next) = next else { return false };
+        if let (false, Some(pdf_sr)) = (bsdf.keeps_illuminance(), next.pdf_sr) {
+            self.found.lobes.meet(
+                &stage.lights.pointlikes,
+                &Met {
+                    at,
+                    transmits: bsdf.transmits(),
+                    goes_on: goes_on.luminance() * onward.everything,
+                    sharpness: lobes::sharpness(bsdf, wo, at.front, pdf_sr),
+                },
+            );
+        }
+        let world = &stage.world;
+        self.from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+        self.direction = frame.to_world(next.wi);
+        self.pdf_sr = next.pdf_sr;
+        let beta = self.beta * next.weight;
+        self.beta = beta * onward.everything;
+        self.beta_emitted = beta * onward.emitted;
+        true
+    }
+
+    /// What it found. All that it asked for must have arrived.
+    pub(crate) fn end(mut self) -> Ended<S> {
+        self.add_arrived();
+        self.found.add(0, self.pointlikes);
+        for note in &mut self.notes {
+            note.end(self.found.indirect);
+        }
+        Ended {
+            found: self.found,
+            dimensions: self.sampler.used(),
+            notes: self.notes,
+            flights: self.flights,
+        }
+    }
+
+    /// Gives it up on its way.
+    pub(crate) fn cut(&mut self) {
+        self.found.endless = true;
+    }
+
+    /// Notes that it might have ended here.
+    fn note(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction, albedo: f64) {
+        let keeps_illuminance = stage.world.bsdf(at).keeps_illuminance();
+        self.notes.push(Note {
+            at: *at,
+            weight: keeps_illuminance.then(|| self.weight(stage, at)),
+            alone: if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) },
+            bounces,
+            flights: self.flights,
+            before: None,
+            beyond: [S::black(); 2],
+        });
+    }
+
+    /// What a lux at a diffuse surface that it meets counts at its start.
+    fn weight(&self, stage: &Stage<'_, S>, at: &Interaction) -> S {
+        Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n)
+    }
+
+    /// Ends it on the light that a map keeps here, where it may.
+    fn end_on(
+        &mut self,
+        end: &MapEnd<'_, S>,
+        stage: &Stage<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+    ) -> Option<Onward> {
+        if stage.max_bounces.is_some() && bounces > 0 {
+            // The light on the map has more bounces than are left.
+            return None;
+        }
+        let (place, weight) = (end.layout.locate(at), self.weight(stage, at));
+        self.found.indirect += weight * end.map.illuminance_lx(&place, u32::MAX);
+        self.take_terms(&end.map, &place, (bounces, u32::MAX), weight);
+        // The direction to a light that the next surface emits is part of the direct light here, so
+        // it counts in every path.
+        Some(Onward { emitted: 1.0, everything: 0.0 })
+    }
+
+    /// The same on a map that is corrected: those that go on take the difference to it along. Where nothing is known of the
+    /// map, there is none.
+    fn end_on_frozen(
+        &mut self,
+        end: &FrozenEnd<'_, S>,
+        stage: &Stage<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+    ) -> Option<Onward> {
+        let most_bounces = bounces_left(stage.max_bounces, bounces, end.layout.len() as u64)?;
+        let weight = self.weight(stage, at);
+        let place = end.layout.locate(at);
+        let lx = end.map.illuminance_lx(&place, most_bounces);
+        let chance = end.chance(&place, weight.luminance(), (weight * lx).luminance())?;
+        let correction = Purpose::Correction { surface: bounces + 1 };
+        let everything =
+            stage.draw(&mut self.sampler, correction, |sampler| survival_factor(chance, sampler));
+        let weight = weight * (1.0 - everything);
+        self.found.indirect += weight * lx;
+        self.take_terms(&end.map, &place, (bounces, most_bounces), weight);
+        Some(Onward { emitted: 1.0, everything })
+    }
+
+    /// Adds the terms of what a map says of the light at a surface that it came to after `bounces`, of photons with so
+    /// many bounces at most.
+    fn take_terms(
+        &mut self,
+        map: &IlluminationMap<'_, S>,
+        place: &Place,
+        (bounces, most_bounces): (u32, u32),
+        weight: S,
+    ) {
+        if !self.found.terms.is_empty() {
+            for (photon_bounces, lx) in map.terms_lx(*place, most_bounces) {
+                self.found.add_to_term(bounces + 1 + photon_bounces, weight * lx);
+            }
+        }
+    }
+
+    /// The parts of the light at its first surface that it is to find beside photons.
+    fn shares_at(&self, joining: &Joining, at: &Interaction) -> Shares {
+        let cos_there = -at.n.dot(self.direction);
+        let pdf_m2 = |pdf_sr| pdf_sr * cos_there / (at.distance_m * at.distance_m);
+        let share =
+            |pdf_sr| joining.path_shares(pdf_m2(pdf_sr), joining.landings(at.position, at.n));
+        self.pdf_sr.map_or(Shares::ALL, share)
+    }
+
+    /// Adds the light at a surface that no path finds.
+    fn add_hidden(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
+        let Some(hidden) = self.hidden else { return };
+        let most = stage.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
+        let to_start = self.weight(stage, at);
+        let share = if bounces == 0 { self.shares.rest } else { 1.0 };
+        for (hidden_bounces, lx) in hidden.illuminances_lx(&stage.world, at, most) {
+            let lx = lx * share;
+            self.found.add(bounces + 1 + hidden_bounces, to_start * lx);
+        }
+    }
+
+    /// Where photons are joined to the sensor, it takes along from its first surface what they leave to it.
+    /// Else Russian roulette after the first bounces, by the albedo of the channel that is left
+    /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
+    fn survive(&mut self, stage: &Stage<'_, S>, bounces: u32, albedo: f64) -> Onward {
+        if bounces == 0 && self.shares != Shares::ALL {
+            let Shares { first, rest } = self.shares;
+            return Onward { emitted: first, everything: rest };
+        }
+        if bounces < CERTAIN_BOUNCES {
+            return Onward { emitted: 1.0, everything: 1.0 };
+        }
+        let bounce = Purpose::Bounce { surface: bounces + 1 };
+        let factor =
+            stage.draw(&mut self.sampler, bounce, |sampler| survival_factor(albedo, sampler));
+        Onward { emitted: factor, everything: factor }
+    }
+
+    /// Adds what the last vertex was waiting for.
+    fn add_arrived(&mut self) {
+        self.found.add(self.bounces_asked, std::mem::take(&mut self.arrived));
+    }
+
+    /// Adds the light that the place where the ray ends emits itself.
+    fn add_emitted(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
+        let emitted_cd_m2 = stage.world.emitted_cd_m2(at);
+        if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &stage.lights.emitters) {
+            let shared = |pdf| emitters.weight_of_direction(&stage.world, at, self.direction, pdf);
+            let weight = self.pdf_sr.map_or(1.0, shared);
+            self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
+        }
+    }
+}
+
+/// What goes on counts so many times: 0, or more than once for those that do not.
+pub(crate) fn survival_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
+    if sampler.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
+}
+
+impl<S> Default for PathWork<S> {
+    fn default() -> Self {
+        Self {
+            shadows: Shadows::default(),
+            offers: Vec::new(),
+            images: ImageOffers::default(),
+            weights: Vec::new(),
+        }
+    }
+}

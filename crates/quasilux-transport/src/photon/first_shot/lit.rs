@@ -1,0 +1,217 @@
+//! Where the light of one point-like light lands: a piecewise linear picture of it.
+//!
+//! A facet that faces the light is cut into cells until its illuminance is linear enough in each: as
+//! far as looks at the corners and the middles of the edges tell, and where the light is so near, or
+//! its beam so narrow, that looks may miss what lies between them. It is a picture to draw places by, not
+//! an estimate: what it has wrong costs variance.
+
+use super::cell::Cell;
+use crate::bsdf::Mode;
+use crate::context::Stage;
+use crate::lights::{Incidence, PointLikes};
+use crate::spectrum::Spectrum;
+use glam::DVec3;
+use quasilux_scene::Light;
+
+/// Cells are cut where the picture is wrong by more than this share of the flux of all lights.
+const TOLERANCE: f64 = 1.0 / (1 << 10) as f64;
+/// Cells that may get more than this share are cut while they look large from the light.
+const NOTABLE: f64 = 1.0 / (1 << 10) as f64;
+/// How large is too large: edge over distance, for lights that shine evenly and for those with beams.
+const LARGEST: [f64; 2] = [0.5, 0.2];
+/// Lights with a beam are those whose largest intensity is this many times the mean.
+const BEAM: f64 = 6.0;
+/// No cell has edges shorter than this power of 1/2 of the facet's.
+const DEEPEST: u32 = 24;
+/// Looks at corners are this share of the way to the centroid: other surfaces touch there.
+const INWARD: f64 = 1.0 / 1024.0;
+/// The share of its mean intensity that a light is taken to have where its table has less, and that of what a
+/// surface keeps of all light where it keeps less: looks may miss a narrow beam, or where a surface shines.
+const EVERYWHERE: f64 = 0.1;
+
+/// A light that looks at a facet.
+pub(super) struct Beam<'s, 'a, S> {
+    stage: &'s Stage<'a, S>,
+    /// Number among the point-like lights.
+    number: u32,
+    light: &'a Light,
+    position: DVec3,
+    mean_cd: f64,
+    largest_cd: f64,
+    largest_angle: f64,
+    /// Flux of all point-like lights.
+    all_lm: f64,
+}
+
+/// A cell, and what lands at its corners.
+pub(super) struct LitCell {
+    pub(super) cell: Cell,
+    pub(super) facet: u32,
+    pub(super) light: u32,
+    pub(super) front: bool,
+    /// What goes on there in lm/m^2: illuminance times albedo.
+    pub(super) seen: [f64; 3],
+    /// The same if nothing stood in the way, and if no beam were narrow.
+    pub(super) open: [f64; 3],
+    pub(super) area_m2: f64,
+}
+
+/// What a look at a place found, in lm/m^2 that go on.
+#[derive(Clone, Copy, Default)]
+struct Look {
+    seen: f64,
+    open: f64,
+}
+
+/// One facet as a light sees it.
+struct View<'v, 's, 'a, S> {
+    beam: &'v Beam<'s, 'a, S>,
+    facet: u32,
+    front: bool,
+    n: DVec3,
+    area_m2: f64,
+    edge_m: f64,
+    /// The share of what lands that goes on, over all directions.
+    most_kept: f64,
+    rays: u64,
+    found: Vec<LitCell>,
+}
+
+impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
+    pub(super) fn all(stage: &'s Stage<'a, S>) -> Vec<Self> {
+        let lights: &PointLikes<'a> = &stage.lights.pointlikes;
+        let all_lm = lights.iter().map(|(_, flux_lm)| flux_lm).sum();
+        let beam = |(number, (position, flux_lm))| {
+            let light = lights.get(number).expect("as many as there are");
+            let mean_cd = flux_lm / (4.0 * std::f64::consts::PI);
+            let largest_cd = match light {
+                Light::Luminaire(luminaire) => {
+                    luminaire.dimming * luminaire.photometry.table().maximum().value
+                }
+                Light::Point(_) | Light::Area(_) => mean_cd,
+            };
+            let has_beam = largest_cd > BEAM * mean_cd;
+            Self {
+                stage,
+                number: number as u32,
+                light,
+                position,
+                mean_cd,
+                largest_cd,
+                largest_angle: LARGEST[usize::from(has_beam)],
+                all_lm,
+            }
+        };
+        lights.iter().enumerate().map(beam).collect()
+    }
+
+    /// Which side of a facet the light is on; `None` in its plane, or where nothing goes on.
+    pub(super) fn faces(&self, facet: u32) -> Option<bool> {
+        let own = &self.stage.world.facets[facet as usize];
+        let height_m = own.front_normal.dot(self.position - own.point([1.0, 0.0, 0.0]));
+        (height_m.abs() > self.stage.world.hair_m()).then_some(height_m > 0.0)
+    }
+
+    /// Cells of a facet in an order in which most are neighbours, and the number of rays that it took.
+    pub(super) fn look_at(&self, facet: u32) -> (Vec<LitCell>, u64) {
+        let Some(front) = self.faces(facet) else { return (Vec::new(), 0) };
+        let world = &self.stage.world;
+        let own = &world.facets[facet as usize];
+        let n = if front { own.front_normal } else { -own.front_normal };
+        let most_kept = world.most_kept_by(own);
+        if most_kept <= 0.0 {
+            return (Vec::new(), 0);
+        }
+        let mut view = View {
+            beam: self,
+            facet,
+            front,
+            n,
+            area_m2: own.area_m2(),
+            edge_m: own.longest_edge_m(),
+            most_kept,
+            rays: 0,
+            found: Vec::new(),
+        };
+        let whole = Cell::WHOLE;
+        let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let looks = corners.map(|corner| view.look(whole, corner));
+        view.cut(whole, looks, 0);
+        (view.found, view.rays)
+    }
+}
+
+impl<S: Spectrum> View<'_, '_, '_, S> {
+    /// Keeps a cell or cuts it.
+    fn cut(&mut self, cell: Cell, corners: [Look; 3], depth: u32) {
+        let middles = [[0.0, 0.5, 0.5], [0.5, 0.0, 0.5], [0.5, 0.5, 0.0]];
+        let middles = middles.map(|middle| self.look(cell, middle));
+        let area_m2 = self.area_m2 * cell.area_share();
+        if depth < DEEPEST && self.wants_cut(cell, area_m2, &corners, &middles) {
+            for (part, looks) in cell.parts().into_iter().zip(Cell::split(corners, middles)) {
+                self.cut(part, looks, depth + 1);
+            }
+            return;
+        }
+        self.found.push(LitCell {
+            cell,
+            facet: self.facet,
+            light: self.beam.number,
+            front: self.front,
+            seen: corners.map(|look| look.seen),
+            open: corners.map(|look| look.open),
+            area_m2,
+        });
+    }
+
+    fn wants_cut(
+        &self,
+        cell: Cell,
+        area_m2: f64,
+        corners: &[Look; 3],
+        middles: &[Look; 3],
+    ) -> bool {
+        let misses = |i: usize| {
+            let ends = 0.5 * (corners[(i + 1) % 3].seen + corners[(i + 2) % 3].seen);
+            (middles[i].seen - ends).abs()
+        };
+        let missed_lm = area_m2 * (misses(0) + misses(1) + misses(2)) / 3.0;
+        missed_lm > TOLERANCE * self.beam.all_lm || self.may_hide(cell, area_m2)
+    }
+
+    /// Whether much light may land between the looks.
+    fn may_hide(&self, cell: Cell, area_m2: f64) -> bool {
+        let Beam { position, largest_cd, largest_angle, all_lm, .. } = *self.beam;
+        let place = |weights| self.beam.stage.world.facets[self.facet as usize].point(weights);
+        let edge_m = self.edge_m * cell.area_share().sqrt();
+        let to_light = position - place(cell.place([1.0 / 3.0; 3]));
+        let height_m = self.n.dot(to_light);
+        // No corner is farther from the centroid than two thirds of the longest edge.
+        let nearest_m = (to_light.length() - edge_m * (2.0 / 3.0)).max(height_m);
+        let most_lx = largest_cd * height_m / (nearest_m * nearest_m * nearest_m);
+        edge_m > largest_angle * nearest_m && most_lx * area_m2 * self.most_kept > NOTABLE * all_lm
+    }
+
+    fn look(&mut self, cell: Cell, weights: [f64; 3]) -> Look {
+        let weights = cell.place(weights).map(|w| w + (1.0 / 3.0 - w) * INWARD);
+        let world = &self.beam.stage.world;
+        let at = world.interaction_on(self.facet, self.front, weights);
+        let from = world.vantage(&at);
+        let Some(incidence) = Incidence::new(self.beam.light, from.position(), at.n) else {
+            return Look::default();
+        };
+        let Incidence { direction, distance_m, illuminance_lx, lx_per_cd } = incidence;
+        let open_lx = illuminance_lx + EVERYWHERE * self.beam.mean_cd * lx_per_cd;
+        let mut seen_lx = 0.0;
+        if illuminance_lx > 0.0 {
+            self.rays += 1;
+            if world.is_visible(from, direction, distance_m, u32::MAX) {
+                seen_lx = illuminance_lx;
+            }
+        }
+        let wo = world.frame(&at).to_local(direction);
+        let kept = world.bsdf(&at).albedo(wo, self.front, Mode::Flux).luminance();
+        let may_keep = kept.max(EVERYWHERE * self.most_kept);
+        Look { seen: seen_lx * kept, open: open_lx * may_keep }
+    }
+}

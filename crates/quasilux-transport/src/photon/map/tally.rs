@@ -1,0 +1,289 @@
+//! Photons counted by element, and the illuminance that follows from them.
+
+use super::blocks::Blocks;
+use super::layout::{MapLayout, Place};
+use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::context::Stage;
+use crate::lights::images::Trail;
+use crate::photon::trace::{Flight, PhotonReceiver};
+use crate::settings::Reconstruction;
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use quasilux_sampling::Sampler;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// Photons are counted in so many quanta each: 2^44 photons fit a counter.
+pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
+
+/// The photons counted by each element, writable by all threads, in layers by the number of their
+/// bounces. Elements where nothing lands take next to no memory; others take 4 bytes for each moment
+/// and channel in each layer that counts something there.
+pub(crate) struct MapTally<S> {
+    /// Layer after layer.
+    sums: Blocks,
+    /// Counters of a layer.
+    layer: usize,
+    /// The first is for photons that bounced once, the last for all that bounced so often or more.
+    layers: u32,
+    reconstruction: Reconstruction,
+    quanta_per_photon: f64,
+    channels: PhantomData<S>,
+}
+
+/// The illuminance that a tally stands for when each photon carries a certain flux.
+pub(crate) struct IlluminationMap<'m, S> {
+    tally: &'m MapTally<S>,
+    lm_per_quantum: f64,
+}
+
+/// Counts landings of photons that the backward path does not count itself.
+#[derive(Clone, Copy)]
+pub(crate) struct MapReceiver<'a, S> {
+    layout: &'a MapLayout,
+    tally: &'a MapTally<S>,
+    /// Photons with more bounces are left out: their light bounces once more before a sensor.
+    most_bounces: u32,
+    /// So are photons that took more coordinates.
+    most_dimensions: u32,
+    /// Whether that which it sees did.
+    is_deep: bool,
+}
+
+impl<S: Spectrum> MapTally<S> {
+    /// For photons that weigh `lightest` or more, a power of two, in so many layers, one at least.
+    pub(crate) fn new(layout: &MapLayout, lightest: f64, layers: u32) -> Self {
+        let reconstruction = layout.reconstruction();
+        let layer = layout.len() * reconstruction.moments() * S::CHANNELS;
+        let quanta_per_photon = QUANTA_PER_PHOTON / lightest;
+        let sums = Blocks::new(layer * layers as usize);
+        Self { sums, layer, layers, reconstruction, quanta_per_photon, channels: PhantomData }
+    }
+
+    /// Counts a photon with this colour, which bounced so often, once at least.
+    pub(crate) fn add(&self, place: &Place, weight: S, bounces: u32) {
+        let first = self.first(place) + (bounces.min(self.layers) - 1) as usize * self.layer;
+        match self.reconstruction {
+            Reconstruction::Constant => {
+                for channel in 0..S::CHANNELS {
+                    self.sums.add(first + channel, self.quanta(weight.channel(channel)));
+                }
+            }
+            Reconstruction::Linear => {
+                for channel in 0..S::CHANNELS {
+                    for (corner, share) in place.barycentric.into_iter().enumerate() {
+                        let moment = self.quanta(weight.channel(channel) * share);
+                        self.sums.add(first + 3 * channel + corner, moment);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The map at this moment, while no photons fly; one photon carries `flux_lm`.
+    pub(crate) fn read(&self, flux_lm: f64) -> IlluminationMap<'_, S> {
+        IlluminationMap { tally: self, lm_per_quantum: flux_lm / self.quanta_per_photon }
+    }
+
+    fn quanta(&self, photons: f64) -> u64 {
+        (photons * self.quanta_per_photon).round_ties_even() as u64
+    }
+
+    fn first(&self, place: &Place) -> usize {
+        place.element * self.reconstruction.moments() * S::CHANNELS
+    }
+}
+
+impl<S> Stored for MapTally<S> {
+    fn put(&self, out: &mut Writer) {
+        self.sums.put(out);
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.take_in(from)
+    }
+}
+
+impl<S: Spectrum> IlluminationMap<'_, S> {
+    /// Illuminance in lx at a place, by photons with so many bounces at most; the last layer counts whole. Linear ones may be
+    /// negative in places.
+    pub(crate) fn illuminance_lx(&self, place: &Place, most_bounces: u32) -> S {
+        self.of_layers_lx(place, 0..self.tally.layers.min(most_bounces))
+    }
+
+    /// The parts of it by the number of bounces of the photons, the last of so many and more.
+    pub(crate) fn terms_lx(
+        &self,
+        place: Place,
+        most_bounces: u32,
+    ) -> impl Iterator<Item = (u32, S)> {
+        (0..self.tally.layers.min(most_bounces))
+            .map(move |layer| (layer + 1, self.of_layers_lx(&place, layer..layer + 1)))
+    }
+
+    /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order would leave it.
+    ///
+    /// With N photons that all weigh the least, of flux P, on an element of area A it is `sqrt(N) P / A`, for linear ones times the root mean
+    /// square of the kernel at the place: of three `k = 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre
+    /// and 3 at corners, for `E[b_i b_j]` of a uniform place is 1/6 and 1/12.
+    pub(crate) fn noise_lx(&self, place: &Place, most_bounces: u32) -> S {
+        let MapTally { sums, layer, layers, reconstruction, .. } = self.tally;
+        let first = self.tally.first(place);
+        let moments = reconstruction.moments();
+        let photon_lx = self.lm_per_quantum * QUANTA_PER_PHOTON / place.area_m2;
+        let kernel = match reconstruction {
+            Reconstruction::Constant => 1.0,
+            Reconstruction::Linear => {
+                let squares = place.barycentric.map(|b| (12.0 * b - 3.0) * (12.0 * b - 3.0));
+                (squares.iter().sum::<f64>() + 9.0) / 12.0
+            }
+        };
+        S::from_channels(|channel| {
+            let counters = || first + moments * channel..first + moments * (channel + 1);
+            let of_layer = |number: u32| counters().map(move |at| number as usize * layer + at);
+            let layers = 0..most_bounces.min(*layers);
+            let quanta: u64 = layers.flat_map(of_layer).map(|at| sums.get(at)).sum();
+            (quanta as f64 / QUANTA_PER_PHOTON * kernel).sqrt() * photon_lx
+        })
+    }
+
+    /// Quanta are added before all else: their sum has the bits of one layer for all.
+    fn of_layers_lx(&self, place: &Place, layers: Range<u32>) -> S {
+        let MapTally { sums, layer, reconstruction, .. } = self.tally;
+        let first = self.tally.first(place);
+        let of_layer = |number: u32, counter: usize| sums.get(number as usize * layer + counter);
+        let sum = |number: usize| -> f64 {
+            layers.clone().map(|layer| of_layer(layer, first + number)).sum::<u64>() as f64
+        };
+        let lx_per_quantum = self.lm_per_quantum / place.area_m2;
+        S::from_channels(|channel| {
+            let quanta = match reconstruction {
+                Reconstruction::Constant => sum(channel),
+                // The kernel summed over photons: it is linear in their weights.
+                Reconstruction::Linear => (0..3)
+                    .map(|corner| {
+                        (12.0 * place.barycentric[corner] - 3.0) * sum(3 * channel + corner)
+                    })
+                    .sum(),
+            };
+            quanta * lx_per_quantum
+        })
+    }
+}
+
+impl<'a, S: Spectrum> MapReceiver<'a, S> {
+    pub(crate) fn new(stage: &Stage<'_, S>, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
+        Self::up_to(most_bounces(stage), stage.map_dimensions, layout, tally)
+    }
+
+    /// Leaves out photons with more bounces than these, and landings after more coordinates.
+    pub(crate) fn up_to(
+        most_bounces: u32,
+        most_dimensions: Option<u32>,
+        layout: &'a MapLayout,
+        tally: &'a MapTally<S>,
+    ) -> Self {
+        let most_dimensions = most_dimensions.unwrap_or(u32::MAX);
+        Self { layout, tally, most_bounces, most_dimensions, is_deep: false }
+    }
+}
+
+/// Bounces of the photons whose light may come to a sensor after one more.
+pub(super) fn most_bounces<S>(stage: &Stage<'_, S>) -> u32 {
+    stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(1))
+}
+
+impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
+    fn follow(&mut self, sampler: &Sampler<'_>) {
+        self.is_deep = sampler.dimension() > self.most_dimensions;
+    }
+
+    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
+
+    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+        // Light straight from the lights is never read from the map.
+        if !self.is_deep && (1..=self.most_bounces).contains(&bounces) {
+            self.tally.add(&self.layout.locate(at), weight, bounces);
+        }
+    }
+
+    /// Paths count light that images show, and what none shows is added beside the map.
+    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: Trail) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::photon::map::fixture::{Numbers, at, square};
+    use crate::settings::Settings;
+    use quasilux_sampling::warp::sample_triangle;
+
+    /// Photons at the three places of a rule that is exact for quadratic functions, as many as a linear
+    /// function says: its projection is that function, or its mean.
+    #[test]
+    fn linear_illumination_is_projected_exactly() {
+        let (world, numbers) = (square(), &mut Numbers(3));
+        let function = |[a, b, c]: [f64; 3]| 5.0 * a + 0.25 * b + 2.0 * c;
+        for map_reconstruction in [Reconstruction::Constant, Reconstruction::Linear] {
+            let settings = Settings { map_reconstruction, ..Settings::default() };
+            let layout = MapLayout::new(&world, &settings);
+            for _ in 0..100 {
+                let tally = MapTally::<f64>::new(&layout, 1.0, 3);
+                let place = layout.locate(&at(&world, numbers));
+                let gauss = |corner| {
+                    std::array::from_fn(|i| [1.0 / 6.0, 2.0 / 3.0][usize::from(i == corner)])
+                };
+                for (barycentric, bounces) in [0, 1, 2].map(gauss).into_iter().zip([1, 3, 7]) {
+                    tally.add(&Place { barycentric, ..place }, function(barycentric), bounces);
+                }
+                let map = tally.read(place.area_m2 / 3.0);
+                let found = map.illuminance_lx(&place, u32::MAX);
+                let wanted = match map_reconstruction {
+                    Reconstruction::Constant => function([1.0 / 3.0; 3]),
+                    Reconstruction::Linear => function(place.barycentric),
+                };
+                assert!((found - wanted).abs() < 2e-5, "{found}, wanted {wanted}");
+                let terms: Vec<(u32, f64)> = map.terms_lx(place, u32::MAX).collect();
+                assert_eq!([terms[0].0, terms[1].0, terms[2].0], [1, 2, 3]);
+                assert!(terms[1].1 == 0.0 && (terms[0].1 + terms[2].1 - found).abs() < 1e-12);
+                assert_eq!(map.illuminance_lx(&place, 2), terms[0].1);
+                assert_eq!(map.terms_lx(place, 1).count(), 1);
+            }
+        }
+    }
+
+    /// Photons without order at random places of an element, in many tallies: the deviation of what they say of a place is
+    /// what one tally foretells, on average, whatever they weigh.
+    #[test]
+    fn noise_is_how_far_maps_are_off() {
+        let (world, numbers) = (square(), &mut Numbers(5));
+        for (map_reconstruction, weight) in [
+            (Reconstruction::Constant, 1.0),
+            (Reconstruction::Linear, 1.0),
+            (Reconstruction::Linear, 0.25),
+        ] {
+            let settings = Settings { map_reconstruction, ..Settings::default() };
+            let layout = MapLayout::new(&world, &settings);
+            let place = layout.locate(&at(&world, numbers));
+            let (mut foretold, mut values) = (0.0, Vec::new());
+            for _ in 0..2000 {
+                let tally = MapTally::<f64>::new(&layout, weight, 2);
+                // A number of photons that is itself by chance, 40 on average.
+                for _ in (0..400).filter(|_| numbers.next() < 0.1).collect::<Vec<_>>() {
+                    let barycentric = sample_triangle([numbers.next(), numbers.next()]);
+                    tally.add(&Place { barycentric, ..place }, weight, 1);
+                }
+                let map = tally.read(place.area_m2);
+                let noise = map.noise_lx(&place, 1);
+                foretold += noise * noise / 2000.0;
+                values.push(map.illuminance_lx(&place, 1));
+                assert_eq!(map.noise_lx(&place, 0), 0.0);
+            }
+            let mean = values.iter().sum::<f64>() / 2000.0;
+            let found = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 1999.0;
+            // A binomial number varies 0.9 times as much as photons without order.
+            let ratio = foretold / found;
+            assert!((0.9..1.25).contains(&ratio), "{map_reconstruction:?} {weight}: {ratio}");
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Light tracing: photons from the lights, and what counts them.
+
+pub(crate) mod batch;
+pub(crate) mod caustics;
+pub(crate) mod first_shot;
+pub(crate) mod map;
+pub(crate) mod order;
+pub(crate) mod trace;
+pub(crate) mod wave;

@@ -1,0 +1,242 @@
+//! Photons in flight, many at once.
+//!
+//! All photons of a wave leave their lights, then fly together, then land, then scatter, and those
+//! that go on close ranks. So each step is a short loop over neighbours in memory, and the ray kernel
+//! sees many rays together. Photons that are split bring their children in; what makes a wave too long
+//! waits until the rest has ended, so that memory is bounded. What becomes of a photon depends on its
+//! index and its ancestors alone, never on its company: a wave gives what
+//! [`crate::photon::trace::trace_photon`] gives.
+
+use crate::context::{Stage, Step};
+use crate::cutoff::MAX_EVENTS;
+use crate::photon::trace::{Arrival, Beginning, Lead, Photon, PhotonCounts, PhotonReceiver};
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use quasilux_bvh::{Hit, Shot};
+use quasilux_sampling::{PointSet, Sampler};
+
+/// Photons that fly together are cut in two when there are more.
+const LONGEST: usize = 1 << 14;
+
+/// Photons that leave their lights together.
+pub(crate) struct Wave<'p, 'w, I> {
+    pub(crate) points: &'p PointSet,
+    pub(crate) indices: I,
+    /// Where from, and what steers them.
+    pub(crate) lead: Lead<'w>,
+}
+
+/// Working space for one wave after the other.
+pub(crate) struct PhotonWave<'p, S> {
+    photons: Vec<Photon<'p, S>>,
+    /// The ray of each photon.
+    shots: Vec<Shot>,
+    /// Those that have scattered.
+    departed: (Vec<Photon<'p, S>>, Vec<Shot>),
+    waiting: Vec<Waiting<'p, S>>,
+    hits: Vec<Option<Hit>>,
+    /// Where it meets a surface.
+    found: Vec<Option<Interaction>>,
+    /// How each photon begins, and which of the places that some leave from light comes to.
+    beginnings: Vec<Beginning>,
+    is_lit: Vec<bool>,
+    indices: Vec<u64>,
+    /// The next two coordinates of each photon.
+    ahead: [Vec<f64>; 2],
+}
+
+/// Photons that wait for their flight after `bounces` reflections.
+struct Waiting<'p, S> {
+    bounces: u32,
+    photons: Vec<Photon<'p, S>>,
+    shots: Vec<Shot>,
+}
+
+impl<'p, S: Spectrum> PhotonWave<'p, S> {
+    pub(crate) fn new() -> Self {
+        Self {
+            photons: Vec::new(),
+            shots: Vec::new(),
+            departed: (Vec::new(), Vec::new()),
+            waiting: Vec::new(),
+            hits: Vec::new(),
+            found: Vec::new(),
+            beginnings: Vec::new(),
+            is_lit: Vec::new(),
+            indices: Vec::new(),
+            ahead: [Vec::new(), Vec::new()],
+        }
+    }
+
+    /// Traces photons, and what they are split into, to their ends.
+    pub(crate) fn trace(
+        &mut self,
+        stage: &Stage<'_, S>,
+        wave: Wave<'p, '_, impl Iterator<Item = u64>>,
+        receiver: &mut impl PhotonReceiver<S>,
+        counts: &mut PhotonCounts,
+    ) {
+        let lap = |step| stage.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
+        let Wave { points, indices, lead } = wave;
+        self.photons.clear();
+        self.photons.extend(
+            indices.map(|index| Photon::new(Sampler::new(points, index)).for_receiver(receiver)),
+        );
+        self.supply(points);
+        lap(Step::Sampling);
+        counts.emitted += self.photons.len() as u64;
+        counts.begun += self.photons.len() as u64;
+        self.begin(stage, lead, counts);
+        self.look_for_light(stage, points, counts);
+        self.depart(stage, lead, counts);
+        lap(Step::Emission);
+        let mut bounces = 0;
+        while let Some(reached) = self.muster(bounces) {
+            bounces = reached;
+            if bounces == MAX_EVENTS {
+                self.photons.drain(..).for_each(|photon| counts.give_up(&photon));
+                continue;
+            }
+            counts.rays += self.shots.len() as u64;
+            stage.world.trace_all(&self.shots, &mut self.hits, &mut self.found);
+            lap(Step::Traversal);
+            self.show(stage, bounces, receiver);
+            lap(Step::Tally);
+            self.supply(points);
+            lap(Step::Sampling);
+            self.scatter(stage, lead, bounces, counts);
+            bounces += 1;
+            lap(Step::Scattering);
+        }
+    }
+
+    /// Makes sure that there are photons to fly, not too many; after how many bounces. `None` where none
+    /// are left.
+    fn muster(&mut self, bounces: u32) -> Option<u32> {
+        while self.photons.len() > LONGEST {
+            let rest = self.photons.len() - LONGEST;
+            let photons = self.photons.split_off(rest);
+            let shots = self.shots.split_off(rest);
+            self.waiting.push(Waiting { bounces, photons, shots });
+        }
+        if !self.photons.is_empty() {
+            return Some(bounces);
+        }
+        let Waiting { bounces, photons, shots } = self.waiting.pop()?;
+        (self.photons, self.shots) = (photons, shots);
+        Some(bounces)
+    }
+
+    /// Draws all beginnings.
+    fn begin(&mut self, stage: &Stage<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+        self.beginnings.clear();
+        self.photons.retain_mut(|photon| {
+            let beginning = photon.begin(stage, lead.source);
+            if beginning.is_none() {
+                counts.end(photon);
+            }
+            let begins = beginning.is_some();
+            self.beginnings.extend(beginning);
+            begins
+        });
+    }
+
+    /// Finds out to which of the places that photons begin at light comes.
+    fn look_for_light(
+        &mut self,
+        stage: &Stage<'_, S>,
+        points: &PointSet,
+        counts: &mut PhotonCounts,
+    ) {
+        self.shots.clear();
+        self.shots.extend(self.beginnings.iter().filter_map(|beginning| match beginning {
+            Beginning::Flies(_) => None,
+            Beginning::IfLit(place) => Some(place.sight(stage)),
+        }));
+        counts.rays += self.shots.len() as u64;
+        stage.world.are_visible(&self.shots, &mut self.is_lit);
+        if !self.shots.is_empty() {
+            self.supply(points);
+        }
+        self.shots.clear();
+    }
+
+    /// Lets all photons fly that leave a light, or a place that light comes to.
+    fn depart(&mut self, stage: &Stage<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+        let (photons, shots) = &mut self.departed;
+        let mut is_lit = self.is_lit.iter();
+        for (mut photon, beginning) in self.photons.drain(..).zip(&self.beginnings) {
+            match beginning {
+                Beginning::Flies(start) => {
+                    shots.push(start.from.shot(start.direction));
+                    photons.push(photon);
+                }
+                Beginning::IfLit(place) if is_lit.next() == Some(&true) => {
+                    photon.receive(place);
+                    photon.scatter(stage, lead, &place.arrival(), counts, |departure| {
+                        shots.push(departure.start.from.shot(departure.start.direction));
+                        photons.push(departure.photon);
+                    });
+                }
+                Beginning::IfLit(_) => counts.end(&photon),
+            }
+        }
+        std::mem::swap(&mut self.photons, photons);
+        std::mem::swap(&mut self.shots, shots);
+    }
+
+    /// Makes the next two coordinates of all photons at once. Those that are elsewhere in their
+    /// coordinates than the first make their own.
+    fn supply(&mut self, points: &PointSet) {
+        let Some(dimension) = self.photons.first().map(|photon| photon.sampler.dimension()) else {
+            return;
+        };
+        if !points.fills_lists_fast() {
+            return;
+        }
+        self.indices.clear();
+        self.indices.extend(self.photons.iter().map(|photon| photon.sampler.index()));
+        for (dimension, ahead) in (dimension..).zip(&mut self.ahead) {
+            ahead.resize(self.indices.len(), 0.0);
+            points.fill_at(dimension, &self.indices, ahead);
+        }
+        let [first, second] = &self.ahead;
+        for ((photon, first), second) in self.photons.iter_mut().zip(first).zip(second) {
+            photon.sampler.supply(dimension, [*first, *second]);
+        }
+    }
+
+    fn show(&self, stage: &Stage<'_, S>, bounces: u32, receiver: &mut impl PhotonReceiver<S>) {
+        for ((photon, shot), found) in self.photons.iter().zip(&self.shots).zip(&self.found) {
+            let (from, direction) = (shot.ray.origin, shot.ray.direction);
+            photon.show(stage, from, direction, found.as_ref(), bounces, receiver);
+        }
+    }
+
+    /// Scatters all photons; those that go on keep their order, children come after their elders.
+    fn scatter(
+        &mut self,
+        stage: &Stage<'_, S>,
+        lead: Lead<'_>,
+        bounces: u32,
+        counts: &mut PhotonCounts,
+    ) {
+        let (photons, shots) = &mut self.departed;
+        let arrivals = self.shots.iter().zip(&self.found);
+        for (photon, (shot, found)) in self.photons.drain(..).zip(arrivals) {
+            let arrival = Arrival {
+                direction: shot.ray.direction,
+                found: found.as_ref(),
+                bounces,
+                is_drawn: false,
+            };
+            photon.scatter(stage, lead, &arrival, counts, |departure| {
+                shots.push(departure.start.from.shot(departure.start.direction));
+                photons.push(departure.photon);
+            });
+        }
+        self.shots.clear();
+        std::mem::swap(&mut self.photons, photons);
+        std::mem::swap(&mut self.shots, shots);
+    }
+}

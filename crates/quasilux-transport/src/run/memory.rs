@@ -1,0 +1,201 @@
+//! How much memory a run takes, foretold from counts alone: of triangles, sensor points, pixels and samples.
+//! `docs/memory.md` has the measurements behind the figures.
+//!
+//! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
+//! element of its own, cells of surveys as if all were there.
+
+use crate::estimator::control_variate::{self, MAX_PHOTONS};
+use crate::importance::{Fork, MAX_FORKS};
+use crate::path::sections::PathSums;
+use crate::photon::map::{
+    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS,
+};
+use crate::settings::{Estimator, Reconstruction, Settings, Switch};
+use crate::spectrum::{Spectrum, is_grey};
+use crate::stats::tally::Sum;
+use quasilux_scene::{Rgb, Scene};
+
+/// Of each triangle while the hierarchy over all of them is built: the peak, and afterwards enough for the
+/// scene, its facets and the hierarchy.
+const TRIANGLE_BYTES: u64 = 450;
+/// Of a value of a sensor point in a replicate as it is reported: in the estimates, and in copies of them.
+const VALUE_BYTES: u64 = 4 * size_of::<f64>() as u64;
+/// Of a pixel: what is known of it, and its part of the files.
+const PIXEL_BYTES: u64 = 48;
+/// Cells of a survey at most, and what guides photons in each of them.
+const CELLS: u64 = 1 << 13;
+const GUIDE_BYTES: u64 = (MAX_FORKS * size_of::<Fork>()) as u64;
+/// Light that leaves a cell: its sum and its mean, straight and other.
+const LEAVING_BYTES: u64 = 96;
+/// What a sensor point sees of a cell, and the most of all of that.
+const VIEW_BYTES: u64 = 8;
+const MAX_VIEWS_BYTES: u64 = 128 << 20;
+/// Of a counter of a map, and how many of them one landing takes memory for.
+const COUNTER_BYTES: u64 = 4;
+const COUNTERS_OF_A_LANDING: u64 = 256;
+/// Landings of a photon: as many as at a reflectance of 7/8.
+const LANDINGS: u64 = 8;
+
+/// Where the memory of a run goes, in bytes. The program itself and the buffers of its threads come on top.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MemoryNeed {
+    /// Triangles, and the hierarchy over them.
+    pub scene_bytes: u64,
+    /// Sums and values of all sensor points in all replicates.
+    pub sums_bytes: u64,
+    /// Cells of surveys, at most.
+    pub cells_bytes: u64,
+    /// Illumination maps that are full, or one that is frozen.
+    pub maps_bytes: u64,
+    /// What a sample adds to them at most, while they are not.
+    pub maps_bytes_a_sample: u64,
+    /// Pictures.
+    pub pictures_bytes: u64,
+}
+
+impl MemoryNeed {
+    /// Of runs of any number of samples.
+    #[must_use]
+    pub fn of(scene: &Scene, settings: &Settings) -> Self {
+        let triangles = scene.mesh.triangles.len() as u64;
+        let points: u64 = scene.sensors.iter().map(|sensor| sensor.len() as u64).sum();
+        let pixels = scene.cameras.iter().map(|camera| {
+            let [width, height] = camera.resolution.map(u64::from);
+            width.saturating_mul(height)
+        });
+        let need = Self {
+            scene_bytes: triangles.saturating_mul(TRIANGLE_BYTES),
+            sums_bytes: points.saturating_mul(point_bytes(settings)),
+            cells_bytes: cells_bytes(settings, points),
+            pictures_bytes: total(pixels).saturating_mul(PIXEL_BYTES),
+            ..Self::default()
+        };
+        let maps = match settings.estimator {
+            Estimator::BidirectionalMap => u64::from(settings.effective_replicates()),
+            Estimator::Bidirectional if settings.joins() != Some(true) => 1,
+            Estimator::Photon | Estimator::Path | Estimator::Bidirectional => return need,
+        };
+        let channels = if is_grey(scene) { f64::CHANNELS } else { Rgb::CHANNELS } as u64;
+        let moments = if settings.map_reconstruction == Reconstruction::Linear { 3 } else { 1 };
+        let layers = u64::from(settings.list_terms.max(1));
+        let of_landing = product([LANDINGS, COUNTERS_OF_A_LANDING, channels, COUNTER_BYTES]);
+        let full = |sides: u64, layers: u64| {
+            product([sides, moments, channels, layers, COUNTER_BYTES, maps])
+        };
+        if settings.estimator == Estimator::Bidirectional {
+            // Frozen before the first sample.
+            let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
+            let layers = control_variate::layers(settings.max_bounces, settings.list_terms, sides);
+            let full = full(sides, layers.into());
+            let maps_bytes = full.min(of_landing.saturating_mul(MAX_PHOTONS));
+            return Self { maps_bytes, maps_bytes_a_sample: maps_bytes, ..need };
+        }
+        let (across, split) = match settings.map_adaptive {
+            true => (COARSE_ELEMENTS_ACROSS, MAX_NEW_ELEMENTS),
+            false => (ELEMENTS_ACROSS, 0),
+        };
+        let sides = elements(scene, settings, across, split).saturating_mul(2);
+        Self {
+            maps_bytes: full(sides, layers),
+            maps_bytes_a_sample: product([of_landing, settings.map_photons.into(), maps]),
+            ..need
+        }
+    }
+
+    /// All of it after so many samples; `None` stands for any number.
+    #[must_use]
+    pub fn total_bytes(&self, samples: Option<u64>) -> u64 {
+        let filled = samples.unwrap_or(u64::MAX).saturating_mul(self.maps_bytes_a_sample);
+        let maps_bytes = self.maps_bytes.min(filled);
+        let Self { scene_bytes, sums_bytes, cells_bytes, pictures_bytes, .. } = *self;
+        total([scene_bytes, sums_bytes, cells_bytes, maps_bytes, pictures_bytes])
+    }
+}
+
+/// A sensor point in all replicates.
+fn point_bytes(settings: &Settings) -> u64 {
+    let values = 1 + u64::from(settings.list_terms);
+    let sums = size_of::<PathSums>() as u64 + 2 * values * size_of::<Sum>() as u64;
+    let replicates = u64::from(settings.effective_replicates());
+    replicates.saturating_mul(sums + values * VALUE_BYTES)
+}
+
+/// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`] cuts them, so many to a
+/// scene's size, and splits them.
+fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 {
+    let mesh = &scene.mesh;
+    let size_m = mesh.bounds().map_or(0.0, |[low, high]| (high - low).length());
+    let element_m = settings.map_element_m.unwrap_or(size_m / across);
+    let elements = |triangle: u32| {
+        let [a, b, c] = mesh.corners(triangle);
+        let longest_m = (a - b).length().max((b - c).length()).max((c - a).length());
+        let parts = (longest_m / element_m).ceil().max(1.0);
+        parts * parts
+    };
+    let triangles = mesh.triangles.len() as u64;
+    let cut: f64 = (0..triangles as u32).map(elements).sum();
+    (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
+}
+
+/// What a survey knows of the cells of the scene, and what photons that are joined to sensors bring to them.
+fn cells_bytes(settings: &Settings, points: u64) -> u64 {
+    let photons = settings.estimator != Estimator::Path;
+    let guides = if photons && settings.steering != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
+    if settings.estimator != Estimator::Bidirectional || settings.joins() == Some(false) {
+        return guides;
+    }
+    let slots = 1 + u64::from(settings.list_terms.max(1));
+    let replicates = u64::from(settings.effective_replicates());
+    let leaving = product([CELLS, LEAVING_BYTES, slots, replicates]) / 2;
+    let views = product([points, CELLS, VIEW_BYTES]).min(MAX_VIEWS_BYTES);
+    total([guides, leaving, views])
+}
+
+fn product<const N: usize>(of: [u64; N]) -> u64 {
+    of.into_iter().fold(1, u64::saturating_mul)
+}
+
+fn total(of: impl IntoIterator<Item = u64>) -> u64 {
+    of.into_iter().fold(0, u64::saturating_add)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(change: impl Fn(&mut Settings)) -> MemoryNeed {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        MemoryNeed::of(&Scene::default(), &settings)
+    }
+
+    #[test]
+    fn what_is_asked_for_is_paid_for() {
+        assert_eq!(with(|_| ()).total_bytes(None), 0);
+        let grown = |elements: u64, terms: u32| {
+            with(|settings| {
+                settings.estimator = Estimator::BidirectionalMap;
+                settings.map_elements = elements;
+                settings.list_terms = terms;
+            })
+        };
+        let few = grown(1 << 10, 0);
+        // 2^11 sides of 3 counters of 4 bytes in 16 replicates.
+        assert_eq!((few.maps_bytes, few.cells_bytes), ((16 * 12) << 11, CELLS * GUIDE_BYTES));
+        assert_eq!(grown(1 << 10, 5).maps_bytes, 5 * few.maps_bytes);
+        assert!(grown(1 << 12, 0).maps_bytes > few.maps_bytes);
+        assert!(few.total_bytes(Some(1)) < few.total_bytes(Some(1 << 10)));
+        assert_eq!(few.total_bytes(Some(1 << 30)), few.total_bytes(None));
+    }
+
+    #[test]
+    fn the_largest_numbers_are_no_panic() {
+        let need = with(|settings| {
+            settings.estimator = Estimator::BidirectionalMap;
+            (settings.map_elements, settings.replicates) = (u64::MAX, u32::MAX);
+            (settings.list_terms, settings.map_photons) = (u32::MAX, u32::MAX);
+        });
+        assert_eq!(need.total_bytes(None), need.total_bytes(Some(u64::MAX)));
+        assert!(need.total_bytes(None) > 1 << 60);
+    }
+}

@@ -1,0 +1,223 @@
+//! From a scene to estimates: the loop over checkpoints.
+
+use crate::codec::{Reader, StateError};
+use crate::context::Stage;
+use crate::estimator::{Estimation, estimation};
+use crate::run::check::{caveats, is_biased};
+use crate::run::checkpoint::Course;
+use crate::run::pixels::add_pictures;
+use crate::settings::{Estimator, Settings};
+use crate::spectrum::{Spectrum, is_grey};
+use crate::stats::decisions::Decisions;
+use crate::stats::estimates::Estimates;
+use crate::stats::observer::{Control, Observer};
+use crate::stats::schedule::{MIN_SAMPLES, Schedule};
+use crate::stats::sequential::miss_probability_of_a_look;
+use crate::stats::tolerance::Standing;
+use crate::stats::watch::Watch;
+use quasilux_bvh::SimdLevel;
+use quasilux_scene::{Rgb, Scene};
+
+/// Relative half-widths of what does not differ between replicates.
+const ROUNDING: f64 = 1e-12;
+
+/// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
+/// first, or the observer stops it; at least up to the first checkpoint. A point that is done before the
+/// others gets no more samples: what it has then is what it would have, were this the end. Then takes the pictures of the
+/// cameras, with a fixed number of paths a pixel.
+///
+/// The result is a function of scene and settings, whatever the number of threads; an observer
+/// that stops a run only picks which checkpoint is the last. Work is shared by the threads of the
+/// rayon pool that the call is made in. [`crate::run::check`] says beforehand whether the settings make
+/// sense for the scene.
+#[must_use]
+pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
+    simulate_on(SimdLevel::fastest(), scene, settings, observer)
+}
+
+/// The same with a ray kernel of choice.
+pub(crate) fn simulate_on(
+    simd: SimdLevel,
+    scene: &Scene,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Estimates {
+    let estimates = if is_grey(scene) {
+        run(&Stage::<f64>::on(simd, scene, settings), scene, settings, None, observer)
+    } else {
+        run(&Stage::<Rgb>::on(simd, scene, settings), scene, settings, None, observer)
+    };
+    estimates.expect("a run from the start needs no state")
+}
+
+/// Goes on from a state that an observer of [`simulate`] with the same scene and settings got, and ends as that
+/// run would have ended, to the bit.
+///
+/// # Errors
+/// When the state is damaged or of another run.
+pub fn resume(
+    scene: &Scene,
+    settings: &Settings,
+    state: &[u8],
+    observer: &mut dyn Observer,
+) -> Result<Estimates, StateError> {
+    if is_grey(scene) {
+        run(&Stage::<f64>::new(scene, settings), scene, settings, Some(state), observer)
+    } else {
+        run(&Stage::<Rgb>::new(scene, settings), scene, settings, Some(state), observer)
+    }
+}
+
+/// Whether a state that an observer got is that of a run whose checkpoints are over. Bytes that are no state are of none.
+#[must_use]
+pub fn is_over(state: &[u8]) -> bool {
+    let mut from = Reader::new(state);
+    let digest = Decisions::default().digest;
+    from.bytes(digest.len()).is_ok() && Course::is_over(&mut from).is_ok_and(|over| over)
+}
+
+fn run<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    scene: &Scene,
+    settings: &Settings,
+    state: Option<&[u8]>,
+    observer: &mut dyn Observer,
+) -> Result<Estimates, StateError> {
+    let mut watch = Watch::new(observer);
+    watch.limit_rays(settings.max_rays);
+    let mut estimation = estimation(stage, scene, settings, &mut watch);
+    let first = estimation.first_checkpoint();
+    // Without sensors there is nothing to wait for.
+    let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
+    let mut course = Course::new(Schedule::new(first, limit));
+    let decisions = estimation.decisions();
+    let digest = decisions.digest;
+    if let Some(state) = state {
+        let mut from = Reader::new(state);
+        if from.bytes(digest.len())? != digest {
+            return Err(StateError::Decisions);
+        }
+        course.read(scene, settings, &mut from)?;
+        watch.read(&mut from)?;
+        estimation.take_in(course.schedule.next_checkpoint(), &mut from)?;
+        from.end()?;
+        if let Some(last) = &course.last {
+            watch.begin_at(last, Standing::of(last, settings).largest());
+        }
+    }
+    let preface = |course: &Course, watch: &mut Watch<'_>| {
+        watch.preface(|out| {
+            out.bytes(&digest);
+            course.put(out);
+        });
+    };
+    preface(&course, &mut watch);
+    // The observer has a state before the first sample, too.
+    let _ = watch.keep(|out| estimation.put(out));
+    // Part of a set whose number of points is fixed would leave part of its lights out.
+    let may_end = settings.sequence.points().is_none();
+    let mut miss_probability = 1.0 - settings.confidence;
+    if may_end && settings.has_tolerance() {
+        let replicates = settings.effective_replicates();
+        miss_probability = miss_probability_of_a_look(miss_probability, replicates);
+    }
+    while !course.over {
+        watch.expect(course.last.as_ref().and_then(|last| expected_rays(last, settings)));
+        if !estimation.advance(course.schedule.next_checkpoint(), &mut watch) {
+            break;
+        }
+        let (mut estimates, standing) =
+            look(stage, scene, settings, estimation.as_ref(), miss_probability);
+        estimates.decisions = decisions.clone();
+        let is_look = may_end && course.schedule.is_look();
+        let is_enough = is_look && standing.may_end;
+        if is_look && !is_enough {
+            course.is_adaptive = estimation.settle(&standing.done);
+        }
+        let is_adaptive = course.is_adaptive;
+        estimates.convergence =
+            course.history.record(&estimates, (&standing, is_adaptive), &course.schedule, settings);
+        let control = watch.checkpoint(&estimates, standing.largest());
+        course.last = Some(estimates);
+        course.over = is_enough || !course.schedule.advance();
+        preface(&course, &mut watch);
+        if course.over {
+            watch.keep_last(|out| estimation.put(out));
+        } else if !watch.keep(|out| estimation.put(out)) || control == Control::Stop {
+            break;
+        }
+    }
+    drop(estimation);
+    let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
+    // The last checkpoint may have come from a state.
+    estimates.decisions = decisions;
+    add_pictures(stage, scene, settings, &mut estimates, &mut watch);
+    Ok(estimates)
+}
+
+/// Rays up to the tolerance or a limit: at that on samples, as if all points went on.
+fn expected_rays(last: &Estimates, settings: &Settings) -> Option<u64> {
+    let share = |most: u64| most as f64 / last.samples.max(1) as f64;
+    let at_limit = settings.max_samples.map(|most| (last.rays as f64 * share(most)) as u64);
+    [last.convergence.rays, at_limit, settings.max_rays].into_iter().flatten().min()
+}
+
+/// What is known at a checkpoint, and how all targets stand there.
+pub(crate) fn look<S: Spectrum>(
+    stage: &Stage<'_, S>,
+    scene: &Scene,
+    settings: &Settings,
+    estimation: &(dyn Estimation + '_),
+    miss_probability: f64,
+) -> (Estimates, Standing) {
+    let mut estimates = estimation.estimates();
+    estimates.confidence = settings.confidence;
+    estimates.miss_probability = miss_probability;
+    estimates.biased |= is_biased(scene, settings);
+    estimates.warnings.extend(caveats(scene, settings));
+    estimates.warnings.extend(stage.warning.clone());
+    let sees_hidden = settings.estimator != Estimator::Photon && settings.max_bounces != Some(0);
+    if let (Some(ways), true) = (&stage.hides, sees_hidden) {
+        estimates.biased = true;
+        estimates.warnings.push(format!(
+            "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
+             density: it is blurred over about the length of a map element, and missing on surfaces that are \
+             not plain diffuse ones"
+        ));
+    }
+    let standing = Standing::of(&estimates, settings);
+    estimates.unresolved_points = standing.unresolved;
+    estimates.warnings.extend(warnings_of_values(&estimates));
+    // Without sensors there is nothing to be wrong about, and what is not sampled is exact.
+    let is_exact =
+        settings.max_bounces == Some(0) && standing.largest().is_some_and(|w| w < ROUNDING);
+    let may_be_done = scene.sensors.is_empty() || is_exact || estimates.samples >= MIN_SAMPLES;
+    estimates.tolerance_reached = standing.is_reached && may_be_done;
+    if standing.is_reached && !may_be_done {
+        estimates.warnings.push(format!(
+            "half-widths are within the tolerance, but {} samples are too few to rely on them: nothing is \
+             called done before {MIN_SAMPLES}",
+            estimates.samples
+        ));
+    }
+    (estimates, standing)
+}
+
+/// What a reader must know of the values of this checkpoint.
+fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if estimates.invalid_contributions > 0 {
+        warnings.push(format!(
+            "{} contributions were not finite, negative or too large, and are not in the results",
+            estimates.invalid_contributions
+        ));
+    }
+    if estimates.unresolved_points > 0 {
+        warnings.push(format!(
+            "at {} sensor points light may be that was not found: they may be dark or light may be hard to \
+             find, and their values have no interval",
+            estimates.unresolved_points
+        ));
+    }
+    warnings
+}

@@ -1,0 +1,418 @@
+//! How fast half-widths shrink, and what that foretells.
+//!
+//! Half-widths of independent samples shrink like N^(-1/2); those of quasi-random points faster, as far as
+//! the values let them. The exponent is measured while a run goes. Points that are done get no more
+//! samples, so half-widths are compared from one checkpoint to the next, over the points that grew, and the ratios
+//! chained:
+//!
+//! ```text
+//! y_0 = 0,   y_(k+1) = y_k + mean( ln h_(k+1) - ln h_k ) + 1/2 luck_k,   h half-width over value
+//! ```
+//!
+//! The slope is that of the line through (ln N_k, y_k) with the least squares. The chain begins where half-widths can
+//! be compared: there are none before anything is found.
+//!
+//! A half-width from R replicates has a logarithm with the variance v = 1 / (2 (R - 1)), so few checkpoints tell
+//! little of a slope: its variance is s^2 = v / sum (ln N_k - mean)^2 where targets err together. What is foretold
+//! therefore uses the mean of the measured slope and of -1/2, weighted by the inverse of s^2 and of P^2, the
+//! variance of slopes among scenes (the posterior mean where all are normal).
+//!
+//! Points that go on are those that seemed worst, in part by chance, and look better the next time. That
+//! part of their half-widths is estimated as empirical Bayes does (B. Efron and C. Morris, Journal of the American
+//! Statistical Association 68, 1973): where the logarithms of all points before the choice vary by T^2 around a mean, the
+//! points that were chosen owe v / T^2 of their distance from it to luck. Half of it is lost at the next
+//! checkpoint, for half of the samples are the same.
+
+use crate::codec::{Reader, StateError, Writer};
+use crate::settings::Settings;
+use crate::stats::estimates::Estimates;
+use crate::stats::schedule::{MAX_SAMPLES, Schedule};
+use crate::stats::tolerance::Standing;
+use quasilux_sampling::quality::fit_power_law;
+
+/// Checkpoints that a slope is fitted to at least.
+const MIN_CHECKPOINTS: usize = 3;
+/// Checkpoints after which a prediction is compared with what came.
+const LATER: usize = 2;
+/// The slope where none is measured: that of independent samples.
+const EXPECTED_SLOPE: f64 = -0.5;
+/// P: how far slopes of scenes lie from that, a standard deviation.
+const SPREAD_OF_SLOPES: f64 = 0.25;
+/// What is foretold with lies in here.
+const SLOPES: std::ops::RangeInclusive<f64> = -1.5..=-0.4;
+
+/// How half-widths shrank so far, and what follows from that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Convergence {
+    /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or where
+    /// nothing has a half-width above 0. About -0.5 says that the points are no better than random ones.
+    pub slope: Option<f64>,
+    /// Indices per replicate at which the tolerance should be reached, whatever limit may come first; `None`
+    /// where nothing says when.
+    pub samples: Option<u64>,
+    /// Rays of the whole run up to there.
+    pub rays: Option<u64>,
+    /// Half-widths over what was foretold for them two checkpoints before with a measured slope: the geometric mean
+    /// over checkpoints, each as often as it had targets with one before and after that grew.
+    pub against_prediction: Option<f64>,
+}
+
+/// The checkpoints of a run so far.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct History {
+    /// Those that the chain of half-widths goes through.
+    checkpoints: Vec<Checkpoint>,
+    /// How predictions did.
+    outcomes: Outcomes,
+    /// Half-width over value and indices of each target at the last checkpoint.
+    widths: Vec<(Option<f64>, u64)>,
+    samples: u64,
+    rays: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Checkpoint {
+    samples: u64,
+    /// exp y: half-widths in units of those at the first checkpoint.
+    width: f64,
+    /// What later half-widths were foretold with; `None` before a slope was measured.
+    exponent: Option<f64>,
+}
+
+/// Logarithms of half-widths over what was foretold for them.
+#[derive(Clone, Debug, Default)]
+struct Outcomes {
+    targets: f64,
+    sum: f64,
+}
+
+/// How logarithms of half-widths changed on average, and over how many targets.
+struct Change {
+    mean: f64,
+    targets: f64,
+}
+
+impl History {
+    /// Adds a checkpoint. `is_adaptive` says whether targets that are done get no more samples.
+    pub(crate) fn record(
+        &mut self,
+        estimates: &Estimates,
+        (standing, is_adaptive): (&Standing, bool),
+        schedule: &Schedule,
+        settings: &Settings,
+    ) -> Convergence {
+        let now = widths(estimates, standing);
+        let noise = 0.5 / (f64::from(settings.effective_replicates()) - 1.0).max(1.0);
+        let exponent = self.chain(&now, estimates.samples, noise);
+        let slope = self.slope();
+        let steepness = exponent.unwrap_or(EXPECTED_SLOPE).abs();
+        let ends: Vec<Option<u64>> = (0..now.len())
+            .map(|target| {
+                if standing.done[target] && schedule.is_look() {
+                    return Some(now[target].1);
+                }
+                let excess = standing.excess[target].filter(|excess| excess.is_finite());
+                let wanted =
+                    estimates.samples as f64 * libm::pow(excess?.max(1.0), 1.0 / steepness);
+                let is_possible = wanted <= MAX_SAMPLES as f64;
+                is_possible
+                    .then(|| schedule.look_at_or_after((wanted as u64).max(estimates.samples)))
+            })
+            .collect();
+        let grown = now.iter().filter(|(_, samples)| *samples == estimates.samples).count();
+        let end = ends.iter().copied().try_fold(0, |end: u64, own| Some(end.max(own?)));
+        let rays = end.map(|end| {
+            // At the first checkpoint surveys and pilots count as if they came again.
+            let step = estimates.samples.saturating_sub(self.samples).max(1) as f64;
+            let rays = estimates.rays.saturating_sub(self.rays) as f64;
+            let rays_per_index = rays / (step * grown.max(1) as f64);
+            let own_end = |own: &Option<u64>| own.filter(|_| is_adaptive).unwrap_or(end);
+            let left = |own| own_end(own).saturating_sub(estimates.samples) as f64;
+            let indices: f64 = ends.iter().map(left).sum();
+            estimates.rays.saturating_add((indices * rays_per_index) as u64)
+        });
+        self.widths = now;
+        self.samples = estimates.samples;
+        self.rays = estimates.rays;
+        let against_prediction = self.outcomes.ratio();
+        Convergence { slope, samples: end, rays, against_prediction }
+    }
+
+    /// Puts out the checkpoints; the rest follows from the estimates of the last one.
+    pub(crate) fn put(&self, out: &mut Writer) {
+        let Self { checkpoints, outcomes: Outcomes { targets, sum }, .. } = self;
+        out.u64(checkpoints.len() as u64);
+        for Checkpoint { samples, width, exponent } in checkpoints {
+            out.u64(*samples);
+            out.f64(*width);
+            out.option(*exponent, Writer::f64);
+        }
+        out.f64(*targets);
+        out.f64(*sum);
+    }
+
+    /// That of a run whose last checkpoint had these estimates.
+    pub(crate) fn read(
+        last: &Estimates,
+        settings: &Settings,
+        from: &mut Reader<'_>,
+    ) -> Result<Self, StateError> {
+        let checkpoint = |from: &mut Reader<'_>| {
+            let (samples, width) = (from.u64()?, from.f64()?);
+            Ok(Checkpoint { samples, width, exponent: from.option(Reader::f64)? })
+        };
+        let count = from.length(size_of::<u64>())?;
+        let checkpoints = (0..count).map(|_| checkpoint(from)).collect::<Result<_, _>>()?;
+        let outcomes = Outcomes { targets: from.f64()?, sum: from.f64()? };
+        let widths = widths(last, &Standing::of(last, settings));
+        Ok(Self { checkpoints, outcomes, widths, samples: last.samples, rays: last.rays })
+    }
+
+    /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one that has not begun begins here, and
+    /// one that has is at its end: what others told stands for targets that had nothing before. `noise` is the
+    /// variance of logarithms of half-widths by chance. The exponent that is foretold with from now on.
+    fn chain(&mut self, now: &[(Option<f64>, u64)], samples: u64, noise: f64) -> Option<f64> {
+        let change = self.change(now, noise);
+        let width = match (&change, self.checkpoints.last()) {
+            (Some(change), Some(last)) if last.samples == self.samples => {
+                last.width * libm::exp(change.mean)
+            }
+            (_, Some(last)) if self.checkpoints.len() > 1 => return last.exponent,
+            _ => {
+                self.checkpoints.clear();
+                1.0
+            }
+        };
+        if let Some((Change { targets, .. }, logarithm)) =
+            change.zip(self.against_prediction(samples, width))
+        {
+            self.outcomes.targets += targets;
+            self.outcomes.sum += targets * logarithm;
+        }
+        self.checkpoints.push(Checkpoint { samples, width, exponent: None });
+        let exponent = self.slope().map(|slope| self.foretold_with(slope, noise));
+        if let Some(last) = self.checkpoints.last_mut() {
+            last.exponent = exponent;
+        }
+        exponent
+    }
+
+    /// How the logarithms of half-widths changed since the last checkpoint, over the targets that grew; `None` without any.
+    /// `noise` is their variance by chance.
+    fn change(&self, now: &[(Option<f64>, u64)], noise: f64) -> Option<Change> {
+        let logarithm = |width: Option<f64>| {
+            width.filter(|width| *width > 0.0 && width.is_finite()).map(libm::log)
+        };
+        let (mut all, mut chosen, mut change) = (Moments::default(), Moments::default(), 0.0);
+        for ((width_before, samples_before), (width, samples_now)) in self.widths.iter().zip(now) {
+            let Some(before) = logarithm(*width_before).filter(|_| *samples_before == self.samples)
+            else {
+                continue;
+            };
+            all.add(before);
+            if let Some(width) = logarithm(*width).filter(|_| samples_now > samples_before) {
+                chosen.add(before);
+                change += width - before;
+            }
+        }
+        if chosen.count == 0.0 {
+            return None;
+        }
+        let by_chance = (noise / all.variance().max(noise)).min(1.0);
+        let luck = by_chance * (chosen.mean() - all.mean());
+        Some(Change { mean: change / chosen.count + 0.5 * luck, targets: chosen.count })
+    }
+
+    fn slope(&self) -> Option<f64> {
+        let points: Vec<[f64; 2]> = self
+            .checkpoints
+            .iter()
+            .map(|checkpoint| [checkpoint.samples as f64, checkpoint.width])
+            .collect();
+        let fit = fit_power_law(&points).filter(|_| points.len() >= MIN_CHECKPOINTS);
+        fit.map(|line| line.exponent)
+    }
+
+    /// The exponent to foretell with where this slope was measured.
+    fn foretold_with(&self, slope: f64, noise: f64) -> f64 {
+        let mut places = Moments::default();
+        self.checkpoints.iter().for_each(|at| places.add(libm::log(at.samples as f64)));
+        let spread = places.count * places.variance() * SPREAD_OF_SLOPES * SPREAD_OF_SLOPES;
+        let trust = spread / (spread + noise);
+        let exponent = EXPECTED_SLOPE + trust * (slope - EXPECTED_SLOPE);
+        exponent.clamp(*SLOPES.start(), *SLOPES.end())
+    }
+
+    /// The logarithm of the next checkpoint's half-widths over what was foretold for them.
+    fn against_prediction(&self, samples: u64, width: f64) -> Option<f64> {
+        let then = self.checkpoints.iter().rev().nth(LATER - 1)?;
+        let more = samples as f64 / then.samples as f64;
+        Some(libm::log(width / (then.width * libm::pow(more, then.exponent?))))
+    }
+}
+
+impl Outcomes {
+    /// The mean of half-widths over what was foretold; `None` where nothing was.
+    fn ratio(&self) -> Option<f64> {
+        (self.targets > 0.0).then(|| libm::exp(self.sum / self.targets))
+    }
+}
+
+/// Half-width over value and indices of each target.
+fn widths(estimates: &Estimates, standing: &Standing) -> Vec<(Option<f64>, u64)> {
+    let samples = estimates.sensors.iter().flat_map(|sensor| sensor.samples.iter().copied());
+    standing.relative_widths.iter().copied().zip(samples).collect()
+}
+
+/// Sums of numbers.
+#[derive(Default)]
+struct Moments {
+    count: f64,
+    sum: f64,
+    squares: f64,
+}
+
+impl Moments {
+    fn add(&mut self, x: f64) {
+        self.count += 1.0;
+        self.sum += x;
+        self.squares += x * x;
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.count
+    }
+
+    fn variance(&self) -> f64 {
+        self.squares / self.count - self.mean() * self.mean()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Settings;
+    use crate::stats::estimates::SensorEstimates;
+
+    /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`; what is known at the
+    /// last checkpoint up to `last`.
+    fn known(slope: f64, scales: [f64; 2], done: u64, last: u64) -> Convergence {
+        let settings = Settings { rel_tol: 0.01, ..Settings::default() };
+        let (mut history, mut schedule) = (History::default(), Schedule::new(16, None));
+        let mut rays = 0;
+        loop {
+            let n = schedule.next_checkpoint();
+            let samples = vec![n.min(done), n];
+            rays += if n > done { n / 2 } else { n };
+            let widths: Vec<f64> =
+                scales.iter().zip(&samples).map(|(s, n)| s * libm::pow(*n as f64, slope)).collect();
+            let estimates = Estimates {
+                sensors: vec![SensorEstimates {
+                    replicate_lx: Vec::new(),
+                    direct_lx: Vec::new(),
+                    resolved: vec![true; 2],
+                    missed_lobes: vec![false; 2],
+                    samples,
+                    terms: Vec::new(),
+                }],
+                samples: n,
+                rays,
+                ..Estimates::default()
+            };
+            let standing = Standing {
+                relative_widths: widths.iter().copied().map(Some).collect(),
+                excess: widths.iter().map(|width| Some(width / settings.rel_tol)).collect(),
+                done: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
+                unresolved: 0,
+                is_reached: false,
+                may_end: false,
+            };
+            let convergence = history.record(&estimates, (&standing, true), &schedule, &settings);
+            if n >= last {
+                return convergence;
+            }
+            schedule.advance();
+        }
+    }
+
+    #[test]
+    fn a_power_law_is_found_though_points_stop() {
+        for slope in [-0.5, -0.8, -1.0] {
+            let scale = 0.01 * libm::pow(256.0, -slope);
+            let Convergence { slope: got, against_prediction, samples, .. } =
+                known(slope, [0.5 * scale, 4.0 * scale], 128, 512);
+            // Half-widths without noise: a little is taken for luck.
+            assert!((got.unwrap() - slope).abs() < 0.02, "{got:?}");
+            // At first a slope is half believed, so what is steep does better than foretold.
+            let least = if slope == -0.5 { 0.95 } else { 0.75 };
+            let ratio = against_prediction.unwrap();
+            assert!((least..=1.05).contains(&ratio), "{slope}: {ratio}");
+            let wanted = 256.0 * libm::pow(4.0, -1.0 / slope);
+            let ratio = samples.unwrap() as f64 / wanted;
+            assert!((0.5..=2.01).contains(&ratio), "{samples:?} {wanted}");
+        }
+    }
+
+    /// The first checkpoint already says how many rays it takes, as if half-widths shrank like those of random points.
+    #[test]
+    fn the_first_checkpoint_foretells() {
+        let scale = 0.08 * 4.0;
+        let first = known(-0.5, [scale, scale], 1 << 20, 16);
+        assert_eq!(first.slope, None);
+        assert_eq!(first.samples, Some(1024));
+        assert_eq!(first.rays, Some(1024));
+    }
+
+    /// What has no half-width says nothing of how half-widths shrink.
+    #[test]
+    fn the_chain_begins_where_something_is_found() {
+        let mut history = History::default();
+        let mut record = |samples: u64, width: Option<f64>| {
+            history.chain(&[(width, samples)], samples, 1e-9);
+            history.widths = vec![(width, samples)];
+            history.samples = samples;
+            history.slope()
+        };
+        for samples in [16, 32, 64, 128] {
+            assert_eq!(record(samples, None), None);
+        }
+        assert_eq!(record(256, Some(1.0)), None);
+        assert_eq!(record(512, Some(0.5)), None);
+        assert!((record(1024, Some(0.25)).unwrap() + 1.0).abs() < 1e-9);
+        // Nor do targets that nothing is found at when all others are done, or those that are found then.
+        for (samples, width) in [(2048, None), (4096, None), (8192, Some(3.0)), (16_384, Some(2.0))]
+        {
+            assert!((record(samples, width).unwrap() + 1.0).abs() < 1e-9);
+        }
+    }
+
+    /// Three checkpoints of one target and 16 replicates, v = 1/30, say about as much of its slope as slopes of other scenes do;
+    /// many say all.
+    #[test]
+    fn a_slope_of_few_checkpoints_is_half_believed() {
+        let of = |checkpoints: u32| {
+            let mut history = History::default();
+            for k in 0..checkpoints {
+                let samples = 16 << k;
+                let width = 1.0 / f64::from(1 << k);
+                history.checkpoints.push(Checkpoint { samples, width, exponent: None });
+            }
+            history.foretold_with(history.slope().unwrap(), 1.0 / 30.0)
+        };
+        // 2 ln(2)^2 P^2 / (2 ln(2)^2 P^2 + v) = 0.6431.
+        assert!((of(3) + 0.5 + 0.5 * 0.6431).abs() < 1e-4);
+        assert!((-1.0..-0.99).contains(&of(12)));
+    }
+
+    /// With slope -1/2 the targets end at 64 and 4096 indices; each index of each target takes a ray.
+    #[test]
+    fn rays_are_those_of_targets_that_go_on() {
+        let scale = 0.01 * 45.0_f64.sqrt();
+        let at = |last| known(-0.5, [scale, 8.0 * scale], 64, last).rays.unwrap();
+        let all = at(4096);
+        for last in [64, 256, 1024] {
+            let foretold = at(last) as f64;
+            assert!((foretold / all as f64 - 1.0).abs() < 0.1, "{last}: {foretold} {all}");
+        }
+    }
+}

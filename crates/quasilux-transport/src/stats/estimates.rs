@@ -1,0 +1,220 @@
+//! What a simulation knows at a checkpoint: figures of each replicate, nothing summarised yet.
+
+use crate::Interval;
+use crate::stats::convergence::Convergence;
+use crate::stats::decisions::Decisions;
+use crate::stats::interval::t_quantile_for;
+use crate::stats::minimum::{lowest, ratios};
+use crate::stats::picture::CameraEstimates;
+use quasilux_sampling::DimensionHistogram;
+use std::ops::Range;
+
+/// The state of a simulation at a checkpoint that all replicates have completed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Estimates {
+    /// One entry a sensor, in the order of the scene.
+    pub sensors: Vec<SensorEstimates>,
+    /// One entry a camera, in the order of the scene; none before the sensors are done.
+    pub cameras: Vec<CameraEstimates>,
+    /// Indices used so far by each replicate: photons, and paths for each sensor point; without
+    /// sensors those of a pixel.
+    pub samples: u64,
+    /// Rays traced so far, all kinds and replicates together.
+    pub rays: u64,
+    /// What was decided before the first of them.
+    pub decisions: Decisions,
+    /// Where the photons' flux went.
+    pub flux: FluxBalance,
+    /// Numbers of coordinates that photons and paths used.
+    pub dimensions: Dimensions,
+    /// Contributions that were not finite, negative, or out of the tally's range; not in the sums.
+    pub invalid_contributions: u64,
+    /// Nominal confidence level of the intervals.
+    pub confidence: f64,
+    /// Two-sided miss probability that intervals of this checkpoint are made for, at most
+    /// `1 - confidence`: less where the run may stop at a good look.
+    pub miss_probability: f64,
+    /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and every
+    /// picture got all its paths; never with fewer than 128 samples.
+    pub tolerance_reached: bool,
+    /// How half-widths shrank so far, and what follows from that.
+    pub convergence: Convergence,
+    /// Sensor points where light may be that no path or photon has found: their value is what was
+    /// found, and nothing is known of its error.
+    pub unresolved_points: u64,
+    /// Whether values may be biased beyond what their intervals say.
+    pub biased: bool,
+    /// What a reader of the results must know.
+    pub warnings: Vec<String>,
+}
+
+/// The figures of one sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorEstimates {
+    /// Illuminance in lx: one row a replicate, one column a sensor point.
+    pub replicate_lx: Vec<Vec<f64>>,
+    /// The part of it that comes straight from the lights, mean over the replicates, in lx.
+    pub direct_lx: Vec<f64>,
+    /// Whether light was found wherever it was looked for; points without have no interval.
+    pub resolved: Vec<bool>,
+    /// Whether too few paths met where narrow lobes are bright: such points are not resolved, either, but more paths
+    /// are sure to help.
+    pub missed_lobes: Vec<bool>,
+    /// Indices per replicate behind each point: fewer than of others where it reached its tolerance before.
+    pub samples: Vec<u64>,
+    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
+    pub terms: Vec<TermEstimates>,
+}
+
+/// What light of one number of bounces, or of that many and more, gives to one sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TermEstimates {
+    /// Illuminance in lx: one row a replicate, one column a sensor point.
+    pub replicate_lx: Vec<Vec<f64>>,
+    /// Whether such light was found, or there can be none; points without have no interval.
+    pub resolved: Vec<bool>,
+}
+
+/// Where the flux of the photons went, all in lm. Emitted is the sum of the other three.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FluxBalance {
+    /// Emitted by all lights.
+    pub emitted_lm: f64,
+    /// Absorbed by surfaces, tallied at each absorption.
+    pub absorbed_lm: f64,
+    /// Left the scene.
+    pub lost_lm: f64,
+    /// Cut by `max_bounces`.
+    pub cut_lm: f64,
+}
+
+/// How many coordinates samples used, the constructive dimension; empty where nothing was traced.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Dimensions {
+    /// Of the photons, those that steering split off by themselves.
+    pub photon: DimensionHistogram,
+    /// Photons that began, for estimate, map, energy balance and what decided over them together; those that were split off
+    /// are not among them, nor those that look for what paths cannot find.
+    pub photons: u64,
+    /// Surfaces that all these photons came to.
+    pub photon_events: u64,
+    /// Of the paths from sensors.
+    pub path: DimensionHistogram,
+}
+
+impl Estimates {
+    /// The interval of an average or another figure that is linear in the values of one sensor, in lx:
+    /// `statistic` maps them to it. No half-width where nothing was found at a point, here and in the other figures of
+    /// all points: how much is missing there nobody knows.
+    #[must_use]
+    pub fn interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
+        self.where_resolved(sensor, self.found_interval_of(sensor, statistic))
+    }
+
+    /// The same of what was found.
+    fn found_interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
+        let rows = &self.sensors[sensor].replicate_lx;
+        let figures: Vec<f64> = rows.iter().map(|row| statistic(row)).collect();
+        let t = t_quantile_for(rows.len(), self.miss_probability);
+        Interval::of_mean(figures.into_iter(), t)
+    }
+
+    /// Without its half-width where nothing was found at a point of the sensor.
+    fn where_resolved(&self, sensor: usize, interval: Interval) -> Interval {
+        let is_resolved = self.sensors[sensor].resolved.iter().all(|resolved| *resolved);
+        Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
+    }
+
+    /// The interval of the mean of the points of one sensor, in lx.
+    #[must_use]
+    pub fn average(&self, sensor: usize) -> Interval {
+        self.interval_of(sensor, mean)
+    }
+
+    /// The same of what was found, whatever is missing: what decides whether a run goes on.
+    pub(crate) fn found_average(&self, sensor: usize) -> Interval {
+        self.found_interval_of(sensor, mean)
+    }
+
+    /// The interval of the smallest value of one sensor, in lx: that of the point where it truly is
+    /// smallest, which need not be the one that seems to be.
+    #[must_use]
+    pub fn minimum(&self, sensor: usize) -> Interval {
+        let lowest = lowest(&self.sensors[sensor].replicate_lx, self.miss_probability);
+        self.where_resolved(sensor, lowest)
+    }
+
+    /// The interval of the largest value of one sensor, in lx.
+    #[must_use]
+    pub fn maximum(&self, sensor: usize) -> Interval {
+        let rows = &self.sensors[sensor].replicate_lx;
+        let negative: Vec<Vec<f64>> =
+            rows.iter().map(|row| row.iter().map(|lx| -lx).collect()).collect();
+        let Interval { value, half_width } = lowest(&negative, self.miss_probability);
+        self.where_resolved(sensor, Interval { value: -value, half_width })
+    }
+
+    /// The interval of the smallest value over the mean of one sensor.
+    #[must_use]
+    pub fn uniformity(&self, sensor: usize) -> Interval {
+        let lowest = lowest(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability);
+        self.where_resolved(sensor, lowest)
+    }
+
+    /// The intervals of all points of one sensor, in lx; no half-width where nothing was found.
+    #[must_use]
+    pub fn point_intervals(&self, sensor: usize) -> Vec<Interval> {
+        let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
+        self.intervals(replicate_lx, resolved)
+    }
+
+    /// The intervals of one term of the Neumann series at all points of one sensor, in lx; no
+    /// half-width where nothing was found that might be.
+    #[must_use]
+    pub fn term_intervals(&self, sensor: usize, term: usize) -> Vec<Interval> {
+        let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
+        self.intervals(replicate_lx, resolved)
+    }
+
+    /// The interval of the mean of one term over the points of one sensor, in lx.
+    #[must_use]
+    pub fn term_average(&self, sensor: usize, term: usize) -> Interval {
+        let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
+        let means = replicate_lx.iter().map(|row| row.iter().sum::<f64>() / row.len() as f64);
+        let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
+        let is_resolved = resolved.iter().all(|resolved| *resolved);
+        Interval::of_mean(means, t.filter(|_| is_resolved))
+    }
+
+    fn intervals(&self, replicate_lx: &[Vec<f64>], resolved: &[bool]) -> Vec<Interval> {
+        let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
+        let values = |point: usize| replicate_lx.iter().map(move |row| row[point]);
+        let t_at = |point: usize| t.filter(|_| resolved[point]);
+        (0..resolved.len()).map(|p| Interval::of_mean(values(p), t_at(p))).collect()
+    }
+}
+
+fn mean(lx: &[f64]) -> f64 {
+    lx.iter().sum::<f64>() / lx.len() as f64
+}
+
+impl SensorEstimates {
+    /// The figures of some of its points.
+    pub(crate) fn part(&self, points: Range<usize>) -> Self {
+        let columns = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            rows.iter().map(|row| row[points.clone()].to_vec()).collect()
+        };
+        let term = |term: &TermEstimates| TermEstimates {
+            replicate_lx: columns(&term.replicate_lx),
+            resolved: term.resolved[points.clone()].to_vec(),
+        };
+        Self {
+            replicate_lx: columns(&self.replicate_lx),
+            direct_lx: self.direct_lx[points.clone()].to_vec(),
+            resolved: self.resolved[points.clone()].to_vec(),
+            missed_lobes: self.missed_lobes[points.clone()].to_vec(),
+            samples: self.samples[points.clone()].to_vec(),
+            terms: self.terms.iter().map(term).collect(),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Exact sums, confidence intervals, and when a run may stop.
+//!
+//! [`tally`] holds the sums, [`interval`] and [`minimum`] the intervals, [`sequential`] what looking
+//! several times costs them, [`schedule`] and [`tolerance`] the decision to stop, [`convergence`] the
+//! prediction of the end, [`observer`] and [`watch`] the way out of a run.
+
+pub mod convergence;
+pub(crate) mod decisions;
+pub mod estimates;
+pub mod interval;
+pub(crate) mod minimum;
+pub mod observer;
+pub(crate) mod picture;
+pub(crate) mod schedule;
+pub(crate) mod sequential;
+pub(crate) mod tally;
+pub(crate) mod targets;
+pub(crate) mod tolerance;
+pub(crate) mod watch;

@@ -1,0 +1,143 @@
+//! Sums that do not depend on their order: fixed-point integers.
+//!
+//! A contribution is rounded to a whole number of quanta and added as an integer, so that any
+//! order, thread count or split gives the same bits. The quantum is a power of two fixed before
+//! sampling from the light that the scene can get, so dimming all lights scales it with them.
+
+use crate::codec::{Reader, StateError, Stored, Writer};
+use std::ops::AddAssign;
+
+/// Quanta per unit of the reference, as a power of two: contributions down to 2^-80 of it count.
+const FINENESS: i32 = 80;
+/// Larger contributions, in quanta, are refused; 2^23 of the largest fit the sum.
+const LARGEST: f64 = (1_u128 << 104) as f64;
+
+/// The size of one step of a tally: a power of two, in the unit of the contributions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Quantum {
+    size: f64,
+    per_unit: f64,
+}
+
+impl Quantum {
+    /// The quantum for contributions that are about as large as `reference` (positive, finite).
+    pub(crate) fn for_reference(reference: f64) -> Self {
+        let exponent = (libm::ilogb(reference) - FINENESS).clamp(-1000, 1000);
+        Self { size: libm::ldexp(1.0, exponent), per_unit: libm::ldexp(1.0, -exponent) }
+    }
+
+    /// Puts it among the decisions.
+    pub(crate) fn put(self, out: &mut Writer) {
+        out.f64(self.size);
+    }
+
+    /// The value of a sum.
+    pub(crate) fn value(self, sum: Sum) -> f64 {
+        sum.quanta as f64 * self.size
+    }
+}
+
+/// A sum of contributions, and how many of them could not be added.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Sum {
+    quanta: i128,
+    /// Contributions that were not finite, too large, or wrongly negative.
+    pub(crate) invalid: u64,
+}
+
+impl Sum {
+    /// What it takes in a state.
+    pub(crate) const BYTES: usize = size_of::<i128>() + size_of::<u64>();
+
+    /// Whether nothing but zeros was added.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.quanta == 0
+    }
+
+    /// Adds a contribution that may be negative, as corrections are.
+    #[inline]
+    pub(crate) fn add_signed(&mut self, contribution: f64, quantum: Quantum) {
+        let quanta = (contribution * quantum.per_unit).round_ties_even();
+        let valid = quanta.abs() <= LARGEST;
+        match self.quanta.checked_add(if valid { quanta as i128 } else { 0 }) {
+            Some(sum) if valid => self.quanta = sum,
+            _ => self.invalid += 1,
+        }
+    }
+
+    /// Adds a contribution that cannot be negative.
+    #[inline]
+    pub(crate) fn add(&mut self, contribution: f64, quantum: Quantum) {
+        if contribution >= 0.0 {
+            self.add_signed(contribution, quantum);
+        } else {
+            self.invalid += 1;
+        }
+    }
+}
+
+impl AddAssign for Sum {
+    fn add_assign(&mut self, other: Self) {
+        // Parts of a run that each fit may overflow together only past 2^23 largest contributions.
+        match self.quanta.checked_add(other.quanta) {
+            Some(sum) => self.quanta = sum,
+            None => self.invalid += 1,
+        }
+        self.invalid += other.invalid;
+    }
+}
+
+impl Stored for Sum {
+    fn put(&self, out: &mut Writer) {
+        out.i128(self.quanta);
+        out.u64(self.invalid);
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        let quanta = self.quanta.checked_add(from.i128()?);
+        self.quanta = quanta.ok_or(StateError::Unfit("a sum"))?;
+        from.add_u64(&mut self.invalid)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_does_not_matter() {
+        let quantum = Quantum::for_reference(1000.0);
+        let terms: Vec<f64> = (1..1000).map(|i| 1e3 / f64::from(i * i)).collect();
+        let total = |terms: &mut dyn Iterator<Item = &f64>| {
+            let mut sum = Sum::default();
+            terms.for_each(|&t| sum.add(t, quantum));
+            sum
+        };
+        let forward = total(&mut terms.iter());
+        assert_eq!(forward, total(&mut terms.iter().rev()));
+        assert!((quantum.value(forward) - terms.iter().sum::<f64>()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_cannot_be_added_is_counted() {
+        let quantum = Quantum::for_reference(1.0);
+        let mut sum = Sum::default();
+        for bad in [f64::NAN, f64::INFINITY, -1.0, 1e30] {
+            sum.add(bad, quantum);
+        }
+        sum.add_signed(-1.0, quantum);
+        sum.add(3.0, quantum);
+        assert_eq!((sum.invalid, quantum.value(sum)), (4, 2.0));
+    }
+
+    #[test]
+    fn the_quantum_follows_the_lights() {
+        for reference in [1e-200, 1e-9, 1.0, 7e5, 1e200] {
+            let quantum = Quantum::for_reference(reference);
+            let mut sum = Sum::default();
+            sum.add(reference * 1e-6, quantum);
+            let relative = quantum.value(sum) / (reference * 1e-6) - 1.0;
+            assert!(relative.abs() < 1e-12, "{reference}: {relative}");
+        }
+    }
+}

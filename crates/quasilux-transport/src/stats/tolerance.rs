@@ -1,0 +1,93 @@
+//! Which sensor points are known as well as was asked for.
+
+use crate::settings::{Settings, ToleranceOn};
+use crate::stats::estimates::Estimates;
+use crate::stats::interval::Interval;
+
+/// Paths or photons, all replicates together, that a point where nothing is found gets before a
+/// run may end without it.
+const MIN_TRIES: f64 = (1 << 14) as f64;
+/// The same where narrow lobes were missed: that more paths will meet them is certain.
+const MIN_TRIES_OF_LOBES: f64 = (1 << 20) as f64;
+
+/// How all targets stand at a checkpoint, in the order of their sensors.
+pub(crate) struct Standing {
+    /// Half-width over value; `None` where there is no half-width.
+    pub(crate) relative_widths: Vec<Option<f64>>,
+    /// Half-width over tolerance of what has to reach it: the point, or the average of its sensor. `None`
+    /// where there is no half-width, or nothing to reach.
+    pub(crate) excess: Vec<Option<f64>>,
+    /// Whether more samples are of no use to a target.
+    pub(crate) done: Vec<bool>,
+    /// Points where nothing was found yet.
+    pub(crate) unresolved: u64,
+    /// Whether all that has to reach the tolerance has.
+    pub(crate) is_reached: bool,
+    /// Whether the run need not go on: points where nothing was found hold it up until they had a fair
+    /// chance, not for ever.
+    pub(crate) may_end: bool,
+}
+
+impl Standing {
+    pub(crate) fn of(estimates: &Estimates, settings: &Settings) -> Self {
+        let replicates = settings.effective_replicates();
+        let is_wanted = settings.has_tolerance() && replicates >= 2;
+        let tries = estimates.samples as f64 * f64::from(replicates);
+        let had_a_chance =
+            |missed: bool| tries >= if missed { MIN_TRIES_OF_LOBES } else { MIN_TRIES };
+        let mut standing = Self {
+            relative_widths: Vec::new(),
+            excess: Vec::new(),
+            done: Vec::new(),
+            unresolved: 0,
+            is_reached: is_wanted,
+            may_end: is_wanted,
+        };
+        let excess_of = |interval: &Interval| {
+            let tolerance_lx = settings.tolerance_lx(interval.value);
+            let excess = |half_width: f64| {
+                let excess = if half_width == 0.0 { 0.0 } else { half_width / tolerance_lx };
+                // What is no number is not known at all.
+                if excess.is_nan() { f64::INFINITY } else { excess }
+            };
+            interval.half_width.filter(|_| is_wanted).map(excess)
+        };
+        for (sensor, figures) in estimates.sensors.iter().enumerate() {
+            let unresolved = figures.resolved.iter().filter(|resolved| !**resolved).count();
+            standing.unresolved += unresolved as u64;
+            let points = estimates.point_intervals(sensor);
+            standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
+            match settings.tolerance_on {
+                ToleranceOn::Points => {
+                    let known = figures.resolved.iter().zip(&figures.missed_lobes);
+                    for (point, (resolved, missed)) in points.iter().zip(known) {
+                        let excess = excess_of(point);
+                        let done = *resolved && excess.is_some_and(|excess| excess <= 1.0);
+                        standing.add(excess, done, !resolved && had_a_chance(*missed));
+                    }
+                }
+                ToleranceOn::Summary => {
+                    let excess = excess_of(&estimates.found_average(sensor));
+                    let done = excess.is_some_and(|excess| excess <= 1.0)
+                        && (unresolved == 0 || had_a_chance(figures.missed_lobes.contains(&true)));
+                    points.iter().for_each(|_| standing.add(excess, done, false));
+                }
+            }
+        }
+        standing.is_reached &= standing.unresolved == 0;
+        standing
+    }
+
+    /// The largest half-width over value; `None` without any.
+    pub(crate) fn largest(&self) -> Option<f64> {
+        let widths = self.relative_widths.iter().flatten().copied();
+        widths.reduce(|a, b| if a > b { a } else { b })
+    }
+
+    fn add(&mut self, excess: Option<f64>, done: bool, is_given_up: bool) {
+        self.excess.push(excess);
+        self.done.push(done);
+        self.is_reached &= done;
+        self.may_end &= done || is_given_up;
+    }
+}

@@ -1,0 +1,190 @@
+//! Counters of a run, and the observer behind them.
+
+use crate::codec::{Reader, StateError, Writer};
+use crate::stats::estimates::Estimates;
+use crate::stats::observer::{Control, Observer, Progress, Snapshot};
+use std::ops::Range;
+
+/// Tells the observer how far a run is, and remembers whether it said stop.
+pub(crate) struct Watch<'o> {
+    observer: &'o mut dyn Observer,
+    progress: Progress,
+    /// Rays up to the tolerance or to the limit that comes first.
+    rays_to_end: Option<u64>,
+    /// Rays allowed after the first checkpoint.
+    max_rays: u64,
+    /// Photons or paths between states that the observer may want.
+    piece: Option<u64>,
+    /// What a state begins with: all that does not change before the next checkpoint.
+    preface: Vec<u8>,
+    /// Whether it may stop the run now.
+    obeys: bool,
+    /// Whether it did, within a piece.
+    stopped: bool,
+}
+
+impl<'o> Watch<'o> {
+    pub(crate) fn new(observer: &'o mut dyn Observer) -> Self {
+        let progress = Progress {
+            photons: 0,
+            paths: 0,
+            rays: 0,
+            earlier_rays: 0,
+            samples: 0,
+            largest_relative_half_width: None,
+            slope: None,
+            expected_samples: None,
+            expected_rays: None,
+            done: None,
+        };
+        let (piece, preface) = (observer.piece(), Vec::new());
+        let (rays_to_end, max_rays) = (None, u64::MAX);
+        let (obeys, stopped) = (false, false);
+        Self { observer, progress, rays_to_end, max_rays, piece, preface, obeys, stopped }
+    }
+
+    /// A range of indices, each of so many photons or paths, in pieces between which states are kept; in
+    /// one where there are none.
+    pub(crate) fn pieces(
+        &self,
+        range: Range<u64>,
+        each: u64,
+    ) -> impl Iterator<Item = Range<u64>> + use<> {
+        let length = self.piece.map_or(u64::MAX, |piece| (piece / each.max(1)).max(1));
+        split(range, length)
+    }
+
+    /// Work in rounds of so much, and not more than a piece.
+    pub(crate) fn rounds(
+        &self,
+        work: Range<u64>,
+        most: u64,
+    ) -> impl Iterator<Item = Range<u64>> + use<> {
+        let length = self.piece.map_or(most, |piece| piece.clamp(1, most));
+        split(work, length)
+    }
+
+    /// What states begin with from here on.
+    pub(crate) fn preface(&mut self, put: impl FnOnce(&mut Writer)) {
+        if self.piece.is_some() {
+            let mut out = Writer::default();
+            put(&mut out);
+            self.preface = out.finish();
+        }
+    }
+
+    /// After a piece: gives the observer the state, if it wants it, with the work so far before what is put
+    /// out, and says whether to go on.
+    #[must_use]
+    pub(crate) fn keep(&mut self, put: impl FnOnce(&mut Writer)) -> bool {
+        if self.piece.is_some() && self.observer.wants_state() {
+            self.give_state(put);
+        }
+        !self.stopped
+    }
+
+    /// After the last piece: gives the observer the state, whether it wants it or not, so that it knows that the run is
+    /// over.
+    pub(crate) fn keep_last(&mut self, put: impl FnOnce(&mut Writer)) {
+        if self.piece.is_some() {
+            self.give_state(put);
+        }
+    }
+
+    fn give_state(&mut self, put: impl FnOnce(&mut Writer)) {
+        let mut out = Writer::behind(&self.preface);
+        let Progress { photons, paths, rays, .. } = self.progress;
+        [photons, paths, rays].into_iter().for_each(|count| out.u64(count));
+        put(&mut out);
+        self.observer.state(&out.finish());
+    }
+
+    /// Begins with the work that another run had done.
+    pub(crate) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        // Surveys and pilots are made again.
+        let own_rays = self.progress.rays;
+        let Progress { photons, paths, rays, .. } = &mut self.progress;
+        for count in [photons, paths, rays] {
+            *count = from.u64()?;
+        }
+        self.progress.earlier_rays = self.progress.rays.saturating_sub(own_rays);
+        Ok(())
+    }
+
+    /// Knows of the last checkpoint.
+    pub(crate) fn begin_at(&mut self, estimates: &Estimates, largest: Option<f64>) {
+        self.obeys = true;
+        self.progress.samples = estimates.samples;
+        self.progress.rays = self.progress.rays.max(estimates.rays);
+        self.progress.slope = estimates.convergence.slope;
+        self.progress.expected_samples = estimates.convergence.samples;
+        self.progress.expected_rays = estimates.convergence.rays;
+        self.progress.largest_relative_half_width = largest;
+    }
+
+    /// Lets the observer stop the run from here on: by itself it may after the first checkpoint.
+    pub(crate) fn obey(&mut self) {
+        self.obeys = true;
+    }
+
+    /// Ends the run, past its first checkpoint, rather than trace more rays.
+    pub(crate) fn limit_rays(&mut self, max_rays: Option<u64>) {
+        self.max_rays = max_rays.unwrap_or(u64::MAX);
+    }
+
+    /// Says how many rays the whole run is expected to take, limits included.
+    pub(crate) fn expect(&mut self, rays: Option<u64>) {
+        self.rays_to_end = rays;
+    }
+
+    /// Shows a moment of the run, if the observer wants to see it and there is something to see.
+    pub(crate) fn show(&mut self, look: impl FnOnce() -> Option<Snapshot>) {
+        if self.observer.wants_snapshot()
+            && let Some(snapshot) = look()
+        {
+            self.observer.snapshot(&snapshot);
+        }
+    }
+
+    /// Counts work. Whether to go on: before the first checkpoint always, and to the end of a piece
+    /// after which a state can be kept, unless there are too many rays, which no state may hold.
+    #[must_use]
+    pub(crate) fn tick(&mut self, photons: u64, paths: u64, rays: u64) -> bool {
+        let so_far = &mut self.progress;
+        // What a damaged state says may be any number.
+        so_far.photons = so_far.photons.saturating_add(photons);
+        so_far.paths = so_far.paths.saturating_add(paths);
+        so_far.rays = so_far.rays.saturating_add(rays);
+        let share = |rays: u64| (self.progress.rays as f64 / rays.max(1) as f64).clamp(0.0, 1.0);
+        self.progress.done = self.rays_to_end.map(share);
+        let control = self.observer.progress(&self.progress);
+        self.stopped = control == Control::Stop && self.obeys;
+        let is_within_limit = self.progress.rays <= self.max_rays || self.progress.samples == 0;
+        is_within_limit && (!self.stopped || self.piece.is_some())
+    }
+
+    /// Counts the work at a picture, of whose pass a share is done. Whether to go on.
+    #[must_use]
+    pub(crate) fn tick_picture(&mut self, paths: u64, rays: u64, share: f64) -> bool {
+        self.progress.paths = self.progress.paths.saturating_add(paths);
+        self.progress.rays = self.progress.rays.saturating_add(rays);
+        self.progress.done = Some(share);
+        let may_go_on = self.progress.rays <= self.max_rays;
+        self.observer.progress(&self.progress) == Control::Continue && may_go_on
+    }
+
+    pub(crate) fn checkpoint(&mut self, estimates: &Estimates, largest: Option<f64>) -> Control {
+        self.begin_at(estimates, largest);
+        self.observer.checkpoint(estimates)
+    }
+}
+
+/// A range in pieces of this length.
+fn split(range: Range<u64>, length: u64) -> impl Iterator<Item = Range<u64>> {
+    let mut next = range.start;
+    std::iter::from_fn(move || {
+        let piece = next..range.end.min(next.saturating_add(length));
+        next = piece.end;
+        (!piece.is_empty()).then_some(piece)
+    })
+}

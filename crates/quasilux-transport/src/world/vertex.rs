@@ -1,0 +1,98 @@
+//! A place that light arrives at: where a path starts, or a surface on its way.
+
+use crate::bsdf::{Bsdf, Mode};
+use crate::spectrum::Spectrum;
+use crate::world::frame::Frame;
+use crate::world::{Interaction, Vantage, World};
+use glam::DVec3;
+use std::f64::consts::FRAC_1_PI;
+
+/// A place of a path as lights see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vertex<'w, S> {
+    from: Vantage,
+    n: DVec3,
+    /// What light that arrives here counts where the path starts, but for the scattering here.
+    beta: S,
+    surface: Option<Surface<'w, S>>,
+}
+
+/// A surface between the light and the start of the path.
+#[derive(Clone, Copy, Debug)]
+struct Surface<'w, S> {
+    bsdf: &'w Bsdf<S>,
+    frame: Frame,
+    wo: DVec3,
+    front: bool,
+    /// Where light from the other side passes through.
+    behind: Option<Vantage>,
+}
+
+impl<'w, S: Spectrum> Vertex<'w, S> {
+    /// The start of a path: a sensor point with the side `n`, where a lux counts as one.
+    pub(crate) fn sensor(from: Vantage, n: DVec3) -> Self {
+        Self { from, n, beta: S::white(), surface: None }
+    }
+
+    /// A surface that a path meets along `direction`.
+    pub(crate) fn surface(
+        world: &'w World<S>,
+        at: &Interaction,
+        direction: DVec3,
+        beta: S,
+    ) -> Self {
+        let (bsdf, frame) = (world.bsdf(at), world.frame(at));
+        let behind = bsdf.transmits().then(|| world.vantage_behind(at));
+        let wo = frame.to_local(-direction);
+        let surface = Surface { bsdf, frame, wo, front: at.front, behind };
+        Self { from: world.vantage(at), n: at.n, beta, surface: Some(surface) }
+    }
+
+    pub(crate) fn position(&self) -> DVec3 {
+        self.from.position()
+    }
+
+    /// The cosine that makes illuminance of what arrives from `direction`; not above 0 where nothing
+    /// of it counts.
+    pub(crate) fn cos(&self, direction: DVec3) -> f64 {
+        let cos = self.n.dot(direction);
+        if self.takes_both_sides() { cos.abs() } else { cos }
+    }
+
+    /// Whether light from behind counts.
+    pub(crate) fn takes_both_sides(&self) -> bool {
+        self.surface.is_some_and(|surface| surface.behind.is_some())
+    }
+
+    /// The normal on the only side where light counts; `None` where it counts on both.
+    pub(crate) fn only_side(&self) -> Option<DVec3> {
+        (!self.takes_both_sides()).then_some(self.n)
+    }
+
+    /// What a lux that arrives here from `direction` counts where the path starts.
+    pub(crate) fn weight(&self, direction: DVec3) -> S {
+        match &self.surface {
+            None => self.beta,
+            Some(Surface { bsdf, frame, wo, front, .. }) => {
+                let wi = frame.to_local(direction);
+                self.beta * bsdf.evaluate(*wo, wi, *front, Mode::Radiance)
+            }
+        }
+    }
+
+    /// Density in sr^-1 with which a path goes on from here along `direction`.
+    pub(crate) fn pdf_sr(&self, direction: DVec3) -> f64 {
+        match &self.surface {
+            None => self.n.dot(direction).max(0.0) * FRAC_1_PI,
+            Some(Surface { bsdf, frame, wo, front, .. }) => {
+                bsdf.pdf_sr(*wo, frame.to_local(direction), *front)
+            }
+        }
+    }
+
+    /// Where a ray leaves from along `direction`.
+    pub(crate) fn vantage(&self, direction: DVec3) -> Vantage {
+        let behind = self.surface.and_then(|surface| surface.behind);
+        behind.filter(|_| self.n.dot(direction) < 0.0).unwrap_or(self.from)
+    }
+}

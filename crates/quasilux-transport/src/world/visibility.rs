@@ -1,0 +1,146 @@
+//! Light that waits for its visibility: many questions are asked first and answered together.
+//!
+//! Whoever may get light from a place says so with an [`Offer`] and goes on with what does not depend on
+//! it. The rays toward all these places are traced at once, in the order they were asked for.
+
+use crate::spectrum::Spectrum;
+use crate::world::World;
+use crate::world::panes::{Passage, look_through};
+use crate::world::vertex::Vertex;
+use glam::DVec3;
+use quasilux_bvh::Shot;
+
+/// What a light gives to a place unless something stands in the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Offer<S> {
+    /// Unit direction to the place on the light.
+    pub(crate) direction: DVec3,
+    pub(crate) distance_m: f64,
+    /// The facet that the place lies on, [`Shot::NONE`] for none.
+    pub(crate) facet: u32,
+    /// The part of an estimate of what the path finds that hangs on the visibility.
+    pub(crate) light: S,
+}
+
+/// Somebody who asks for light at a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asker<'w, S> {
+    pub(crate) who: u32,
+    pub(crate) vertex: Vertex<'w, S>,
+}
+
+/// Questions that are open, and working space for their answers.
+pub(crate) struct Shadows<S> {
+    /// Rays traced so far.
+    pub(crate) rays: u64,
+    sights: Vec<Shot>,
+    questions: Vec<Question<S>>,
+    visible: Vec<bool>,
+    passages: Vec<Option<Passage<S>>>,
+    /// So many mirrors and panes may be in the way of what is asked for next.
+    pub(crate) most_bounces: u32,
+}
+
+/// Light that somebody gets if nothing stands in the way.
+struct Question<S> {
+    who: u32,
+    light: S,
+    /// How many of the rays, in their order, look along the way.
+    sights: u32,
+    /// How many mirrors the way leads over.
+    mirrors: u32,
+    /// So many panes may stand in it, all together.
+    most_panes: u32,
+}
+
+impl<S: Spectrum> Offer<S> {
+    /// The offer of a place in the open; `None` where it is nothing.
+    pub(crate) fn unless_dark(direction: DVec3, distance_m: f64, light: S) -> Option<Self> {
+        let offer = Self { direction, distance_m, facet: Shot::NONE, light };
+        // What is not a number counts: the tally must refuse it.
+        (light.luminance() != 0.0).then_some(offer)
+    }
+
+    /// The offer where no light could be chosen: nothing shines here, or a distance of zero made a
+    /// figure that the tally must refuse, whatever stands in the way.
+    pub(crate) fn without_choice(total: f64) -> Option<Self> {
+        (total != 0.0).then_some(Self {
+            direction: DVec3::Z,
+            distance_m: 0.0,
+            facet: Shot::NONE,
+            light: S::white() * f64::NAN,
+        })
+    }
+}
+
+impl<S> Default for Shadows<S> {
+    fn default() -> Self {
+        Self {
+            rays: 0,
+            sights: Vec::new(),
+            questions: Vec::new(),
+            visible: Vec::new(),
+            passages: Vec::new(),
+            most_bounces: u32::MAX,
+        }
+    }
+}
+
+impl<S: Spectrum> Shadows<S> {
+    /// Notes that `who`, at `vertex`, gets the offer if nothing stands in the way.
+    pub(crate) fn ask(&mut self, who: u32, vertex: &Vertex<'_, S>, offer: &Offer<S>) {
+        let from = vertex.vantage(offer.direction);
+        self.sights.push(from.sight(offer.direction, offer.distance_m, offer.facet));
+        // Paths run into facets that emit, behind panes too: only light of other places is let through.
+        let most_panes = if offer.facet == Shot::NONE { self.most_bounces } else { 0 };
+        let question = Question { who, light: offer.light, sights: 1, mirrors: 0, most_panes };
+        self.questions.push(question);
+    }
+
+    /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as they
+    /// follow a way over this many mirrors.
+    pub(crate) fn ask_way(
+        &mut self,
+        who: u32,
+        light: S,
+        mirrors: u32,
+        look: impl FnOnce(&mut Vec<Shot>),
+    ) {
+        let before = self.sights.len();
+        look(&mut self.sights);
+        let sights = (self.sights.len() - before) as u32;
+        let most_panes = self.most_bounces.saturating_sub(mirrors);
+        self.questions.push(Question { who, light, sights, mirrors, most_panes });
+    }
+
+    /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
+    /// asked, and closes all questions.
+    pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
+        self.rays += self.sights.len() as u64;
+        if world.has_panes() {
+            look_through(world, &self.sights, &mut self.passages);
+            let mut passages = self.passages.iter();
+            for question in &self.questions {
+                let open = Some(Passage { transmitted: question.light, panes: 0 });
+                let own = passages.by_ref().take(question.sights as usize);
+                let passage = own.fold(open, |way, next| way.zip(*next).map(|(a, b)| a.and(b)));
+                if let Some(Passage { transmitted, panes }) = passage
+                    && panes <= question.most_panes
+                {
+                    receive(question.who, transmitted, question.mirrors + panes);
+                }
+            }
+        } else {
+            world.are_visible(&self.sights, &mut self.visible);
+            let mut visible = self.visible.iter();
+            for question in &self.questions {
+                let own = visible.by_ref().take(question.sights as usize);
+                if own.filter(|visible| !**visible).count() == 0 {
+                    receive(question.who, question.light, question.mirrors);
+                }
+            }
+        }
+        self.sights.clear();
+        self.questions.clear();
+    }
+}
