@@ -1,10 +1,10 @@
 //! What `examples/cluster/local.sh` does, on every platform: plan, shards as processes at the same time, merge,
 //! and the bits of the single run.
 
-use crate::Failure;
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command};
+use xtask::workspace::Failure;
 
 const PROJECT: &str = "examples/cluster/cluster.toml";
 const SAMPLES: &str = "1024";

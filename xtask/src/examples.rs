@@ -4,10 +4,11 @@
 //! the command and the numbers, and the same numbers in `expected.toml`.
 
 use crate::expectation::Expected;
-use crate::{Failure, cluster, prediction, same_bits};
+use crate::{cluster, prediction, same_bits};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use xtask::workspace::Failure;
 
 /// The files of one example.
 #[derive(Debug)]
@@ -136,7 +137,7 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::workspace_root;
+    use xtask::workspace::root as workspace_root;
 
     #[test]
     fn every_example_says_its_command_and_its_numbers() {

@@ -2,9 +2,9 @@
 //!
 //! The tables `[[expect]]` have the form that `validation/README.md` describes.
 
-use crate::Failure;
 use serde::Deserialize;
 use serde_json::Value;
+use xtask::workspace::Failure;
 
 /// The file `expected.toml`.
 #[derive(Debug, Deserialize)]

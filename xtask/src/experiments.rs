@@ -5,9 +5,9 @@
 //! where all keys have these values; `as DIGITS %` makes a share per cent. What an experiment writes for people names
 //! the CSV file written with it, and itself, by their SHA-256: with other files nothing is generated.
 
-use crate::Failure;
 use sha2::{Digest, Sha256};
 use std::path::Path;
+use xtask::workspace::Failure;
 
 /// Writes the page.
 pub(crate) fn write(root: &Path) -> Result<(), Failure> {
@@ -121,7 +121,7 @@ fn figure(place: &Place<'_>, csv: &str) -> Result<String, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::workspace_root;
+    use xtask::workspace::root as workspace_root;
 
     const CSV: &str = "method,n,error\na,64,0.25\na,128,0.125\nb,64,0.5\n";
 

@@ -1,7 +1,7 @@
 //! Files that are committed and written by a generator.
 
-use crate::Failure;
 use std::path::Path;
+use xtask::workspace::Failure;
 
 /// Name below a folder, and content.
 pub(crate) type File = (String, String);

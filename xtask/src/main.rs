@@ -4,6 +4,7 @@
 //! `examples/office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
 //! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in `tests/architecture/`.
 
+mod arrows;
 mod cie171;
 mod cluster;
 mod examples;
@@ -16,11 +17,8 @@ mod prediction;
 mod same_bits;
 mod steps;
 
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// A failure, told to the person at the terminal.
-type Failure = String;
+use xtask::workspace::root as workspace_root;
 
 const HELP: &str = "\
 The project's own commands.
@@ -32,6 +30,10 @@ cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test examples  every example runs and gives the numbers it promises
+cargo xtask arrows CRATE   imports between the modules of a crate that no order allows
+cargo xtask order CRATE    an order of a crate's rooms with few imports against it
+cargo xtask ratchet        write the lists of known violations anew, which may only shrink
+cargo xtask ratchet new    the same after a rule was added, when they may grow
 cargo xtask octant         write the mirror octant in validation/ from its generator
 cargo xtask office         write examples/office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
@@ -49,6 +51,10 @@ fn main() -> ExitCode {
         }
         ["test"] => steps::run_all(),
         ["test", name] => steps::run_one(name),
+        ["arrows", name] => arrows::print_forbidden(&workspace_root(), name),
+        ["order", name] => arrows::print_order(&workspace_root(), name),
+        ["ratchet"] => xtask::ratchet::write(&workspace_root(), false),
+        ["ratchet", "new"] => xtask::ratchet::write(&workspace_root(), true),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
         ["octant"] => octant::write(&workspace_root()),
@@ -62,10 +68,4 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// The folder of the workspace's `Cargo.toml`.
-fn workspace_root() -> PathBuf {
-    let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
-    xtask.parent().unwrap_or(xtask).to_path_buf()
 }

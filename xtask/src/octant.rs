@@ -1,10 +1,10 @@
 //! The mirror octant of Voloboy, Dmitriev and Kopylov (2003), table 3, as a case in `validation/`: an eighth of a
 //! diffuse sphere in flat facets, between three mirrors, with the source as it is reconstructed from the paper's values.
 
-use crate::Failure;
 use crate::generated::{self, File};
 use std::fmt::Write;
 use std::path::Path;
+use xtask::workspace::Failure;
 
 type Point = [f64; 3];
 
@@ -121,7 +121,7 @@ fn unit(a: Point) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::workspace_root;
+    use xtask::workspace::root as workspace_root;
 
     #[test]
     fn the_committed_files_are_what_the_generator_writes() {

@@ -1,7 +1,7 @@
 //! Whether half-widths shrank as a run foretold: part of the check of every example.
 
-use crate::Failure;
 use serde_json::Value;
+use xtask::workspace::Failure;
 
 /// Half-widths may on average be so many times what was foretold two checkpoints before, or one over that.
 const FACTOR: f64 = 1.5;

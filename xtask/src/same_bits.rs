@@ -1,9 +1,9 @@
 //! Debug and release builds give the same bits: part of the step that runs the examples, which has both at hand.
 
-use crate::Failure;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
+use xtask::workspace::Failure;
 
 /// What both builds run: a room with measured luminaires.
 const PROJECT: &str = "examples/office/office.toml";

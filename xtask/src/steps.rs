@@ -1,8 +1,9 @@
 //! The steps of the test command, in the order in which they are cheapest to fail.
 
-use crate::{Failure, examples, workspace_root};
+use crate::examples;
 use std::process::Command;
 use std::time::{Duration, Instant};
+use xtask::workspace::{Failure, root as workspace_root};
 
 /// One step: its name on the command line, and what it does.
 struct Step {

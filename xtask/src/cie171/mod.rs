@@ -10,9 +10,9 @@ mod geometry;
 mod luminaire;
 mod project;
 
-use crate::Failure;
 use crate::generated::{self, File};
 use std::path::Path;
+use xtask::workspace::Failure;
 
 /// Name below `validation/` and content of each generated file.
 fn files() -> Vec<File> {
@@ -42,7 +42,7 @@ pub(crate) fn write(root: &Path) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::workspace_root;
+    use xtask::workspace::root as workspace_root;
 
     #[test]
     fn the_committed_files_are_what_the_generator_writes() {

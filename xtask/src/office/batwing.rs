@@ -4,8 +4,8 @@
 //! rises to a maximum near gamma = 37 degrees and is screened above 60 degrees, as office optics
 //! are. Between the two planes it is mixed with cos^2 C and sin^2 C. There is no light upward.
 
-use crate::Failure;
 use std::fmt::Write;
+use xtask::workspace::Failure;
 
 /// Flux of one luminaire.
 const FLUX_LM: f64 = 3000.0;

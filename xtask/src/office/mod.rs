@@ -9,10 +9,10 @@ mod furniture;
 mod room;
 mod solids;
 
-use crate::Failure;
 use crate::generated::{self, File};
 use solids::Wavefront;
 use std::path::Path;
+use xtask::workspace::Failure;
 
 /// Materials with their reflectances, in the order of the material file.
 const MATERIALS: [(&str, f64); 16] = [
@@ -65,7 +65,7 @@ fn material_file() -> String {
 mod tests {
     use super::solids::Block;
     use super::*;
-    use crate::workspace_root;
+    use xtask::workspace::root as workspace_root;
 
     fn project() -> toml::Table {
         let path = workspace_root().join("examples/office/office.toml");

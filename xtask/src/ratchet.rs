@@ -1,0 +1,141 @@
+//! Known violations of a rule, which may only become fewer.
+//!
+//! The list `xtask/ratchet/RULE.txt` has a line for each: how often, and a key that holds no line
+//! numbers. A violation that is not listed fails the test, and so does a listed one that is gone.
+//! `cargo xtask ratchet` writes the lists anew and refuses a sum that grows. Where a list is empty,
+//! its file is deleted, and the rule holds without exception.
+
+use crate::modules::{arrows::Graph, rules, targets};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Places of the violations of a rule by their keys.
+pub type Found = BTreeMap<String, Vec<String>>;
+
+/// A rule about the sources.
+pub struct Rule {
+    /// Name of its list.
+    pub name: &'static str,
+    /// Finds the violations in the workspace at a path.
+    pub find: fn(&Path) -> Result<Found, String>,
+}
+
+/// All rules that may have a list.
+pub const RULES: [Rule; 1] = [Rule { name: "order", find: against_the_order }];
+
+/// Reads the import graphs of all crates of a workspace.
+///
+/// # Errors
+/// When a file is missing or is not Rust.
+pub fn graphs(root: &Path) -> Result<Vec<Graph>, String> {
+    let read = |path: &str| fs::read_to_string(root.join(path)).ok();
+    targets::of_workspace(root)?.iter().map(|target| Graph::read(target, &read)).collect()
+}
+
+/// The orders of the rooms, from `xtask/order.toml`.
+///
+/// # Errors
+/// When the file is missing or malformed.
+pub fn orders(root: &Path) -> Result<rules::Orders, String> {
+    let path = root.join("xtask/order.toml");
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    rules::parse_orders(&text)
+}
+
+fn against_the_order(root: &Path) -> Result<Found, String> {
+    let (graphs, orders) = (graphs(root)?, orders(root)?);
+    let violations = graphs.iter().flat_map(|graph| rules::violations(graph, &orders));
+    let strangers = orders.keys().filter(|name| graphs.iter().all(|g| g.tree.crate_name != **name));
+    let mut found: Found =
+        strangers.map(|name| (format!("{name}: no such crate"), Vec::new())).collect();
+    found.extend(violations.map(|violation| (violation.key, violation.places)));
+    // However many imports join two rooms, it is one arrow: its number may change freely.
+    found.values_mut().for_each(|places| *places = vec![places.join("\n    ")]);
+    Ok(found)
+}
+
+/// What differs between the violations found and those listed, one line each.
+#[must_use]
+pub fn differences(found: &Found, listed: &BTreeMap<String, usize>) -> Vec<String> {
+    let mut told = Vec::new();
+    for (key, places) in found {
+        let count = places.len().max(1);
+        match listed.get(key) {
+            Some(&known) if known == count => {}
+            Some(&known) if known > count => {
+                told.push(format!("{key}: {count} left of {known}: run `cargo xtask ratchet`"));
+            }
+            _ => told.push(format!("{key}\n    {}", places.join("\n    "))),
+        }
+    }
+    for key in listed.keys().filter(|key| !found.contains_key(*key)) {
+        told.push(format!("{key}: is gone: run `cargo xtask ratchet`"));
+    }
+    told
+}
+
+/// The list of a rule, empty where there is no file.
+///
+/// # Errors
+/// When a line is not a number and a key.
+pub fn listed(root: &Path, rule: &str) -> Result<BTreeMap<String, usize>, String> {
+    let text = fs::read_to_string(file(root, rule)).unwrap_or_default();
+    let entry = |line: &str| {
+        let (count, key) = line.split_once(' ')?;
+        Some((key.to_owned(), count.parse().ok()?))
+    };
+    text.lines().map(|line| entry(line).ok_or(format!("{rule}.txt: {line:?}"))).collect()
+}
+
+/// Writes the list of each rule anew; `may_grow` where a rule is new.
+///
+/// # Errors
+/// When a sum grows, or a file cannot be written.
+pub fn write(root: &Path, may_grow: bool) -> Result<(), String> {
+    for rule in &RULES {
+        let found = (rule.find)(root)?;
+        let known: usize = listed(root, rule.name)?.values().sum();
+        let now: usize = found.values().map(|places| places.len().max(1)).sum();
+        println!("xtask: {}: {known} before, {now} now", rule.name);
+        if now > known && !may_grow {
+            let new = differences(&found, &listed(root, rule.name)?).join("\n");
+            return Err(format!("{} has grown\n{new}", rule.name));
+        }
+        let line =
+            |(key, places): (&String, &Vec<String>)| format!("{} {key}\n", places.len().max(1));
+        let path = file(root, rule.name);
+        let outcome = if found.is_empty() {
+            fs::remove_file(&path).or(Ok(()))
+        } else {
+            fs::create_dir_all(root.join("xtask/ratchet"))
+                .and_then(|()| fs::write(&path, found.iter().map(line).collect::<String>()))
+        };
+        outcome.map_err(|error: std::io::Error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
+}
+
+fn file(root: &Path, rule: &str) -> PathBuf {
+    root.join("xtask/ratchet").join(format!("{rule}.txt"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn new_more_fewer_and_vanished_violations_are_told_and_known_ones_are_not() {
+        let two = vec!["a.rs:1".to_owned(), "a.rs:2".to_owned()];
+        let found = Found::from([("a".to_owned(), two)]);
+        let told = |known: &[(&str, usize)]| {
+            let listed = known.iter().map(|(key, count)| ((*key).to_owned(), *count)).collect();
+            differences(&found, &listed)
+        };
+        assert_eq!(told(&[("a", 2)]), [""; 0]);
+        assert!(told(&[])[0].contains("a.rs:1"));
+        assert!(told(&[("a", 1)])[0].contains("a.rs:2"));
+        assert!(told(&[("a", 3)])[0].contains("2 left of 3"));
+        assert!(told(&[("a", 2), ("b", 1)])[0].contains("b: is gone"));
+    }
+}
