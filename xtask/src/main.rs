@@ -32,6 +32,7 @@ cargo xtask test docs      documentation, warnings denied
 cargo xtask test examples  every example runs and gives the numbers it promises
 cargo xtask arrows CRATE   imports between the modules of a crate that no order allows
 cargo xtask order CRATE    an order of a crate's rooms with few imports against it
+cargo xtask order CRATE write   put that order into xtask/order.toml
 cargo xtask ratchet        write the lists of known violations anew, which may only shrink
 cargo xtask ratchet new    the same after a rule was added, when they may grow
 cargo xtask octant         write the mirror octant in validation/ from its generator
@@ -53,6 +54,7 @@ fn main() -> ExitCode {
         ["test", name] => steps::run_one(name),
         ["arrows", name] => arrows::print_forbidden(&workspace_root(), name),
         ["order", name] => arrows::print_order(&workspace_root(), name),
+        ["order", name, "write"] => arrows::write_order(&workspace_root(), name),
         ["ratchet"] => xtask::ratchet::write(&workspace_root(), false),
         ["ratchet", "new"] => xtask::ratchet::write(&workspace_root(), true),
         ["cie171"] => cie171::write(&workspace_root()),
