@@ -8,7 +8,7 @@ use glam::DVec3;
 use quasilux_benches::meshes::Numbers;
 use quasilux_benches::scenes::lamp_and_probe;
 use quasilux_scene::{Files, Scene, load};
-use quasilux_transport::{Estimator, MemoryNeed, Reconstruction, Settings, simulate};
+use quasilux_transport::{EstimatorKind, MemoryNeed, Reconstruction, Settings, simulate};
 use std::fmt::Write;
 use std::io;
 use std::process::Command;
@@ -51,7 +51,7 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
     let scene = relief();
     let loaded = peak_bytes();
     let settings = Settings {
-        estimator: named(&Estimator::NAMES, estimator),
+        estimator: named(&EstimatorKind::NAMES, estimator),
         replicates: replicates.parse().expect("a number"),
         max_samples: Some(1 << log_samples.parse::<u32>().expect("a number")),
         rel_tol: 0.0,

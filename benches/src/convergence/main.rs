@@ -1,7 +1,7 @@
 //! cargo run --release -p quasilux-benches --bin convergence [WORD...]
 //!
 //! Words: `cube`, `office`, `spotlights`, `wall`; names of estimators; `2^N` indices; `random`;
-//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`; `joining=` the same, for `bidirectional`.
+//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`; `connections=` the same, for `bidirectional`.
 //!
 //! How the error falls, and at what price. At each checkpoint: indices per replicate, rays, processor
 //! seconds so far, the relative error of one replicate (from the spread of 16, root mean square over all
@@ -16,7 +16,7 @@ use quasilux_benches::scenes;
 use quasilux_foreign::all_processors_seconds;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
-use quasilux_transport::{Control, Estimates, Estimator, Observer, Settings, Switch, simulate};
+use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, Switch, simulate};
 
 /// Checkpoints that a slope spans.
 const SPAN: usize = 4;
@@ -38,23 +38,26 @@ fn main() {
         let named = names.find(|(name, _)| given(&format!("{key}={name}")));
         named.map_or(Switch::Auto, |named| named.1)
     };
-    let (first_shot, joining) = (switch("first_shot"), switch("joining"));
+    let (first_shot, connections) = (switch("first_shot"), switch("connections"));
     let sequence = if given("random") { Sequence::Independent } else { Sequence::Sobol };
-    let chosen: Vec<Estimator> =
-        Estimator::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
-    let estimators =
-        if chosen.is_empty() { vec![Estimator::Path, Estimator::Bidirectional] } else { chosen };
+    let chosen: Vec<EstimatorKind> =
+        EstimatorKind::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
+    let estimators = if chosen.is_empty() {
+        vec![EstimatorKind::Path, EstimatorKind::Bidirectional]
+    } else {
+        chosen
+    };
     let names = ["cube", "office", "spotlights", "wall"];
     let all = !names.iter().any(|name| given(name));
     for name in names.into_iter().filter(|name| all || given(name)) {
         let scene = scene(name);
         for &estimator in &estimators {
             println!(
-                "{name}, {}, {}, first shot {}, joining {}",
+                "{name}, {}, {}, first shot {}, connections {}",
                 estimator.name(),
                 sequence.name(),
                 first_shot.name(),
-                joining.name()
+                connections.name()
             );
             println!(
                 "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
@@ -66,7 +69,11 @@ fn main() {
                 max_bounces,
                 map_element_m,
                 first_shot,
-                joining: if estimator == Estimator::Bidirectional { joining } else { Switch::Auto },
+                connections: if estimator == EstimatorKind::Bidirectional {
+                    connections
+                } else {
+                    Switch::Auto
+                },
                 rel_tol: 0.0,
                 max_samples: Some(1 << limit),
                 ..Settings::default()

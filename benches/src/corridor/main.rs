@@ -22,7 +22,7 @@ mod walks;
 use quasilux_benches::scenes;
 use quasilux_foreign::all_processors_seconds;
 use quasilux_transport::{
-    Control, Estimates, Estimator, Observer, Progress, Settings, Switch, simulate,
+    Control, Estimates, EstimatorKind, Observer, Progress, Settings, Switch, simulate,
 };
 use walks::Walks;
 
@@ -41,22 +41,26 @@ const MIN_WALKS: u64 = 1 << 12;
 /// One line of the comparison.
 struct Contestant {
     name: &'static str,
-    estimator: Estimator,
-    steering: Switch,
+    estimator: EstimatorKind,
+    importance: Switch,
 }
 
 const CONTESTANTS: [Contestant; 7] = [
-    contestant("path", Estimator::Path, Switch::Off),
-    contestant("photon", Estimator::Photon, Switch::Off),
-    contestant("photon-steered", Estimator::Photon, Switch::Auto),
-    contestant("map", Estimator::BidirectionalMap, Switch::Off),
-    contestant("map-steered", Estimator::BidirectionalMap, Switch::Auto),
-    contestant("bidirectional", Estimator::Bidirectional, Switch::Off),
-    contestant("bidirectional-steered", Estimator::Bidirectional, Switch::Auto),
+    contestant("path", EstimatorKind::Path, Switch::Off),
+    contestant("photon", EstimatorKind::Photon, Switch::Off),
+    contestant("photon-steered", EstimatorKind::Photon, Switch::Auto),
+    contestant("map", EstimatorKind::BidirectionalMap, Switch::Off),
+    contestant("map-steered", EstimatorKind::BidirectionalMap, Switch::Auto),
+    contestant("bidirectional", EstimatorKind::Bidirectional, Switch::Off),
+    contestant("bidirectional-steered", EstimatorKind::Bidirectional, Switch::Auto),
 ];
 
-const fn contestant(name: &'static str, estimator: Estimator, steering: Switch) -> Contestant {
-    Contestant { name, estimator, steering }
+const fn contestant(
+    name: &'static str,
+    estimator: EstimatorKind,
+    importance: Switch,
+) -> Contestant {
+    Contestant { name, estimator, importance }
 }
 
 fn main() {
@@ -100,7 +104,7 @@ fn run(contestant: &Contestant, reference: &Reference, longest_seconds: f64) {
     let scene = scenes::example("corridor").scene;
     let settings = Settings {
         estimator: contestant.estimator,
-        steering: contestant.steering,
+        importance: contestant.importance,
         replicates: REPLICATES,
         rel_tol: 0.0,
         ..Settings::default()

@@ -10,7 +10,7 @@ use quasilux_benches::median;
 use quasilux_benches::scenes::{self, Named};
 use quasilux_foreign::{all_processors_seconds, processor_seconds};
 use quasilux_transport::trial::{PhotonTrial, Step, Stopwatch, Way, try_photons};
-use quasilux_transport::{Estimator, Settings};
+use quasilux_transport::{EstimatorKind, Settings};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::Range;
 use std::sync::Mutex;
@@ -61,7 +61,7 @@ fn main() {
 }
 
 fn settings() -> Settings {
-    Settings { estimator: Estimator::Photon, replicates: REPLICATES, ..Settings::default() }
+    Settings { estimator: EstimatorKind::Photon, replicates: REPLICATES, ..Settings::default() }
 }
 
 /// The indices of one round.

@@ -4,8 +4,8 @@ use crate::{Figure, Report, RunFacts, TermReport};
 use glam::DVec3;
 use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
-    CameraEstimates, Convergence, Decisions, DimensionHistogram, Dimensions, Estimates, Estimator,
-    FluxBalance, Pixel, SensorEstimates, Settings,
+    CameraEstimates, Convergence, Decisions, DimensionHistogram, Dimensions, Estimates,
+    EstimatorKind, FluxBalance, Pixel, SensorEstimates, Settings,
 };
 
 /// A grid in the xy plane.
@@ -138,7 +138,7 @@ pub(crate) fn without_intervals() -> Report {
 
 /// A result of the estimator whose map leaves a bias.
 pub(crate) fn biased() -> Report {
-    let settings = Settings { estimator: Estimator::BidirectionalMap, ..Settings::default() };
+    let settings = Settings { estimator: EstimatorKind::BidirectionalMap, ..Settings::default() };
     let (scene, mut estimates) = scene_and_estimates(Vec::new());
     estimates.biased = true;
     Report::new(&scene, &settings, &estimates, RunFacts::default())
@@ -175,7 +175,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         cameras: Vec::new(),
         samples: 65_536,
         rays: 187_654_321,
-        decisions: Decisions { joined_photons: Some(8), ..Decisions::default() },
+        decisions: Decisions { connected_photons: Some(8), ..Decisions::default() },
         flux: FluxBalance {
             emitted_lm: 21_600.0,
             absorbed_lm: 21_600.0,

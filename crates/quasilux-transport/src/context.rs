@@ -3,7 +3,7 @@
 use crate::lights::Lights;
 use crate::lights::images::SpecularImages;
 use crate::purpose::{Ledger, Purpose};
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use quasilux_bvh::SimdLevel;
@@ -175,7 +175,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
     pub(crate) fn points(&self, replicate: u32, stream: Stream) -> PointSet {
         let Settings { sequence, randomization, seed, .. } = *self.settings;
         let mut sequence = stream.sequence(sequence);
-        if let (Sequence::Hammersley { points }, Stream::Photons, Estimator::BidirectionalMap) =
+        if let (Sequence::Hammersley { points }, Stream::Photons, EstimatorKind::BidirectionalMap) =
             (&mut sequence, stream, self.settings.estimator)
         {
             *points = points.saturating_mul(u64::from(self.settings.map_photons.max(1)));

@@ -50,7 +50,7 @@ pub use run::memory::MemoryNeed;
 pub use run::parts::{MergeError, decide, merge, trace_part};
 pub use run::simulate::{is_over, resume, simulate};
 pub use run::trial;
-pub use settings::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
+pub use settings::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 pub use stats::convergence::{self, Convergence};
 pub use stats::decisions::Decisions;
 pub use stats::estimates::{

@@ -4,7 +4,7 @@ use quasilux_sampling::{Randomization, Sequence};
 
 /// How illuminance is estimated: a closed set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Estimator {
+pub enum EstimatorKind {
     /// Photons from the lights are counted by the sensors.
     Photon,
     /// Paths from the sensors with next-event estimation.
@@ -17,7 +17,7 @@ pub enum Estimator {
     BidirectionalMap,
 }
 
-impl Estimator {
+impl EstimatorKind {
     /// All estimators that are built, with their names in project files and on the command line.
     pub const NAMES: [(&'static str, Self); 4] = [
         ("photon", Self::Photon),
@@ -96,7 +96,7 @@ impl ToleranceOn {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// How illuminance is estimated.
-    pub estimator: Estimator,
+    pub estimator: EstimatorKind,
     /// The point set behind all coordinates. One with a fixed number of points needs the same
     /// number in `max_samples`, and only that ends the run.
     pub sequence: Sequence,
@@ -146,19 +146,19 @@ pub struct Settings {
     /// one each is few beside the paths.
     pub map_photons: u32,
     /// Coordinates that a photon may have used when it lands on a map that paths end on, the balance of Voloboy, Dmitriev and Kopylov
-    /// (2003): later events, which quasi-random points do least for, are left out. [`Estimator::Bidirectional`] finds
-    /// their light by its correction, [`Estimator::BidirectionalMap`] goes without; `None` leaves nothing out.
+    /// (2003): later events, which quasi-random points do least for, are left out. [`EstimatorKind::Bidirectional`] finds
+    /// their light by its correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
     pub map_dimensions: Option<u32>,
     /// How many plane mirrors, one after the other, images of point-like lights are followed through;
     /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where that
     /// helps the sensors; else they keep equal flux.
-    pub steering: Switch,
-    /// Whether photons are joined to the sensors beside the paths of [`Estimator::Bidirectional`]; with `Off` these end on a
+    pub importance: Switch,
+    /// Whether photons are joined to the sensors beside the paths of [`EstimatorKind::Bidirectional`]; with `Off` these end on a
     /// frozen map, which is corrected, where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone, and
-    /// `steering` that is to be on the joined photons.
-    pub joining: Switch,
+    /// `importance` that is to be on the joined photons.
+    pub connections: Switch,
 }
 
 impl Settings {
@@ -168,16 +168,16 @@ impl Settings {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
     }
 
-    /// Whether [`Estimator::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
+    /// Whether [`EstimatorKind::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
     /// that are to leave lit places, or to be left out, are those of maps; those that are to be steered are joined.
     #[must_use]
     pub fn joins(&self) -> Option<bool> {
         let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();
-        match self.joining {
+        match self.connections {
             Switch::On => Some(true),
             Switch::Off => Some(false),
             Switch::Auto if asks_for_map => Some(false),
-            Switch::Auto => (self.steering == Switch::On).then_some(true),
+            Switch::Auto => (self.importance == Switch::On).then_some(true),
         }
     }
 
@@ -200,7 +200,7 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            estimator: Estimator::Path,
+            estimator: EstimatorKind::Path,
             sequence: Sequence::Sobol,
             randomization: Randomization::Owen,
             rel_tol: 0.01,
@@ -221,8 +221,8 @@ impl Default for Settings {
             map_photons: 1,
             map_dimensions: None,
             image_depth: None,
-            steering: Switch::Auto,
-            joining: Switch::Auto,
+            importance: Switch::Auto,
+            connections: Switch::Auto,
         }
     }
 }

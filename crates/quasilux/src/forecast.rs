@@ -1,7 +1,7 @@
 //! What a run will take of the machine: the memory of the whole program.
 
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimator, MemoryNeed, Settings};
+use quasilux_transport::{EstimatorKind, MemoryNeed, Settings};
 
 /// The program with small files in memory, and what a thread that traces paths, or photons too, keeps at hand:
 /// measured on the examples (`docs/memory.md`).
@@ -26,10 +26,10 @@ impl<'a> Forecast<'a> {
     /// Memory of the program for a run of so many samples; for one of any number with `None`.
     pub(crate) fn bytes(&self, samples: Option<u64>) -> u64 {
         let thread_bytes = match self.settings.estimator {
-            Estimator::Path => PATH_THREAD_BYTES,
-            Estimator::Photon | Estimator::Bidirectional | Estimator::BidirectionalMap => {
-                PHOTON_THREAD_BYTES
-            }
+            EstimatorKind::Path => PATH_THREAD_BYTES,
+            EstimatorKind::Photon
+            | EstimatorKind::Bidirectional
+            | EstimatorKind::BidirectionalMap => PHOTON_THREAD_BYTES,
         };
         let program_bytes = PROGRAM_BYTES + self.threads as u64 * thread_bytes;
         self.need.total_bytes(samples).saturating_add(program_bytes)

@@ -10,6 +10,7 @@ use crate::project::{Project, read_bounded};
 use crate::record::SettingsRecord;
 use crate::sealed::{seal, unseal};
 use quasilux_measure::json;
+use quasilux_scene::project::{RENAMED_KEYS, RenamedKey};
 use quasilux_transport::{Decisions, Settings};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -42,11 +43,11 @@ pub(crate) struct Plan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DecisionsRecord {
-    joined_photons: Option<u64>,
-    steered: bool,
+    connected_photons: Option<u64>,
+    importance: bool,
     first_shot: bool,
     map_elements: Option<u64>,
-    hidden_photons: Option<u64>,
+    caustic_photons: Option<u64>,
     sha256: String,
 }
 
@@ -78,19 +79,19 @@ impl Plan {
         decisions: &Decisions,
     ) -> Self {
         let Decisions {
-            joined_photons,
-            is_steered,
+            connected_photons,
+            uses_importance,
             first_shot,
             map_elements,
-            hidden_photons,
+            caustic_photons,
             digest,
         } = decisions;
         let decisions = DecisionsRecord {
-            joined_photons: *joined_photons,
-            steered: *is_steered,
+            connected_photons: *connected_photons,
+            importance: *uses_importance,
             first_shot: *first_shot,
             map_elements: *map_elements,
-            hidden_photons: *hidden_photons,
+            caustic_photons: *caustic_photons,
             sha256: hex(digest),
         };
         let plan = Self {
@@ -112,7 +113,7 @@ impl Plan {
         let name = path.display();
         let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
         let plan: Self = serde_json::from_slice(&bytes)
-            .map_err(|error| Refusal::new(format!("{name}: is no plan: {error}")))?;
+            .map_err(|error| Refusal::new(format!("{name}: {}", why_no_plan(&bytes, &error))))?;
         plan.check().map_err(|what| Refusal::new(format!("{name}: {what}")))?;
         Ok(plan)
     }
@@ -172,6 +173,16 @@ impl Plan {
         } = self;
         let content = (format, version, build, &scene.sha256, samples, settings, decisions);
         sha256_hex(json::text(&content).as_bytes())
+    }
+}
+
+/// Why bytes are not a plan: a setting that has another name now, or what the parser found.
+fn why_no_plan(bytes: &[u8], error: &serde_json::Error) -> String {
+    let document: serde_json::Value = serde_json::from_slice(bytes).unwrap_or_default();
+    let renamed = RENAMED_KEYS.iter().find(|key| document["settings"].get(key.old).is_some());
+    match renamed {
+        Some(RenamedKey { old, new }) => format!("the setting \"{old}\" is \"{new}\" now"),
+        None => format!("is no plan: {error}"),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
-use quasilux_transport::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
+use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -81,7 +81,7 @@ pub(crate) fn settings(
     let section = &project.loaded.simulation;
     let mut settings = Settings::default();
     if let Some(name) = &section.estimator {
-        settings.estimator = names::in_project(section, "estimator", name, &Estimator::NAMES)?;
+        settings.estimator = names::in_project(section, "estimator", name, &EstimatorKind::NAMES)?;
     }
     if let Some(name) = &section.sequence {
         // A sequence that is overruled needs no number of points.
@@ -93,14 +93,14 @@ pub(crate) fn settings(
         let known = &Randomization::NAMES;
         settings.randomization = names::in_project(section, "randomization", name, known)?;
     }
-    if let Some(name) = &section.steering {
-        settings.steering = names::in_project(section, "steering", name, &Switch::NAMES)?;
+    if let Some(name) = &section.importance {
+        settings.importance = names::in_project(section, "importance", name, &Switch::NAMES)?;
     }
-    if let Some(name) = &section.joining {
-        settings.joining = names::in_project(section, "joining", name, &Switch::NAMES)?;
+    if let Some(name) = &section.connections {
+        settings.connections = names::in_project(section, "connections", name, &Switch::NAMES)?;
     }
     if let Some(name) = &arguments.estimator {
-        settings.estimator = names::on_command_line("--estimator", name, &Estimator::NAMES)?;
+        settings.estimator = names::on_command_line("--estimator", name, &EstimatorKind::NAMES)?;
     }
     if let Some(name) = &arguments.sequence {
         let known = names::sequences(arguments.samples);

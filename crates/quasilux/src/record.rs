@@ -3,7 +3,7 @@
 use crate::exit::Refusal;
 use crate::names;
 use quasilux_sampling::Randomization;
-use quasilux_transport::{Estimator, Reconstruction, Settings, Switch, ToleranceOn};
+use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 use serde::{Deserialize, Serialize};
 
 /// All settings, by the names and in the units of the project file.
@@ -31,8 +31,8 @@ pub(crate) struct SettingsRecord {
     map_photons: u32,
     map_dimensions: Option<u32>,
     image_depth: Option<u32>,
-    steering: String,
-    joining: String,
+    importance: String,
+    connections: String,
 }
 
 impl SettingsRecord {
@@ -59,8 +59,8 @@ impl SettingsRecord {
             map_photons,
             map_dimensions,
             image_depth,
-            steering,
-            joining,
+            importance,
+            connections,
         } = settings.clone();
         Self {
             estimator: estimator.name().to_owned(),
@@ -84,8 +84,8 @@ impl SettingsRecord {
             map_photons,
             map_dimensions,
             image_depth,
-            steering: steering.name().to_owned(),
-            joining: joining.name().to_owned(),
+            importance: importance.name().to_owned(),
+            connections: connections.name().to_owned(),
         }
     }
 
@@ -110,7 +110,7 @@ impl SettingsRecord {
             return Err(Refusal::new(format!("{file}: its settings are out of range")));
         }
         Ok(Settings {
-            estimator: named(file, &self.estimator, &Estimator::NAMES)?,
+            estimator: named(file, &self.estimator, &EstimatorKind::NAMES)?,
             sequence: named(file, &self.sequence, &names::sequences(self.samples))?,
             randomization: named(file, &self.randomization, &Randomization::NAMES)?,
             rel_tol: self.rel_tol,
@@ -131,8 +131,8 @@ impl SettingsRecord {
             map_photons: self.map_photons,
             map_dimensions: self.map_dimensions,
             image_depth: self.image_depth,
-            steering: named(file, &self.steering, &Switch::NAMES)?,
-            joining: named(file, &self.joining, &Switch::NAMES)?,
+            importance: named(file, &self.importance, &Switch::NAMES)?,
+            connections: named(file, &self.connections, &Switch::NAMES)?,
         })
     }
 }
@@ -156,7 +156,7 @@ mod tests {
             map_element_m: Some(1.0 / 3.0),
             map_photons: 7,
             map_dimensions: Some(9),
-            joining: Switch::Off,
+            connections: Switch::Off,
             ..Settings::default()
         };
         for settings in [settings, Settings::default()] {

@@ -8,8 +8,8 @@
 //! `cameras` the files of each camera, the paths of each pixel
 //! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
 //! run repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`, `steering`, `joining`, `first_shot`),
-//! `decisions`, what pilots made of those (photons that are joined for each path, whether photons are `steered` and leave lit places, sides of elements
+//! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`, `importance`, `connections`, `first_shot`),
+//! `decisions`, what pilots made of those (photons connected for each path (`connected_photons`), whether photons follow `importance` and leave lit places, sides of elements
 //! of the map that paths end on, photons for each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
 //! coordinates, in one list each, all of more than 1023 together at its end, `photons`, how many began in all, `null` where none did, and
@@ -142,8 +142,8 @@ struct RunEntry<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     map_dimensions: Option<u32>,
     image_depth: Option<u32>,
-    steering: &'a str,
-    joining: &'a str,
+    importance: &'a str,
+    connections: &'a str,
     decisions: DecisionsEntry,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
@@ -163,11 +163,11 @@ struct RunEntry<'a> {
 /// What `auto` came to, as in a plan.
 #[derive(Serialize)]
 struct DecisionsEntry {
-    joined_photons: Option<u64>,
-    steered: bool,
+    connected_photons: Option<u64>,
+    importance: bool,
     first_shot: bool,
     map_elements: Option<u64>,
-    hidden_photons: Option<u64>,
+    caustic_photons: Option<u64>,
 }
 
 #[derive(Serialize)]
@@ -218,14 +218,14 @@ impl<'a> SensorEntry<'a> {
 impl DecisionsEntry {
     fn of(decisions: &Decisions) -> Self {
         let Decisions {
-            joined_photons,
-            is_steered: steered,
+            connected_photons,
+            uses_importance: importance,
             first_shot,
             map_elements,
-            hidden_photons,
+            caustic_photons,
             digest: _,
         } = *decisions;
-        Self { joined_photons, steered, first_shot, map_elements, hidden_photons }
+        Self { connected_photons, importance, first_shot, map_elements, caustic_photons }
     }
 }
 
@@ -295,8 +295,8 @@ impl<'a> RunEntry<'a> {
             map_photons: run.settings.map_photons,
             map_dimensions: run.settings.map_dimensions,
             image_depth: run.settings.image_depth,
-            steering: run.settings.steering.name(),
-            joining: run.settings.joining.name(),
+            importance: run.settings.importance.name(),
+            connections: run.settings.connections.name(),
             decisions: DecisionsEntry::of(&run.decisions),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),

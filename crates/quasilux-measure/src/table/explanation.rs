@@ -75,7 +75,7 @@ fn sampled(explanation: &Explanation) -> String {
             (format!("{samples} photons counted by cells that {targets} points see"), "photon")
         }
         WalkKind::JoinedPhotons => {
-            (format!("{samples} photons joined to {targets} points"), "photon")
+            (format!("{samples} photons connected to {targets} points"), "photon")
         }
     };
     let whole = match walk {
@@ -144,7 +144,7 @@ fn together(explanation: &Explanation) -> String {
     let photons = explanation.beside.iter().map(|Beside { for_each_path, explanation }| {
         let are = match explanation.walk {
             WalkKind::CountedPhotons => "counted",
-            _ => "joined",
+            _ => "connected",
         };
         let photons = if *for_each_path == 1 { "photon" } else { "photons" };
         let deviation = explanation.relative_deviation / (*for_each_path as f64).sqrt();

@@ -3,6 +3,7 @@
 //! Sections of the project file are read through [`Section`] and [`Value`]: each question says
 //! what is expected, so that each refusal can.
 
+use super::renamed::RenamedKey;
 use crate::{LoadError, Place, Placed};
 use glam::DVec3;
 use std::ops::Range;
@@ -100,6 +101,17 @@ impl<'a> Section<'a> {
                 let list = known.join(", ");
                 let message = format!("unknown key \"{name}\" in {}; expected {list}", self.name);
                 return refuse(message).map_err(|e| e.offer(name, known.iter().copied()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses the old names of renamed keys, with the new ones.
+    pub(super) fn refuse_renamed(&self, renamed: &[RenamedKey]) -> Result<(), LoadError> {
+        for (key, _) in self.entries() {
+            if let Some(RenamedKey { old, new }) = renamed.iter().find(|it| it.old == key.value) {
+                let message = format!("the key \"{old}\" in {} is \"{new}\" now", self.name);
+                return Err(LoadError::new(self.source.file, Some(key.place), message));
             }
         }
         Ok(())

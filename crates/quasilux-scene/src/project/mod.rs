@@ -12,9 +12,11 @@ mod luminaires;
 mod materials;
 mod names;
 mod pane;
+mod renamed;
 mod sensors;
 mod simulation;
 
+pub use renamed::{RENAMED_KEYS, RenamedKey};
 pub use simulation::SimulationSection;
 
 pub(crate) use cameras::CameraEntry;

@@ -4,6 +4,7 @@
 //! refuse a name with the line that gives it.
 
 use super::document::{Section, Value};
+use super::renamed::RENAMED_KEYS;
 use crate::{LoadError, Placed};
 
 const KEYS: [&str; 21] = [
@@ -26,8 +27,8 @@ const KEYS: [&str; 21] = [
     "map_photons",
     "map_dimensions",
     "image_depth",
-    "steering",
-    "joining",
+    "importance",
+    "connections",
 ];
 
 /// Most replicates that a project file may ask for.
@@ -85,10 +86,10 @@ pub struct SimulationSection {
     pub map_dimensions: Option<Placed<u32>>,
     /// Mirrors, one after the other, that images of point-like lights are followed through.
     pub image_depth: Option<Placed<u32>>,
-    /// Whether photons are steered, by name.
-    pub steering: Option<Placed<String>>,
-    /// Whether photons are joined to the sensors beside paths.
-    pub joining: Option<Placed<String>>,
+    /// Name of when photons follow the importance of the sensors.
+    pub importance: Option<Placed<String>>,
+    /// Name of when photons are connected to the sensors beside paths.
+    pub connections: Option<Placed<String>>,
 }
 
 impl SimulationSection {
@@ -113,6 +114,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
     let Some(section) = root.table("simulation")? else {
         return Ok(SimulationSection { file, ..SimulationSection::default() });
     };
+    section.refuse_renamed(&RENAMED_KEYS)?;
     section.only(&KEYS, &[])?;
     let name = |key| placed(&section, key, |value| Ok(value.string("a name")?.to_owned()));
     let number = |key, expected: &str, accept: fn(f64) -> bool| {
@@ -163,8 +165,8 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
             let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");
             value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)
         })?,
-        steering: name("steering")?,
-        joining: name("joining")?,
+        importance: name("importance")?,
+        connections: name("connections")?,
     })
 }
 

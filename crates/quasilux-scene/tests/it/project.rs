@@ -111,7 +111,7 @@ fn simulation_values_keep_their_places() {
         + "[simulation]\nestimator = \"pat\"\nrel_tol = 0.02\nconfidence = 0.9\nreplicates = 8\n\
            seed = 0xff\nmax_bounces = \"unlimited\"\nlist_terms = 4\nmap_element_m = 1\n\
            map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\nmap_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
-           steering = \"on\"\njoining = \"off\"\nfirst_shot = \"off\"\n\
+           importance = \"on\"\nconnections = \"off\"\nfirst_shot = \"off\"\n\
            abs_tol = 0.5\ntolerance_on = \"summary\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
     assert_eq!(simulation.rel_tol.as_ref().map(|v| (v.value, v.place.line)), Some((0.02, 18)));
@@ -127,8 +127,8 @@ fn simulation_values_keep_their_places() {
     assert_eq!(simulation.map_photons.as_ref().map(|v| v.value), Some(9));
     assert_eq!(simulation.map_dimensions.as_ref().map(|v| v.value), Some(7));
     assert_eq!(simulation.image_depth.as_ref().map(|v| v.value), Some(3));
-    assert_eq!(simulation.steering.as_ref().map(|v| &*v.value), Some("on"));
-    assert_eq!(simulation.joining.as_ref().map(|v| &*v.value), Some("off"));
+    assert_eq!(simulation.importance.as_ref().map(|v| &*v.value), Some("on"));
+    assert_eq!(simulation.connections.as_ref().map(|v| &*v.value), Some("off"));
     assert_eq!(simulation.abs_tol_lx.as_ref().map(|v| v.value), Some(0.5));
     assert_eq!(simulation.tolerance_on.as_ref().map(|v| &*v.value), Some("summary"));
     assert_eq!(simulation.first_shot.as_ref().map(|v| &*v.value), Some("off"));

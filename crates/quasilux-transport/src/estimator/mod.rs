@@ -10,7 +10,7 @@ use crate::codec::{Reader, StateError, Writer};
 use crate::context::Stage;
 use crate::estimator::paths::Gathering;
 use crate::estimator::photons::Counting;
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
@@ -18,7 +18,7 @@ use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
 
-/// An estimator at work: one variant of [`Estimator`] or several close ones.
+/// An estimator at work: one variant of [`EstimatorKind`] or several close ones.
 pub(crate) trait Estimation {
     /// Adds the indices up to `samples` to all replicates; `false` when the observer stopped it
     /// half-way, which leaves it unusable.
@@ -76,8 +76,8 @@ pub(crate) fn estimation<'a, S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Box<dyn Estimation + 'a> {
     match settings.estimator {
-        Estimator::Photon => Box::new(Counting::new(stage, scene, settings)),
-        Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
+        EstimatorKind::Photon => Box::new(Counting::new(stage, scene, settings)),
+        EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
             Box::new(Gathering::new(stage, scene, settings, watch))
         }
     }

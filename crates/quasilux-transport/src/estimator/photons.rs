@@ -205,7 +205,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
     fn decisions(&self) -> Decisions {
         let windows = &self.plan.windows;
         Decisions {
-            is_steered: windows.is_some(),
+            uses_importance: windows.is_some(),
             digest: digest(|out| {
                 windows.iter().for_each(|windows| windows.put(out));
                 out.u64(self.plan.rays);

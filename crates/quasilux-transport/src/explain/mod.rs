@@ -21,7 +21,7 @@ mod shares;
 use crate::context::{Stage, Stream};
 use crate::photon::trace::PhotonCounts;
 use crate::purpose::{Ledger, Purpose};
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use gain::gain;
 use paths::PathWalk;
@@ -176,10 +176,10 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     let mut stage = Stage::<S>::new(scene, settings);
     stage.ledger = Some(&ledger);
     match settings.estimator {
-        Estimator::Photon => {
+        EstimatorKind::Photon => {
             look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings).explanation
         }
-        Estimator::Path | Estimator::Bidirectional | Estimator::BidirectionalMap => {
+        EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
             let walk = PathWalk::new(&stage, scene, settings);
             let Look { explanation, means_lx } = look_into(&walk, &ledger, settings);
             let beside = walk.beside(&means_lx).map(|walk| Beside {

@@ -10,7 +10,7 @@ use crate::path::end::PathEnd;
 use crate::path::sections::Section;
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::HiddenLight;
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
 use crate::stats::targets::{Target, targets};
@@ -86,7 +86,7 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
             target.given_lx += hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(0, i));
         }
         let kind = match settings.estimator {
-            Estimator::Path => WalkKind::Paths,
+            EstimatorKind::Path => WalkKind::Paths,
             _ if joined.is_some() => WalkKind::PathsBesidePhotons,
             _ if matches!(end, PathEnd::Nothing) => WalkKind::Paths,
             _ => WalkKind::PathsOnMap,

@@ -51,15 +51,15 @@ pub(crate) struct Plan {
     pub(crate) rays: u64,
 }
 
-/// Surveys the scene, if `steering` asks for it, and decides.
+/// Surveys the scene, if `importance` asks for it, and decides.
 pub(crate) fn plan<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],
-    steering: Switch,
+    importance: Switch,
 ) -> Plan {
-    match steering {
+    match importance {
         Switch::Off => Plan::default(),
-        Switch::Auto | Switch::On => foresee(stage, targets, steering),
+        Switch::Auto | Switch::On => foresee(stage, targets, importance),
     }
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn plan<S: Spectrum>(
 pub(crate) fn foresee<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],
-    steering: Switch,
+    importance: Switch,
 ) -> Plan {
     let Some(mut survey) = Survey::new(stage, targets) else { return Plan::default() };
     let Some((mut balance, mut areas_m2)) = look_far(stage, &mut survey, 1) else {
@@ -75,12 +75,12 @@ pub(crate) fn foresee<S: Spectrum>(
     };
     let plain = Performance::plain(&survey, &balance);
     let gain = plain.cost_of_error() / Performance::steered(&survey, &balance).cost_of_error();
-    let is_steered = match steering {
+    let uses_importance = match importance {
         Switch::Auto => gain >= WORTHWHILE,
         Switch::On => true,
         Switch::Off => false,
     };
-    if is_steered {
+    if uses_importance {
         survey.refine(stage);
         let Some(refined) = look_far(stage, &mut survey, LOOKS) else {
             return Plan { rays: survey.rays, ..Plan::default() };
@@ -88,7 +88,7 @@ pub(crate) fn foresee<S: Spectrum>(
         (balance, areas_m2) = refined;
     }
     let regions = Arc::new(survey.regions());
-    let windows = is_steered.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
+    let windows = uses_importance.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
     let steered = windows.as_ref().map(|windows| windows.performance(&survey, &balance));
     let steered = steered.map(|of_all| of_all.of_each_sensor(&survey));
     let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);

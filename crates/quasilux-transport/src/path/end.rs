@@ -9,7 +9,7 @@ use crate::photon::first_shot::{LitCells, decide};
 use crate::photon::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
 use crate::photon::order::Way;
 use crate::photon::trace::{Lead, PhotonCounts, Source};
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::observer::Snapshot;
 use crate::stats::targets::Target;
@@ -65,7 +65,7 @@ pub(crate) struct MapFacts {
     /// Whether photons of maps that grow leave lit places.
     pub(crate) first_shot: bool,
     /// Whether they are steered.
-    pub(crate) is_steered: bool,
+    pub(crate) uses_importance: bool,
 }
 
 /// The maps of all replicates at a moment when no photon flies.
@@ -115,7 +115,8 @@ impl<S: Spectrum> PathEnd<S> {
             }
             return (Self::Frozen(map), counts);
         }
-        if settings.estimator != Estimator::BidirectionalMap || settings.max_bounces == Some(0) {
+        if settings.estimator != EstimatorKind::BidirectionalMap || settings.max_bounces == Some(0)
+        {
             return (Self::Nothing, photons.unwrap_or_else(|| balance(watch)));
         }
         let mut counts = PhotonCounts::default();
@@ -126,7 +127,7 @@ impl<S: Spectrum> PathEnd<S> {
         let source = Source::of(lit_cells.as_ref());
         let (layout, pilots) = refined(stage, settings, watch);
         counts += pilots;
-        let Plan { windows, rays, .. } = importance::plan(stage, targets, settings.steering);
+        let Plan { windows, rays, .. } = importance::plan(stage, targets, settings.importance);
         counts.rays += rays;
         let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
         let replicates = 0..settings.effective_replicates();
@@ -157,7 +158,7 @@ impl<S: Spectrum> PathEnd<S> {
             Self::Own { layout, lit_cells, windows, .. } => MapFacts {
                 elements: Some(layout.len() as u64),
                 first_shot: lit_cells.is_some(),
-                is_steered: windows.is_some(),
+                uses_importance: windows.is_some(),
             },
         }
     }

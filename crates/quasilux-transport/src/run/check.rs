@@ -1,6 +1,6 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
-use crate::settings::{Estimator, Settings, Switch};
+use crate::settings::{EstimatorKind, Settings, Switch};
 use crate::world::World;
 use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Quantity, Scene, SensorShape};
@@ -44,14 +44,14 @@ pub enum CheckError {
         estimator: &'static str,
     },
     /// Other estimators have no use for such photons.
-    #[error("joining = \"on\" is for the estimator \"bidirectional\", not for \"{estimator}\"")]
+    #[error("connections = \"on\" is for the estimator \"bidirectional\", not for \"{estimator}\"")]
     NothingToJoin {
         /// Name of the estimator.
         estimator: &'static str,
     },
     /// No photon of these is split or ended.
     #[error(
-        "steering = \"on\" is for photons that sensors count, that are joined to them, or that fill growing maps: there \
+        "importance = \"on\" is for photons that sensors count, that are joined to them, or that fill growing maps: there \
          are none with the estimator \"{estimator}\"{why}"
     )]
     NothingToSteer {
@@ -62,18 +62,18 @@ pub enum CheckError {
     },
     /// Joined photons leave the lights.
     #[error(
-        "first_shot = \"on\" is for the photons of illumination maps, and joining = \"on\" leaves none"
+        "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" leaves none"
     )]
     FirstShotOfJoined,
     /// Nothing can be left out of a map that is not there.
     #[error(
-        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" and joining = \"{joining}\""
+        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" and connections = \"{connections}\""
     )]
     NoMapToLeaveOutOf {
         /// Name of the estimator.
         estimator: &'static str,
         /// Name of the switch.
-        joining: &'static str,
+        connections: &'static str,
     },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
@@ -89,42 +89,44 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     if !(flux_lm > 0.0 && flux_lm.is_finite()) {
         return Err(CheckError::Dark);
     }
-    let ends_on_map =
-        matches!(settings.estimator, Estimator::Bidirectional | Estimator::BidirectionalMap);
+    let ends_on_map = matches!(
+        settings.estimator,
+        EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap
+    );
     if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }
-    if settings.first_shot == Switch::On && settings.joining == Switch::On {
+    if settings.first_shot == Switch::On && settings.connections == Switch::On {
         return Err(CheckError::FirstShotOfJoined);
     }
     let has_map = match settings.estimator {
-        Estimator::Path | Estimator::Photon => false,
-        Estimator::Bidirectional => settings.joins() != Some(true),
-        Estimator::BidirectionalMap => true,
+        EstimatorKind::Path | EstimatorKind::Photon => false,
+        EstimatorKind::Bidirectional => settings.joins() != Some(true),
+        EstimatorKind::BidirectionalMap => true,
     };
     if settings.map_dimensions.is_some() && !has_map {
         return Err(CheckError::NoMapToLeaveOutOf {
             estimator: settings.estimator.name(),
-            joining: settings.joining.name(),
+            connections: settings.connections.name(),
         });
     }
     let is_steerable = match settings.estimator {
-        Estimator::Path => false,
-        Estimator::Bidirectional => settings.joins() != Some(false),
-        Estimator::Photon | Estimator::BidirectionalMap => true,
+        EstimatorKind::Path => false,
+        EstimatorKind::Bidirectional => settings.joins() != Some(false),
+        EstimatorKind::Photon | EstimatorKind::BidirectionalMap => true,
     };
-    if settings.steering == Switch::On && !is_steerable {
-        let why = match settings.joining {
-            _ if settings.estimator == Estimator::Path => "",
-            Switch::Off => " and joining = \"off\"",
+    if settings.importance == Switch::On && !is_steerable {
+        let why = match settings.connections {
+            _ if settings.estimator == EstimatorKind::Path => "",
+            Switch::Off => " and connections = \"off\"",
             _ => " on a map that first_shot or map_dimensions ask for",
         };
         return Err(CheckError::NothingToSteer { estimator: settings.estimator.name(), why });
     }
-    if settings.joining == Switch::On && settings.estimator != Estimator::Bidirectional {
+    if settings.connections == Switch::On && settings.estimator != EstimatorKind::Bidirectional {
         return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
     }
-    if settings.estimator != Estimator::Photon {
+    if settings.estimator != EstimatorKind::Photon {
         return Ok(());
     }
     if let Some(camera) = scene.cameras.first() {
@@ -174,7 +176,7 @@ pub(crate) fn caveats(scene: &Scene, settings: &Settings) -> Vec<String> {
 fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
     let mut caveats = Vec::new();
     match settings.estimator {
-        Estimator::Photon => {
+        EstimatorKind::Photon => {
             let reads_points = |shape: &SensorShape| match shape {
                 SensorShape::Points(_) => true,
                 SensorShape::Grid(grid) => grid.quantity == Quantity::Centre,
@@ -187,7 +189,7 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 );
             }
         }
-        Estimator::BidirectionalMap => {
+        EstimatorKind::BidirectionalMap => {
             caveats.push(
                 "the estimator \"bidirectional-map\" reads means over map elements; the intervals leave \
                  out this bias"
@@ -197,7 +199,7 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 format!("photons that took more than {most} coordinates are left out of maps: values may be too low")
             }));
         }
-        Estimator::Path | Estimator::Bidirectional => {}
+        EstimatorKind::Path | EstimatorKind::Bidirectional => {}
     }
     caveats
 }

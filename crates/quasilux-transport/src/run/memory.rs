@@ -10,7 +10,7 @@ use crate::path::sections::PathSums;
 use crate::photon::map::{
     COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS,
 };
-use crate::settings::{Estimator, Reconstruction, Settings, Switch};
+use crate::settings::{EstimatorKind, Reconstruction, Settings, Switch};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::tally::Sum;
 use quasilux_scene::{Rgb, Scene};
@@ -71,9 +71,11 @@ impl MemoryNeed {
             ..Self::default()
         };
         let maps = match settings.estimator {
-            Estimator::BidirectionalMap => u64::from(settings.effective_replicates()),
-            Estimator::Bidirectional if settings.joins() != Some(true) => 1,
-            Estimator::Photon | Estimator::Path | Estimator::Bidirectional => return need,
+            EstimatorKind::BidirectionalMap => u64::from(settings.effective_replicates()),
+            EstimatorKind::Bidirectional if settings.joins() != Some(true) => 1,
+            EstimatorKind::Photon | EstimatorKind::Path | EstimatorKind::Bidirectional => {
+                return need;
+            }
         };
         let channels = if is_grey(scene) { f64::CHANNELS } else { Rgb::CHANNELS } as u64;
         let moments = if settings.map_reconstruction == Reconstruction::Linear { 3 } else { 1 };
@@ -82,7 +84,7 @@ impl MemoryNeed {
         let full = |sides: u64, layers: u64| {
             product([sides, moments, channels, layers, COUNTER_BYTES, maps])
         };
-        if settings.estimator == Estimator::Bidirectional {
+        if settings.estimator == EstimatorKind::Bidirectional {
             // Frozen before the first sample.
             let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
             let layers = control_variate::layers(settings.max_bounces, settings.list_terms, sides);
@@ -139,9 +141,10 @@ fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 
 
 /// What a survey knows of the cells of the scene, and what photons that are joined to sensors bring to them.
 fn cells_bytes(settings: &Settings, points: u64) -> u64 {
-    let photons = settings.estimator != Estimator::Path;
-    let guides = if photons && settings.steering != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
-    if settings.estimator != Estimator::Bidirectional || settings.joins() == Some(false) {
+    let photons = settings.estimator != EstimatorKind::Path;
+    let guides =
+        if photons && settings.importance != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
+    if settings.estimator != EstimatorKind::Bidirectional || settings.joins() == Some(false) {
         return guides;
     }
     let slots = 1 + u64::from(settings.list_terms.max(1));
@@ -174,7 +177,7 @@ mod tests {
         assert_eq!(with(|_| ()).total_bytes(None), 0);
         let grown = |elements: u64, terms: u32| {
             with(|settings| {
-                settings.estimator = Estimator::BidirectionalMap;
+                settings.estimator = EstimatorKind::BidirectionalMap;
                 settings.map_elements = elements;
                 settings.list_terms = terms;
             })
@@ -191,7 +194,7 @@ mod tests {
     #[test]
     fn the_largest_numbers_are_no_panic() {
         let need = with(|settings| {
-            settings.estimator = Estimator::BidirectionalMap;
+            settings.estimator = EstimatorKind::BidirectionalMap;
             (settings.map_elements, settings.replicates) = (u64::MAX, u32::MAX);
             (settings.list_terms, settings.map_photons) = (u32::MAX, u32::MAX);
         });

@@ -6,7 +6,7 @@ use crate::estimator::{Estimation, estimation};
 use crate::run::check::{caveats, is_biased};
 use crate::run::checkpoint::Course;
 use crate::run::pixels::add_pictures;
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
@@ -176,7 +176,8 @@ pub(crate) fn look<S: Spectrum>(
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
     estimates.warnings.extend(stage.warning.clone());
-    let sees_hidden = settings.estimator != Estimator::Photon && settings.max_bounces != Some(0);
+    let sees_hidden =
+        settings.estimator != EstimatorKind::Photon && settings.max_bounces != Some(0);
     if let (Some(ways), true) = (&stage.hides, sees_hidden) {
         estimates.biased = true;
         estimates.warnings.push(format!(

@@ -4,15 +4,15 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decisions {
     /// Photons that are joined to the sensors for each path; `None` where paths go alone or end on a map.
-    pub joined_photons: Option<u64>,
+    pub connected_photons: Option<u64>,
     /// Whether photons are split, ended and guided on their way.
-    pub is_steered: bool,
+    pub uses_importance: bool,
     /// Whether photons leave lit places instead of point-like lights.
     pub first_shot: bool,
     /// Sides of elements of the illumination map, where paths end on one.
     pub map_elements: Option<u64>,
     /// Photons for each path that look for what paths cannot find, where there is such light.
-    pub hidden_photons: Option<u64>,
+    pub caustic_photons: Option<u64>,
     /// SHA-256 of all that was decided, with every number that an estimate hangs on.
     pub digest: [u8; 32],
 }

@@ -7,7 +7,7 @@ use crate::images::add_panel;
 use crate::scenes::{diffuse, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimates, Estimator, Settings, ToleranceOn, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, ToleranceOn, simulate};
 
 /// A lamp behind a screen: the first place is open to it, the others get what comes around.
 pub(crate) fn screened() -> Scene {
@@ -21,7 +21,7 @@ pub(crate) fn screened() -> Scene {
     scene
 }
 
-fn settings(estimator: Estimator) -> Settings {
+fn settings(estimator: EstimatorKind) -> Settings {
     Settings { estimator, rel_tol: 0.04, list_terms: 2, ..Settings::default() }
 }
 
@@ -57,7 +57,9 @@ fn is_each_point_that_of_a_limited_run(scene: &Scene, settings: &Settings) {
 
 #[test]
 fn a_point_that_is_done_is_as_in_a_run_that_ends_there() {
-    for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap] {
+    for estimator in
+        [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
+    {
         let settings = Settings { rel_tol: 0.06, ..settings(estimator) };
         is_each_point_that_of_a_limited_run(&screened(), &settings);
     }
@@ -69,7 +71,7 @@ fn what_photons_bring_ends_with_the_point() {
     let mut scene = screened();
     let corner = DVec3::new(0.0, 2.9, 0.5);
     add_panel(&mut scene, corner, DVec3::X, DVec3::Z, mirror(0.9));
-    let settings = Settings { image_depth: Some(0), ..settings(Estimator::Path) };
+    let settings = Settings { image_depth: Some(0), ..settings(EstimatorKind::Path) };
     is_each_point_that_of_a_limited_run(&scene, &settings);
 }
 
@@ -77,9 +79,12 @@ fn what_photons_bring_ends_with_the_point() {
 #[test]
 fn points_that_are_done_cost_nothing() {
     let scene = screened();
-    let adaptive = simulate(&scene, &settings(Estimator::Path), &mut ());
-    let never =
-        Settings { rel_tol: 0.0, max_samples: Some(adaptive.samples), ..settings(Estimator::Path) };
+    let adaptive = simulate(&scene, &settings(EstimatorKind::Path), &mut ());
+    let never = Settings {
+        rel_tol: 0.0,
+        max_samples: Some(adaptive.samples),
+        ..settings(EstimatorKind::Path)
+    };
     let all = simulate(&scene, &never, &mut ());
     assert_eq!(all.samples, adaptive.samples);
     let share = adaptive.rays as f64 / all.rays as f64;
@@ -91,9 +96,9 @@ fn points_that_are_done_cost_nothing() {
 #[test]
 fn averages_alone_may_decide() {
     let scene = screened();
-    let points = simulate(&scene, &settings(Estimator::Path), &mut ());
+    let points = simulate(&scene, &settings(EstimatorKind::Path), &mut ());
     let tolerance_on = ToleranceOn::Summary;
-    let summary = Settings { tolerance_on, ..settings(Estimator::Path) };
+    let summary = Settings { tolerance_on, ..settings(EstimatorKind::Path) };
     let averages = simulate(&scene, &summary, &mut ());
     assert!(averages.tolerance_reached && averages.rays < points.rays);
     for (sensor, figures) in averages.sensors.iter().enumerate() {
@@ -107,7 +112,7 @@ fn averages_alone_may_decide() {
 #[test]
 fn a_half_width_in_lx_is_enough() {
     let abs_tol_lx = 1.0;
-    let settings = Settings { rel_tol: 0.001, abs_tol_lx, ..settings(Estimator::Path) };
+    let settings = Settings { rel_tol: 0.001, abs_tol_lx, ..settings(EstimatorKind::Path) };
     let estimates = simulate(&screened(), &settings, &mut ());
     assert!(estimates.tolerance_reached);
     for sensor in 0..2 {
@@ -121,7 +126,7 @@ fn a_half_width_in_lx_is_enough() {
 #[test]
 fn rays_only_pick_the_last_checkpoint() {
     let scene = screened();
-    for estimator in [Estimator::Path, Estimator::Bidirectional] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let never = Settings { rel_tol: 0.0, ..settings(estimator) };
         let limit = 1_000_000;
         let limited =

@@ -10,7 +10,7 @@ use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Grid, Light, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, simulate};
 
 /// A room with a red wall, a mirror opposite, and a bright panel under the ceiling that lights the
 /// room from its front side only.
@@ -53,7 +53,7 @@ pub(crate) fn coloured_room_with_mirror() -> Scene {
     scene
 }
 
-fn run(scene: &Scene, estimator: Estimator, max_bounces: Option<u32>) -> Estimates {
+fn run(scene: &Scene, estimator: EstimatorKind, max_bounces: Option<u32>) -> Estimates {
     let settings = Settings { estimator, max_bounces, rel_tol: 0.02, ..Settings::default() };
     let estimates = simulate(scene, &settings, &mut ());
     assert!(estimates.tolerance_reached && estimates.invalid_contributions == 0);
@@ -71,8 +71,10 @@ fn assert_agree(a: &Estimates, b: &Estimates, what: &str) {
 fn photons_and_paths_agree_bounce_by_bounce() {
     let scene = coloured_room_with_mirror();
     for max_bounces in [Some(0), Some(1), Some(2)] {
-        let photons = run(&scene, Estimator::Photon, max_bounces);
-        for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap] {
+        let photons = run(&scene, EstimatorKind::Photon, max_bounces);
+        for estimator in
+            [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
+        {
             let paths = run(&scene, estimator, max_bounces);
             assert_agree(&photons, &paths, &format!("{estimator:?}, {max_bounces:?} bounces"));
         }
@@ -86,10 +88,11 @@ fn a_map_that_is_corrected_keeps_to_the_wanted_bounces() {
     let scene = coloured_room_with_mirror();
     for max_bounces in [Some(2), Some(3), Some(4), Some(17)] {
         let found = |estimator, seed| {
-            let joining = if estimator == Estimator::Path { Switch::Auto } else { Switch::Off };
+            let connections =
+                if estimator == EstimatorKind::Path { Switch::Auto } else { Switch::Off };
             let settings = Settings {
                 estimator,
-                joining,
+                connections,
                 max_bounces,
                 seed,
                 rel_tol: 0.003,
@@ -97,10 +100,10 @@ fn a_map_that_is_corrected_keeps_to_the_wanted_bounces() {
             };
             let estimates = simulate(&scene, &settings, &mut ());
             let is_mapped = estimates.decisions.map_elements.is_some();
-            assert_eq!(is_mapped, estimator == Estimator::Bidirectional);
+            assert_eq!(is_mapped, estimator == EstimatorKind::Bidirectional);
             estimates
         };
-        let [alone, mapped] = [(Estimator::Path, 1), (Estimator::Bidirectional, 2)]
+        let [alone, mapped] = [(EstimatorKind::Path, 1), (EstimatorKind::Bidirectional, 2)]
             .map(|(estimator, seed)| found(estimator, seed));
         assert_agree(&alone, &mapped, &format!("{max_bounces:?}"));
     }
@@ -111,7 +114,7 @@ fn a_map_that_is_corrected_keeps_to_the_wanted_bounces() {
 fn each_bounce_adds_light() {
     let scene = coloured_room_with_mirror();
     let average = |max_bounces| {
-        let estimates = run(&scene, Estimator::Path, max_bounces);
+        let estimates = run(&scene, EstimatorKind::Path, max_bounces);
         estimates.interval_of(0, |lx| lx.iter().sum::<f64>() / lx.len() as f64).value
     };
     let terms = [Some(0), Some(1), Some(2), Some(3), None].map(average);
@@ -128,7 +131,7 @@ fn three_channels_of_grey_are_one() {
     // No triangle has this material; it only makes the scene count as coloured.
     let bsdf = Bsdf::Diffuse(Diffuse { reflectance: Rgb([0.1, 0.2, 0.3]) });
     three.materials.push(Material { name: "unused".to_owned(), bsdf });
-    for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::Photon] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::Photon] {
         let (one, three) = (run(&grey, estimator, None), run(&three, estimator, None));
         for (x, y) in one.point_intervals(0).iter().zip(three.point_intervals(0)) {
             assert!((x.value / y.value - 1.0).abs() < 1e-9, "{estimator:?}: {x:?}, {y:?}");
@@ -168,7 +171,8 @@ fn a_path_finds_alone_what_it_finds_in_company() {
         let mut company = room.clone();
         company.sensors = vec![first, points("others", &places), room.sensors[0].clone()];
         // What a pilot makes of a map that is corrected depends on all targets.
-        for (estimator, seeds) in [(Estimator::Path, 64), (Estimator::BidirectionalMap, 4)] {
+        for (estimator, seeds) in [(EstimatorKind::Path, 64), (EstimatorKind::BidirectionalMap, 4)]
+        {
             for seed in 0..seeds {
                 let first_lx = |scene: &Scene, replicates| {
                     let max_samples = Some(1);
@@ -177,7 +181,7 @@ fn a_path_finds_alone_what_it_finds_in_company() {
                         seed,
                         replicates,
                         max_samples,
-                        steering: Switch::Off,
+                        importance: Switch::Off,
                         ..Settings::default()
                     };
                     simulate(scene, &settings, &mut ()).sensors[0].replicate_lx[0][0]

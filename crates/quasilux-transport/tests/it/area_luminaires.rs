@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use quasilux_photometry::{Axis, LuminousShape, Solid, read_ies};
 use quasilux_scene::light::{Luminaire, Placement};
 use quasilux_scene::{Grid, Light, Quantity, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimates, Estimator, Settings, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -276,11 +276,13 @@ fn photons_and_paths_agree() {
         let light = luminaire(beam, shape, DVec3::new(1.2, 0.9, 1.7));
         scene.lights.push(Light::Luminaire(Luminaire { world_from_luminaire, ..light }));
         scene.sensors.push(grid());
-        let photons = run(&scene, Estimator::Photon);
+        let photons = run(&scene, EstimatorKind::Photon);
         let flux = photons.flux;
         assert_eq!(flux.lost_lm, 0.0, "{}", shape.name());
         assert!((flux.absorbed_lm / flux.emitted_lm - 1.0).abs() < 1e-12);
-        for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap] {
+        for estimator in
+            [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
+        {
             let paths = run(&scene, estimator);
             for (x, y) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
                 let allowed = 1.5 * (x.half_width.unwrap() + y.half_width.unwrap());
@@ -295,7 +297,7 @@ fn photons_and_paths_agree() {
     }
 }
 
-fn run(scene: &Scene, estimator: Estimator) -> Estimates {
+fn run(scene: &Scene, estimator: EstimatorKind) -> Estimates {
     let settings = Settings { estimator, rel_tol: 0.02, ..Settings::default() };
     let estimates = simulate(scene, &settings, &mut ());
     assert!(estimates.tolerance_reached && estimates.invalid_contributions == 0);

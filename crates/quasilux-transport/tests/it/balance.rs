@@ -2,11 +2,11 @@
 
 use crate::scenes::{diffuse, diffuse_cube, mirror, point_light, points, room};
 use glam::DVec3;
-use quasilux_transport::{Estimator, Settings, simulate};
+use quasilux_transport::{EstimatorKind, Settings, simulate};
 
 #[test]
 fn closed_rooms_lose_nothing() {
-    for estimator in [Estimator::Photon, Estimator::Path, Estimator::Bidirectional] {
+    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let settings =
             Settings { estimator, max_samples: Some(1 << 12), rel_tol: 0.0, ..Settings::default() };
         let flux = simulate(&diffuse_cube(&[(0.0, 0.0)]), &settings, &mut ()).flux;
@@ -34,7 +34,7 @@ fn a_hall_of_perfect_mirrors_ends_with_a_warning() {
     scene.lights.push(point_light(DVec3::splat(0.4), 10.0));
     scene.sensors.push(points("p", &[(DVec3::new(0.5, 0.5, 0.1), DVec3::Z)]));
     let settings = Settings {
-        estimator: Estimator::Path,
+        estimator: EstimatorKind::Path,
         max_samples: Some(2),
         rel_tol: 0.05,
         ..Settings::default()

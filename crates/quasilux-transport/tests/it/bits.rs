@@ -10,7 +10,7 @@ use glam::DVec3;
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::{Material, Scene};
 use quasilux_transport::trial::{SimdLevel, simulate_with};
-use quasilux_transport::{Estimator, Settings, Switch};
+use quasilux_transport::{EstimatorKind, Settings, Switch};
 
 /// A room with a mirror wall, a lamp, two places and a grid.
 fn scene() -> Scene {
@@ -27,7 +27,7 @@ fn scene() -> Scene {
 /// FNV-1a (Fowler, Noll and Vo) over the bits of all values.
 fn digest(simd: SimdLevel, settings: &Settings) -> u64 {
     let mut scene = scene();
-    if settings.estimator == Estimator::Photon {
+    if settings.estimator == EstimatorKind::Photon {
         scene.sensors.remove(0);
     }
     let estimates = simulate_with(simd, &scene, settings);
@@ -44,17 +44,17 @@ fn digests(simd: SimdLevel) -> [String; 6] {
     let halton = (Sequence::Halton, Randomization::CranleyPattersonRotation);
     let random = (Sequence::Independent, Randomization::None);
     [
-        (Estimator::Path, Switch::Auto, sobol),
-        (Estimator::Path, Switch::Auto, random),
-        (Estimator::Photon, Switch::Auto, halton),
-        (Estimator::Bidirectional, Switch::On, sobol),
-        (Estimator::Bidirectional, Switch::Off, sobol),
-        (Estimator::BidirectionalMap, Switch::Auto, halton),
+        (EstimatorKind::Path, Switch::Auto, sobol),
+        (EstimatorKind::Path, Switch::Auto, random),
+        (EstimatorKind::Photon, Switch::Auto, halton),
+        (EstimatorKind::Bidirectional, Switch::On, sobol),
+        (EstimatorKind::Bidirectional, Switch::Off, sobol),
+        (EstimatorKind::BidirectionalMap, Switch::Auto, halton),
     ]
-    .map(|(estimator, joining, (sequence, randomization))| {
+    .map(|(estimator, connections, (sequence, randomization))| {
         let settings = Settings {
             estimator,
-            joining,
+            connections,
             sequence,
             randomization,
             rel_tol: 0.0,

@@ -7,7 +7,7 @@ use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;
 use quasilux_scene::{Bsdf, Camera, Material, Rgb, Scene};
 use quasilux_transport::{
-    CheckError, Control, Estimates, Estimator, Observer, Progress, Settings, check, simulate,
+    CheckError, Control, Estimates, EstimatorKind, Observer, Progress, Settings, check, simulate,
 };
 use std::f64::consts::PI;
 
@@ -63,7 +63,9 @@ fn a_furnace_is_as_bright_everywhere() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
     all_walls_emit(&mut scene, 100.0);
     scene.cameras.push(camera(DVec3::new(1.0, 0.7, 1.2), DVec3::new(4.0, 3.0, 1.0)));
-    for estimator in [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap] {
+    for estimator in
+        [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
+    {
         let settings = Settings { estimator, max_samples: Some(1024), ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());
         assert_luminances(&estimates, &[200.0; 12]);
@@ -226,7 +228,7 @@ fn pictures_show_light_that_only_photons_find() {
 fn photons_take_no_pictures() {
     let (mut scene, settings) = lit_room(Rgb::grey(0.5));
     scene.cameras.push(camera(DVec3::new(2.5, 1.3, 1.2), DVec3::new(4.0, 1.5, 1.3)));
-    let settings = Settings { estimator: Estimator::Photon, ..settings };
+    let settings = Settings { estimator: EstimatorKind::Photon, ..settings };
     let refusal = check(&scene, &settings).expect_err("a refusal");
     assert_eq!(refusal, CheckError::CameraOfPhotons { camera: "view".to_owned() });
 }

@@ -5,14 +5,14 @@ use crate::scenes::{diffuse, diffuse_cube, point_light, points, room, wall_grid}
 use glam::DVec3;
 use quasilux_scene::Scene;
 use quasilux_transport::{
-    Decisions, Estimates, Estimator, Settings, Switch, ToleranceOn, simulate,
+    Decisions, Estimates, EstimatorKind, Settings, Switch, ToleranceOn, simulate,
 };
 
-fn run(scene: &Scene, rel_tol: f64, joining: Switch) -> Estimates {
+fn run(scene: &Scene, rel_tol: f64, connections: Switch) -> Estimates {
     let settings = Settings {
-        estimator: Estimator::Bidirectional,
+        estimator: EstimatorKind::Bidirectional,
         rel_tol,
-        joining,
+        connections,
         max_samples: Some(128),
         ..Settings::default()
     };
@@ -20,9 +20,9 @@ fn run(scene: &Scene, rel_tol: f64, joining: Switch) -> Estimates {
 }
 
 fn decided(scene: &Scene, rel_tol: f64) -> (Option<u64>, bool) {
-    let Decisions { joined_photons, map_elements, .. } =
+    let Decisions { connected_photons, map_elements, .. } =
         run(scene, rel_tol, Switch::Auto).decisions;
-    (joined_photons, map_elements.is_some())
+    (connected_photons, map_elements.is_some())
 }
 
 /// Loose tolerances are reached before a map has paid for its photons or the scene is surveyed; close ones are not.
@@ -30,7 +30,7 @@ fn decided(scene: &Scene, rel_tol: f64) -> (Option<u64>, bool) {
 fn what_is_wanted_decides() {
     let scene = diffuse_cube(&[(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)]);
     let loose = run(&scene, 0.1, Switch::Auto);
-    assert_eq!(loose.decisions.joined_photons, None);
+    assert_eq!(loose.decisions.connected_photons, None);
     // The paths of the shortest run, and not many photons.
     assert!(loose.rays < 200_000, "{}", loose.rays);
     assert_eq!(decided(&scene, 0.005), (None, true));
@@ -72,8 +72,8 @@ fn a_dark_place_among_many_is_given_up() {
     places[51].0.x = 5.0;
     scene.sensors.push(points("places", &places));
     let settings = Settings {
-        estimator: Estimator::Bidirectional,
-        joining: Switch::Off,
+        estimator: EstimatorKind::Bidirectional,
+        connections: Switch::Off,
         rel_tol: 0.05,
         ..Settings::default()
     };
@@ -90,7 +90,7 @@ fn averages_ask_for_less() {
     scene.sensors = vec![wall_grid([12, 12])];
     let run = |tolerance_on| {
         let settings = Settings {
-            estimator: Estimator::Bidirectional,
+            estimator: EstimatorKind::Bidirectional,
             rel_tol: 0.003,
             tolerance_on,
             max_samples: Some(16),

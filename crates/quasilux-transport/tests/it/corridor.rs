@@ -6,7 +6,7 @@ use crate::scenes::{diffuse, diffuse_cube, point_light, room, wall_grid};
 use glam::DVec3;
 use quasilux_scene::{Files, Quantity, Scene, SensorShape, load};
 use quasilux_transport::trial::{Traced, Way, try_photons};
-use quasilux_transport::{Estimates, Estimator, Interval, Settings, Switch, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Interval, Settings, Switch, simulate};
 use std::path::{Path, PathBuf};
 
 /// Sensor points along the floor, one a metre.
@@ -47,12 +47,12 @@ fn corridor(quantity: Quantity) -> Scene {
     scene
 }
 
-fn settings(steering: Switch) -> Settings {
-    Settings { estimator: Estimator::Photon, steering, rel_tol: 0.0, ..Settings::default() }
+fn settings(importance: Switch) -> Settings {
+    Settings { estimator: EstimatorKind::Photon, importance, rel_tol: 0.0, ..Settings::default() }
 }
 
-fn counted(seed: u64, steering: Switch, samples: u64) -> (Vec<Interval>, Estimates) {
-    let settings = Settings { seed, max_samples: Some(samples), ..settings(steering) };
+fn counted(seed: u64, importance: Switch, samples: u64) -> (Vec<Interval>, Estimates) {
+    let settings = Settings { seed, max_samples: Some(samples), ..settings(importance) };
     let estimates = simulate(&corridor(Quantity::Mean), &settings, &mut ());
     (estimates.point_intervals(0), estimates)
 }
@@ -103,7 +103,7 @@ fn steered_photons_know_the_dark_end_better() {
 #[test]
 fn joined_photons_know_all_of_four_orders_of_magnitude() {
     let settings = Settings {
-        estimator: Estimator::Bidirectional,
+        estimator: EstimatorKind::Bidirectional,
         max_samples: Some(1 << 9),
         ..settings(Switch::Auto)
     };
@@ -171,13 +171,13 @@ fn a_sheet_in_the_dark_is_left_alone() {
 fn no_seed_loses_the_way() {
     for seed in [0, 5, 10, 15] {
         let settings = Settings {
-            estimator: Estimator::Bidirectional,
+            estimator: EstimatorKind::Bidirectional,
             seed,
             max_samples: Some(1 << 6),
             ..settings(Switch::Auto)
         };
         let estimates = simulate(&corridor(Quantity::Mean), &settings, &mut ());
-        assert!(estimates.decisions.is_steered, "{seed}: {:?}", estimates.decisions);
+        assert!(estimates.decisions.uses_importance, "{seed}: {:?}", estimates.decisions);
         let cells = estimates.point_intervals(0).into_iter().zip(reference());
         let off = cells.map(|(found, known)| found.value / known.value_lx - 1.0);
         let error = (off.map(|off| off * off).sum::<f64>() / POINTS as f64).sqrt();
@@ -194,8 +194,8 @@ fn a_plain_room_is_left_alone() {
 }
 
 fn assert_is_left_alone(scene: &Scene) {
-    let run = |steering| {
-        let settings = Settings { max_samples: Some(1 << 10), ..settings(steering) };
+    let run = |importance| {
+        let settings = Settings { max_samples: Some(1 << 10), ..settings(importance) };
         simulate(scene, &settings, &mut ())
     };
     let (plain, asked) = (run(Switch::Off), run(Switch::Auto));

@@ -24,10 +24,10 @@ fn intervals_cover_where_runs_stop() {
     let (mut covered, mut covered_by_narrow) = ([0; 3], 0);
     let mut ends = Vec::new();
     for seed in 0..SEEDS {
-        for (way, (estimator, joining)) in GATHERERS.into_iter().enumerate() {
+        for (way, (estimator, connections)) in GATHERERS.into_iter().enumerate() {
             let settings = Settings {
                 estimator,
-                joining,
+                connections,
                 rel_tol: 0.018,
                 replicates: 8,
                 seed,

@@ -2,7 +2,7 @@
 
 use crate::gatherers::GATHERERS;
 use crate::scenes::{diffuse_cube, wall_grid};
-use quasilux_transport::{Estimates, Estimator, Settings, Switch, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::PI;
 
 /// Luminance in cd/m^2 at interior places of a wall, in units of the half side: radiosity with
@@ -24,20 +24,21 @@ fn run(settings: &Settings, known: &[((f64, f64), f64)]) -> Estimates {
 
 #[test]
 fn known_luminances_lie_in_the_intervals() {
-    let map = (Estimator::BidirectionalMap, Switch::Auto);
-    for (estimator, joining) in GATHERERS.into_iter().chain([map]) {
+    let map = (EstimatorKind::BidirectionalMap, Switch::Auto);
+    for (estimator, connections) in GATHERERS.into_iter().chain([map]) {
         // Next to an edge a point sees a few map elements, which a map without correction leaves
         // noisy for very long.
-        let known = if estimator == Estimator::BidirectionalMap { &KNOWN[..3] } else { &KNOWN[..] };
-        let settings = Settings { estimator, joining, rel_tol: 0.005, ..Settings::default() };
+        let known =
+            if estimator == EstimatorKind::BidirectionalMap { &KNOWN[..3] } else { &KNOWN[..] };
+        let settings = Settings { estimator, connections, rel_tol: 0.005, ..Settings::default() };
         let estimates = run(&settings, known);
         assert!(estimates.tolerance_reached && estimates.invalid_contributions == 0);
-        assert_eq!(estimates.biased, estimator == Estimator::BidirectionalMap);
+        assert_eq!(estimates.biased, estimator == EstimatorKind::BidirectionalMap);
         for (interval, (place, luminance)) in estimates.point_intervals(0).iter().zip(known) {
             let wanted = luminance * PI * 1.5;
             let allowed = interval.half_width.unwrap() + 0.003 * wanted;
             let found =
-                format!("{estimator:?} {joining:?} {place:?}: {interval:?}, wanted {wanted}");
+                format!("{estimator:?} {connections:?} {place:?}: {interval:?}, wanted {wanted}");
             assert!((interval.value - wanted).abs() < allowed, "{found}");
         }
     }
@@ -53,7 +54,7 @@ fn counted_photons_agree_with_paths_in_the_mean() {
         let settings = Settings { estimator, rel_tol: 0.005, ..Settings::default() };
         simulate(&scene, &settings, &mut ())
     };
-    let (photons, paths) = (run(Estimator::Photon), run(Estimator::Path));
+    let (photons, paths) = (run(EstimatorKind::Photon), run(EstimatorKind::Path));
     assert!(photons.tolerance_reached && !photons.biased);
     for (counted, gathered) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
         let allowed = 1.5 * (counted.half_width.unwrap() + gathered.half_width.unwrap());
@@ -71,7 +72,7 @@ fn counted_photons_agree_with_paths_in_the_mean() {
 #[test]
 fn photons_use_seven_coordinates() {
     let settings = Settings {
-        estimator: Estimator::Photon,
+        estimator: EstimatorKind::Photon,
         max_samples: Some(1 << 14),
         rel_tol: 0.0,
         ..Settings::default()

@@ -11,7 +11,7 @@
 use crate::dozen_scenes as scenes;
 use quasilux_scene::Scene;
 use quasilux_stats::{sidak, student_t_quantile};
-use quasilux_transport::{Control, Estimates, Estimator, Observer, Settings, Switch, simulate};
+use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, Switch, simulate};
 
 const REPLICATES: u32 = 32;
 /// Scenes of this module, and comparisons in each: every estimator without bias with every other, and paths with the map.
@@ -79,17 +79,17 @@ impl Observer for UntilKnown {
     }
 }
 
-fn estimate(scene: &Scene, estimator: Estimator, joining: Switch) -> Mean {
+fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mean {
     let settings = Settings {
         estimator,
         replicates: REPLICATES,
-        steering: Switch::Off,
-        joining,
+        importance: Switch::Off,
+        connections,
         max_samples: Some(MAX_SAMPLES),
         rel_tol: 0.0,
         ..Settings::default()
     };
-    let is_map = estimator == Estimator::BidirectionalMap;
+    let is_map = estimator == EstimatorKind::BidirectionalMap;
     let estimates = simulate(scene, &settings, &mut UntilKnown);
     assert_eq!((estimates.invalid_contributions, estimates.biased), (0, is_map));
     Mean::of(&estimates)
@@ -99,27 +99,27 @@ fn estimate(scene: &Scene, estimator: Estimator, joining: Switch) -> Mean {
 /// nearly the plain map, whose elements keep all flux where it lands within their size.
 fn assert_agree(scene: &Scene) {
     let unbiased = [
-        ("paths", Estimator::Path, Switch::Off),
-        ("photons", Estimator::Photon, Switch::Off),
-        ("corrected map", Estimator::Bidirectional, Switch::Off),
-        ("joined photons", Estimator::Bidirectional, Switch::On),
+        ("paths", EstimatorKind::Path, Switch::Off),
+        ("photons", EstimatorKind::Photon, Switch::Off),
+        ("corrected map", EstimatorKind::Bidirectional, Switch::Off),
+        ("joined photons", EstimatorKind::Bidirectional, Switch::On),
     ];
-    let found =
-        unbiased.map(|(name, estimator, joining)| (name, estimate(scene, estimator, joining)));
+    let found = unbiased
+        .map(|(name, estimator, connections)| (name, estimate(scene, estimator, connections)));
     for (number, (name, mean)) in found.iter().enumerate() {
         for (other, of_other) in &found[..number] {
             assert!(mean.agrees(of_other), "{name} and {other}: {found:?}");
         }
     }
-    let map = estimate(scene, Estimator::BidirectionalMap, Switch::Off);
+    let map = estimate(scene, EstimatorKind::BidirectionalMap, Switch::Off);
     assert!(found[0].1.agrees(&map), "map: {map:?}, {found:?}");
 }
 
 /// The comparison can fail: half a percent more reflectance of all walls is seen.
 #[test]
 fn a_little_more_reflectance_is_no_agreement() {
-    let path = estimate(&scenes::closed(0.6), Estimator::Path, Switch::Off);
-    let photon = estimate(&scenes::closed(0.603), Estimator::Photon, Switch::Off);
+    let path = estimate(&scenes::closed(0.6), EstimatorKind::Path, Switch::Off);
+    let photon = estimate(&scenes::closed(0.603), EstimatorKind::Photon, Switch::Off);
     assert!(!path.agrees(&photon), "{path:?}, {photon:?}");
 }
 

@@ -4,7 +4,7 @@ use crate::scenes::{diffuse_cube, points};
 use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimator, Interval, Reconstruction, Settings, Switch, simulate};
+use quasilux_transport::{EstimatorKind, Interval, Reconstruction, Settings, Switch, simulate};
 use std::f64::consts::PI;
 
 /// Luminance at the middle of a wall of the diffuse cube (see `cube.rs`), as illuminance in lx.
@@ -12,7 +12,7 @@ const KNOWN_LX: f64 = 892.80 * PI * 1.5;
 
 fn settings(map_reconstruction: Reconstruction, map_element_m: f64) -> Settings {
     Settings {
-        estimator: Estimator::BidirectionalMap,
+        estimator: EstimatorKind::BidirectionalMap,
         map_reconstruction,
         map_element_m: Some(map_element_m),
         map_adaptive: false,
@@ -77,7 +77,7 @@ pub(crate) fn room_with_points() -> Scene {
 #[test]
 fn bias_shrinks_where_there_is_no_symmetry() {
     let of_path = Settings {
-        estimator: Estimator::Path,
+        estimator: EstimatorKind::Path,
         max_samples: Some(1 << 14),
         rel_tol: 0.0,
         ..Settings::default()
@@ -120,7 +120,7 @@ fn maps_get_the_photons_that_are_asked_for() {
             sequence,
             map_photons: 64,
             first_shot: Switch::Off,
-            steering: Switch::Off,
+            importance: Switch::Off,
             max_samples: Some(64),
             ..settings(Reconstruction::Constant, 3.55)
         };

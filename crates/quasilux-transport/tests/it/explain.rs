@@ -9,7 +9,7 @@ use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Material, Scene};
 use quasilux_transport::explain::{Beside, Block, Share, WalkKind};
 use quasilux_transport::purpose::Purpose;
-use quasilux_transport::{Estimator, Explanation, Settings, Switch, explain, simulate};
+use quasilux_transport::{EstimatorKind, Explanation, Settings, Switch, explain, simulate};
 
 /// A black room with half a bright ceiling, one triangle, and a point below it.
 fn black_room_under_a_ceiling() -> Scene {
@@ -86,8 +86,8 @@ fn the_parts_tell_the_error_of_a_run() {
     let places = places.map(|(x, y, z)| (DVec3::new(x, y, z), DVec3::Z));
     scene.sensors = vec![points("desk", &places)];
     let settings = Settings {
-        estimator: Estimator::Bidirectional,
-        joining: Switch::On,
+        estimator: EstimatorKind::Bidirectional,
+        connections: Switch::On,
         sequence: Sequence::Independent,
         replicates: REPLICATES,
         max_samples: Some(INDICES),
@@ -140,14 +140,15 @@ fn coordinates_are_named_in_their_order() {
     let [[seen1, on1], [seen2, on2]] = [1, 2].map(at);
     let [place, lit0] = [Purpose::Cell, Purpose::AreaLight { surface: 0 }];
     assert_eq!(
-        first(Estimator::Path, 7),
+        first(EstimatorKind::Path, 7),
         [place, Purpose::FirstDirection, lit0, seen1, on1, seen2, on2]
     );
     let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
-    assert_eq!(first(Estimator::Photon, 4), [leaves, across, on1, on2]);
-    let estimator = Estimator::Bidirectional;
-    let [on_map, beside] = [Switch::Off, Switch::On]
-        .map(|joining| explain(&scene, &Settings { estimator, joining, ..Settings::default() }));
+    assert_eq!(first(EstimatorKind::Photon, 4), [leaves, across, on1, on2]);
+    let estimator = EstimatorKind::Bidirectional;
+    let [on_map, beside] = [Switch::Off, Switch::On].map(|connections| {
+        explain(&scene, &Settings { estimator, connections, ..Settings::default() })
+    });
     assert_eq!(beside.walk, WalkKind::PathsBesidePhotons);
     assert_eq!(uses(&beside)[..4], [place, Purpose::FirstDirection, lit0, seen1]);
     let [counted, joined] = &beside.beside[..] else { panic!("{beside:?}") };
@@ -174,14 +175,14 @@ fn coordinates_are_named_in_their_order() {
 #[test]
 fn threads_change_nothing() {
     let scene = coloured_room_with_mirror();
-    for estimator in [Estimator::Path, Estimator::Photon, Estimator::Bidirectional] {
-        let settings = Settings { estimator, joining: Switch::On, ..Settings::default() };
+    for estimator in [EstimatorKind::Path, EstimatorKind::Photon, EstimatorKind::Bidirectional] {
+        let settings = Settings { estimator, connections: Switch::On, ..Settings::default() };
         let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.expect("threads start").install(|| explain(&scene, &settings))
         });
         assert_eq!(one, three);
-        assert_eq!(one.beside.len(), if estimator == Estimator::Bidirectional { 2 } else { 0 });
+        assert_eq!(one.beside.len(), if estimator == EstimatorKind::Bidirectional { 2 } else { 0 });
         assert!(one.gain.is_some_and(|gain| gain.factor > 1.0), "{:?}", one.gain);
     }
 }

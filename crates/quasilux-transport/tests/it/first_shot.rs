@@ -12,7 +12,7 @@ use crate::spotlight::spotlight;
 use glam::DVec3;
 use quasilux_scene::Scene;
 use quasilux_stats::{sidak, student_t_cdf};
-use quasilux_transport::{CheckError, Estimates, Estimator, Settings, Switch};
+use quasilux_transport::{CheckError, Estimates, EstimatorKind, Settings, Switch};
 use quasilux_transport::{check, simulate};
 
 /// Two narrow beams; a bare lamp 20 cm from a wall; a point light beside an area light, with a mirror.
@@ -41,7 +41,7 @@ fn run(scene: &Scene, settings: Settings) -> Estimates {
 
 fn map(first_shot: Switch, seed: u64) -> Settings {
     Settings {
-        estimator: Estimator::BidirectionalMap,
+        estimator: EstimatorKind::BidirectionalMap,
         first_shot,
         seed,
         rel_tol: 0.0,
@@ -89,9 +89,9 @@ fn first_shot_goes_with_steering_and_with_corrected_maps() {
     let significance = sidak(0.001, 27);
     for (name, scene) in rooms() {
         let off = run(&scene, map(Switch::Off, 2));
-        let steered = Settings { steering: Switch::On, ..map(Switch::On, 1) };
+        let steered = Settings { importance: Switch::On, ..map(Switch::On, 1) };
         let corrected = Settings {
-            estimator: Estimator::Bidirectional,
+            estimator: EstimatorKind::Bidirectional,
             max_samples: Some(1 << 10),
             ..map(Switch::On, 3)
         };
@@ -111,7 +111,7 @@ fn first_shot_goes_with_steering_and_with_corrected_maps() {
 #[test]
 fn the_balance_of_the_flux_is_whole() {
     for (name, scene) in rooms() {
-        for estimator in [Estimator::Bidirectional, Estimator::BidirectionalMap] {
+        for estimator in [EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap] {
             let settings = Settings {
                 estimator,
                 map_adaptive: false,
@@ -147,13 +147,16 @@ fn bounces_are_counted_from_the_lights() {
 #[test]
 fn estimators_without_maps_refuse_it() {
     let [(_, scene), ..] = rooms();
-    for estimator in [Estimator::Path, Estimator::Photon] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Photon] {
         let settings = Settings { estimator, ..map(Switch::On, 1) };
         let estimator = estimator.name();
         assert_eq!(check(&scene, &settings), Err(CheckError::FirstShotWithoutMap { estimator }));
     }
-    let joined =
-        Settings { estimator: Estimator::Bidirectional, joining: Switch::On, ..map(Switch::On, 1) };
+    let joined = Settings {
+        estimator: EstimatorKind::Bidirectional,
+        connections: Switch::On,
+        ..map(Switch::On, 1)
+    };
     assert_eq!(check(&scene, &joined), Err(CheckError::FirstShotOfJoined));
 }
 
@@ -161,22 +164,23 @@ fn estimators_without_maps_refuse_it() {
 #[test]
 fn what_is_switched_on_is_not_passed_over() {
     let [(_, scene), ..] = rooms();
-    let steered = Settings { steering: Switch::On, first_shot: Switch::Auto, ..map(Switch::On, 1) };
-    let with = |estimator, joining| Settings { estimator, joining, ..steered.clone() };
+    let steered =
+        Settings { importance: Switch::On, first_shot: Switch::Auto, ..map(Switch::On, 1) };
+    let with = |estimator, connections| Settings { estimator, connections, ..steered.clone() };
     for settings in [
-        with(Estimator::Path, Switch::Auto),
-        with(Estimator::Bidirectional, Switch::Off),
-        Settings { first_shot: Switch::On, ..with(Estimator::Bidirectional, Switch::Auto) },
+        with(EstimatorKind::Path, Switch::Auto),
+        with(EstimatorKind::Bidirectional, Switch::Off),
+        Settings { first_shot: Switch::On, ..with(EstimatorKind::Bidirectional, Switch::Auto) },
     ] {
         let refused = check(&scene, &settings);
         assert!(matches!(refused, Err(CheckError::NothingToSteer { .. })), "{refused:?}");
     }
-    for joining in [Switch::Auto, Switch::On] {
-        assert_eq!(check(&scene, &with(Estimator::Bidirectional, joining)), Ok(()));
+    for connections in [Switch::Auto, Switch::On] {
+        assert_eq!(check(&scene, &with(EstimatorKind::Bidirectional, connections)), Ok(()));
     }
     // On the corrected map photons leave lit places, or not: other numbers.
     let few = |first_shot| {
-        let estimator = Estimator::Bidirectional;
+        let estimator = EstimatorKind::Bidirectional;
         let max_samples = Some(64);
         run(&scene, Settings { estimator, max_samples, ..map(first_shot, 1) }).sensors
     };

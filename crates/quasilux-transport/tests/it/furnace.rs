@@ -6,15 +6,15 @@ use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;
 use quasilux_scene::{Bsdf, Grid, Quantity, Rgb, Sensor, SensorShape};
-use quasilux_transport::{Estimator, Settings, Switch, simulate};
+use quasilux_transport::{EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::PI;
 
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
         // Photons fly for very long where little is absorbed: joined ones need minutes for a point a hair from a corner.
-        let is_quick = |joining| joining != Switch::On || reflectance < 0.9;
-        for (estimator, joining) in GATHERERS.into_iter().filter(|way| is_quick(way.1)) {
+        let is_quick = |connections| connections != Switch::On || reflectance < 0.9;
+        for (estimator, connections) in GATHERERS.into_iter().filter(|way| is_quick(way.1)) {
             let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(reflectance));
             all_walls_emit(&mut scene, 100.0);
             scene.sensors.push(points(
@@ -26,13 +26,14 @@ fn illuminance_is_pi_l_over_one_minus_r() {
                     (DVec3::new(1.0, 0.0, 1.0), DVec3::Y),
                 ],
             ));
-            let settings = Settings { estimator, joining, rel_tol: 0.02, ..Settings::default() };
+            let settings =
+                Settings { estimator, connections, rel_tol: 0.02, ..Settings::default() };
             let estimates = simulate(&scene, &settings, &mut ());
             assert!(estimates.tolerance_reached);
             let wanted = PI * 100.0 / (1.0 - reflectance);
             for interval in estimates.point_intervals(0) {
                 let found =
-                    format!("{estimator:?} {joining:?} {reflectance}: {interval:?}, {wanted}");
+                    format!("{estimator:?} {connections:?} {reflectance}: {interval:?}, {wanted}");
                 // 40 points: half as wide again, or right programs would fail now and then.
                 let allowed = 1.5 * interval.half_width.unwrap() + 0.003 * wanted;
                 assert!((interval.value - wanted).abs() <= allowed, "{found}");
@@ -62,7 +63,7 @@ fn a_deep_blue_room_has_the_light_of_its_channels() {
     });
     let channels = LUMINANCE_WEIGHTS.iter().zip(reflectance.0);
     let wanted = 4.0 * PI * 100.0 / 6.0 * channels.map(|(w, r)| w / (1.0 - r)).sum::<f64>();
-    for estimator in [Estimator::Photon, Estimator::Path, Estimator::Bidirectional] {
+    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let settings = Settings { estimator, rel_tol: 0.005, ..Settings::default() };
         let interval = simulate(&scene, &settings, &mut ()).point_intervals(0)[0];
         let allowed = 1.5 * interval.half_width.unwrap();

@@ -1,10 +1,10 @@
 //! The ways in which paths gather light, none of which is biased.
 
-use quasilux_transport::{Estimator, Switch};
+use quasilux_transport::{EstimatorKind, Switch};
 
 /// Alone, beside joined photons, and ending on a map that is corrected.
-pub(crate) const GATHERERS: [(Estimator, Switch); 3] = [
-    (Estimator::Path, Switch::Auto),
-    (Estimator::Bidirectional, Switch::On),
-    (Estimator::Bidirectional, Switch::Off),
+pub(crate) const GATHERERS: [(EstimatorKind, Switch); 3] = [
+    (EstimatorKind::Path, Switch::Auto),
+    (EstimatorKind::Bidirectional, Switch::On),
+    (EstimatorKind::Bidirectional, Switch::Off),
 ];

@@ -3,7 +3,7 @@
 use crate::scenes::{diffuse, point_light, room};
 use glam::DVec3;
 use quasilux_scene::{Grid, Quantity, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimator, Settings, simulate};
+use quasilux_transport::{EstimatorKind, Settings, simulate};
 
 const LAMPS: [u32; 2] = [40, 25];
 
@@ -50,7 +50,8 @@ fn corner_solid_angle_sr(a: f64, b: f64, h: f64) -> f64 {
 fn a_photon_of_a_hall_with_a_thousand_lamps_starts_with_two_coordinates() {
     let scene = hall();
     assert_eq!(scene.lights.len(), 1000);
-    let settings = Settings { estimator: Estimator::Photon, rel_tol: 0.005, ..Settings::default() };
+    let settings =
+        Settings { estimator: EstimatorKind::Photon, rel_tol: 0.005, ..Settings::default() };
     let estimates = simulate(&scene, &settings, &mut ());
     let photons = &estimates.dimensions.photon;
     assert_eq!((photons.mean(), photons.counts().len()), (2.0, 3), "and black walls use none");

@@ -7,17 +7,17 @@ use crate::scenes::{diffuse_cube, level_grid, point_light, points};
 use glam::DVec3;
 use quasilux_scene::bsdf::{Pane, Translucent};
 use quasilux_scene::{Bsdf, Rgb, Scene};
-use quasilux_transport::{CheckError, Estimates, Estimator, Settings, Switch, check, simulate};
+use quasilux_transport::{CheckError, Estimates, EstimatorKind, Settings, Switch, check, simulate};
 
 /// Terms that are told apart, and the rest.
 const LISTED: u32 = 3;
 
-fn settings(estimator: Estimator) -> Settings {
-    let joining = match estimator {
-        Estimator::Bidirectional => Switch::On,
+fn settings(estimator: EstimatorKind) -> Settings {
+    let connections = match estimator {
+        EstimatorKind::Bidirectional => Switch::On,
         _ => Switch::Auto,
     };
-    Settings { estimator, joining, rel_tol: 0.0, ..Settings::default() }
+    Settings { estimator, connections, rel_tol: 0.0, ..Settings::default() }
 }
 
 fn run(scene: &Scene, settings: &Settings) -> Estimates {
@@ -60,10 +60,12 @@ fn rooms() -> [(&'static str, Scene); 2] {
 #[test]
 fn photons_and_paths_share_the_light_of_every_term() {
     for (name, scene) in rooms() {
-        let [alone, joined] = [Estimator::Path, Estimator::Bidirectional].map(|estimator| {
-            let max_samples = Some(if estimator == Estimator::Path { 1 << 12 } else { 1 << 10 });
-            run(&scene, &Settings { list_terms: LISTED, max_samples, ..settings(estimator) })
-        });
+        let [alone, joined] =
+            [EstimatorKind::Path, EstimatorKind::Bidirectional].map(|estimator| {
+                let max_samples =
+                    Some(if estimator == EstimatorKind::Path { 1 << 12 } else { 1 << 10 });
+                run(&scene, &Settings { list_terms: LISTED, max_samples, ..settings(estimator) })
+            });
         for sensor in 0..scene.sensors.len() {
             for term in 1..=LISTED as usize {
                 let (a, b) =
@@ -83,7 +85,7 @@ fn photons_and_paths_share_the_light_of_every_term() {
 #[test]
 fn threads_change_no_bit() {
     let [_, (_, scene)] = rooms();
-    let settings = Settings { max_samples: Some(64), ..settings(Estimator::Bidirectional) };
+    let settings = Settings { max_samples: Some(64), ..settings(EstimatorKind::Bidirectional) };
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads start").install(|| run(&scene, &settings))
@@ -101,7 +103,7 @@ fn bounces_are_cut_where_wanted() {
         let estimates = run(&scene, &settings);
         estimates.interval_of(0, |lx| lx.iter().sum())
     };
-    let (alone, joined) = (of_one(Estimator::Path), of_one(Estimator::Bidirectional));
+    let (alone, joined) = (of_one(EstimatorKind::Path), of_one(EstimatorKind::Bidirectional));
     let allowed = 1.5 * (alone.half_width.unwrap() + joined.half_width.unwrap());
     assert!(allowed < 0.05 * alone.value, "{alone:?}, {joined:?}");
     assert!((alone.value - joined.value).abs() < allowed, "{alone:?}, {joined:?}");
@@ -110,7 +112,7 @@ fn bounces_are_cut_where_wanted() {
 #[test]
 fn other_estimators_have_nothing_to_join() {
     let [_, (_, scene)] = rooms();
-    let settings = Settings { joining: Switch::On, ..settings(Estimator::Path) };
+    let settings = Settings { connections: Switch::On, ..settings(EstimatorKind::Path) };
     let refusal = CheckError::NothingToJoin { estimator: "path" };
     assert_eq!(check(&scene, &settings), Err(refusal));
 }

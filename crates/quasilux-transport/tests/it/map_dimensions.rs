@@ -1,14 +1,14 @@
 //! Maps without photons that took many coordinates: the paper's balance of dimensions.
 
 use crate::element_size::room_with_points;
-use quasilux_transport::{CheckError, Estimates, Estimator, Settings, Switch, check, simulate};
+use quasilux_transport::{CheckError, Estimates, EstimatorKind, Settings, Switch, check, simulate};
 
-fn run(estimator: Estimator, map_dimensions: Option<u32>) -> Estimates {
+fn run(estimator: EstimatorKind, map_dimensions: Option<u32>) -> Estimates {
     let settings = Settings {
         estimator,
         map_dimensions,
-        joining: Switch::Off,
-        steering: Switch::Off,
+        connections: Switch::Off,
+        importance: Switch::Off,
         rel_tol: 0.0,
         max_samples: Some(1 << 10),
         ..Settings::default()
@@ -23,7 +23,7 @@ fn values_lx(estimates: &Estimates) -> Vec<f64> {
 /// The more coordinates photons may have used, the more of the light is on the map, up to all of it.
 #[test]
 fn the_paper_s_map_goes_without_what_is_left_out() {
-    let of = |most| run(Estimator::BidirectionalMap, most);
+    let of = |most| run(EstimatorKind::BidirectionalMap, most);
     let all = of(None);
     let ascending = [Some(1), Some(6), Some(12), None].map(|most| values_lx(&of(most)));
     for pair in ascending.windows(2) {
@@ -39,9 +39,9 @@ fn the_paper_s_map_goes_without_what_is_left_out() {
 /// Paths that correct the map find what is not on it.
 #[test]
 fn the_corrected_map_finds_it() {
-    let path = run(Estimator::Path, None).point_intervals(0);
+    let path = run(EstimatorKind::Path, None).point_intervals(0);
     for most in [1, 8] {
-        let corrected = run(Estimator::Bidirectional, Some(most));
+        let corrected = run(EstimatorKind::Bidirectional, Some(most));
         assert!(!corrected.biased);
         for (a, b) in corrected.point_intervals(0).iter().zip(&path) {
             let joint = libm::hypot(a.half_width.unwrap(), b.half_width.unwrap());
@@ -53,19 +53,19 @@ fn the_corrected_map_finds_it() {
 
 #[test]
 fn it_is_refused_where_there_is_no_map() {
-    let of = |estimator, joining| {
+    let of = |estimator, connections| {
         let settings =
-            Settings { estimator, joining, map_dimensions: Some(8), ..Settings::default() };
+            Settings { estimator, connections, map_dimensions: Some(8), ..Settings::default() };
         check(&room_with_points(), &settings)
     };
-    for (estimator, joining) in [
-        (Estimator::Path, Switch::Auto),
-        (Estimator::Photon, Switch::Auto),
-        (Estimator::Bidirectional, Switch::On),
+    for (estimator, connections) in [
+        (EstimatorKind::Path, Switch::Auto),
+        (EstimatorKind::Photon, Switch::Auto),
+        (EstimatorKind::Bidirectional, Switch::On),
     ] {
-        let refused = of(estimator, joining);
+        let refused = of(estimator, connections);
         assert!(matches!(refused, Err(CheckError::NoMapToLeaveOutOf { .. })), "{refused:?}");
     }
-    assert_eq!(of(Estimator::Bidirectional, Switch::Auto), Ok(()));
-    assert_eq!(of(Estimator::BidirectionalMap, Switch::Auto), Ok(()));
+    assert_eq!(of(EstimatorKind::Bidirectional, Switch::Auto), Ok(()));
+    assert_eq!(of(EstimatorKind::BidirectionalMap, Switch::Auto), Ok(()));
 }

@@ -4,7 +4,7 @@ use crate::scenes::{all_walls_emit, diffuse, level_grid, mirror, point_light, po
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Pane, Plastic, Translucent};
 use quasilux_scene::{Bsdf, Grid, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimator, Settings, Switch, simulate};
+use quasilux_transport::{EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::PI;
 
 pub(crate) fn conductor(reflectance: f64, alpha: f64) -> Bsdf {
@@ -98,7 +98,7 @@ fn photons_leave_white_bodies_for_the_walls() {
             scene.sensors.push(Sensor { name: format!("{axis} {side}"), shape });
         }
         let settings = Settings {
-            estimator: Estimator::Photon,
+            estimator: EstimatorKind::Photon,
             max_samples: Some(1 << 12),
             ..Settings::default()
         };
@@ -139,18 +139,18 @@ fn halls_of_perfect_mirrors_end_with_a_warning() {
         scene.lights.push(point_light(DVec3::new(0.4, 0.3, 0.3), 10.0));
         scene.sensors.push(level_grid(DVec3::new(0.0, 0.0, 0.4), [4.0, 3.0], [2, 2]));
         let ways = [
-            (Estimator::Photon, Switch::Auto),
-            (Estimator::Path, Switch::Auto),
-            (Estimator::Bidirectional, Switch::On),
-            (Estimator::Bidirectional, Switch::Off),
-            (Estimator::BidirectionalMap, Switch::Auto),
+            (EstimatorKind::Photon, Switch::Auto),
+            (EstimatorKind::Path, Switch::Auto),
+            (EstimatorKind::Bidirectional, Switch::On),
+            (EstimatorKind::Bidirectional, Switch::Off),
+            (EstimatorKind::BidirectionalMap, Switch::Auto),
         ];
         // Each photon flies until it is given up: the last two have many, and are tried in the plain hall alone.
         let count = if ball.is_some() { 3 } else { ways.len() };
-        for (estimator, joining) in ways.into_iter().take(count) {
+        for (estimator, connections) in ways.into_iter().take(count) {
             let settings = Settings {
                 estimator,
-                joining,
+                connections,
                 replicates: 2,
                 max_samples: Some(4),
                 map_photons: 4,

@@ -10,7 +10,7 @@ use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Light, Rgb, Scene};
 use quasilux_stats::{sidak, student_t_quantile};
-use quasilux_transport::{Estimates, Estimator, Settings, Switch, check, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, check, simulate};
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::path::Path;
 use std::sync::Arc;
@@ -61,11 +61,11 @@ pub(crate) fn measured(tables: impl IntoIterator<Item = (Side, Way, Distribution
     Bsdf::Measured(Measured::new(Arc::new(table), Some(DVec3::Z)))
 }
 
-pub(crate) fn estimates(scene: &Scene, estimator: Estimator, samples: u64) -> Vec<Mean> {
-    let is_joined = estimator == Estimator::Bidirectional;
+pub(crate) fn estimates(scene: &Scene, estimator: EstimatorKind, samples: u64) -> Vec<Mean> {
+    let is_joined = estimator == EstimatorKind::Bidirectional;
     let settings = Settings {
         estimator,
-        joining: if is_joined { Switch::On } else { Switch::Auto },
+        connections: if is_joined { Switch::On } else { Switch::Auto },
         replicates: REPLICATES,
         max_samples: Some(samples),
         rel_tol: 0.0,
@@ -73,7 +73,7 @@ pub(crate) fn estimates(scene: &Scene, estimator: Estimator, samples: u64) -> Ve
     };
     let scene = match estimator {
         // Photons are counted by cells.
-        Estimator::Photon => Scene { sensors: scene.sensors[..2].to_vec(), ..scene.clone() },
+        EstimatorKind::Photon => Scene { sensors: scene.sensors[..2].to_vec(), ..scene.clone() },
         _ => scene.clone(),
     };
     assert_eq!(check(&scene, &settings), Ok(()));
@@ -140,11 +140,11 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
         [(side, Way::Reflection, even(0.3)), (side, Way::Transmission, even(0.4))]
     });
     let scene = divided(measured(tables));
-    let expected = estimates(&known, Estimator::Path, 1 << 12);
+    let expected = estimates(&known, EstimatorKind::Path, 1 << 12);
     for (estimator, samples) in [
-        (Estimator::Path, 1 << 12),
-        (Estimator::Photon, 1 << 15),
-        (Estimator::Bidirectional, 1 << 12),
+        (EstimatorKind::Path, 1 << 12),
+        (EstimatorKind::Photon, 1 << 15),
+        (EstimatorKind::Bidirectional, 1 << 12),
     ] {
         let found = estimates(&scene, estimator, samples);
         let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
@@ -167,7 +167,9 @@ fn a_furnace_of_tables_is_as_bright_as_it_must_be() {
             points("inside", &[(middle, DVec3::new(-0.8, 0.0, 0.6))]),
         ];
         let expected_lx = 100.0 * PI / 0.5;
-        for (estimator, samples) in [(Estimator::Path, 1 << 10), (Estimator::Photon, 1 << 15)] {
+        for (estimator, samples) in
+            [(EstimatorKind::Path, 1 << 10), (EstimatorKind::Photon, 1 << 15)]
+        {
             for found in estimates(&scene, estimator, samples) {
                 let off_lx = (found.value_lx - expected_lx).abs();
                 // Ten comparisons; 3.7 standard errors of 32 replicates are exceeded by one in a thousand.
@@ -221,9 +223,9 @@ fn photons_and_paths_agree_on_published_sheets() {
 }
 
 pub(crate) fn assert_estimators_agree(what: &str, scene: &Scene, widest: f64) {
-    let paths = estimates(scene, Estimator::Path, 1 << 12);
-    let photons = estimates(scene, Estimator::Photon, 1 << 15);
-    let both = estimates(scene, Estimator::Bidirectional, 1 << 10);
+    let paths = estimates(scene, EstimatorKind::Path, 1 << 12);
+    let photons = estimates(scene, EstimatorKind::Photon, 1 << 15);
+    let both = estimates(scene, EstimatorKind::Bidirectional, 1 << 10);
     let pairs: Vec<(Mean, Mean)> =
         paths.iter().copied().zip(photons).chain(paths.iter().copied().zip(both)).collect();
     assert_alike(what, &pairs, widest);

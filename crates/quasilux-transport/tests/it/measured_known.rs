@@ -13,7 +13,7 @@ use quasilux_sampling::warp::sample_disk;
 use quasilux_scene::bsdf::Conductor;
 use quasilux_scene::{Bsdf, Rgb, Scene};
 use quasilux_stats::student_t_quantile;
-use quasilux_transport::{Estimator, Scattering};
+use quasilux_transport::{EstimatorKind, Scattering};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Directions of the quadratures, so many a side of the disk.
@@ -123,7 +123,7 @@ fn tables_of_metals_light_a_room_as_the_metals_do() {
         let stated = stated_error(alpha, &table);
         let scenes = [metal(alpha), of_tables(&table), diffuse(0.0)].map(divided);
         let [known, found, without] =
-            scenes.each_ref().map(|scene| estimates(scene, Estimator::Path, 1 << 13)[0]);
+            scenes.each_ref().map(|scene| estimates(scene, EstimatorKind::Path, 1 << 13)[0]);
         let brought_lx = known.value_lx - without.value_lx;
         let joint_lx = joint_half_width_lx(known, found);
         let off_lx = (known.value_lx - found.value_lx).abs();
@@ -154,7 +154,7 @@ fn tables_of_metals_light_a_furnace_as_the_metals_do() {
         let stated = stated_error(alpha, &table);
         let scenes = [metal(alpha), of_tables(&table)].map(furnace);
         for (estimator, samples, widest) in
-            [(Estimator::Path, 1 << 10, 0.02), (Estimator::Photon, 1 << 14, 0.06)]
+            [(EstimatorKind::Path, 1 << 10, 0.02), (EstimatorKind::Photon, 1 << 14, 0.06)]
         {
             let [known, found] =
                 scenes.each_ref().map(|scene| estimates(scene, estimator, samples));

@@ -9,7 +9,7 @@ use crate::scenes::{diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_photometry::bsdf::{Distribution, Side, Way};
 use quasilux_scene::{Bsdf, Grid, Quantity, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimator, Settings, Switch, simulate};
+use quasilux_transport::{EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::FRAC_1_PI;
 
 const DARK: fn() -> Distribution = || table(|_, _| 0.0);
@@ -82,12 +82,12 @@ fn first_shot_finds_light_on_facets_whose_middle_is_dark() {
         };
         Mean::all(&simulate(&scene, &settings, &mut ()))
     };
-    let paths = run(Estimator::Path, Switch::Off, 1 << 10);
+    let paths = run(EstimatorKind::Path, Switch::Off, 1 << 10);
     for first_shot in [Switch::On, Switch::Off] {
-        let both = run(Estimator::Bidirectional, first_shot, 1 << 8);
+        let both = run(EstimatorKind::Bidirectional, first_shot, 1 << 8);
         let pairs: Vec<(Mean, Mean)> = paths.iter().copied().zip(both).collect();
         assert_alike(&format!("first shot {first_shot:?}"), &pairs, 0.05);
-        let map = run(Estimator::BidirectionalMap, first_shot, 1 << 8);
+        let map = run(EstimatorKind::BidirectionalMap, first_shot, 1 << 8);
         for (path, map) in paths.iter().zip(map) {
             // Elements of maps cause some bias.
             let off = (path.value_lx / map.value_lx - 1.0).abs();
@@ -138,7 +138,7 @@ fn a_sheet_that_gives_more_than_it_gets_is_used_as_it_is() {
     let bright = table(|_, _| 60.0 * FRAC_1_PI);
     let bright = with(measured([(Side::Front, Way::Reflection, bright)]));
     let known = with(diffuse(0.6));
-    for (estimator, samples) in [(Estimator::Path, 1 << 10), (Estimator::Photon, 1 << 14)] {
+    for (estimator, samples) in [(EstimatorKind::Path, 1 << 10), (EstimatorKind::Photon, 1 << 14)] {
         let [found, expected] = [&bright, &known].map(|scene| estimates(scene, estimator, samples));
         let expected = expected.iter().map(|mean| mean.times(100.0));
         let pairs: Vec<(Mean, Mean)> = expected.zip(found).collect();
@@ -168,12 +168,15 @@ fn light_that_grows_for_ever_ends_with_a_warning() {
     for material in &mut scene.materials[..1] {
         material.bsdf = diffuse(0.8);
     }
-    for estimator in
-        [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap, Estimator::Photon]
-    {
+    for estimator in [
+        EstimatorKind::Path,
+        EstimatorKind::Bidirectional,
+        EstimatorKind::BidirectionalMap,
+        EstimatorKind::Photon,
+    ] {
         let settings =
             Settings { estimator, replicates: 2, max_samples: Some(64), ..Settings::default() };
-        if estimator == Estimator::Photon {
+        if estimator == EstimatorKind::Photon {
             scene.sensors.truncate(2);
         }
         let found = simulate(&scene, &settings, &mut ());

@@ -12,7 +12,7 @@ use glam::DVec3;
 use quasilux_scene::bsdf::{Dielectric, Diffuse, Mirror};
 use quasilux_scene::light::PointLight;
 use quasilux_scene::{Bsdf, Grid, Light, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimates, Estimator, Settings, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 
 /// A box of 4 m by 3 m by 2.5 m with two lamps and a grid over the floor.
 fn lit_room(reflectance: f64) -> Scene {
@@ -37,7 +37,7 @@ pub(crate) fn make_wall(scene: &mut Scene, first: usize, bsdf: Bsdf) {
     scene.materials.push(Material { name: format!("wall {first}"), bsdf });
 }
 
-fn run(scene: &Scene, estimator: Estimator, max_bounces: Option<u32>) -> Estimates {
+fn run(scene: &Scene, estimator: EstimatorKind, max_bounces: Option<u32>) -> Estimates {
     let settings = Settings { estimator, max_bounces, rel_tol: 0.01, ..Settings::default() };
     let estimates = simulate(scene, &settings, &mut ());
     assert!(estimates.tolerance_reached && estimates.invalid_contributions == 0);
@@ -45,21 +45,21 @@ fn run(scene: &Scene, estimator: Estimator, max_bounces: Option<u32>) -> Estimat
 }
 
 /// All estimators that gather.
-const GATHERING: [Estimator; 3] =
-    [Estimator::Path, Estimator::Bidirectional, Estimator::BidirectionalMap];
+const GATHERING: [EstimatorKind; 3] =
+    [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap];
 
 /// Compares them with photons.
 fn assert_agree(
     scene: &Scene,
-    estimators: &[Estimator],
+    estimators: &[EstimatorKind],
     biased: bool,
     max_bounces: &[Option<u32>],
 ) {
     for &max_bounces in max_bounces {
-        let photons = run(scene, Estimator::Photon, max_bounces);
+        let photons = run(scene, EstimatorKind::Photon, max_bounces);
         for &estimator in estimators {
             let paths = run(scene, estimator, max_bounces);
-            let is_map = estimator == Estimator::BidirectionalMap;
+            let is_map = estimator == EstimatorKind::BidirectionalMap;
             assert_eq!(paths.biased, biased || is_map, "{:?}", paths.warnings);
             for (x, y) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
                 let allowed = 1.5 * (x.half_width.unwrap() + y.half_width.unwrap());
@@ -73,7 +73,7 @@ fn assert_agree(
 /// The least share of the light after at most one bounce that mirrors alone make, by photons: the rest of
 /// the room is black.
 fn mirrored_share(black: &Scene) -> f64 {
-    let [none, one] = [Some(0), Some(1)].map(|n| run(black, Estimator::Photon, n));
+    let [none, one] = [Some(0), Some(1)].map(|n| run(black, EstimatorKind::Photon, n));
     let pairs = none.point_intervals(0).into_iter().zip(one.point_intervals(0));
     pairs.map(|(none, one)| 1.0 - none.value / one.value).fold(1.0, f64::min)
 }
@@ -110,7 +110,7 @@ fn chains_past_the_depth_are_not_lost() {
     for first in [4, 6] {
         make_wall(&mut scene, first, mirror(0.5));
     }
-    let photons = run(&scene, Estimator::Photon, None);
+    let photons = run(&scene, EstimatorKind::Photon, None);
     let settings = Settings { image_depth: Some(1), ..Settings::default() };
     let paths = simulate(&scene, &settings, &mut ());
     assert!(paths.biased && paths.tolerance_reached);

@@ -5,7 +5,8 @@ use crate::scenes::points;
 use glam::DVec3;
 use quasilux_scene::Scene;
 use quasilux_transport::{
-    Control, Estimates, Estimator, Observer, Progress, Reconstruction, Settings, Snapshot, simulate,
+    Control, Estimates, EstimatorKind, Observer, Progress, Reconstruction, Settings, Snapshot,
+    simulate,
 };
 
 /// Keeps all snapshots of a run.
@@ -65,7 +66,7 @@ fn room() -> Scene {
     scene
 }
 
-fn settings(estimator: Estimator, samples: u64) -> Settings {
+fn settings(estimator: EstimatorKind, samples: u64) -> Settings {
     let max_samples = Some(samples);
     Settings { estimator, replicates: 8, rel_tol: 0.0, max_samples, ..Settings::default() }
 }
@@ -78,9 +79,9 @@ fn settings(estimator: Estimator, samples: u64) -> Settings {
 fn snapshots_lead_to_the_checkpoints_and_disturb_nothing() {
     let scene = room();
     for (estimator, samples) in [
-        (Estimator::Photon, 1 << 17),
-        (Estimator::Path, 1 << 13),
-        (Estimator::Bidirectional, 1 << 13),
+        (EstimatorKind::Photon, 1 << 17),
+        (EstimatorKind::Path, 1 << 13),
+        (EstimatorKind::Bidirectional, 1 << 13),
     ] {
         let mut album = Album::default();
         let settings = settings(estimator, samples);
@@ -114,7 +115,7 @@ fn growing_maps_can_be_read() {
         map_element_m: Some(0.5),
         map_adaptive: false,
         map_reconstruction: Reconstruction::Constant,
-        ..settings(Estimator::BidirectionalMap, 1 << 13)
+        ..settings(EstimatorKind::BidirectionalMap, 1 << 13)
     };
     let watched = simulate(&scene, &settings, &mut album);
     let wanted = means(&watched);

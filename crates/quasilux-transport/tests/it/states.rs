@@ -8,8 +8,8 @@ use crate::scenes::{mirror, point_light, points};
 use glam::DVec3;
 use quasilux_scene::{Camera, Scene};
 use quasilux_transport::{
-    Control, Estimates, Estimator, MergeError, Observer, Progress, Settings, StateError, Switch,
-    decide, merge, resume, simulate, trace_part,
+    Control, Estimates, EstimatorKind, MergeError, Observer, Progress, Settings, StateError,
+    Switch, decide, merge, resume, simulate, trace_part,
 };
 use std::ops::Range;
 
@@ -99,25 +99,25 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         max_samples: Some(900),
         list_terms: 2,
         map_element_m: Some(1.0),
-        steering: Switch::Off,
-        ..settings(Estimator::Photon)
+        importance: Switch::Off,
+        ..settings(EstimatorKind::Photon)
     };
-    let steered = Settings { steering: Switch::On, ..photon.clone() };
+    let steered = Settings { importance: Switch::On, ..photon.clone() };
     let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
-    let joined = Settings { joining: Switch::On, ..listing(Estimator::Bidirectional) };
-    let mapped = Settings { joining: Switch::Off, ..settings(Estimator::Bidirectional) };
+    let joined = Settings { connections: Switch::On, ..listing(EstimatorKind::Bidirectional) };
+    let mapped = Settings { connections: Switch::Off, ..settings(EstimatorKind::Bidirectional) };
     let grown = Settings {
         map_adaptive: false,
         map_element_m: Some(0.5),
         map_photons: 3,
-        steering: Switch::Off,
-        ..settings(Estimator::BidirectionalMap)
+        importance: Switch::Off,
+        ..settings(EstimatorKind::BidirectionalMap)
     };
-    let of_hidden = Settings { max_bounces: Some(3), ..settings(Estimator::Path) };
+    let of_hidden = Settings { max_bounces: Some(3), ..settings(EstimatorKind::Path) };
     vec![
         ("photon", coloured.clone(), photon),
         (STEERED, coloured, steered),
-        ("path", with_points.clone(), listing(Estimator::Path)),
+        ("path", with_points.clone(), listing(EstimatorKind::Path)),
         ("joined", with_points.clone(), joined),
         ("on a frozen map", with_points.clone(), mapped),
         ("on maps that grow", with_points, grown),
@@ -183,12 +183,12 @@ fn points_that_are_done_stay_done() {
         image_depth: Some(0),
         ..Settings::default()
     };
-    let own = settings(Estimator::Bidirectional);
-    let joined = Settings { joining: Switch::On, rel_tol: 0.02, ..own };
+    let own = settings(EstimatorKind::Bidirectional);
+    let joined = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
     for (name, scene, settings) in [
-        ("hidden light", mirrored, settings(Estimator::Path)),
+        ("hidden light", mirrored, settings(EstimatorKind::Path)),
         ("joined", screened(), joined),
-        ("on maps that grow", screened(), settings(Estimator::BidirectionalMap)),
+        ("on maps that grow", screened(), settings(EstimatorKind::BidirectionalMap)),
     ] {
         let whole = simulate(&scene, &settings, &mut ());
         let samples: Vec<u64> = whole.sensors.iter().flat_map(|s| s.samples.clone()).collect();
@@ -341,15 +341,17 @@ fn damage_is_no_panic() {
         estimator,
         replicates: 2,
         max_samples: Some(4),
-        joining: Switch::On,
+        connections: Switch::On,
         map_element_m: Some(2.0),
-        steering: Switch::Off,
+        importance: Switch::Off,
         list_terms: 1,
         ..Settings::default()
     };
-    for (estimator, times) in
-        [(Estimator::Photon, 45), (Estimator::Path, 45), (Estimator::BidirectionalMap, 9)]
-    {
+    for (estimator, times) in [
+        (EstimatorKind::Photon, 45),
+        (EstimatorKind::Path, 45),
+        (EstimatorKind::BidirectionalMap, 9),
+    ] {
         let (scene, settings) = (closed(0.5), settings(estimator));
         let mut keeper = Keeper::new(10);
         let _ = simulate(&scene, &settings, &mut keeper);

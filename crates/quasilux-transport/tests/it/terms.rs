@@ -5,7 +5,9 @@ use crate::gatherers::GATHERERS;
 use crate::scenes::{all_walls_emit, diffuse, level_grid, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimates, Estimator, Reconstruction, Settings, Switch, check, simulate};
+use quasilux_transport::{
+    Estimates, EstimatorKind, Reconstruction, Settings, Switch, check, simulate,
+};
 use std::f64::consts::PI;
 
 /// Terms that are told apart in a furnace, where later ones are small.
@@ -28,9 +30,9 @@ fn run(scene: &Scene, settings: &Settings) -> Estimates {
 fn terms_of_a_furnace_are_powers() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
     all_walls_emit(&mut scene, 100.0);
-    for estimator in Estimator::NAMES.map(|named| named.1) {
+    for estimator in EstimatorKind::NAMES.map(|named| named.1) {
         scene.sensors = match estimator {
-            Estimator::Photon => vec![level_grid(DVec3::ONE, [2.0, 1.0], [1, 1])],
+            EstimatorKind::Photon => vec![level_grid(DVec3::ONE, [2.0, 1.0], [1, 1])],
             _ => vec![points(
                 "probes",
                 &[
@@ -77,11 +79,11 @@ fn estimators_agree_term_by_term() {
     let mut point = panel.clone();
     point.lights.push(point_light(DVec3::new(2.5, 1.2, 1.5), 400.0));
     for (scene, image_depth) in [(&panel, 2), (&point, 8), (&point, 0)] {
-        let listed = |(estimator, joining), seed| {
+        let listed = |(estimator, connections), seed| {
             let (list_terms, image_depth) = (LISTED, Some(image_depth));
             let settings = Settings {
                 estimator,
-                joining,
+                connections,
                 list_terms,
                 image_depth,
                 seed,
@@ -92,7 +94,7 @@ fn estimators_agree_term_by_term() {
         };
         let [alone, gatherers @ ..] = GATHERERS;
         let paths = listed(alone, 1);
-        let counted = [Estimator::Photon, Estimator::BidirectionalMap];
+        let counted = [EstimatorKind::Photon, EstimatorKind::BidirectionalMap];
         for way in counted.map(|counted| (counted, Switch::Auto)).into_iter().chain(gatherers) {
             let others = listed(way, 2);
             for term in 0..=LISTED as usize {
@@ -118,13 +120,13 @@ fn estimators_agree_term_by_term() {
 #[test]
 fn terms_add_up_and_disturb_nothing() {
     let scene = coloured_room_with_mirror();
-    let others = [Estimator::Photon, Estimator::BidirectionalMap];
+    let others = [EstimatorKind::Photon, EstimatorKind::BidirectionalMap];
     let others = others.map(|other| (other, Switch::Auto));
-    for (estimator, joining) in GATHERERS.into_iter().chain(others) {
+    for (estimator, connections) in GATHERERS.into_iter().chain(others) {
         for max_bounces in [None, Some(1), Some(3), Some(17)] {
             let limited = |list_terms| Settings {
                 estimator,
-                joining,
+                connections,
                 max_bounces,
                 list_terms,
                 max_samples: Some(256),

@@ -4,7 +4,7 @@ use crate::scenes::{diffuse, diffuse_cube, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Material, Scene};
-use quasilux_transport::{Estimator, Settings, simulate};
+use quasilux_transport::{EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
 /// A panel of 1 m x 1 m that shines down from `height`, in a black room of 2.5 m.
@@ -38,7 +38,7 @@ fn a_panel_flush_in_the_ceiling_shines() {
     scene.sensors.push(points("below", &[(below, DVec3::Z)]));
     let s = (0.25 + distance_m * distance_m).sqrt();
     let factor = 4.0 / PI * (0.5 / s) * libm::atan(0.5 / s);
-    for estimator in [Estimator::Path, Estimator::Bidirectional] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let settings = Settings { estimator, ..Settings::default() };
         let interval = simulate(&scene, &settings, &mut ()).point_intervals(0)[0];
         let wanted = 1000.0 * PI * factor;
@@ -97,7 +97,7 @@ fn a_room_far_from_the_origin_is_the_same_room() {
     far.lights = vec![point_light(DVec3::splat(5.0) + shift, 50_000.0)];
     let places = near.sensors[0].points().into_iter().map(|p| (p.position + shift, p.normal));
     far.sensors = vec![points("wall", &places.collect::<Vec<_>>())];
-    for estimator in [Estimator::Path, Estimator::BidirectionalMap] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::BidirectionalMap] {
         let settings = Settings {
             estimator,
             rel_tol: 0.005,

@@ -6,7 +6,7 @@ use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
 use quasilux_transport::trial::{Traced, Way, try_photons};
-use quasilux_transport::{Estimator, Settings};
+use quasilux_transport::{EstimatorKind, Settings};
 use std::ops::Range;
 
 /// What the sensors counted, and what it took.
@@ -26,7 +26,7 @@ fn outcome(scene: &Scene, settings: &Settings, way: Way, indices: Range<u64>) ->
 }
 
 fn settings(sequence: Sequence, max_bounces: Option<u32>) -> Settings {
-    let estimator = Estimator::Photon;
+    let estimator = EstimatorKind::Photon;
     Settings { estimator, sequence, max_bounces, replicates: 3, ..Settings::default() }
 }
 

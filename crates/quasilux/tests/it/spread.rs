@@ -72,12 +72,12 @@ fn merged_parts_are_the_single_run() {
         ("bidirectional-map", "auto", 3),
     ];
     let mut numbers = Numbers(1);
-    for (estimator, joining, count) in cases {
-        let folder = room(&format!("spread_{estimator}_{joining}"));
+    for (estimator, connections, count) in cases {
+        let folder = room(&format!("spread_{estimator}_{connections}"));
         if estimator == "photon" {
             remove_probes(&folder, "room");
         }
-        let (old, new) = ("[simulation]", format!("[simulation]\njoining = \"{joining}\""));
+        let (old, new) = ("[simulation]", format!("[simulation]\nconnections = \"{connections}\""));
         folder.write("room.toml", folder.read("room.toml").replace(old, &new));
         let options = ["--samples", "40", "--estimator", estimator];
         must(&folder, &[&["plan", "room.toml", "--out", "p"][..], &options].concat(), 0);
@@ -90,7 +90,10 @@ fn merged_parts_are_the_single_run() {
             let mut parts = shards(&folder, "p", count);
             numbers.shuffle(&mut parts);
             merge(&folder, &parts, "merged", 3);
-            assert!(results(&folder, "merged") == single, "{estimator}, {joining}: {count} parts");
+            assert!(
+                results(&folder, "merged") == single,
+                "{estimator}, {connections}: {count} parts"
+            );
         }
     }
 }
@@ -174,6 +177,9 @@ fn what_is_no_run_is_refused_by_name() {
     folder.write("edited", folder.read("p").replace("\"samples\": 32", "\"samples\": 64"));
     let said = must(&folder, &["run", "room.toml", "--plan", "edited"], 2);
     assert!(said.contains("edited: was changed after it was made"), "{said}");
+    folder.write("old", folder.read("p").replace("\"connections\":", "\"joining\":"));
+    let said = must(&folder, &["run", "room.toml", "--plan", "old"], 2);
+    assert!(said.contains("old: the setting \"joining\" is \"connections\" now"), "{said}");
     merge(&folder, &parts, "merged", 3);
 }
 

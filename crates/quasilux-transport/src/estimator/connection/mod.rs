@@ -126,7 +126,7 @@ impl Joining {
     }
 
     /// Whether they are steered.
-    pub(crate) fn is_steered(&self) -> bool {
+    pub(crate) fn uses_importance(&self) -> bool {
         self.windows.is_some()
     }
 

@@ -83,7 +83,7 @@ mod tests {
     use crate::estimator::paths::exact;
     use crate::estimator::selection::{Decision, decide};
     use crate::scenes::{diffuse, level_grid, point_light, points, room};
-    use crate::settings::{Estimator, Settings, Switch};
+    use crate::settings::{EstimatorKind, Settings, Switch};
     use crate::stats::tally::Quantum;
     use crate::stats::targets::targets;
     use crate::stats::watch::Watch;
@@ -96,8 +96,8 @@ mod tests {
         scene.lights.push(point_light(DVec3::new(2.0, 1.5, 2.0), 100.0));
         scene.sensors.push(points("desk", &[(DVec3::new(1.0, 1.2, 0.8), DVec3::Z)]));
         scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 0.1), [3.0, 2.0], [3, 2]));
-        let (joining, estimator) = (Switch::On, Estimator::Bidirectional);
-        let settings = Settings { joining, estimator, ..Settings::default() };
+        let (connections, estimator) = (Switch::On, EstimatorKind::Bidirectional);
+        let settings = Settings { connections, estimator, ..Settings::default() };
         let stage = Stage::<f64>::new(&scene, &settings);
         let all = targets(&scene);
         let exact = exact(&stage, &all, &mut 0);

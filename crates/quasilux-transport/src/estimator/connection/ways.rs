@@ -95,7 +95,7 @@ impl Ways {
     ) -> Self {
         let mut rays = 0;
         let mut ways = Vec::new();
-        for (plan, doubt) in plans(stage, targets, settings.steering) {
+        for (plan, doubt) in plans(stage, targets, settings.importance) {
             let Plan { windows, forecast, steered, rays: of_survey, .. } = plan;
             rays += of_survey;
             let Some(forecast) = forecast else { continue };
@@ -197,10 +197,10 @@ impl Ways {
 fn plans<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],
-    steering: Switch,
+    importance: Switch,
 ) -> Vec<(Plan, f64)> {
-    let plan = importance::foresee(stage, targets, steering);
-    let is_open = steering == Switch::Auto && plan.windows.is_some();
+    let plan = importance::foresee(stage, targets, importance);
+    let is_open = importance == Switch::Auto && plan.windows.is_some();
     let doubt = plan.gain / WORTHWHILE;
     let plain = is_open.then(|| (importance::foresee(stage, targets, Switch::Off), doubt));
     std::iter::once((plan, 1.0)).chain(plain).collect()

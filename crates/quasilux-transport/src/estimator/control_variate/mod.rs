@@ -100,7 +100,7 @@ impl<S: Spectrum> FrozenMap<S> {
 
     pub(crate) fn facts(&self) -> MapFacts {
         let elements = Some(self.layout.len() as u64);
-        MapFacts { elements, first_shot: self.first_shot, is_steered: false }
+        MapFacts { elements, first_shot: self.first_shot, uses_importance: false }
     }
 
     /// Puts it among the decisions.

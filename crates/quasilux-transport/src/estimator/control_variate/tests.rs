@@ -155,7 +155,7 @@ fn a_trial_foretells_what_paths_cost_among_lights_and_mirrors() {
 #[test]
 fn paths_that_know_nothing_of_a_map_go_alone() {
     let scene = diffuse_cube(&[(0.0, 0.0)]);
-    let settings = Settings { joining: crate::settings::Switch::Off, ..Settings::default() };
+    let settings = Settings { connections: crate::settings::Switch::Off, ..Settings::default() };
     let stage = Stage::<f64>::new(&scene, &settings);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);

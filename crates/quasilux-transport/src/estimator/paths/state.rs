@@ -9,20 +9,21 @@ impl<S: Spectrum> Gathering<'_, S> {
     /// What was decided before the first path.
     pub(super) fn decided(&self) -> Decisions {
         let joining = self.joined.as_ref().map(|joined| &joined.joining);
-        let hidden_photons = self.hidden.as_ref().map(|hidden| hidden.photons_per_path());
+        let caustic_photons = self.hidden.as_ref().map(|hidden| hidden.photons_per_path());
         let facts = self.end.facts();
         Decisions {
-            joined_photons: joining.map(|joining| joining.photons()),
-            is_steered: facts.is_steered || joining.is_some_and(|joining| joining.is_steered()),
+            connected_photons: joining.map(|joining| joining.photons()),
+            uses_importance: facts.uses_importance
+                || joining.is_some_and(|joining| joining.uses_importance()),
             first_shot: facts.first_shot,
             map_elements: facts.elements,
-            hidden_photons,
+            caustic_photons,
             digest: digest(|out| {
                 self.quantum.put(out);
                 out.f64s(&self.exact.iter().map(|exact| exact.sum_lx()).collect::<Vec<_>>());
                 self.joined.iter().for_each(|joined| joined.put_decisions(out));
                 self.end.put_decisions(out);
-                out.u64(hidden_photons.unwrap_or(0));
+                out.u64(caustic_photons.unwrap_or(0));
                 self.prepared.put(out);
             }),
         }

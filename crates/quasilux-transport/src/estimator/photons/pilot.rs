@@ -34,8 +34,8 @@ pub(crate) fn plan<S: Spectrum>(
     receivers: &Receivers,
     settings: &Settings,
 ) -> Plan {
-    let mut plan = importance::plan(stage, &targets(scene), settings.steering);
-    if settings.steering == Switch::Auto && plan.windows.is_some() {
+    let mut plan = importance::plan(stage, &targets(scene), settings.importance);
+    if settings.importance == Switch::Auto && plan.windows.is_some() {
         let trace = |windows, photons| Pilots::trace(stage, receivers, windows, photons);
         let steered = trace(plan.windows.as_ref(), 0..PILOTS);
         let mut plain = trace(None, 0..PILOTS);

@@ -20,7 +20,7 @@ use crate::estimator::connection::{self, Alone, Joined};
 use crate::estimator::control_variate::{Choice, FrozenMap, Outcome};
 use crate::estimator::paths::Exact;
 use crate::photon::trace::PhotonCounts;
-use crate::settings::{Estimator, Settings};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
 use crate::stats::targets::Target;
@@ -58,7 +58,7 @@ pub(crate) fn decide<S: Spectrum>(
     quantum: Quantum,
     watch: &mut Watch<'_>,
 ) -> Decision<S> {
-    let is_possible = settings.estimator == Estimator::Bidirectional
+    let is_possible = settings.estimator == EstimatorKind::Bidirectional
         && settings.max_bounces != Some(0)
         && !targets.is_empty();
     if !is_possible {

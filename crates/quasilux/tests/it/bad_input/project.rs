@@ -197,6 +197,12 @@ fn simulation() {
             Case::new("half a bounce")
                 .replace("rel_tol = 0.5", "max_bounces = 0.5")
                 .says(&["project.toml:32:15:", "unlimited"]),
+            Case::new("an old name of importance")
+                .replace("rel_tol = 0.5", "steering = \"on\"")
+                .says(&["project.toml:32:1:", "\"steering\"", "\"importance\" now"]),
+            Case::new("an old name of connections")
+                .replace("rel_tol = 0.5", "joining = \"on\"")
+                .says(&["project.toml:32:1:", "\"joining\"", "\"connections\" now"]),
         ],
     );
 }

@@ -8,7 +8,7 @@ use crate::commands::experiment::building::{
 use glam::DVec3;
 use quasilux_scene::bsdf::{Diffuse, Mirror};
 use quasilux_scene::{Bsdf, Grid, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::Estimator;
+use quasilux_transport::EstimatorKind;
 use std::f64::consts::PI;
 
 /// A scene with one sensor, and what its points get.
@@ -18,7 +18,7 @@ pub(super) struct Known {
     pub(super) why: &'static str,
     pub(super) scene: Scene,
     pub(super) truth_lx: Vec<f64>,
-    pub(super) estimator: Estimator,
+    pub(super) estimator: EstimatorKind,
     /// Reached after a few checkpoints, with points of each kind in the order of [`super::SEQUENCES`]: so that runs of
     /// both stop at two looks or more.
     pub(super) rel_tol: [f64; 2],
@@ -49,7 +49,7 @@ fn furnace() -> Known {
         why,
         scene,
         truth_lx,
-        estimator: Estimator::Path,
+        estimator: EstimatorKind::Path,
         rel_tol: [0.005, 0.007],
     }
 }
@@ -59,7 +59,7 @@ fn coloured_furnace() -> Known {
     let (scene, truth_lx) = furnace_of(Rgb([0.7, 0.5, 0.2]));
     let why = "the same for each colour";
     let name = "coloured furnace";
-    Known { name, why, scene, truth_lx, estimator: Estimator::Path, rel_tol: [0.007, 0.007] }
+    Known { name, why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol: [0.007, 0.007] }
 }
 
 fn furnace_of(reflectance: Rgb) -> (Scene, Vec<f64>) {
@@ -88,7 +88,7 @@ fn panel() -> Known {
         why,
         scene,
         truth_lx,
-        estimator: Estimator::Path,
+        estimator: EstimatorKind::Path,
         rel_tol: [0.007, 0.01],
     }
 }
@@ -112,7 +112,7 @@ fn mirror() -> Known {
         why,
         scene,
         truth_lx,
-        estimator: Estimator::Path,
+        estimator: EstimatorKind::Path,
         rel_tol: [0.04, 0.04],
     }
 }
@@ -134,7 +134,7 @@ fn unequal() -> Known {
     let truth_lx = [beside.map(with_image_lx), above.map(direct_lx)].concat();
     let why = "the contour integral, at two of four points for the image as well";
     let rel_tol = [0.02, 0.03];
-    Known { name: "unequal", why, scene, truth_lx, estimator: Estimator::Path, rel_tol }
+    Known { name: "unequal", why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol }
 }
 
 /// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose luminance is
@@ -152,7 +152,7 @@ fn cube() -> Known {
         why,
         scene,
         truth_lx,
-        estimator: Estimator::Bidirectional,
+        estimator: EstimatorKind::Bidirectional,
         rel_tol: [0.0025, 0.005],
     }
 }
@@ -172,7 +172,7 @@ fn walls() -> Known {
         why,
         scene,
         truth_lx,
-        estimator: Estimator::Photon,
+        estimator: EstimatorKind::Photon,
         rel_tol: [0.065, 0.09],
     }
 }

@@ -1,7 +1,7 @@
 //! The ways that are compared: how light is followed, with which points.
 
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_transport::{Estimator, Reconstruction, Settings, Switch};
+use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch};
 use std::f64::consts::SQRT_2;
 
 /// How light is followed.
@@ -132,7 +132,7 @@ impl Setup {
     /// flux and elements are of one size and hold one number.
     pub(super) fn settings(self, samples: u64, replicates: u32, seed: u64) -> Settings {
         let own = Settings {
-            estimator: Estimator::Bidirectional,
+            estimator: EstimatorKind::Bidirectional,
             sequence: self.points.sequence(samples),
             randomization: self.points.randomization(),
             rel_tol: 0.0,
@@ -145,7 +145,7 @@ impl Setup {
         let of_paper = |estimator, element_m: f64| Settings {
             estimator,
             first_shot: Switch::Off,
-            steering: Switch::Off,
+            importance: Switch::Off,
             map_adaptive: false,
             map_reconstruction: Reconstruction::Constant,
             // Walls are two triangles, cut by their longest edge; a little more, lest rounding adds a part.
@@ -153,13 +153,13 @@ impl Setup {
             ..own.clone()
         };
         match self.form {
-            Form::Photons { element_m } => of_paper(Estimator::Photon, element_m),
+            Form::Photons { element_m } => of_paper(EstimatorKind::Photon, element_m),
             Form::Map { element_m, photons_per_path } => Settings {
                 map_photons: photons_per_path,
-                ..of_paper(Estimator::BidirectionalMap, element_m)
+                ..of_paper(EstimatorKind::BidirectionalMap, element_m)
             },
             Form::Own { joins } => {
-                Settings { joining: if joins { Switch::On } else { Switch::Off }, ..own }
+                Settings { connections: if joins { Switch::On } else { Switch::Off }, ..own }
             }
         }
     }

@@ -6,7 +6,7 @@ use super::walk::{Features, Walk};
 use crate::commands::experiment::building::{grey, lamp, points, room};
 use glam::DVec3;
 use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence, stream_key};
-use quasilux_transport::{Dimensions, Estimator, Settings, simulate};
+use quasilux_transport::{Dimensions, EstimatorKind, Settings, simulate};
 
 /// Coordinates a photon or path, and standard errors of these means.
 pub(super) struct Cube {
@@ -55,8 +55,8 @@ impl Cube {
         };
         let [uncounted, _] = of_walk(Features::FULL);
         let [_, separate] = of_walk(Features { light: false, event: false, inverse: true });
-        let photons = of_program(Estimator::Photon).photon.mean();
-        let paths = of_program(Estimator::BidirectionalMap).path.mean();
+        let photons = of_program(EstimatorKind::Photon).photon.mean();
+        let paths = of_program(EstimatorKind::BidirectionalMap).path.mean();
         Self { photons, uncounted, separate, paths, count }
     }
 

@@ -10,7 +10,7 @@ use crate::commands::experiment::timing::{SHORT_RAYS, seconds_of_a_ray};
 use quasilux_sampling::Sequence;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_transport::interval::t_quantile_for;
-use quasilux_transport::{Estimator, Settings, Switch};
+use quasilux_transport::{EstimatorKind, Settings, Switch};
 
 /// The points that are compared.
 pub(super) const SEQUENCES: [Sequence; 2] = [Sequence::Independent, Sequence::Sobol];
@@ -140,10 +140,10 @@ impl Trial {
 /// What first shot is switched on or off in.
 fn settings(first_shot: Switch, sequence: Sequence, effort: &Effort) -> Settings {
     Settings {
-        estimator: Estimator::BidirectionalMap,
+        estimator: EstimatorKind::BidirectionalMap,
         first_shot,
         sequence,
-        steering: Switch::Off,
+        importance: Switch::Off,
         map_adaptive: false,
         map_element_m: Some(ELEMENT_M),
         replicates: effort.replicates,

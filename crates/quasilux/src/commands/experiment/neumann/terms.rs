@@ -8,7 +8,7 @@ use super::{CUTS, Effort, room};
 use crate::commands::experiment::course::mean_interval;
 use crate::commands::experiment::significance::each_of;
 use quasilux_transport::interval::t_quantile_for;
-use quasilux_transport::{Estimates, Estimator, Interval, Settings, Switch, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Interval, Settings, Switch, simulate};
 
 /// Terms that are told apart; light of more bounces is the rest.
 pub(super) const LISTED: u32 = 6;
@@ -42,7 +42,7 @@ impl Terms {
         let settings = |estimator, seed: u64| Settings {
             estimator,
             rel_tol: 0.0,
-            steering: Switch::Off,
+            importance: Switch::Off,
             replicates: effort.replicates,
             max_samples: Some(effort.paths),
             seed: 1000 * effort.seed + seed,
@@ -60,13 +60,13 @@ impl Terms {
         };
         let cut = |(number, max_bounces): (usize, Option<u32>)| {
             let seed = 3 + number as u64;
-            let settings = Settings { max_bounces, ..settings(Estimator::Path, seed) };
+            let settings = Settings { max_bounces, ..settings(EstimatorKind::Path, seed) };
             (max_bounces, means(&simulate(&scene, &settings, &mut ()).sensors[0].replicate_lx))
         };
         Self {
             landing_lm: landing_lm(effort),
-            by_paths_lx: listed(Estimator::Path, 1, effort.paths),
-            by_photons_lx: listed(Estimator::Photon, 2, effort.photons),
+            by_paths_lx: listed(EstimatorKind::Path, 1, effort.paths),
+            by_photons_lx: listed(EstimatorKind::Photon, 2, effort.photons),
             cut_lx: CUTS.into_iter().enumerate().map(cut).collect(),
             paths: effort.paths,
             photons: effort.photons,
@@ -121,8 +121,8 @@ fn landing_lm(effort: &Effort) -> Vec<Vec<f64>> {
     let scene = room::measured();
     let run = |max_bounces: u32, seed: u64| -> Estimates {
         let settings = Settings {
-            estimator: Estimator::Photon,
-            steering: Switch::Off,
+            estimator: EstimatorKind::Photon,
+            importance: Switch::Off,
             max_bounces: Some(max_bounces),
             rel_tol: 0.0,
             replicates: 1,

@@ -8,7 +8,7 @@ use crate::commands::experiment::building::points;
 use crate::commands::experiment::course::Course;
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_transport::{Estimator, Settings, Switch};
+use quasilux_transport::{EstimatorKind, Settings, Switch};
 
 /// Photons fly on the finest mesh of the ladder.
 const MAP_LEVEL: u32 = LEVELS as u32 - 1;
@@ -76,10 +76,10 @@ impl Curve {
         scene.sensors = vec![points(&facets)];
         let (sequence, randomization) = way.points();
         let settings = Settings {
-            estimator: Estimator::Photon,
+            estimator: EstimatorKind::Photon,
             sequence,
             randomization,
-            steering: Switch::Off,
+            importance: Switch::Off,
             // No facet is cut: each counts by itself, and the element is all of them.
             map_adaptive: false,
             map_element_m: Some(1.0),

@@ -22,7 +22,7 @@ use super::Outcome;
 use crate::arguments::ExperimentArguments;
 use curve::{Curve, Way};
 use limit::Ladder;
-use quasilux_transport::{Estimator, Settings};
+use quasilux_transport::{EstimatorKind, Settings};
 use std::time::Duration;
 
 /// Randomisations of each setup, unless the command line says otherwise.
@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &ExperimentArguments) -> Outcome {
 
 impl Findings {
     fn new(effort: &Effort) -> Self {
-        let ladder = effort.ladder(Estimator::Bidirectional);
+        let ladder = effort.ladder(EstimatorKind::Bidirectional);
         let photons = Way::ALL.map(|way| Curve::of_photons(way, effort));
         let curves = photons.into_iter().chain([Curve::of_ladder(&ladder)]).collect();
         Self { ladder, curves }
@@ -73,7 +73,7 @@ impl Findings {
 
 impl Effort {
     /// An estimator on the three meshes.
-    fn ladder(&self, estimator: Estimator) -> Ladder {
+    fn ladder(&self, estimator: EstimatorKind) -> Ladder {
         let settings = Settings {
             estimator,
             replicates: self.randomisations,
@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn the_octant_is_what_the_paper_says() {
         let effort = Effort { randomisations: 16, photons: 0, paths: 1 << 8, seed: 0, limit: None };
-        let ladder = effort.ladder(Estimator::Path);
+        let ladder = effort.ladder(EstimatorKind::Path);
         let middle = ladder.octants[0].middle;
         for (part, paper_lx) in
             [(Part::Total, paper::TOTAL_LX), (Part::Indirect, paper::INDIRECT_LX)]
