@@ -9,7 +9,7 @@ mod degenerate_meshes;
 #[path = "../tests/it/meshes.rs"]
 mod meshes;
 
-use meshes::{Numbers, Triangles, hard_meshes};
+use meshes::{NamedMesh, Numbers, hard_meshes};
 use quasilux_bvh::TriangleBvh;
 
 fn main() {
@@ -18,10 +18,10 @@ fn main() {
     let count = count.expect("the number of triangles is a number");
     let wanted = words.next().unwrap_or_default();
     let numbers = &mut Numbers(6);
-    let mut meshes: Vec<(&str, Triangles)> = degenerate_meshes::degenerate_meshes(numbers, count);
+    let mut meshes: Vec<NamedMesh> = degenerate_meshes::degenerate_meshes(numbers, count);
     meshes.extend(hard_meshes(numbers, count / 200));
     let mut flaws = 0;
-    for (name, mesh) in meshes.into_iter().filter(|(name, _)| name.contains(&wanted)) {
+    for NamedMesh { name, mesh } in meshes.into_iter().filter(|mesh| mesh.name.contains(&wanted)) {
         let count = mesh.len();
         match TriangleBvh::build(mesh).validate() {
             Ok(()) => println!("{name}: {count} triangles, valid"),

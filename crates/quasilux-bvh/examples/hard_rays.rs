@@ -9,7 +9,7 @@ mod meshes;
 #[path = "../tests/it/rays.rs"]
 mod rays;
 
-use meshes::{Numbers, Triangles, hard_meshes};
+use meshes::{NamedMesh, Numbers, Triangles, hard_meshes};
 use quasilux_bvh::{Hit, Shot, SimdLevel, TriangleBvh};
 use rayon::prelude::*;
 use rays::{BATCHES, HardQuery, bits, hard_query, hard_shots};
@@ -39,7 +39,7 @@ fn main() {
     let (rays, seed) = (number(10_000_000) as usize, number(17));
     let cases: Vec<Case> = hard_meshes(&mut Numbers(seed), 1)
         .into_iter()
-        .map(|(name, mesh)| {
+        .map(|NamedMesh { name, mesh }| {
             let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
             let bvhs = SimdLevel::all().into_iter().map(build).collect();
             Case { name, mesh, bvhs }

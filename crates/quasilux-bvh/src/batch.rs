@@ -5,7 +5,6 @@ use crate::group::{Answers, Diverged, GroupSize, GroupTracer, RayGroup, RayRun};
 use crate::intersect::intersect_with;
 use crate::lanes::Quad;
 use crate::stream::{ActiveRay, RaySource};
-use crate::triangle_bvh::wins;
 use crate::{Hit, PreparedRay, Shot, TriangleBvh};
 
 impl TriangleBvh {
@@ -150,7 +149,7 @@ impl Answer for Option<Hit> {
 
     #[inline(always)]
     fn take(&mut self, hit: Hit, end: impl Fn(f64) -> f32) -> Option<f32> {
-        wins(&hit, self).then(|| {
+        hit.precedes(self).then(|| {
             *self = Some(hit);
             end(hit.distance)
         })

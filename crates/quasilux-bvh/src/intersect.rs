@@ -38,6 +38,17 @@ pub struct Hit {
     pub barycentric: [f64; 3],
 }
 
+impl Hit {
+    /// Whether this hit is closer than the closest one so far, or as close with a lower index.
+    #[inline(always)]
+    pub(crate) fn precedes(&self, closest: &Option<Self>) -> bool {
+        closest.is_none_or(|closest| {
+            self.distance < closest.distance
+                || (self.distance == closest.distance && self.triangle < closest.triangle)
+        })
+    }
+}
+
 /// Triangles whose double area after the shear is a smaller share of what it is the difference of are
 /// decided without rounding.
 const NARROW: f64 = 1.0 / (1 << 20) as f64;

@@ -57,6 +57,12 @@ pub(crate) struct Block {
     pub(crate) slack: Slack,
 }
 
+/// A triangle with corners in the frame's coordinates.
+pub(crate) struct FramedTriangle {
+    pub(crate) triangle: u32,
+    pub(crate) corners: [DVec3; 3],
+}
+
 /// No triangle.
 pub(crate) const NONE: u32 = u32::MAX;
 
@@ -117,8 +123,8 @@ impl Child {
 }
 
 impl Block {
-    /// A block of up to eight triangles with corners in the frame's coordinates.
-    pub(crate) fn new(triangles: impl Iterator<Item = (u32, [DVec3; 3])>) -> Self {
+    /// A block of up to eight triangles.
+    pub(crate) fn new(triangles: impl Iterator<Item = FramedTriangle>) -> Self {
         let mut block = Self {
             triangles: [NONE; WIDTH],
             corner: [[0.0; WIDTH]; 3],
@@ -126,7 +132,7 @@ impl Block {
             edge_2: [[0.0; WIDTH]; 3],
             slack: Slack::default(),
         };
-        for (lane, (triangle, [a, b, c])) in triangles.enumerate() {
+        for (lane, FramedTriangle { triangle, corners: [a, b, c] }) in triangles.enumerate() {
             let (edge_1, edge_2) = ((a - b).as_vec3a(), (c - a).as_vec3a());
             block.triangles[lane] = triangle;
             for axis in 0..3 {

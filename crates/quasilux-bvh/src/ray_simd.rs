@@ -5,6 +5,13 @@ use crate::lanes::Lanes;
 use crate::lanes::triple::{cross, dot, load, sub};
 use crate::node::{Block, Node, Slack};
 
+/// Distances between which a ray is inside each of eight boxes: it meets those where `near` is not
+/// above `far`.
+pub(crate) struct Crossing<L> {
+    pub(crate) near: L,
+    pub(crate) far: L,
+}
+
 /// A ray as boxes see it.
 pub(crate) struct Slabs<L> {
     inverse: [L; 3],
@@ -31,7 +38,7 @@ impl<L: Lanes> Slabs<L> {
     /// Where the ray enters and leaves the children's boxes; those are met where it enters no
     /// later than it leaves.
     #[inline(always)]
-    pub(crate) fn cross(&self, node: &Node, end: f32) -> (L, L) {
+    pub(crate) fn cross(&self, node: &Node, end: f32) -> Crossing<L> {
         let plane = |at: usize, axis: usize| {
             // SAFETY: `first` and `last` are numbers of planes.
             let planes = unsafe { node.planes.get_unchecked(at) };
@@ -41,7 +48,7 @@ impl<L: Lanes> Slabs<L> {
         let near = plane(x, 0).max(plane(y, 1)).max(plane(z, 2).max(L::splat(0.0)));
         let [x, y, z] = self.last;
         let far = plane(x, 0).min(plane(y, 1)).min(plane(z, 2).min(L::splat(end)));
-        (near, far)
+        Crossing { near, far }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::frame::FrameRay;
 use crate::lanes::Lanes;
 use crate::node::{Block, Child, NONE, Node, WIDTH};
 use crate::prefetch::prefetch;
-use crate::ray_simd::{RaySimd, Slabs};
+use crate::ray_simd::{Crossing, RaySimd, Slabs};
 use crate::simd_level::{SimdLevel, SimdTask};
 use crate::traversal_stack::TraversalStack;
 
@@ -108,7 +108,7 @@ impl Tree {
             } else {
                 // SAFETY: the children of a valid tree exist.
                 let node = unsafe { self.nodes.get_unchecked(child.index()) };
-                let (near, far) = slabs.cross(node, end);
+                let Crossing { near, far } = slabs.cross(node, end);
                 let met = near.at_most(far);
                 if met != 0 {
                     child = stack.push_children(node, near, far, met);

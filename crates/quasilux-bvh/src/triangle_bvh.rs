@@ -4,7 +4,7 @@ use crate::build::{Leaf, WideTree, build, collapse};
 use crate::candidates::Candidates;
 use crate::frame::{Frame, FrameRay, Framed};
 use crate::huge_pages::vec_in_huge_pages;
-use crate::node::{Block, NONE, Node};
+use crate::node::{Block, FramedTriangle, NONE, Node};
 use crate::simd_level::SimdLevel;
 use crate::traverse::{Query, Tree};
 use crate::validate::validate;
@@ -53,7 +53,10 @@ impl TriangleBvh {
             collapse(&build(&corners, frame))
         };
         let block = |leaf: &Leaf| {
-            let framed = |&t: &u32| (t, corners[t as usize].map(|p| frame.point(p)));
+            let framed = |&triangle: &u32| {
+                let corners = corners[triangle as usize].map(|p| frame.point(p));
+                FramedTriangle { triangle, corners }
+            };
             Block::new(leaf.triangles().iter().map(framed))
         };
         let mut blocks = vec_in_huge_pages(tree.leaves.len());
@@ -79,7 +82,7 @@ impl TriangleBvh {
         while let Some(candidate) = candidates.pop() {
             if candidate.earliest <= end
                 && let Some(hit) = self.decide(&prepared, candidate.triangle, excluded)
-                && wins(&hit, &best)
+                && hit.precedes(&best)
             {
                 end = end.min(self.frame.end(query.ray.moved, hit.distance));
                 best = Some(hit);
@@ -115,7 +118,7 @@ impl TriangleBvh {
         let prepared = PreparedRay::new(ray);
         let mut best = None;
         for triangle in 0..self.len() as u32 {
-            let hit = self.decide(&prepared, triangle, excluded).filter(|hit| wins(hit, &best));
+            let hit = self.decide(&prepared, triangle, excluded).filter(|hit| hit.precedes(&best));
             best = hit.or(best);
         }
         best
@@ -154,13 +157,4 @@ impl TriangleBvh {
 fn query(ray: FrameRay, excluded: &[u32]) -> Query {
     let at = |i: usize| excluded.get(i).copied().unwrap_or(NONE);
     Query { ray, excluded: [at(0), at(1)], excludes_more: excluded.len() > 2 }
-}
-
-/// Whether `hit` comes before the best so far.
-#[inline(always)]
-pub(crate) fn wins(hit: &Hit, best: &Option<Hit>) -> bool {
-    best.is_none_or(|best| {
-        hit.distance < best.distance
-            || (hit.distance == best.distance && hit.triangle < best.triangle)
-    })
 }

@@ -7,7 +7,7 @@
 
 use crate::coverage::{Solid, is_covered};
 use crate::frame::{Frame, H};
-use crate::node::{Block, Child, GROWTH, NONE, Node, WIDTH};
+use crate::node::{Block, Child, FramedTriangle, GROWTH, NONE, Node, WIDTH};
 use crate::traversal_stack::MAX_DEPTH;
 use crate::traverse::Tree;
 use glam::Vec3A;
@@ -87,7 +87,8 @@ impl Survey<'_> {
         for triangle in triangles {
             let corners =
                 self.tree.corners.get(triangle as usize).ok_or("a triangle is missing")?;
-            here.push((triangle, corners.points().map(|corner| self.frame.point(corner))));
+            let corners = corners.points().map(|corner| self.frame.point(corner));
+            here.push(FramedTriangle { triangle, corners });
             self.boxes.push((triangle, bounds));
         }
         if here.is_empty() {
@@ -165,15 +166,21 @@ mod tests {
         bvh.validate().unwrap_err()
     }
 
-    /// A node below the root with a block, and the slot of that.
-    fn above_a_block(tree: &Tree) -> (usize, usize) {
+    /// A place of a block below the root.
+    struct Place {
+        node: usize,
+        slot: usize,
+    }
+
+    /// The first place of a block below the root.
+    fn above_a_block(tree: &Tree) -> Place {
         let slot = |node: &Node| {
             (0..WIDTH).find(|&slot| {
                 node.children[slot].is_block() && node.planes[0][slot] < f32::INFINITY
             })
         };
         let mut places = tree.nodes.iter().enumerate().skip(1);
-        places.find_map(|(i, node)| Some((i, slot(node)?))).unwrap()
+        places.find_map(|(i, node)| Some(Place { node: i, slot: slot(node)? })).unwrap()
     }
 
     #[test]
@@ -196,19 +203,19 @@ mod tests {
     #[test]
     fn wrong_boxes_are_found() {
         let flawed = flaw(|tree| {
-            let (node, slot) = above_a_block(tree);
+            let Place { node, slot } = above_a_block(tree);
             tree.nodes[node].planes[1][slot] += 9.0;
         });
         assert!(flawed.contains("out of the box above"), "{flawed}");
         for wrong in [f32::NAN, f32::INFINITY, -9.0] {
             let flawed = flaw(|tree| {
-                let (node, slot) = above_a_block(tree);
+                let Place { node, slot } = above_a_block(tree);
                 tree.nodes[node].planes[3][slot] = wrong;
             });
             assert!(flawed.contains("neither"), "{flawed}");
         }
         let flawed = flaw(|tree| {
-            let (node, slot) = above_a_block(tree);
+            let Place { node, slot } = above_a_block(tree);
             for plane in 0..6 {
                 tree.nodes[node].planes[plane][slot] = Node::EMPTY.planes[plane][slot];
             }
@@ -220,7 +227,7 @@ mod tests {
     fn wrong_links_are_found() {
         let link = |to: fn(&Tree, Child) -> Child| {
             flaw(|tree| {
-                let (node, slot) = above_a_block(tree);
+                let Place { node, slot } = above_a_block(tree);
                 let child = tree.nodes[node].children[slot];
                 tree.nodes[node].children[slot] = to(tree, child);
             })

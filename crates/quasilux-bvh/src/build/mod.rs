@@ -18,22 +18,9 @@ use crate::node::WIDTH;
 use bins::ObjectSplit;
 use clip::Triangles;
 use glam::DVec3;
-use reference::{Bounds, Extent, Reference};
+use reference::{Extent, Reference};
 use spatial::SpatialSplit;
-use wide::Plan;
-
-/// A binary tree.
-pub(crate) struct Binary {
-    bounds: Bounds,
-    kind: Kind,
-}
-
-/// What is below a node of a binary tree.
-enum Kind {
-    Leaf(Leaf),
-    /// Two halves, and how they are best spread over the slots of wide nodes.
-    Inner(Box<[Binary; 2]>, Plan),
-}
+use wide::{Binary, Kind, Plan};
 
 /// Below this depth halves have equally many triangles, which bounds the depth.
 const BALANCED_BELOW: u32 = 32;
@@ -62,7 +49,7 @@ const MIN_SHARE: f32 = 0.1;
 pub(crate) fn build(corners: &[[DVec3; 3]], frame: Frame) -> Binary {
     let count = corners.len();
     let mut storage = reference::all(corners, &frame, (count as f64 * MAX_COPIES) as usize);
-    let extent = Extent::of(&storage[..count]);
+    let extent = Extent::new(&storage[..count]);
     let least_overlap = MIN_OVERLAP * extent.bounds.half_area();
     let builder = Builder { triangles: Triangles { corners, frame }, least_overlap };
     builder.subtree(Share { storage: &mut storage, count, extent, depth: 0 })
@@ -157,7 +144,7 @@ impl Builder<'_> {
         if left.is_empty() || right.is_empty() {
             return share.at_middle();
         }
-        let extents = [left, right].map(Extent::of);
+        let extents = [left, right].map(Extent::new);
         share.cut(division.left, extents)
     }
 }
@@ -175,7 +162,7 @@ impl<'a> Share<'a> {
     fn at_middle(self) -> [Self; 2] {
         let left = self.count / 2;
         let (before, after) = self.references().split_at(left);
-        let extents = [before, after].map(Extent::of);
+        let extents = [before, after].map(Extent::new);
         self.cut(left, extents)
     }
 

@@ -54,7 +54,7 @@ pub(crate) struct Extent {
 impl Extent {
     pub(crate) const EMPTY: Self = Self { bounds: Bounds::EMPTY, middles: Bounds::EMPTY };
 
-    pub(crate) fn of(references: &[Reference]) -> Self {
+    pub(crate) fn new(references: &[Reference]) -> Self {
         let part = |references: &[Reference]| {
             references.iter().fold(Self::EMPTY, |extent, reference| Self {
                 bounds: extent.bounds.union(reference.bounds()),

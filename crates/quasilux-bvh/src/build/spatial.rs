@@ -49,7 +49,7 @@ struct Bin {
 
 type Histogram = [[Bin; BINS]; 3];
 
-const MISS: Histogram = [[Bin { bounds: Bounds::EMPTY, entering: 0, leaving: 0 }; BINS]; 3];
+const EMPTY: Histogram = [[Bin { bounds: Bounds::EMPTY, entering: 0, leaving: 0 }; BINS]; 3];
 
 impl SpatialSplit {
     /// The best plane between bins of equal width.
@@ -154,7 +154,7 @@ impl Side {
 }
 
 fn histogram(triangles: Triangles<'_>, grid: &Grid, references: &[Reference]) -> Histogram {
-    let mut histogram = MISS;
+    let mut histogram = EMPTY;
     let mut parts = [Bounds::EMPTY; BINS];
     for reference in references {
         let whole = reference.bounds();

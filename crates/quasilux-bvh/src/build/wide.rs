@@ -6,11 +6,23 @@
 //! Deviation: leaves are those of the binary tree.
 
 use super::reference::Bounds;
-use super::{Binary, Kind};
 use crate::node::{Child, Node, WIDTH};
 
 /// What a wide node costs, in units of a block.
 const NODE_COST: f32 = 1.0;
+
+/// A binary tree.
+pub(crate) struct Binary {
+    pub(super) bounds: Bounds,
+    pub(super) kind: Kind,
+}
+
+/// A node of a binary tree.
+pub(super) enum Kind {
+    Leaf(Leaf),
+    /// Two halves, and how they are best spread over the slots of wide nodes.
+    Inner(Box<[Binary; 2]>, Plan),
+}
 
 /// Up to eight triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,9 @@
 
 use crate::Shot;
 use crate::frame::Frame;
-use crate::group::MAX_GROUP;
+use crate::group::rays::MAX_GROUP;
 use crate::intersect::longest_axis;
+use crate::traverse::Tree;
 use glam::DVec3;
 
 /// Fewer are better off alone.
@@ -37,6 +38,15 @@ pub(crate) enum RayRun {
     Coherent(usize, Heading),
     /// So many that do not.
     Incoherent(usize),
+}
+
+/// The rays of one group, and where they fly.
+#[derive(Clone, Copy)]
+pub(crate) struct RayGroup<'a> {
+    pub(crate) tree: &'a Tree,
+    pub(crate) frame: &'a Frame,
+    pub(crate) heading: Heading,
+    pub(crate) shots: &'a [Shot],
 }
 
 impl RayRun {

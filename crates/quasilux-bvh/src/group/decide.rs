@@ -3,12 +3,11 @@
 //! What [`crate::intersect()`] does with one ray and one triangle, operation by operation, so that the bits are the same.
 
 use crate::group::candidates::{ExtraCandidate, GroupCandidates};
+use crate::group::coherence::{Heading, RayGroup};
 use crate::group::rays::Rays;
-use crate::group::{Heading, RayGroup};
 use crate::intersect::least_area;
 use crate::lanes::Quad;
 use crate::node::{NONE, WIDTH};
-use crate::triangle_bvh::wins;
 use crate::{Corners, Hit, PreparedRay, Shot, intersect};
 use glam::DVec3;
 
@@ -41,7 +40,7 @@ impl GroupCandidates {
         for ExtraCandidate { ray, triangle, earliest } in self.more.drain(..) {
             if earliest <= rays.end[ray / WIDTH][ray % WIDTH]
                 && let Some(hit) = decide(corners, &shots[ray], triangle)
-                && wins(&hit, &hits[ray])
+                && hit.precedes(&hits[ray])
             {
                 hits[ray] = Some(hit);
             }
@@ -105,29 +104,12 @@ fn decide_four<Q: Quad>(
     let a = sheared(shear, o, corner(faces, 0, axes, one_face));
     let b = sheared(shear, o, corner(faces, 1, axes, one_face));
     let c = sheared(shear, o, corner(faces, 2, axes, one_face));
-    let (u, products) = edge_function(c, b);
-    let (v, more) = edge_function(a, c);
-    let products = products.add(more);
-    let (w, more) = edge_function(b, a);
-    let products = products.add(more);
-    let zero = Q::splat(0.0);
-    let negative = u.below(zero) | v.below(zero) | w.below(zero);
-    let positive = zero.below(u) | zero.below(v) | zero.below(w);
-    let sum = u.add(v).add(w);
-    let distance = u.mul(a[2]).add(v.mul(b[2])).add(w.mul(c[2])).div(sum);
     let t_max = Q::from_array([r0.t_max, r1.t_max, r2.t_max, r3.t_max]);
-    let mixed = negative & positive;
-    let wide =
-        least_area(products).below(sum.abs()) & distance.abs().below(Q::splat(f64::INFINITY));
-    if !(mixed | wide) & 0xf != 0 {
-        // One of them is seen too nearly edge-on.
-        return false;
-    }
-    let counts = !mixed & zero.below(distance) & distance.below(t_max);
-    let (u, v, w) = (u.div(sum).store(), v.div(sum).store(), w.div(sum).store());
-    let distance = distance.store();
+    let Some(found) = intersect_four([a, b, c], t_max) else { return false };
+    let [u, v, w] = found.barycentric.map(Q::store);
+    let distance = found.distance.store();
     for i in 0..FOUR {
-        hits[i] = if counts >> i & 1 == 1 {
+        hits[i] = if found.counts >> i & 1 == 1 {
             let barycentric = [u[i], v[i], w[i]];
             Some(Hit { triangle: triangles[i], distance: distance[i], barycentric })
         } else {
@@ -137,11 +119,50 @@ fn decide_four<Q: Quad>(
     true
 }
 
-/// The edge function of two sheared corners, and the sizes of the products in it.
+/// Intersections of four rays with a triangle each.
+struct FourHits<Q> {
+    /// A bit for each ray that hits its triangle.
+    counts: u32,
+    distance: Q,
+    barycentric: [Q; 3],
+}
+
+/// Intersects four rays with a triangle each, given by its sheared corners; `None` if one of the
+/// triangles is seen so nearly edge-on that rounding could decide.
 #[inline(always)]
-fn edge_function<Q: Quad>(p: [Q; 3], q: [Q; 3]) -> (Q, Q) {
-    let (left, right) = (p[0].mul(q[1]), p[1].mul(q[0]));
-    (left.sub(right), left.abs().add(right.abs()))
+fn intersect_four<Q: Quad>([a, b, c]: [[Q; 3]; 3], t_max: Q) -> Option<FourHits<Q>> {
+    let (first, second, third) =
+        (EdgeFunction::new(c, b), EdgeFunction::new(a, c), EdgeFunction::new(b, a));
+    let (u, v, w) = (first.value, second.value, third.value);
+    let products = first.products.add(second.products).add(third.products);
+    let zero = Q::splat(0.0);
+    let negative = u.below(zero) | v.below(zero) | w.below(zero);
+    let positive = zero.below(u) | zero.below(v) | zero.below(w);
+    let sum = u.add(v).add(w);
+    let distance = u.mul(a[2]).add(v.mul(b[2])).add(w.mul(c[2])).div(sum);
+    let mixed = negative & positive;
+    let wide =
+        least_area(products).below(sum.abs()) & distance.abs().below(Q::splat(f64::INFINITY));
+    if !(mixed | wide) & 0xf != 0 {
+        return None;
+    }
+    let counts = !mixed & zero.below(distance) & distance.below(t_max);
+    Some(FourHits { counts, distance, barycentric: [u.div(sum), v.div(sum), w.div(sum)] })
+}
+
+/// The edge function of two sheared corners.
+struct EdgeFunction<Q> {
+    value: Q,
+    /// The sum of the sizes of the two products that it is the difference of.
+    products: Q,
+}
+
+impl<Q: Quad> EdgeFunction<Q> {
+    #[inline(always)]
+    fn new(p: [Q; 3], q: [Q; 3]) -> Self {
+        let (left, right) = (p[0].mul(q[1]), p[1].mul(q[0]));
+        Self { value: left.sub(right), products: left.abs().add(right.abs()) }
+    }
 }
 
 /// A coordinate of four points.

@@ -4,7 +4,7 @@
 //! has cost what its rays would cost alone it is given up, and the next groups are smaller; where
 //! they are cheap they grow again. Only speed depends on it.
 
-use crate::group::{Diverged, MAX_GROUP};
+use crate::group::rays::MAX_GROUP;
 use crate::node::WIDTH;
 
 /// What holding eight rays against a triangle costs.
@@ -19,6 +19,10 @@ const ALONE: usize = 400;
 
 /// Where not even small groups go together, so many rays go alone before the next attempt.
 const SINGLE_RAYS_AFTER_FAILURE: usize = 4 * MAX_GROUP;
+
+/// The rays of a group are too far apart to be traced together.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Diverged;
 
 /// The size of the next group.
 #[derive(Clone, Copy, Debug)]

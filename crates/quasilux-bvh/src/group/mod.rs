@@ -22,38 +22,20 @@ mod shaft;
 mod traverse;
 mod triangle_tester;
 
-use crate::frame::Frame;
+use crate::Hit;
 use crate::lanes::Lanes;
 use crate::simd_level::{SimdLevel, SimdTask};
-use crate::traverse::Tree;
-use crate::{Hit, Shot};
 use candidates::GroupCandidates;
-pub(crate) use coherence::{Heading, RayRun};
-pub(crate) use group_size::GroupSize;
+pub(crate) use coherence::{RayGroup, RayRun};
+pub(crate) use group_size::{Diverged, GroupSize};
 use rays::Rays;
 use shaft::Shaft;
 use triangle_tester::{CommonOrigin, SeparateOrigins};
-
-/// Rays of a group.
-pub(crate) const MAX_GROUP: usize = 128;
 
 /// Rays and what they candidates, for one group after the other.
 pub(crate) struct GroupTracer {
     rays: Rays,
     candidates: GroupCandidates,
-}
-
-/// The rays of a group are too far apart to be traced together.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Diverged;
-
-/// The rays of one group, and where they fly.
-#[derive(Clone, Copy)]
-pub(crate) struct RayGroup<'a> {
-    pub(crate) tree: &'a Tree,
-    pub(crate) frame: &'a Frame,
-    pub(crate) heading: Heading,
-    pub(crate) shots: &'a [Shot],
 }
 
 /// What is asked of the rays, and where answers go.

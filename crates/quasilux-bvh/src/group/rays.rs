@@ -2,10 +2,12 @@
 
 use crate::Shot;
 use crate::frame::Frame;
-use crate::group::MAX_GROUP;
 use crate::lanes::Lanes;
 use crate::node::WIDTH;
 use glam::DVec3;
+
+/// Rays of a group.
+pub(crate) const MAX_GROUP: usize = 128;
 
 /// Vectors of rays.
 pub(crate) const VECTORS: usize = MAX_GROUP / WIDTH;

@@ -14,6 +14,7 @@ use crate::group::coherence::Heading;
 use crate::group::rays::Rays;
 use crate::lanes::Lanes;
 use crate::node::{Block, Node};
+use crate::ray_simd::Crossing;
 
 /// What planes are moved outward by.
 const SLACK: f32 = 160.0 * H;
@@ -85,7 +86,7 @@ impl<L: Lanes> Shaft<L> {
 
     /// How deep in the shaft the children's boxes begin, and up to where they do so to be met.
     #[inline(always)]
-    pub(crate) fn cross(&self, node: &Node, depth: f32) -> (L, L) {
+    pub(crate) fn cross(&self, node: &Node, depth: f32) -> Crossing<L> {
         let [a, b] = self.heading.aside();
         let backward = usize::from(self.heading.backward);
         let front = L::splat(self.front);
@@ -99,7 +100,7 @@ impl<L: Lanes> Shaft<L> {
         let in_b = three
             .below(plane(node, three.along), plane(node, 2 * b + 1))
             .min(four.above(plane(node, four.along), plane(node, 2 * b)));
-        (first.max(L::splat(0.0)), limit(in_a.min(in_b).min(last), depth))
+        Crossing { near: first.max(L::splat(0.0)), far: limit(in_a.min(in_b).min(last), depth) }
     }
 
     /// A bit for each triangle of a block that the shaft may meet.

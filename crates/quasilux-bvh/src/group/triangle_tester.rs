@@ -9,6 +9,14 @@ use crate::node::{Block, NONE, Slack, WIDTH};
 use crate::ray_simd::TriangleTest;
 use glam::Vec3A;
 
+/// The triangles of a block that a group may hit.
+pub(crate) struct BlockTest<P> {
+    /// Values that the tests of single triangles share.
+    pub(crate) prepared: P,
+    /// A bit for each triangle that any ray of the group may hit.
+    pub(crate) met: u32,
+}
+
 /// Where rays look from.
 pub(crate) trait TriangleTester<L: Lanes> {
     /// The triangles of a block as all rays see them.
@@ -17,7 +25,7 @@ pub(crate) trait TriangleTester<L: Lanes> {
     type PreparedTriangle;
 
     /// The triangles of a block, and a bit for each that any of the rays may hit.
-    fn test_block(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> (Self::Prepared, u32);
+    fn test_block(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> BlockTest<Self::Prepared>;
 
     /// One of the triangles.
     fn prepare(
@@ -103,7 +111,7 @@ impl<L: Lanes> TriangleTester<L> for CommonOrigin<L> {
     type PreparedTriangle = LinearForm<L>;
 
     #[inline(always)]
-    fn test_block(&self, _: &Shaft<L>, block: &Block, depth: f32) -> (LinearForms, u32) {
+    fn test_block(&self, _: &Shaft<L>, block: &Block, depth: f32) -> BlockTest<LinearForms> {
         const MARGIN: f32 = 8.0;
         let (edge_1, edge_2) = (load::<L>(&block.edge_1), load(&block.edge_2));
         let c = sub(load(&block.corner), self.origin);
@@ -132,14 +140,14 @@ impl<L: Lanes> TriangleTester<L> for CommonOrigin<L> {
         ]);
         let may_turn = size.at_most(distance.mul_add(L::splat(Slack::TURN), size_spread));
         let there = L::differ(&block.triangles, [NONE; 3]);
-        let factors = LinearForms {
+        let prepared = LinearForms {
             normal: store(normal),
             second: store(second),
             third: store(third),
             reach: reach.store(),
             slacks: store(slacks),
         };
-        (factors, (!missed | may_turn) & there)
+        BlockTest { prepared, met: (!missed | may_turn) & there }
     }
 
     #[inline(always)]
@@ -188,8 +196,9 @@ impl<L: Lanes> TriangleTester<L> for SeparateOrigins {
     type PreparedTriangle = Corners<L>;
 
     #[inline(always)]
-    fn test_block(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> ((), u32) {
-        ((), shaft.meets(block, depth) & L::differ(&block.triangles, [NONE; 3]))
+    fn test_block(&self, shaft: &Shaft<L>, block: &Block, depth: f32) -> BlockTest<()> {
+        let met = shaft.meets(block, depth) & L::differ(&block.triangles, [NONE; 3]);
+        BlockTest { prepared: (), met }
     }
 
     #[inline(always)]

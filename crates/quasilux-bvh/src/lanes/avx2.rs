@@ -1,7 +1,7 @@
 //! With AVX2 and fused multiply-add.
 
+use super::traits::{Lanes, Quad};
 use super::ymm::in_256_bits;
-use super::{Lanes, Quad};
 use crate::node::{Child, WIDTH};
 use std::arch::x86_64::*;
 

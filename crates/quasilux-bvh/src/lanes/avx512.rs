@@ -4,7 +4,7 @@
 //! Tested without a machine that has it: in the emulator Bochs 2.7 as a Skylake-X, under Linux with
 //! `clearcpuid=321,323`, by the test of all instructions and the example `hard_rays`, linked statically.
 
-use super::Lanes;
+use super::traits::Lanes;
 use super::ymm::in_256_bits;
 use crate::node::{Child, WIDTH};
 use std::arch::x86_64::*;
@@ -19,7 +19,7 @@ pub(crate) struct Avx512(__m256);
 impl Avx512 {
     /// Whether this machine has what it takes.
     pub(crate) fn is_supported() -> bool {
-        super::Avx2::is_supported()
+        super::avx2::Avx2::is_supported()
             && is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512vl")
             && is_x86_feature_detected!("avx512dq")
@@ -29,7 +29,7 @@ impl Avx512 {
 // SAFETY of all blocks below: the features are there, as [`Avx512`] says; loads and stores are of
 // whole arrays, or as the contract of the function says.
 impl Lanes for Avx512 {
-    type Quad = super::Avx2Quad;
+    type Quad = super::avx2::Avx2Quad;
 
     in_256_bits!();
 

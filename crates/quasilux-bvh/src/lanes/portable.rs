@@ -1,6 +1,6 @@
 //! In plain Rust, for every machine.
 
-use super::{Lanes, Quad};
+use super::traits::{Lanes, Quad};
 use crate::node::{Child, WIDTH};
 use std::array::from_fn;
 

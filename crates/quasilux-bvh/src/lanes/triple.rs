@@ -3,7 +3,7 @@
 //! No closures and no `array::map`: what the compiler does not inline loses the instructions of its
 //! caller, and calls them one by one.
 
-use super::Lanes;
+use super::traits::Lanes;
 use crate::node::WIDTH;
 
 #[inline(always)]

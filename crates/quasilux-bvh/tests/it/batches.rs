@@ -1,6 +1,6 @@
 //! Many rays at once get the answers that each of them gets alone.
 
-use crate::meshes::{Numbers, Triangles, hard_meshes};
+use crate::meshes::{NamedMesh, Numbers, Triangles, hard_meshes};
 use crate::rays::{BATCHES, bits, hard_shots};
 use glam::DVec3;
 use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
@@ -10,7 +10,7 @@ fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
     // What an answer holds before must not matter.
     let before = Some(Hit { triangle: 5, distance: 1e-9, barycentric: [1.0, 0.0, 0.0] });
     let numbers = &mut Numbers(7);
-    for (name, mesh) in hard_meshes(numbers, 1) {
+    for NamedMesh { name, mesh } in hard_meshes(numbers, 1) {
         let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
         let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         for count in BATCHES {

@@ -1,13 +1,10 @@
 //! Meshes that are hard on a builder: nothing tells their triangles apart, or one is unlike all others.
 
-use crate::meshes::{Numbers, Triangles};
+use crate::meshes::{NamedMesh, Numbers, Triangles};
 use glam::DVec3;
 
 /// The meshes, each of `count` triangles, with their names.
-pub(crate) fn degenerate_meshes(
-    numbers: &mut Numbers,
-    count: usize,
-) -> Vec<(&'static str, Triangles)> {
+pub(crate) fn degenerate_meshes(numbers: &mut Numbers, count: usize) -> Vec<NamedMesh> {
     let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let scaled = |size: f64| face.map(|p| size * (p - DVec3::new(0.5, 0.5, 0.0)));
     let mut all = |make: &dyn Fn(&mut Numbers, usize) -> [DVec3; 3]| -> Triangles {
@@ -17,7 +14,7 @@ pub(crate) fn degenerate_meshes(
     let tiny = |at: DVec3| face.map(|p| at + 1e-6 * p);
     let mut huge = all(&|numbers, _| tiny(numbers.point(-1e-3, 1e-3)));
     huge[count / 2] = face.map(|p| 1e3 * (p - DVec3::splat(0.3)));
-    vec![
+    let meshes = [
         ("identical", all(&|_, _| face)),
         ("same centre", all(&|_, i| scaled(share(i)))),
         ("same centre, geometric", all(&|_, i| scaled(power(0.5, i % 900)))),
@@ -46,7 +43,8 @@ pub(crate) fn degenerate_meshes(
             }),
         ),
         ("geometric row", all(&|_, i| tiny(DVec3::X * power(0.5, i % 60)).map(|p| p * 0.999))),
-    ]
+    ];
+    meshes.into_iter().map(|(name, mesh)| NamedMesh { name, mesh }).collect()
 }
 
 /// A power with a whole exponent.

@@ -1,6 +1,6 @@
 //! Many rays at once have the answers of each alone, to the last bit.
 
-use crate::meshes::{Numbers, Triangles, ball, hard_meshes};
+use crate::meshes::{NamedMesh, Numbers, Triangles, ball, hard_meshes};
 use crate::rays::unit;
 use glam::DVec3;
 use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
@@ -72,8 +72,9 @@ fn rays(mesh: &Triangles, kind: Kind, count: usize, numbers: &mut Numbers) -> Ve
 fn runs_are_answered_as_ray_by_ray() {
     let numbers = &mut Numbers(41);
     let mut meshes = hard_meshes(numbers, 3);
-    meshes.push(("fine ball", ball(DVec3::new(1.0, 2.0, 3.0), 2.0, 5)));
-    for (name, mesh) in meshes {
+    let mesh = ball(DVec3::new(1.0, 2.0, 3.0), 2.0, 5);
+    meshes.push(NamedMesh { name: "fine ball", mesh });
+    for NamedMesh { name, mesh } in meshes {
         let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
         let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         let mut found = 0;

@@ -4,8 +4,14 @@ use glam::DVec3;
 
 pub(crate) type Triangles = Vec<[DVec3; 3]>;
 
+/// A mesh, and its name in messages.
+pub(crate) struct NamedMesh {
+    pub(crate) name: &'static str,
+    pub(crate) mesh: Triangles,
+}
+
 /// The meshes, smallest with `size` 1, each with its name.
-pub(crate) fn hard_meshes(numbers: &mut Numbers, size: usize) -> Vec<(&'static str, Triangles)> {
+pub(crate) fn hard_meshes(numbers: &mut Numbers, size: usize) -> Vec<NamedMesh> {
     let far = DVec3::new(4.0e5, -5.0e6, 300.0);
     let mut huge_and_tiny = ball(DVec3::new(0.3, 0.2, 0.1), 1e-4, 2);
     huge_and_tiny.push([
@@ -15,7 +21,7 @@ pub(crate) fn hard_meshes(numbers: &mut Numbers, size: usize) -> Vec<(&'static s
     ]);
     let mut huger_and_tinier = soup(numbers, 50 * size);
     huger_and_tinier.extend(scaled(soup(numbers, 20), 1e9));
-    vec![
+    let meshes = [
         ("soup", soup(numbers, 200 * size)),
         ("slivers", slivers(numbers, 100 * size)),
         ("needles", needles(numbers, 100 * size)),
@@ -36,7 +42,8 @@ pub(crate) fn hard_meshes(numbers: &mut Numbers, size: usize) -> Vec<(&'static s
         ("of 1e-318 m", scaled(ball(DVec3::ZERO, 1.0, 1), 1e-318)),
         ("one triangle", vec![[DVec3::ZERO, DVec3::X, DVec3::Y]]),
         ("one point", vec![[DVec3::splat(0.1); 3]]),
-    ]
+    ];
+    meshes.into_iter().map(|(name, mesh)| NamedMesh { name, mesh }).collect()
 }
 
 fn shifted(mesh: Triangles, by: DVec3) -> Triangles {

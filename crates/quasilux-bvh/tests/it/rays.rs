@@ -19,7 +19,7 @@ pub(crate) const BATCHES: [usize; 13] = [0, 1, 7, 8, 9, 23, 24, 25, 63, 64, 65, 
 /// directions, along axes, toward corners and edges, in the planes of triangles or very nearly so, and
 /// along edges.
 pub(crate) fn hard_query(mesh: &Triangles, number: usize, numbers: &mut Numbers) -> HardQuery {
-    let (low, size) = extent(mesh);
+    let Extent { low, size } = extent(mesh);
     let any = |numbers: &mut Numbers| (numbers.next() * mesh.len() as f64) as usize;
     let [a, b, c] = mesh[any(numbers)];
     let on_plane = |numbers: &mut Numbers, low: f64, high: f64| {
@@ -60,7 +60,7 @@ pub(crate) fn hard_query(mesh: &Triangles, number: usize, numbers: &mut Numbers)
 
 /// Runs of rays that stay close together, and hard rays between them, some of them short.
 pub(crate) fn hard_shots(mesh: &Triangles, count: usize, numbers: &mut Numbers) -> Vec<Shot> {
-    let (_, size) = extent(mesh);
+    let Extent { size, .. } = extent(mesh);
     let mut shots = Vec::with_capacity(count);
     while shots.len() < count {
         let number = (numbers.next() * 1e6) as usize;
@@ -88,10 +88,16 @@ pub(crate) fn bits(hit: Option<Hit>) -> Option<[u64; 5]> {
     })
 }
 
-fn extent(mesh: &Triangles) -> (DVec3, DVec3) {
+/// The lower corner of the box around a mesh, and its edges.
+struct Extent {
+    low: DVec3,
+    size: DVec3,
+}
+
+fn extent(mesh: &Triangles) -> Extent {
     let points = mesh.iter().flatten().copied();
     let low = points.clone().reduce(DVec3::min).unwrap();
-    (low, points.reduce(DVec3::max).unwrap() - low)
+    Extent { low, size: points.reduce(DVec3::max).unwrap() - low }
 }
 
 /// A unit vector, whatever the scale; that along x where there is none.

@@ -1,6 +1,6 @@
 //! The hierarchy returns what trying every triangle returns, to the last bit.
 
-use crate::meshes::{Numbers, hard_meshes};
+use crate::meshes::{NamedMesh, Numbers, hard_meshes};
 use crate::rays::{HardQuery, bits, hard_query};
 use glam::DVec3;
 use quasilux_bvh::{Ray, SimdLevel, TriangleBvh};
@@ -11,7 +11,7 @@ const RAYS: usize = 9_000;
 #[test]
 fn hard_meshes_are_hit_as_by_the_slow_twin() {
     let numbers = &mut Numbers(1);
-    for (name, mesh) in hard_meshes(numbers, 3) {
+    for NamedMesh { name, mesh } in hard_meshes(numbers, 3) {
         let build = |simd| TriangleBvh::build_for(mesh.clone(), simd);
         let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         let mut hits = 0;
@@ -36,7 +36,7 @@ fn hard_meshes_are_hit_as_by_the_slow_twin() {
 #[test]
 fn hierarchies_are_valid() {
     let numbers = &mut Numbers(2);
-    for (name, mesh) in hard_meshes(numbers, 20) {
+    for NamedMesh { name, mesh } in hard_meshes(numbers, 20) {
         assert_eq!(TriangleBvh::build(mesh).validate(), Ok(()), "{name}");
     }
     assert_eq!(TriangleBvh::build(Vec::new()).validate(), Ok(()));
