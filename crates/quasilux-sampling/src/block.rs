@@ -8,11 +8,10 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::point_set::Generator;
-use crate::randomization::{digital_shift, rotate_word, shuffle_index};
+use crate::point_set::{Generator, PointSet};
+use crate::randomization::{Randomization, digital_shift, rotate_word, shuffle_index};
 use crate::sequence::{BinaryMatrices, independent_digits};
 use crate::unit::{unit_from_digits, unit_from_word};
-use crate::{PointSet, Randomization};
 
 /// Shorter fills do not repay the table.
 const SHORTEST: usize = 32;

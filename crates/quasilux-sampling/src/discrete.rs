@@ -5,7 +5,7 @@
 //! alias method: that map is not monotone, so it tears neighbouring coordinates apart and a
 //! low-discrepancy sequence loses its evenness in it; nor does it give back a rest.
 
-use crate::discrete_sample::{Choice, is_weight, remap};
+use crate::discrete_sample::{DiscreteSample, is_weight, remap};
 
 /// A distribution over the indices of a list of weights.
 ///
@@ -55,19 +55,19 @@ impl Discrete {
     /// of weight 0. A u outside [0, 1) counts as the nearer bound, NaN as 0.
     #[inline]
     #[must_use]
-    pub fn sample(&self, u: f64) -> Choice {
+    pub fn sample(&self, u: f64) -> DiscreteSample {
         let u = u.max(0.0);
         let bucket = bucket(u, self.guide.len() - 1).min(self.guide.len() - 2);
         let (first, last) = (self.guide[bucket] as usize, self.guide[bucket + 1] as usize);
         let index = first + self.cumulative[first..last].partition_point(|sum| *sum <= u);
-        let (low, high) = self.bounds(index);
-        Choice { index, pdf: high - low, u_remapped: remap(u, low, high) }
+        let [low, high] = self.bounds(index);
+        DiscreteSample { index, pdf: high - low, u_remapped: remap(u, low, high) }
     }
 
     /// The coordinate that [`sample`](Self::sample) maps to this entry with this rest.
     #[must_use]
     pub fn invert(&self, index: usize, rest: f64) -> f64 {
-        let (low, high) = self.bounds(index);
+        let [low, high] = self.bounds(index);
         low + rest * (high - low)
     }
 
@@ -76,7 +76,7 @@ impl Discrete {
     #[inline]
     #[must_use]
     pub fn pdf(&self, index: usize) -> f64 {
-        let (low, high) = self.bounds(index);
+        let [low, high] = self.bounds(index);
         high - low
     }
 
@@ -94,9 +94,9 @@ impl Discrete {
     }
 
     #[inline]
-    fn bounds(&self, index: usize) -> (f64, f64) {
+    fn bounds(&self, index: usize) -> [f64; 2] {
         let low = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
-        (low, self.cumulative[index])
+        [low, self.cumulative[index]]
     }
 }
 

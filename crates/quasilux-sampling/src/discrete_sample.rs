@@ -5,11 +5,11 @@
 //! which is uniform again. Each choice of probability p costs log2(1 / p) of the coordinate's 53
 //! bits; of an unrandomised sequence only the first log2 N digits of N points are of use.
 
-use crate::ONE_BELOW;
+use crate::unit::ONE_BELOW;
 
 /// The outcome of a choice among several.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct DiscreteSample {
     /// Which was chosen.
     pub index: usize,
     /// With what probability.
@@ -20,7 +20,7 @@ pub struct Choice {
 
 /// The outcome of a choice between two.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BoolChoice {
+pub struct BoolSample {
     /// Which was chosen.
     pub value: bool,
     /// The rest of the coordinate, uniform on [0, 1) and independent of the choice.
@@ -32,19 +32,19 @@ pub struct BoolChoice {
 /// A probability outside [0, 1] counts as the nearer bound, NaN as 0.
 ///
 /// ```
-/// use quasilux_sampling::{choose_bool, BoolChoice};
-/// assert_eq!(choose_bool(0.125, 0.25), BoolChoice { value: true, u_remapped: 0.5 });
-/// assert_eq!(choose_bool(0.625, 0.25), BoolChoice { value: false, u_remapped: 0.5 });
+/// use quasilux_sampling::{choose_bool, BoolSample};
+/// assert_eq!(choose_bool(0.125, 0.25), BoolSample { value: true, u_remapped: 0.5 });
+/// assert_eq!(choose_bool(0.625, 0.25), BoolSample { value: false, u_remapped: 0.5 });
 /// ```
 #[inline]
 #[must_use]
-pub fn choose_bool(u: f64, p_true: f64) -> BoolChoice {
+pub fn choose_bool(u: f64, p_true: f64) -> BoolSample {
     if u < p_true {
-        BoolChoice { value: true, u_remapped: remap(u, 0.0, p_true.min(1.0)) }
+        BoolSample { value: true, u_remapped: remap(u, 0.0, p_true.min(1.0)) }
     } else if p_true > 0.0 {
-        BoolChoice { value: false, u_remapped: remap(u, p_true.min(ONE_BELOW), 1.0) }
+        BoolSample { value: false, u_remapped: remap(u, p_true.min(ONE_BELOW), 1.0) }
     } else {
-        BoolChoice { value: false, u_remapped: u }
+        BoolSample { value: false, u_remapped: u }
     }
 }
 
@@ -61,7 +61,10 @@ pub fn choose_bool(u: f64, p_true: f64) -> BoolChoice {
 /// assert_eq!(choose_weights(0.625, [0.0].into_iter()), None);
 /// ```
 #[must_use]
-pub fn choose_weights(u: f64, weights: impl Iterator<Item = f64> + Clone) -> Option<Choice> {
+pub fn choose_weights(
+    u: f64,
+    weights: impl Iterator<Item = f64> + Clone,
+) -> Option<DiscreteSample> {
     let mut total = 0.0;
     for weight in weights.clone() {
         if !is_weight(weight) {
@@ -80,7 +83,7 @@ pub fn choose_weights(u: f64, weights: impl Iterator<Item = f64> + Clone) -> Opt
         // A weight below the rounding of the sum has no share of the coordinate.
         if next > sum {
             let pdf = weight / total;
-            chosen = Some(Choice { index, pdf, u_remapped: remap(target, sum, next) });
+            chosen = Some(DiscreteSample { index, pdf, u_remapped: remap(target, sum, next) });
         }
         if target < next {
             break;

@@ -11,8 +11,8 @@
 //! shared digits of its points, those of all dimensions in turn, so that the groups of one coarser
 //! partition follow each other.
 
-use crate::Randomization;
 use crate::point_set::{Generator, PointSet};
+use crate::randomization::Randomization;
 use crate::sequence::BinaryMatrices;
 
 /// How many leading digits of a dimension the members of a group share.

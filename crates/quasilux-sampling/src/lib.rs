@@ -92,23 +92,24 @@ mod discrete_sample;
 mod groups;
 mod hash;
 mod histogram;
+mod parse_name_error;
 mod point_set;
 pub mod quality;
 mod randomization;
 mod sampler;
+mod sensitivity;
 mod sequence;
 mod unit;
 mod variation;
 pub mod warp;
 
 pub use discrete::Discrete;
-pub use discrete_sample::{BoolChoice, Choice, choose_bool, choose_weights};
+pub use discrete_sample::{BoolSample, DiscreteSample, choose_bool, choose_weights};
 pub use groups::{CoherentGroups, Group, SharedDigits};
 pub use hash::stream_key;
 pub use histogram::DimensionHistogram;
+pub use parse_name_error::ParseNameError;
 pub use point_set::PointSet;
 pub use randomization::Randomization;
 pub use sampler::Sampler;
 pub use sequence::{Sequence, radical_inverse};
-
-pub(crate) use unit::ONE_BELOW;

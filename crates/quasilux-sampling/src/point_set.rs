@@ -2,15 +2,14 @@
 
 use crate::hash::{GOLDEN, dimension_key, mix};
 use crate::randomization::{
-    OwenKey, digital_shift, nested_radical_inverse, rotate_unit, rotate_word,
+    OwenKey, Randomization, digital_shift, nested_radical_inverse, rotate_unit, rotate_word,
     shifted_radical_inverse, shuffle_index,
 };
 use crate::sequence::{
-    BinaryMatrices, Radix, faure4, halton, hammersley, independent_digits, sobol,
+    BinaryMatrices, Radix, Sequence, faure4, halton, hammersley, independent_digits, sobol,
 };
 use crate::unit::{unit_from_digits, unit_from_word};
-use crate::variation::Variation;
-use crate::{Randomization, Sequence};
+use crate::variation::{Change, Variation};
 
 /// One randomised sequence: a pure function (index, dimension) -> [0, 1).
 ///
@@ -198,6 +197,28 @@ impl PointSet {
             Randomization::Owen if base == 2 => unit_from_digits(OwenKey::new(key).scramble(index)),
             Randomization::DigitalShift => shifted_radical_inverse(base, index, key),
             Randomization::Owen => nested_radical_inverse(base, index, key),
+        }
+    }
+
+    /// A coordinate of varied points.
+    #[inline(never)]
+    pub(crate) fn varied_coordinate(
+        &self,
+        variation: Variation,
+        index: u64,
+        dimension: u32,
+    ) -> f64 {
+        let under = |key| Self::new(self.sequence(), self.randomization(), key);
+        let own = || under(self.key).coordinate(index, dimension);
+        if !(variation.first..variation.end).contains(&dimension) {
+            return own();
+        }
+        match variation.change {
+            Change::Exchange { key } => under(key).coordinate(index, dimension),
+            Change::Move { by } => {
+                let coordinate = own();
+                if coordinate + by < 1.0 { coordinate + by } else { coordinate - by }
+            }
         }
     }
 }

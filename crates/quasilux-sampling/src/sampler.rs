@@ -9,9 +9,10 @@
 //! longer run extends a shorter one, nor on outcomes: decisions keep their coordinates as long as the
 //! distributions before them are the same.
 
-use crate::discrete_sample::{BoolChoice, Choice, choose_bool, choose_weights};
+use crate::discrete::Discrete;
+use crate::discrete_sample::{BoolSample, DiscreteSample, choose_bool, choose_weights};
 use crate::hash::mix;
-use crate::{Discrete, PointSet};
+use crate::point_set::PointSet;
 
 /// Past all dimensions: nothing was made ahead.
 const NONE_AHEAD: u64 = 1 << 32;
@@ -172,24 +173,29 @@ impl<'a> Sampler<'a> {
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-    /// let mut sampler = Sampler::new(&points, 1);
-    /// let heads = (0..16).filter(|_| sampler.choose_bool(0.5)).count();
-    /// assert_eq!(sampler.used(), 2);
-    /// assert!(heads <= 16);
+    /// let tosses = |index| {
+    ///     let mut sampler = Sampler::new(&points, index);
+    ///     let heads = (0..16).filter(|_| sampler.choose_bool(0.5)).count();
+    ///     assert_eq!(sampler.used(), 2);
+    ///     heads
+    /// };
+    /// // Each toss takes one bit of a coordinate, and 256 points have all values of 8 bits equally
+    /// // often: exactly half of the 4096 tosses are heads, a single wrong one shows.
+    /// assert_eq!((0..256).map(tosses).sum::<usize>(), 2048);
     /// ```
     #[inline]
     pub fn choose_bool(&mut self, p_true: f64) -> bool {
         if p_true <= 0.0 || p_true >= 1.0 {
             return p_true > 0.0;
         }
-        let BoolChoice { value, u_remapped } = choose_bool(self.shared_coordinate(1), p_true);
+        let BoolSample { value, u_remapped } = choose_bool(self.shared_coordinate(1), p_true);
         self.leave(u_remapped, 1);
         value
     }
 
     /// Chooses as [`choose_weights`] does, on a coordinate that other choices share; `None`, and
     /// nothing consumed, where it gives `None`.
-    pub fn choose(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<Choice> {
+    pub fn choose(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<DiscreteSample> {
         let entries = weights.clone().filter(|weight| *weight > 0.0).count();
         if entries == 0 {
             return None;
@@ -206,7 +212,7 @@ impl<'a> Sampler<'a> {
 
     /// Chooses from a table, on a coordinate that other choices share.
     #[inline]
-    pub fn sample_discrete(&mut self, distribution: &Discrete) -> Choice {
+    pub fn sample_discrete(&mut self, distribution: &Discrete) -> DiscreteSample {
         let bits = distribution.bits();
         let choice = distribution.sample(self.shared_coordinate(bits));
         self.leave(choice.u_remapped, bits);
@@ -233,7 +239,7 @@ impl<'a> Sampler<'a> {
     /// # let _ = (light, direction);
     /// ```
     #[inline]
-    pub fn choose_leading(&mut self, distribution: &Discrete) -> Choice {
+    pub fn choose_leading(&mut self, distribution: &Discrete) -> DiscreteSample {
         let choice = distribution.sample(self.next_1d());
         let spent = distribution.bits().min(Self::SHARED_BITS);
         self.open = Some(Open { rest: choice.u_remapped, spent });

@@ -19,6 +19,12 @@ pub(crate) fn unit_from_digits(digits: u64) -> f64 {
     unit_from_word(digits.reverse_bits())
 }
 
+/// The coordinate nearest to a number.
+#[inline]
+pub(crate) fn clamp_to_unit(x: f64) -> f64 {
+    x.clamp(0.0, ONE_BELOW)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,90 +1,19 @@
-//! Points that differ from others in some dimensions only: what a value owes to its coordinates.
-//!
-//! The share of the variance of f that hangs on the coordinates u of a point, alone or together with
-//! others, is `E (f(x) - f(x'))^2 / (2 Var f)`, where x' has independent coordinates in u and those of x
-//! elsewhere (Jansen 1999; Saltelli et al. 2010, table 2(f)). How (f(x) - f(x'))^2 falls when x' is moved
-//! by little tells jumps from slopes.
-
-use crate::PointSet;
-use crate::point_set::Generator;
-use std::ops::Range;
+//! Dimensions of a point set whose coordinates are replaced or moved.
 
 /// Dimensions that are not those of the point set itself.
 #[derive(Clone, Copy)]
 pub(crate) struct Variation {
-    first: u32,
-    end: u32,
-    change: Change,
+    /// The first of them.
+    pub(crate) first: u32,
+    /// The first behind them.
+    pub(crate) end: u32,
+    pub(crate) change: Change,
 }
 
 #[derive(Clone, Copy)]
-enum Change {
+pub(crate) enum Change {
     /// Randomised under another key.
     Exchange { key: u64 },
     /// Moved by a step.
     Move { by: f64 },
-}
-
-impl PointSet {
-    /// The same points, but with the coordinates in `dimensions` of the point set under another key.
-    /// All other coordinates keep their bits. Point sets that ignore their key stay as they are. Of
-    /// points that are varied already it varies the original.
-    ///
-    /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, Sequence};
-    /// let [points, others] = [1, 2].map(|key| PointSet::new(Sequence::Sobol, Randomization::Owen, key));
-    /// let mixed = points.exchanged(1..3, 2);
-    /// let from = [&points, &others, &others, &points];
-    /// for (dimension, from) in (0..).zip(from) {
-    ///     assert_eq!(mixed.coordinate(7, dimension), from.coordinate(7, dimension));
-    /// }
-    /// ```
-    #[must_use]
-    pub fn exchanged(self, dimensions: Range<u32>, key: u64) -> Self {
-        self.varied(dimensions, Change::Exchange { key })
-    }
-
-    /// The same points, but with the coordinates in `dimensions` moved up by a step in (0, 1/2), and down
-    /// where that leads out of [0, 1).
-    ///
-    /// ```
-    /// use quasilux_sampling::{PointSet, Randomization, Sequence};
-    /// let points = PointSet::new(Sequence::Sobol, Randomization::None, 0);
-    /// let moved = points.moved(1..2, 0.25);
-    /// assert_eq!([1, 2].map(|index| points.coordinate(index, 1)), [0.5, 0.75]);
-    /// assert_eq!([1, 2].map(|index| moved.coordinate(index, 1)), [0.75, 0.5]);
-    /// assert_eq!(moved.coordinate(1, 0), points.coordinate(1, 0));
-    /// ```
-    #[must_use]
-    pub fn moved(self, dimensions: Range<u32>, by: f64) -> Self {
-        self.varied(dimensions, Change::Move { by })
-    }
-
-    fn varied(mut self, dimensions: Range<u32>, change: Change) -> Self {
-        let Range { start: first, end } = dimensions;
-        self.generator = Generator::Varied(Variation { first, end, change });
-        self
-    }
-
-    /// A coordinate of varied points.
-    #[inline(never)]
-    pub(crate) fn varied_coordinate(
-        &self,
-        variation: Variation,
-        index: u64,
-        dimension: u32,
-    ) -> f64 {
-        let under = |key| Self::new(self.sequence(), self.randomization(), key);
-        let own = || under(self.key).coordinate(index, dimension);
-        if !(variation.first..variation.end).contains(&dimension) {
-            return own();
-        }
-        match variation.change {
-            Change::Exchange { key } => under(key).coordinate(index, dimension),
-            Change::Move { by } => {
-                let coordinate = own();
-                if coordinate + by < 1.0 { coordinate + by } else { coordinate - by }
-            }
-        }
-    }
 }

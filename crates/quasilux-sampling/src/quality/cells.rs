@@ -1,6 +1,6 @@
 //! How many points are in each cell of a square grid: what figures of point sets show.
 
-use super::PointsView;
+use super::points_view::PointsView;
 
 /// The points of one projection to two dimensions, counted in equal square cells.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@
 //! Of `scipy.stats.qmc.discrepancy`, the methods `CD`, `WD` and `MD` are the *squares*
 //! ([`squared_l2_discrepancy`]), and `L2-star` is the discrepancy itself ([`l2_discrepancy`]).
 
-use super::PointsView;
+use super::points_view::PointsView;
 
 /// Which boxes are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -17,14 +17,14 @@ pub mod cells;
 pub mod discrepancy;
 pub mod integrands;
 pub mod pairs;
+mod points_view;
 pub mod slope;
 pub mod star;
-mod view;
 
 pub use cells::{CellCounts, cell_counts};
 pub use discrepancy::{L2Measure, l2_discrepancy, squared_l2_discrepancy};
 pub use integrands::{Integrand, Roughness};
 pub use pairs::{PairMeasure, PairQuality, worst_pairs};
+pub use points_view::PointsView;
 pub use slope::{PowerLaw, fit_power_law};
 pub use star::star_discrepancy;
-pub use view::PointsView;

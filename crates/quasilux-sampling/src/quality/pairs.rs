@@ -1,7 +1,10 @@
 //! Which pair of dimensions is the worst: a set can be even as a whole, and striped in two of its
 //! dimensions.
 
-use super::{L2Measure, PointsView, cell_counts, l2_discrepancy, star_discrepancy};
+use super::cells::cell_counts;
+use super::discrepancy::{L2Measure, l2_discrepancy};
+use super::points_view::PointsView;
+use super::star::star_discrepancy;
 
 /// What makes a pair of dimensions bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

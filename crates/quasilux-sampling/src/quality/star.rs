@@ -5,7 +5,7 @@
 //! (or the far faces of the cube) need be looked at. All but the last dimension are enumerated; the
 //! points, sorted along the last, are then swept once.
 
-use super::PointsView;
+use super::points_view::PointsView;
 
 /// The sweeps may visit this many points in all: some seconds.
 const MAX_VISITS: u64 = 1 << 30;

@@ -8,8 +8,8 @@
 //! are b (b - 1) and not b!. Any two digits go to any two others with equal probability, and the
 //! variance of an estimate depends on pairs alone (J. Matousek, 1998).
 
-use crate::ONE_BELOW;
 use crate::hash::{GOLDEN, mix};
+use crate::unit::ONE_BELOW;
 
 /// The radical inverse with each digit shifted by a random one: d -> d + c modulo b, one c for each
 /// place.

@@ -5,7 +5,7 @@
 //! dimensions the bases are large, and fewer points than the product of two bases leave diagonals
 //! in their plane: use [`Randomization::Owen`](crate::Randomization::Owen) there, or Sobol'.
 
-use super::Radix;
+use super::radix::Radix;
 use std::sync::LazyLock;
 
 /// How many dimensions have a base: all primes to 8161.

@@ -5,9 +5,10 @@
 //! logarithm off the discrepancy.
 
 use crate::hash::{dimension_key, mix};
+use crate::randomization::Randomization;
 use crate::randomization::rotate_unit;
+use crate::unit::ONE_BELOW;
 use crate::unit::unit_from_word;
-use crate::{ONE_BELOW, Randomization};
 
 /// Coordinate 0 of point `index` of `points`.
 pub(crate) fn step(points: u64, index: u64, randomization: Randomization, key: u64) -> f64 {

@@ -14,8 +14,14 @@ pub(crate) use independent::independent_digits;
 pub use radical_inverse::radical_inverse;
 pub(crate) use radix::Radix;
 
+use crate::parse_name_error::ParseNameError;
+use std::fmt;
+use std::str::FromStr;
+
 /// A sequence of points in the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Sequence {
     /// Sobol's sequence (LP-tau): each aligned block of 2^m points fills the cells of a grid
     /// evenly.
@@ -36,24 +42,26 @@ pub enum Sequence {
     /// dimensions are independent.
     Faure4,
     /// Pseudo-random points, by a counter-based generator.
+    #[cfg_attr(feature = "serde", serde(rename = "random"))]
     Independent,
 }
 
 impl Sequence {
+    /// The sequences that need no number of points.
+    pub const ALL: [Self; 4] = [Self::Sobol, Self::Halton, Self::Faure4, Self::Independent];
+
     /// The sequences that need no number of points, by the name that users write.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("sobol", Self::Sobol),
-        ("halton", Self::Halton),
-        ("faure4", Self::Faure4),
-        ("random", Self::Independent),
-    ];
+    pub const NAMES: [(&'static str, Self); 4] = {
+        let [a, b, c, d] = Self::ALL;
+        [(a.name(), a), (b.name(), b), (c.name(), c), (d.name(), d)]
+    };
 
     /// Every sequence for a known number of points, by the name that users write.
     #[must_use]
     pub fn names_for(points: u64) -> [(&'static str, Self); 5] {
-        let [sobol, halton, faure4, random] = Self::NAMES;
+        let [sobol, halton, faure4, independent] = Self::NAMES;
         let hammersley = ("hammersley", Self::Hammersley { points });
-        [sobol, halton, hammersley, faure4, random]
+        [sobol, halton, hammersley, faure4, independent]
     }
 
     /// The name that users write.
@@ -75,5 +83,42 @@ impl Sequence {
             Self::Hammersley { points } => Some(points),
             Self::Sobol | Self::Halton | Self::Faure4 | Self::Independent => None,
         }
+    }
+}
+
+impl fmt::Display for Sequence {
+    /// The name that users write, for Hammersley's points followed by a colon and their number.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Hammersley { points } => f.pad(&format!("hammersley:{points}")),
+            Self::Sobol | Self::Halton | Self::Faure4 | Self::Independent => f.pad(self.name()),
+        }
+    }
+}
+
+impl FromStr for Sequence {
+    type Err = ParseNameError;
+
+    /// The sequence that [`Display`](fmt::Display) writes so.
+    ///
+    /// # Errors
+    /// [`ParseNameError`] for any other text.
+    ///
+    /// ```
+    /// use quasilux_sampling::Sequence;
+    /// assert_eq!("random".parse(), Ok(Sequence::Independent));
+    /// assert_eq!("hammersley:64".parse(), Ok(Sequence::Hammersley { points: 64 }));
+    /// assert!("hammersley".parse::<Sequence>().is_err());
+    /// ```
+    fn from_str(name: &str) -> Result<Self, ParseNameError> {
+        let points = name.strip_prefix("hammersley:").and_then(|points| points.parse().ok());
+        let hammersley = points.map(|points| Self::Hammersley { points });
+        hammersley.or_else(|| Self::ALL.into_iter().find(|kind| kind.name() == name)).ok_or_else(
+            || ParseNameError {
+                kind: "sequence",
+                name: name.to_owned(),
+                expected: "sobol, halton, hammersley:POINTS, faure4, random",
+            },
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! The radical inverse in any base (J. G. van der Corput, "Verteilungsfunktionen", 1935).
 
-use crate::ONE_BELOW;
+use crate::unit::ONE_BELOW;
 
 /// The digits of `index` in a base, mirrored at the point: d0 + d1 b + d2 b^2 + .. becomes d0 / b +
 /// d1 / b^2 + d2 / b^3 + ..

@@ -1,7 +1,7 @@
 //! A base whose radical inverses are made several digits at a time.
 
-use super::radical_inverse;
-use crate::ONE_BELOW;
+use super::radical_inverse::radical_inverse;
+use crate::unit::ONE_BELOW;
 
 /// Digits are taken in groups with at most so many values.
 const MAX_VALUES: u32 = 256;

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
-use super::unit;
+use crate::unit::clamp_to_unit;
 
 /// A point of the unit disk, uniform in area.
 #[must_use]
@@ -41,5 +41,5 @@ pub fn invert_disk(point: [f64; 2]) -> [f64; 2] {
         let centre_rad = FRAC_PI_2.copysign(y);
         ((centre_rad - phi_rad) * 2.0 * FRAC_2_PI * r.copysign(y), r.copysign(y))
     };
-    [unit(0.5 * (a + 1.0)), unit(0.5 * (b + 1.0))]
+    [clamp_to_unit(0.5 * (a + 1.0)), clamp_to_unit(0.5 * (b + 1.0))]
 }

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_1_PI, TAU};
 
+use super::disk::{invert_disk, sample_disk};
 use super::sphere::{direction_at, invert_azimuth};
-use super::{invert_disk, sample_disk, unit};
+use crate::unit::clamp_to_unit;
 
 /// A direction of the upper hemisphere, its density in solid angle proportional to its cosine with
 /// +z.
@@ -48,5 +49,5 @@ pub fn pdf_uniform_hemisphere(direction: [f64; 3]) -> f64 {
 #[must_use]
 pub fn invert_uniform_hemisphere(direction: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = direction;
-    [unit((x * x + y * y) / (1.0 + z)), invert_azimuth(x, y)]
+    [clamp_to_unit((x * x + y * y) / (1.0 + z)), invert_azimuth(x, y)]
 }

@@ -5,7 +5,7 @@
 //! quadratic in the form that does not cancel. Where the density is constant, the marginal is that of
 //! the uniform triangle by square root.
 
-use super::unit;
+use crate::unit::clamp_to_unit;
 
 /// Newton steps and halvings; each step of either kind narrows the bracket, most need five.
 const MAX_STEPS: usize = 64;
@@ -64,7 +64,7 @@ pub fn invert_linear_triangle(corners: [f64; 3], barycentric: [f64; 3]) -> [f64;
     let along = if s > 0.0 { barycentric[2] / s } else { 0.0 };
     let [a, b] = segment(corners, s);
     let share = if a + b > 0.0 { along * (2.0 * a + (b - a) * along) / (a + b) } else { along };
-    [unit(1.0 - below), unit(share)]
+    [clamp_to_unit(1.0 - below), clamp_to_unit(share)]
 }
 
 /// The density at the first corner, and its mean over the opposite edge.
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn the_ends_of_the_square_stay_inside() {
         for corners in CORNERS {
-            for u in [[0.0, 0.0], [0.0, crate::ONE_BELOW], [crate::ONE_BELOW, 0.0]] {
+            for u in [[0.0, 0.0], [0.0, crate::unit::ONE_BELOW], [crate::unit::ONE_BELOW, 0.0]] {
                 let place = sample_linear_triangle(corners, u);
                 assert!(place.iter().all(|w| (0.0..=1.0).contains(w)), "{corners:?} {u:?}");
             }

@@ -21,10 +21,3 @@ pub use hemisphere::{
 pub use linear_triangle::{invert_linear_triangle, pdf_linear_triangle, sample_linear_triangle};
 pub use sphere::{invert_uniform_sphere, pdf_uniform_sphere, sample_uniform_sphere};
 pub use triangle::{invert_triangle, pdf_triangle, sample_triangle};
-
-use crate::ONE_BELOW;
-
-/// The nearest coordinate.
-fn unit(x: f64) -> f64 {
-    x.clamp(0.0, ONE_BELOW)
-}

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-use super::unit;
+use crate::unit::clamp_to_unit;
 
 /// A direction, uniform in solid angle.
 ///
@@ -23,7 +23,7 @@ pub fn pdf_uniform_sphere(_direction: [f64; 3]) -> f64 {
 pub fn invert_uniform_sphere(direction: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = direction;
     let depth = if z > 0.0 { (x * x + y * y) / (1.0 + z) } else { 1.0 - z };
-    [unit(0.5 * depth), invert_azimuth(x, y)]
+    [clamp_to_unit(0.5 * depth), invert_azimuth(x, y)]
 }
 
 /// The direction at `depth` = 1 - z below the pole and `turns` about it. sin^2 = depth (2 - depth)
@@ -37,5 +37,5 @@ pub(super) fn direction_at(depth: f64, turns: f64) -> [f64; 3] {
 /// The azimuth of (x, y) in turns, in [0, 1).
 pub(super) fn invert_azimuth(x: f64, y: f64) -> f64 {
     let turns = libm::atan2(y, x) / TAU;
-    unit(if turns < 0.0 { turns + 1.0 } else { turns })
+    clamp_to_unit(if turns < 0.0 { turns + 1.0 } else { turns })
 }

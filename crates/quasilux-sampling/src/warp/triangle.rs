@@ -4,7 +4,7 @@
 //! its diagonal, one linear map on each side; continuous, with constant Jacobian, and without a
 //! root.
 
-use super::unit;
+use crate::unit::clamp_to_unit;
 
 /// Barycentric coordinates of a point of a triangle, uniform in area.
 #[must_use]
@@ -24,5 +24,9 @@ pub fn pdf_triangle(area_m2: f64) -> f64 {
 #[must_use]
 pub fn invert_triangle(barycentric: [f64; 3]) -> [f64; 2] {
     let [b0, b1, _] = barycentric;
-    if b1 > b0 { [unit(2.0 * b0), unit(b0 + b1)] } else { [unit(b0 + b1), unit(2.0 * b1)] }
+    if b1 > b0 {
+        [clamp_to_unit(2.0 * b0), clamp_to_unit(b0 + b1)]
+    } else {
+        [clamp_to_unit(b0 + b1), clamp_to_unit(2.0 * b1)]
+    }
 }

@@ -2,7 +2,7 @@
 
 use quasilux_sampling::{Sampler, assignment};
 
-use crate::support::{assert_mean, mean_and_error, random};
+use crate::support::{SampleMean, assert_mean, random, sample_mean};
 
 const SURVIVAL: f64 = 2.0 / 3.0;
 
@@ -42,7 +42,7 @@ fn sharing_saves_two_coordinates_of_nine() {
         let points = random(seed);
         let used: Vec<f64> =
             (0..1 << 16).map(|index| walk(Sampler::new(&points, index), is_fixed)).collect();
-        let (mean, standard_error) = mean_and_error(&used);
+        let SampleMean { mean, standard_error } = sample_mean(&used);
         assert_mean(mean, expected, standard_error, "coordinates of a walk");
     }
 }

@@ -25,10 +25,16 @@ fn mean(points: &PointSet, count: u64) -> f64 {
     sum / count as f64
 }
 
+/// The root mean square error of 2^m points.
+struct ErrorAt {
+    m: u32,
+    error: f64,
+}
+
 /// Slope of the error over the number of points, in logarithms.
-fn slope(errors: impl Iterator<Item = (u32, f64)>) -> f64 {
+fn slope(errors: impl Iterator<Item = ErrorAt>) -> f64 {
     let points: Vec<[f64; 2]> =
-        errors.map(|(m, error)| [f64::from(m), libm::log2(error)]).collect();
+        errors.map(|ErrorAt { m, error }| [f64::from(m), libm::log2(error)]).collect();
     least_squares_slope(&points)
 }
 
@@ -46,7 +52,7 @@ fn replicate_slope(
             let error = mean(&points, 1 << m) - 1.0;
             error * error
         });
-        (m, (squares.sum::<f64>() / f64::from(replicates)).sqrt())
+        ErrorAt { m, error: (squares.sum::<f64>() / f64::from(replicates)).sqrt() }
     }))
 }
 
@@ -88,7 +94,7 @@ fn pseudo_random_errors_fall_like_the_root() {
             let error = mean(&points, 1 << m) - 1.0;
             error * error
         });
-        (m, (squares.sum::<f64>() / 1024.0).sqrt())
+        ErrorAt { m, error: (squares.sum::<f64>() / 1024.0).sqrt() }
     }));
     println!("slope of pseudo-random: {random:.3}");
     assert!((random + 0.5).abs() < 0.05, "pseudo-random: N^{random}");
@@ -99,7 +105,8 @@ fn pseudo_random_errors_fall_like_the_root() {
 fn plain_sequences_fall_nearly_like_the_inverse() {
     for sequence in [Sequence::Sobol, Sequence::Halton, Sequence::Faure4] {
         let points = PointSet::new(sequence, Randomization::None, 0);
-        let plain = slope((4..=20).map(|m| (m, (mean(&points, 1 << m) - 1.0).abs())));
+        let plain =
+            slope((4..=20).map(|m| ErrorAt { m, error: (mean(&points, 1 << m) - 1.0).abs() }));
         println!("slope of plain {}: {plain:.3}", sequence.name());
         assert!(plain < -0.9, "{}: N^{plain}", sequence.name());
     }

@@ -3,7 +3,7 @@
 use quasilux_sampling::quality::{Integrand, Roughness};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 
-use crate::support::{assert_mean, mean_and_error};
+use crate::support::{SampleMean, assert_mean, sample_mean};
 
 /// Eight-point Gauss-Legendre nodes and weights on [-1, 1] (Abramowitz and Stegun, table 25.4).
 const GAUSS: [[f64; 2]; 4] = [
@@ -114,7 +114,7 @@ fn integrals_equal_means_over_scrambled_points() {
                 (0..1 << 12).map(value).sum::<f64>() / 4096.0
             })
             .collect();
-        let (mean, error) = mean_and_error(&means);
+        let SampleMean { mean, standard_error: error } = sample_mean(&means);
         println!("{}: {mean} +- {error:e}", integrand.name());
         assert!(error < 5e-3 * integrand.integral());
         assert_mean(mean, integrand.integral(), error, integrand.name());

@@ -5,7 +5,7 @@
 
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 
-use crate::support::{SIGNIFICANCE, assert_mean, assert_uniform, mean_and_error, sobol};
+use crate::support::{SIGNIFICANCE, SampleMean, assert_mean, assert_uniform, sample_mean, sobol};
 
 fn owen(key: u64) -> PointSet {
     PointSet::new(Sequence::Sobol, Randomization::Owen, key)
@@ -114,7 +114,7 @@ fn variance_is_that_of_independent_strata() {
                 12.0 * sum * sum * count as f64
             })
             .collect();
-        let (mean, error) = mean_and_error(&squares);
+        let SampleMean { mean, standard_error: error } = sample_mean(&squares);
         assert_mean(mean, 1.0, error, "relative variance of the mean");
     }
 }
@@ -145,8 +145,8 @@ fn errors_are_those_of_exact_nested_scrambling() {
             })
             .collect()
     };
-    let (exact, exact_error) = mean_and_error(&errors(true));
-    let (hashed, hashed_error) = mean_and_error(&errors(false));
+    let SampleMean { mean: exact, standard_error: exact_error } = sample_mean(&errors(true));
+    let SampleMean { mean: hashed, standard_error: hashed_error } = sample_mean(&errors(false));
     println!("mean squared errors: exact {exact:e}, hashed {hashed:e}");
     let error = (exact_error * exact_error + hashed_error * hashed_error).sqrt();
     assert!(error < 0.02 * exact);

@@ -120,3 +120,19 @@ fn names_are_the_names() {
     assert!(Randomization::NAMES.iter().all(|(name, kind)| *name == kind.name()));
     assert_eq!(Randomization::NAMES.map(|(_, kind)| kind), RANDOMIZATIONS);
 }
+
+/// Every name is read back as what it names, and nothing close to a name is.
+#[test]
+fn names_are_read_back() {
+    for (name, sequence) in Sequence::names_for(7) {
+        assert_eq!(sequence.to_string().parse(), Ok(sequence));
+        assert_eq!(sequence.to_string().split(':').next(), Some(name));
+    }
+    for randomization in Randomization::ALL {
+        assert_eq!(randomization.to_string().parse(), Ok(randomization));
+    }
+    for wrong in ["", "Sobol", "sobol ", "hammersley", "hammersley:", "hammersley:-1"] {
+        assert!(wrong.parse::<Sequence>().is_err(), "{wrong}");
+        assert!(wrong.parse::<Randomization>().is_err(), "{wrong}");
+    }
+}

@@ -93,12 +93,17 @@ pub(crate) fn assert_mean(mean: f64, expected: f64, standard_error: f64, what: &
     );
 }
 
-/// Mean and its standard error.
-pub(crate) fn mean_and_error(values: &[f64]) -> (f64, f64) {
+/// A mean, and its standard error from the spread of the values.
+pub(crate) struct SampleMean {
+    pub(crate) mean: f64,
+    pub(crate) standard_error: f64,
+}
+
+pub(crate) fn sample_mean(values: &[f64]) -> SampleMean {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
-    (mean, (squares / (n - 1.0) / n).sqrt())
+    SampleMean { mean, standard_error: (squares / (n - 1.0) / n).sqrt() }
 }
 
 /// The chi-square test must reject a density that is 2 % too high in one half and 2 % too low in
