@@ -199,3 +199,40 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         drawn
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Stream;
+
+    /// Small numbers, powers of two and their neighbours, all below `end`.
+    fn numbers(end: u64) -> impl Iterator<Item = u64> + Clone {
+        let powers = (9..64).flat_map(|k| [(1 << k) - 1, 1 << k, (1 << k) + 1]);
+        (0..256).chain(powers).filter(move |number| *number < end)
+    }
+
+    /// No two streams of a scene share a number, and so coordinates: all streams without a number
+    /// of their own, and those of the first 2^40 points and groups, 62 surveys and 2^20 cameras,
+    /// at the numbers that bits can confuse. A single pair that shares one is found.
+    #[test]
+    fn streams_have_numbers_of_their_own() {
+        use Stream::{
+            CoarsePhotons, FirstShotPilots, HiddenPhotons, JoinedPhotons, JoinedPlaces, MapPilots,
+            Paths, Photons, PlanPhotons, SteeringPilots, Survey,
+        };
+        let single =
+            [Photons, PlanPhotons, MapPilots, FirstShotPilots, SteeringPilots, HiddenPhotons];
+        let pixels = numbers(1 << 20).flat_map(|camera| {
+            numbers(1 << 32)
+                .map(move |pixel| Stream::Pixel { camera: camera as u32, pixel: pixel as u32 })
+        });
+        let numbered = numbers(1 << 40)
+            .flat_map(|number| [JoinedPhotons(number), JoinedPlaces(number), Paths(number)]);
+        let streams = single.into_iter().chain([CoarsePhotons]).chain(numbered);
+        let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
+        let mut ids: Vec<u64> = streams.map(Stream::id).collect();
+        let count = ids.len();
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids.len(), count, "two streams share a number");
+    }
+}
