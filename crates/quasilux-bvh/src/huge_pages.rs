@@ -1,9 +1,9 @@
-//! Lists in large pages.
+//! Allocations in huge pages (2 MiB), where the system has them.
 //!
-//! A ray touches memory all over a hierarchy; with pages of 4 KiB most of these touches miss the
-//! processor's table of pages as well as its caches.
+//! A ray touches memory all over a hierarchy. With pages of 4 KiB most of these accesses miss the
+//! translation lookaside buffer as well as the caches.
 
-/// An empty list with room for so many elements, in large pages where the system has them.
+/// An empty vector with room for `capacity` elements, in huge pages where the system has them.
 pub(crate) fn vec_in_huge_pages<T>(capacity: usize) -> Vec<T> {
     let list = Vec::with_capacity(capacity);
     #[cfg(target_os = "linux")]
@@ -13,23 +13,18 @@ pub(crate) fn vec_in_huge_pages<T>(capacity: usize) -> Vec<T> {
 
 #[cfg(target_os = "linux")]
 mod linux {
-    use std::ffi::{c_int, c_void};
+    use std::ffi::c_void;
 
-    const LARGE_PAGE: usize = 1 << 21;
-    const MADV_HUGEPAGE: c_int = 14;
+    const HUGE_PAGE_BYTES: usize = 1 << 21;
 
-    unsafe extern "C" {
-        fn madvise(start: *mut c_void, length: usize, advice: c_int) -> c_int;
-    }
-
-    /// Asks for large pages for all of them that lie inside.
+    /// Asks for huge pages for the part of an allocation that whole ones fit into.
     pub(super) fn advise(start: usize, length: usize) {
-        let first = start.next_multiple_of(LARGE_PAGE);
-        let end = (start + length) / LARGE_PAGE * LARGE_PAGE;
+        let first = start.next_multiple_of(HUGE_PAGE_BYTES);
+        let end = (start + length) / HUGE_PAGE_BYTES * HUGE_PAGE_BYTES;
         if first < end {
-            // SAFETY: the pages belong to an allocation of ours, and this advice leaves what is in
-            // them as it is. Where it fails, pages stay small.
-            unsafe { madvise(first as *mut c_void, end - first, MADV_HUGEPAGE) };
+            // SAFETY: the pages belong to an allocation of this crate, and the advice leaves their
+            // contents as they are. Where it fails, pages stay small.
+            unsafe { libc::madvise(first as *mut c_void, end - first, libc::MADV_HUGEPAGE) };
         }
     }
 }
