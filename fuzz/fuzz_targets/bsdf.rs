@@ -2,18 +2,18 @@
 
 #![no_main]
 
-#[allow(dead_code, reason = "numbered files are for the test suite")]
-#[path = "../../crates/quasilux-photometry/tests/damage/mod.rs"]
+#[allow(dead_code, reason = "seeds from published files are for the test suite")]
+#[path = "../../crates/quasilux-bsdf/tests/damage/mod.rs"]
 mod damage;
-mod steering;
+mod mutation;
 
-use damage::{Format, examine};
+use damage::{examine, samples};
 use libfuzzer_sys::{fuzz_mutator, fuzz_target};
 
 fuzz_target!(|bytes: &[u8]| {
-    examine(Format::Bsdf, bytes);
+    examine(bytes);
 });
 
 fuzz_mutator!(|bytes: &mut [u8], length: usize, room: usize, key: u32| {
-    steering::change(Format::Bsdf, bytes, length, room, key)
+    mutation::change(samples, bytes, length, room, key)
 });

@@ -2,10 +2,10 @@
 
 #![no_main]
 
-#[allow(dead_code, reason = "numbered files are for the test suite")]
+#[allow(dead_code, reason = "seeds from published files are for the test suite")]
 #[path = "../../crates/quasilux-photometry/tests/damage/mod.rs"]
 mod damage;
-mod steering;
+mod mutation;
 
 use damage::{Format, examine};
 use libfuzzer_sys::{fuzz_mutator, fuzz_target};
@@ -15,5 +15,5 @@ fuzz_target!(|bytes: &[u8]| {
 });
 
 fuzz_mutator!(|bytes: &mut [u8], length: usize, room: usize, key: u32| {
-    steering::change(Format::Ies, bytes, length, room, key)
+    mutation::change(|| Format::Ies.samples(), bytes, length, room, key)
 });

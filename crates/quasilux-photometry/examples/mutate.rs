@@ -2,13 +2,14 @@
 //!
 //!     cargo run --release -p quasilux-photometry --example mutate -- 1000000
 //!
-//! The numbers of the files go on from a second argument (0 without it), and a third one names a format (Ies, Ldt, Tm33 or Bsdf), so
+//! The numbers of the files go on from a second argument (0 without it), and a third one names a format (Ies, Ldt or Tm33), so
 //! that runs can share the work. A panic names the file.
 
 #[path = "../tests/damage/mod.rs"]
 mod damage;
 
-use damage::{Format, Outcome, Seeds, examine_damaged};
+use damage::{Format, Outcome, examine};
+use quasilux_stats::damage::examine_damaged;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -30,11 +31,12 @@ fn main() -> ExitCode {
 }
 
 fn run(format: Format, indices: std::ops::Range<u64>) {
-    let seeds = Seeds::with_published(format);
+    let seeds = format.seeds();
     let count = indices.end - indices.start;
     let (mut read, mut max_bytes) = (0_u64, 0);
     for index in indices {
-        let Outcome { is_read, peak_bytes } = examine_damaged(format, &seeds, index);
+        let Outcome { is_read, peak_bytes } =
+            examine_damaged(&seeds, index, |bytes| examine(format, bytes));
         read += u64::from(is_read);
         max_bytes = max_bytes.max(peak_bytes);
     }

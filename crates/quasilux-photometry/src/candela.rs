@@ -1,8 +1,8 @@
 //! Intensities as files write them: factors, signs and sizes, and the plane that closes the turn.
 
-use crate::number::Number;
-use crate::report::{Position, Warnings};
-use crate::{Deviation, Grid, ReadError, Symmetry};
+use crate::warning::{WarningKind, Warnings};
+use crate::{Grid, Symmetry};
+use quasilux_text::{Number, ParseError, Position};
 
 /// No file means more; sums of intensities stay far from overflow.
 const LARGEST_INTENSITY_CD: f64 = 1e18;
@@ -15,15 +15,15 @@ pub(crate) fn intensity_cd(
     written: Number,
     factor: f64,
     warnings: &mut Warnings,
-) -> Result<f64, ReadError> {
+) -> Result<f64, ParseError> {
     if written.value < 0.0 {
         let expected = "intensities of 0 or more (read as 0)";
-        warnings.push(Deviation::NegativeCandela, written.at, written.value, expected);
+        warnings.push(WarningKind::NegativeCandela, written.at, written.value, expected);
     }
     let intensity_cd = written.value.max(0.0) * factor;
     if intensity_cd > LARGEST_INTENSITY_CD {
         let found = format!("an intensity of {intensity_cd:e} cd");
-        return Err(ReadError::new(written.at, found, "no more than 1e18 cd"));
+        return Err(ParseError::new(written.at, found, "no more than 1e18 cd"));
     }
     Ok(intensity_cd)
 }
@@ -44,6 +44,6 @@ pub(crate) fn check_closing(grid: &Grid, at: Position, warnings: &mut Warnings) 
         let found =
             format_args!("a closing plane that differs by up to {difference} cd").to_string();
         let expected = "the values of the first plane (both are kept)";
-        warnings.push(Deviation::ClosingPlaneDiffers, at, found, expected);
+        warnings.push(WarningKind::ClosingPlaneDiffers, at, found, expected);
     }
 }

@@ -1,7 +1,8 @@
 //! Which format a file has, told by its content.
 
-use crate::report::Warnings;
-use crate::{Read, ReadError, read_ies, read_ldt, read_tm33, text};
+use crate::warning::Warnings;
+use crate::{Parsed, read_ies, read_ldt, read_tm33};
+use quasilux_text::{ParseError, decode, lines};
 
 /// The formats of luminaire files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,8 +26,8 @@ impl Format {
     /// as `TILT=` does is a name. `None` where there is no such mark.
     pub fn of_content(bytes: &[u8]) -> Option<Self> {
         let start = &bytes[..bytes.len().min(MAX_SEARCHED)];
-        let text = text::decode(start, &mut Warnings::default());
-        let lines: Vec<&str> = text::lines(&text).collect();
+        let text = decode(start, &mut Warnings::default());
+        let lines: Vec<&str> = lines(&text).collect();
         let first = lines.iter().map(|line| line.trim()).find(|line| !line.is_empty())?;
         let begins = |line: &str, mark: &str| {
             line.get(..mark.len()).is_some_and(|head| head.eq_ignore_ascii_case(mark))
@@ -79,7 +80,7 @@ impl Format {
     }
 
     /// Reads a file of this format.
-    pub fn read(self, bytes: &[u8]) -> Result<Read, ReadError> {
+    pub fn read(self, bytes: &[u8]) -> Result<Parsed, ParseError> {
         match self {
             Self::Lm63 => read_ies(bytes),
             Self::Eulumdat => read_ldt(bytes),

@@ -1,4 +1,4 @@
-//! Measured photometry: luminaire files, measured surfaces, spherical tables, exact sampling.
+//! Measured photometry: luminaire files, spherical tables, exact sampling.
 //!
 //! A file is read ([`read_ies`], [`read_ldt`], [`read_tm33`]) into a [`Photometry`]: intensities over directions, with the facts
 //! of the header. Behind it stands a [`SphericalTable`], bilinear on a grid of spherical angles,
@@ -18,38 +18,32 @@
 //! let flux_lm = read.photometry.flux_lm();
 //! assert!((flux_lm - 400.0 * std::f64::consts::PI).abs() < 1e-9);
 //! assert_eq!(read.photometry.intensity_cd(DVec3::NEG_Z), 100.0);
-//! # Ok::<(), quasilux_photometry::ReadError>(())
+//! # Ok::<(), quasilux_photometry::ParseError>(())
 //! ```
 //!
-//! Measured surfaces are read by [`bsdf::read_bsdf`] into a [`bsdf::MeasuredBsdf`], whose tables are
-//! sampled in the same way.
-//!
-//! What a reader tolerates beyond the standard is listed in [`Deviation`]; each case is reported as
+//! What a reader tolerates beyond the standard is listed in [`WarningKind`]; each case is reported as
 //! a [`Warning`]. Any bytes may be given: readers do not panic, and take no more memory than
-//! [`most_read_memory_bytes`], those of surfaces [`most_bsdf_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
+//! [`max_read_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
 //! table. The formats stand line by line in [`formats`].
 
 pub mod analysis;
 mod angles;
-pub mod bsdf;
-mod candela;
+pub mod candela;
 mod facts;
 mod file_format;
 pub mod formats;
 mod ies;
 mod ldt;
 mod memory;
-mod number;
+mod parsed;
 mod photometry;
-mod report;
 mod shape;
 mod table;
-mod text;
 mod tilt;
 mod tm33;
+mod warning;
 mod web;
 mod write;
-mod xml;
 
 pub use analysis::Analysis;
 pub use facts::{
@@ -59,12 +53,14 @@ pub use facts::{
 pub use file_format::Format;
 pub use ies::{ReadTilt, read_ies, read_tilt, write_ies};
 pub use ldt::{read_ldt, write_ldt};
-pub use memory::{most_bsdf_memory_bytes, most_read_memory_bytes};
+pub use memory::max_read_memory_bytes;
+pub use parsed::Parsed;
 pub use photometry::Photometry;
-pub use report::{Deviation, Read, ReadError, Warning};
+pub use quasilux_text::{ParseError, Position};
 pub use shape::{Axis, LuminousShape, Solid, SurfacePoint};
 pub use table::{Angles, DirectionSample, Grid, Maximum, SphericalTable, Symmetry, TableError};
 pub use tilt::{TiltFactor, TiltSupport};
 pub use tm33::read_tm33;
+pub use warning::{Warning, WarningKind};
 pub use web::{Web, WebAngles};
-pub use write::{Note, Written};
+pub use write::{Encoded, Note};

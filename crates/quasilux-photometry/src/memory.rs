@@ -13,23 +13,6 @@ const BYTES_BESIDES: usize = 32 * 1024;
 /// It holds for any bytes, not only for files as they should be. The bytes themselves, which are
 /// the caller's, are not counted.
 #[must_use]
-pub const fn most_read_memory_bytes(file_bytes: usize) -> usize {
+pub const fn max_read_memory_bytes(file_bytes: usize) -> usize {
     BYTES_PER_BYTE.saturating_mul(file_bytes).saturating_add(BYTES_BESIDES)
-}
-
-/// Bytes for the grids that values of a surface are resampled to, however few those are.
-const BYTES_OF_GRIDS: usize = 128 << 20;
-
-/// Bytes of readers of measured surfaces for each byte of a file. The greediest known take 45: XML of empty elements.
-const BYTES_PER_BYTE_OF_SURFACES: usize = 48;
-
-/// The same for readers of measured surfaces: they may resample values to finer grids.
-///
-/// It is a bound for any bytes. Tables as programs write them take 1 to 7 bytes a byte, whatever the format: one of 200 MB less than
-/// 1.6 GB, the file included (`docs/memory.md`, `examples/surface_memory.rs`).
-#[must_use]
-pub const fn most_bsdf_memory_bytes(file_bytes: usize) -> usize {
-    BYTES_PER_BYTE_OF_SURFACES
-        .saturating_mul(file_bytes)
-        .saturating_add(BYTES_BESIDES + BYTES_OF_GRIDS)
 }

@@ -9,6 +9,7 @@
 //! the smallest error that it would detect.
 
 mod chi_square;
+pub mod damage;
 mod distributions;
 mod jacobian;
 mod slope;

@@ -4,15 +4,23 @@ use crate::Violation;
 use toml::Table;
 
 /// The crates from the ground up, and what each may use of the others.
-const MAY_USE: [(&str, &[&str]); 8] = [
+const MAY_USE: [(&str, &[&str]); 10] = [
     ("quasilux-sampling", &[]),
     ("quasilux-bvh", &[]),
     ("quasilux-stats", &[]),
-    ("quasilux-photometry", &["quasilux-sampling"]),
-    ("quasilux-scene", &["quasilux-photometry"]),
+    ("quasilux-text", &[]),
+    ("quasilux-photometry", &["quasilux-sampling", "quasilux-text"]),
+    ("quasilux-bsdf", &["quasilux-photometry", "quasilux-sampling", "quasilux-text"]),
+    ("quasilux-scene", &["quasilux-bsdf", "quasilux-photometry", "quasilux-text"]),
     (
         "quasilux-transport",
-        &["quasilux-scene", "quasilux-sampling", "quasilux-bvh", "quasilux-photometry"],
+        &[
+            "quasilux-scene",
+            "quasilux-sampling",
+            "quasilux-bvh",
+            "quasilux-bsdf",
+            "quasilux-photometry",
+        ],
     ),
     ("quasilux-measure", &["quasilux-transport", "quasilux-scene"]),
     (
@@ -20,7 +28,9 @@ const MAY_USE: [(&str, &[&str]); 8] = [
         &[
             "quasilux-sampling",
             "quasilux-bvh",
+            "quasilux-text",
             "quasilux-photometry",
+            "quasilux-bsdf",
             "quasilux-scene",
             "quasilux-transport",
             "quasilux-measure",

@@ -78,22 +78,22 @@
 //! | [`ZeroLightOutputRatio`] | the flux is not compared | `23:1: found 0; expected a light output ratio in % (the flux is not compared with it)` |
 //! | [`MeasurementTilt`] | kept as a fact, turns nothing | `25:1: found a tilt of 15 degrees during measurement; expected 0 (the tilt is not applied: the luminaire is taken as measured)` |
 //!
-//! [`Encoding`]: crate::Deviation::Encoding
-//! [`ByteOrderMark`]: crate::Deviation::ByteOrderMark
-//! [`CountWithPoint`]: crate::Deviation::CountWithPoint
-//! [`VerticalRange`]: crate::Deviation::VerticalRange
-//! [`NegativeCandela`]: crate::Deviation::NegativeCandela
-//! [`TrailingText`]: crate::Deviation::TrailingText
-//! [`NoLight`]: crate::Deviation::NoLight
-//! [`FluxDiffers`]: crate::Deviation::FluxDiffers
-//! [`DecimalComma`]: crate::Deviation::DecimalComma
-//! [`EmptyNumber`]: crate::Deviation::EmptyNumber
-//! [`AngleDistance`]: crate::Deviation::AngleDistance
-//! [`SinglePlaneWithoutSymmetry`]: crate::Deviation::SinglePlaneWithoutSymmetry
-//! [`ClosingPlaneGiven`]: crate::Deviation::ClosingPlaneGiven
-//! [`PlanesMissing`]: crate::Deviation::PlanesMissing
-//! [`SeveralLampSets`]: crate::Deviation::SeveralLampSets
-//! [`ZeroLampCount`]: crate::Deviation::ZeroLampCount
-//! [`ZeroConversionFactor`]: crate::Deviation::ZeroConversionFactor
-//! [`ZeroLightOutputRatio`]: crate::Deviation::ZeroLightOutputRatio
-//! [`MeasurementTilt`]: crate::Deviation::MeasurementTilt
+//! [`Encoding`]: crate::WarningKind::Encoding
+//! [`ByteOrderMark`]: crate::WarningKind::ByteOrderMark
+//! [`CountWithPoint`]: crate::WarningKind::CountWithPoint
+//! [`VerticalRange`]: crate::WarningKind::VerticalRange
+//! [`NegativeCandela`]: crate::WarningKind::NegativeCandela
+//! [`TrailingText`]: crate::WarningKind::TrailingText
+//! [`NoLight`]: crate::WarningKind::NoLight
+//! [`FluxDiffers`]: crate::WarningKind::FluxDiffers
+//! [`DecimalComma`]: crate::WarningKind::DecimalComma
+//! [`EmptyNumber`]: crate::WarningKind::EmptyNumber
+//! [`AngleDistance`]: crate::WarningKind::AngleDistance
+//! [`SinglePlaneWithoutSymmetry`]: crate::WarningKind::SinglePlaneWithoutSymmetry
+//! [`ClosingPlaneGiven`]: crate::WarningKind::ClosingPlaneGiven
+//! [`PlanesMissing`]: crate::WarningKind::PlanesMissing
+//! [`SeveralLampSets`]: crate::WarningKind::SeveralLampSets
+//! [`ZeroLampCount`]: crate::WarningKind::ZeroLampCount
+//! [`ZeroConversionFactor`]: crate::WarningKind::ZeroConversionFactor
+//! [`ZeroLightOutputRatio`]: crate::WarningKind::ZeroLightOutputRatio
+//! [`MeasurementTilt`]: crate::WarningKind::MeasurementTilt

@@ -81,12 +81,12 @@
 //! | `InputWattage` | `InputWatts` |
 //! | `LuminousFlux` | `MeasuredLumens` of the emitter |
 //!
-//! [`MissingElement`]: crate::Deviation::MissingElement
-//! [`ForeignElement`]: crate::Deviation::ForeignElement
-//! [`WordSpelling`]: crate::Deviation::WordSpelling
-//! [`SymmetryDiffers`]: crate::Deviation::SymmetryDiffers
-//! [`CountDiffers`]: crate::Deviation::CountDiffers
-//! [`SeveralEmitters`]: crate::Deviation::SeveralEmitters
-//! [`EmitterWithoutLight`]: crate::Deviation::EmitterWithoutLight
-//! [`AbsoluteBallastFactor`]: crate::Deviation::AbsoluteBallastFactor
-//! [`OpeningInMillimetres`]: crate::Deviation::OpeningInMillimetres
+//! [`MissingElement`]: crate::WarningKind::MissingElement
+//! [`ForeignElement`]: crate::WarningKind::ForeignElement
+//! [`WordSpelling`]: crate::WarningKind::WordSpelling
+//! [`SymmetryDiffers`]: crate::WarningKind::SymmetryDiffers
+//! [`CountDiffers`]: crate::WarningKind::CountDiffers
+//! [`SeveralEmitters`]: crate::WarningKind::SeveralEmitters
+//! [`EmitterWithoutLight`]: crate::WarningKind::EmitterWithoutLight
+//! [`AbsoluteBallastFactor`]: crate::WarningKind::AbsoluteBallastFactor
+//! [`OpeningInMillimetres`]: crate::WarningKind::OpeningInMillimetres

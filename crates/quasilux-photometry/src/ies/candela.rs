@@ -1,9 +1,9 @@
 //! The candela values: plane by plane in the file, angle by angle in the table.
 
 use super::numbers::Numbers;
-use crate::ReadError;
 use crate::candela::intensity_cd;
-use crate::report::Warnings;
+use crate::warning::Warnings;
+use quasilux_text::ParseError;
 
 /// The candela values as they stand in the file.
 pub(super) struct Planes {
@@ -21,7 +21,7 @@ impl Planes {
         &self,
         numbers: &mut Numbers<'_>,
         warnings: &mut Warnings,
-    ) -> Result<Vec<f64>, ReadError> {
+    ) -> Result<Vec<f64>, ParseError> {
         let mut intensities_cd = vec![0.0; self.verticals * self.horizontals];
         for plane in 0..self.horizontals {
             numbers.start_record("the candela values of each plane", warnings);

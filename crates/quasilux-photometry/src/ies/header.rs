@@ -1,7 +1,8 @@
 //! The lines before the numbers: edition, keywords, `TILT=`.
 
-use crate::report::{Position, Warnings, quoted};
-use crate::{Deviation, IesStandard, Keyword, ReadError};
+use crate::warning::{WarningKind, Warnings};
+use crate::{IesStandard, Keyword};
+use quasilux_text::{ParseError, Position, quoted};
 
 /// What stands before the numbers.
 pub(super) struct Header<'t> {
@@ -23,20 +24,20 @@ pub(super) enum TiltLine<'t> {
 pub(super) fn read_header<'t>(
     lines: &[&'t str],
     warnings: &mut Warnings,
-) -> Result<Header<'t>, ReadError> {
+) -> Result<Header<'t>, ParseError> {
     let Some(first) = lines.iter().position(|line| !line.trim().is_empty()) else {
         let at = Position { line: 1, column: 1 };
-        return Err(ReadError::new(at, "an empty file", "an IES LM-63 file"));
+        return Err(ParseError::new(at, "an empty file", "an IES LM-63 file"));
     };
     let Some(tilt_line) = lines.iter().position(|line| tilt_value(line).is_some()) else {
         let last = lines.len();
         let at = Position { line: last, column: lines[last - 1].chars().count() + 1 };
         let expected = "a line TILT=NONE, TILT=INCLUDE or TILT=<file> (is this an IES LM-63 file?)";
-        return Err(ReadError::new(at, "the end of the file", expected));
+        return Err(ParseError::new(at, "the end of the file", expected));
     };
     if first > 0 {
         let at = Position { line: 1, column: 1 };
-        warnings.push(Deviation::LeadingBlankLine, at, "an empty line", "the identifying line");
+        warnings.push(WarningKind::LeadingBlankLine, at, "an empty line", "the identifying line");
     }
 
     let (standard, is_identifying) = if first < tilt_line {
@@ -53,7 +54,7 @@ pub(super) fn read_header<'t>(
         || value != value.to_ascii_uppercase() && is_word(value)
     {
         warnings.push(
-            Deviation::TiltSpelling,
+            WarningKind::TiltSpelling,
             at,
             quoted(lines[tilt_line]),
             "TILT= in capitals, without blanks",
@@ -63,7 +64,7 @@ pub(super) fn read_header<'t>(
         "NONE" => TiltLine::None,
         "INCLUDE" => TiltLine::Include,
         "" => {
-            return Err(ReadError::new(
+            return Err(ParseError::new(
                 at,
                 "TILT= with nothing behind it",
                 "NONE, INCLUDE or the name of a file",
@@ -98,7 +99,7 @@ fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard,
         _ if compact.starts_with("IESNA") || year.is_some() => {
             let at = Position { line: number, column: 1 };
             let expected = "an edition between IESNA91 and IES:LM-63-2019 (read as LM-63-2002)";
-            warnings.push(Deviation::UnknownStandard, at, quoted(line), expected);
+            warnings.push(WarningKind::UnknownStandard, at, quoted(line), expected);
             return (IesStandard::Lm63Of2002, true);
         }
         _ => return (IesStandard::Lm63Of1986, false),
@@ -107,7 +108,7 @@ fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard,
         let at = Position { line: number, column: 1 };
         let expected =
             if spelling.is_empty() { "no identifying line in LM-63-1986" } else { spelling };
-        warnings.push(Deviation::IdentifyingLine, at, quoted(line), expected);
+        warnings.push(WarningKind::IdentifyingLine, at, quoted(line), expected);
     }
     (standard, true)
 }
@@ -129,7 +130,7 @@ fn read_keywords(
                 if standard > IesStandard::Lm63Of1986 {
                     let at = Position { line: index + 1, column: 1 };
                     let expected = "a keyword in brackets (kept as a label)";
-                    warnings.push(Deviation::LabelWithoutKeyword, at, quoted(text), expected);
+                    warnings.push(WarningKind::LabelWithoutKeyword, at, quoted(text), expected);
                 }
                 (String::new(), text)
             }
@@ -154,17 +155,17 @@ mod tests {
         let edition = |line| {
             let mut warnings = Warnings::default();
             let (standard, _) = identify(line, 1, &mut warnings);
-            (standard, warnings.into_vec().first().map(|warning| warning.deviation()))
+            (standard, warnings.into_vec().first().map(|warning| warning.kind()))
         };
         assert_eq!(edition("IESNA91"), (IesStandard::Lm63Of1991, None));
         assert_eq!(edition("IESNA:LM-63-1995  "), (IesStandard::Lm63Of1995, None));
         assert_eq!(edition("IESNA:LM-63-2002"), (IesStandard::Lm63Of2002, None));
         assert_eq!(edition("IES:LM-63-2019"), (IesStandard::Lm63Of2019, None));
         assert_eq!(edition("A label of 1986"), (IesStandard::Lm63Of1986, None));
-        let spelling = Some(Deviation::IdentifyingLine);
+        let spelling = Some(WarningKind::IdentifyingLine);
         assert_eq!(edition(" IESNA: lm-63-2002"), (IesStandard::Lm63Of2002, spelling));
         assert_eq!(edition("ANSI/IES LM-63-19"), (IesStandard::Lm63Of2019, spelling));
-        let unknown = Some(Deviation::UnknownStandard);
+        let unknown = Some(WarningKind::UnknownStandard);
         assert_eq!(edition("IESNA:LM-63-2031"), (IesStandard::Lm63Of2002, unknown));
     }
 }

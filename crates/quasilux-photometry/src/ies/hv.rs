@@ -7,9 +7,9 @@
 //! lies in.
 
 use crate::angles::{check_ascending, radians, snapped};
-use crate::number::Number;
-use crate::report::Warnings;
-use crate::{Deviation, Grid, PhotometricType, ReadError, Symmetry};
+use crate::warning::{WarningKind, Warnings};
+use crate::{Grid, PhotometricType, Symmetry};
+use quasilux_text::{Number, ParseError};
 use std::f64::consts::FRAC_PI_2;
 
 /// The angles of a type A or B file, checked.
@@ -33,7 +33,7 @@ impl HvAngles {
         horizontal: &[Number],
         vertical: &[Number],
         warnings: &mut Warnings,
-    ) -> Result<Self, ReadError> {
+    ) -> Result<Self, ParseError> {
         // A latitude ends at the poles, a longitude where it meets itself.
         let (horizontal_limit, vertical_limit) = match photometric_type {
             PhotometricType::A => (180.0, 90.0),
@@ -41,12 +41,12 @@ impl HvAngles {
         };
         let vertical_side = Side::read(vertical, "vertical", vertical_limit)?;
         let horizontal_side = Side::read(horizontal, "horizontal", horizontal_limit)?;
-        note_range(vertical, "vertical", Deviation::VerticalRange, warnings);
-        note_range(horizontal, "horizontal", Deviation::HorizontalRange, warnings);
+        note_range(vertical, "vertical", WarningKind::VerticalRange, warnings);
+        note_range(horizontal, "horizontal", WarningKind::HorizontalRange, warnings);
         if vertical_side.source[0] > 0 {
             let expected = "angles from -90 (the half below 0 is taken to mirror that above)";
             let found = "vertical angles that begin at 0";
-            warnings.push(Deviation::VerticalMirror, vertical[0].at, found, expected);
+            warnings.push(WarningKind::VerticalMirror, vertical[0].at, found, expected);
         }
         Ok(Self { photometric_type, horizontal: horizontal_side, vertical: vertical_side })
     }
@@ -71,11 +71,11 @@ impl HvAngles {
 }
 
 impl Side {
-    fn read(angles: &[Number], what: &str, limit_deg: f64) -> Result<Self, ReadError> {
+    fn read(angles: &[Number], what: &str, limit_deg: f64) -> Result<Self, ParseError> {
         if let [single] = angles {
             let found = format_args!("a single {what} angle").to_string();
             let expected = "two or more, as types A and B need";
-            return Err(ReadError::new(single.at, found, expected));
+            return Err(ParseError::new(single.at, found, expected));
         }
         check_ascending(angles, what)?;
         let measured = in_degrees(angles);
@@ -83,7 +83,7 @@ impl Side {
             if degrees.abs() > limit_deg {
                 let expected =
                     format!("{what} angles between -{limit_deg} and {limit_deg} degrees");
-                return Err(ReadError::new(angle.at, degrees, expected));
+                return Err(ParseError::new(angle.at, degrees, expected));
             }
         }
         let count = measured.len();
@@ -96,7 +96,7 @@ impl Side {
 }
 
 /// Notes angles that do not cover what the standard asks for.
-fn note_range(angles: &[Number], what: &str, deviation: Deviation, warnings: &mut Warnings) {
+fn note_range(angles: &[Number], what: &str, deviation: WarningKind, warnings: &mut Warnings) {
     let degrees = in_degrees(angles);
     let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
     if !(matches!(first, -90.0 | 0.0) && last == 90.0) {

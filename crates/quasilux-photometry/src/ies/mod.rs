@@ -26,7 +26,7 @@
 //! The luminous length lies along C0-C180, the width along C90-C270: the horizontal angle 0 is parallel
 //! to the length (`ies2rad` puts the length along x, and C0 too).
 //!
-//! What is tolerated beyond the standard is listed, rule by rule, in [`Deviation`].
+//! What is tolerated beyond the standard is listed, rule by rule, in [`WarningKind`].
 
 mod candela;
 mod header;
@@ -38,19 +38,19 @@ mod write;
 
 use crate::angles::gamma_rad;
 use crate::candela::check_closing;
-use crate::number::Number;
 use crate::photometry::FLUX_TOLERANCE;
-use crate::report::{Position, Warnings, quoted};
 use crate::shape::check_signs;
+use crate::warning::{WarningKind, Warnings};
 use crate::{
-    Deviation, Grid, IesStandard, LuminaireFacts, LuminousOpening, PhotometricType, Photometry,
-    Read, ReadError, SphericalTable, Standard, Tilt, text,
+    Grid, IesStandard, LuminaireFacts, LuminousOpening, Parsed, PhotometricType, Photometry,
+    SphericalTable, Standard, Tilt,
 };
 use candela::Planes;
 use header::{Header, TiltLine, read_header};
 pub(crate) use hv::HvAngles;
 use numbers::Numbers;
 pub(crate) use planes::c_rad;
+use quasilux_text::{Number, ParseError, Position, decode, lines, quoted};
 pub use tilt::{ReadTilt, read_tilt};
 pub use write::write_ies;
 
@@ -58,15 +58,15 @@ pub use write::write_ies;
 const METRES_PER_FOOT: f64 = 0.3048;
 
 /// Reads an LM-63 file. Total: any bytes give a luminaire or an error with its place, in
-/// no more memory than [`crate::most_read_memory_bytes`].
-pub fn read_ies(bytes: &[u8]) -> Result<Read, ReadError> {
+/// no more memory than [`crate::max_read_memory_bytes`].
+pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
-    let text = text::decode(bytes, &mut warnings);
-    let lines: Vec<&str> = text::lines(&text).collect();
+    let text = decode(bytes, &mut warnings);
+    let lines: Vec<&str> = lines(&text).collect();
     let header = read_header(&lines, &mut warnings)?;
     let mut numbers = Numbers::new(&lines, header.next_line);
     let photometry = read_numbers(header, &mut numbers, &mut warnings)?;
-    Ok(Read { photometry, warnings: warnings.into_vec() })
+    Ok(Parsed { photometry, warnings: warnings.into_vec() })
 }
 
 /// Record 1.
@@ -85,7 +85,7 @@ fn read_numbers(
     header: Header<'_>,
     numbers: &mut Numbers<'_>,
     warnings: &mut Warnings,
-) -> Result<Photometry, ReadError> {
+) -> Result<Photometry, ParseError> {
     let tilt = match header.tilt {
         TiltLine::None => Tilt::None,
         TiltLine::Include => tilt::read_factors(numbers, warnings)?,
@@ -122,15 +122,15 @@ fn read_numbers(
     if let Some((text, at)) = numbers.rest(warnings)
         && !text.trim_matches(['[', ']']).eq_ignore_ascii_case("END")
     {
-        warnings.push(Deviation::TrailingText, at, quoted(text), "the end of the file");
+        warnings.push(WarningKind::TrailingText, at, quoted(text), "the end of the file");
     }
 
     let lumens = counts.lumens_per_lamp;
     let table = SphericalTable::new(grid)
-        .map_err(|error| ReadError::new(lumens.at, error, "a photometric table"))?;
+        .map_err(|error| ParseError::new(lumens.at, error, "a photometric table"))?;
     if lumens.value < 0.0 && lumens.value != -1.0 {
         let expected = "-1 for absolute photometry (read as such)";
-        warnings.push(Deviation::NegativeLumens, lumens.at, lumens.value, expected);
+        warnings.push(WarningKind::NegativeLumens, lumens.at, lumens.value, expected);
     }
     let facts = LuminaireFacts {
         standard,
@@ -152,7 +152,7 @@ fn read_numbers(
     Ok(Photometry::new(table, facts))
 }
 
-fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Counts, ReadError> {
+fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Counts, ParseError> {
     numbers.start_record("the number of lamps", warnings);
     let lamp_count = numbers.next("the number of lamps", warnings)?.value;
     let lumens_per_lamp = numbers.next("the lumens per lamp", warnings)?;
@@ -165,7 +165,7 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
         1 => METRES_PER_FOOT,
         2 => 1.0,
         _ => {
-            return Err(ReadError::new(units_at, units, "a units type of 1 (feet) or 2 (metres)"));
+            return Err(ParseError::new(units_at, units, "a units type of 1 (feet) or 2 (metres)"));
         }
     };
     let photometric_type = match type_number {
@@ -174,7 +174,7 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
         3 => PhotometricType::A,
         _ => {
             let expected = "a photometric type of 1 (C), 2 (B) or 3 (A)";
-            return Err(ReadError::new(type_at, type_number, expected));
+            return Err(ParseError::new(type_at, type_number, expected));
         }
     };
     numbers.check_room(verticals, vertical_at, "vertical angles")?;
@@ -199,11 +199,11 @@ fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Cou
     })
 }
 
-fn positive(number: &Number, expected: &str) -> Result<f64, ReadError> {
+fn positive(number: &Number, expected: &str) -> Result<f64, ParseError> {
     if number.value > 0.0 {
         Ok(number.value)
     } else {
-        Err(ReadError::new(number.at, number.value, expected))
+        Err(ParseError::new(number.at, number.value, expected))
     }
 }
 
@@ -212,19 +212,19 @@ fn ballast_lamp_factor(
     field: &Number,
     standard: IesStandard,
     warnings: &mut Warnings,
-) -> Result<f64, ReadError> {
+) -> Result<f64, ParseError> {
     if standard >= IesStandard::Lm63Of2019 {
         return Ok(1.0);
     }
     if field.value == 0.0 {
         let expected = "1 in the field behind the ballast factor (read as 1)";
-        warnings.push(Deviation::ZeroBallastLampFactor, field.at, field.value, expected);
+        warnings.push(WarningKind::ZeroBallastLampFactor, field.at, field.value, expected);
         return Ok(1.0);
     }
     if standard >= IesStandard::Lm63Of1995 {
         if field.value != 1.0 {
             let expected = "1 in the reserved field behind the ballast factor (not applied)";
-            warnings.push(Deviation::BallastLampFactor, field.at, field.value, expected);
+            warnings.push(WarningKind::BallastLampFactor, field.at, field.value, expected);
         }
         return Ok(1.0);
     }
@@ -239,7 +239,7 @@ fn check_flux(
 ) {
     let flux_lm = table.integral();
     if flux_lm <= 0.0 {
-        warnings.push(Deviation::NoLight, at, "an integrated flux of 0 lm", "some light");
+        warnings.push(WarningKind::NoLight, at, "an integrated flux of 0 lm", "some light");
         return;
     }
     let Some(lamps_lm) = facts.lamps_flux_lm() else {
@@ -261,6 +261,6 @@ fn check_flux(
                 "{lamps_lm:.1} lm, the lamps' flux (check multiplier and lumens; candela values count)"
             )
         };
-        warnings.push(Deviation::FluxDiffers, at, found, expected);
+        warnings.push(WarningKind::FluxDiffers, at, found, expected);
     }
 }

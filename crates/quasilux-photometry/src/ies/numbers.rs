@@ -1,8 +1,7 @@
 //! The numbers behind the header: a stream of tokens with their places.
 
-use crate::number::{self, Number, Written};
-use crate::report::{Position, Warnings, quoted};
-use crate::{Deviation, ReadError};
+use crate::warning::{WarningKind, Warnings};
+use quasilux_text::{Number, ParseError, Position, Token, check_room, number_list, quoted};
 
 /// Reads numbers one by one across lines.
 pub(super) struct Numbers<'t> {
@@ -35,7 +34,7 @@ impl<'t> Numbers<'t> {
         &mut self,
         what: &str,
         warnings: &mut Warnings,
-    ) -> Result<Number, ReadError> {
+    ) -> Result<Number, ParseError> {
         self.written(what, warnings)?.number(what)
     }
 
@@ -45,7 +44,7 @@ impl<'t> Numbers<'t> {
         what: &str,
         least: usize,
         warnings: &mut Warnings,
-    ) -> Result<(usize, Position), ReadError> {
+    ) -> Result<(usize, Position), ParseError> {
         let written = self.written(what, warnings)?;
         Ok((written.count(written.number(what)?, what, least, warnings)?, written.at))
     }
@@ -56,9 +55,9 @@ impl<'t> Numbers<'t> {
         count: usize,
         what: &str,
         warnings: &mut Warnings,
-    ) -> Result<Vec<Number>, ReadError> {
+    ) -> Result<Vec<Number>, ParseError> {
         self.check_room(count, self.here(), what)?;
-        number::list(count, what, || self.next(what, warnings))
+        number_list(count, what, || self.next(what, warnings))
     }
 
     /// An error unless `count` numbers fit into the rest of the file: each takes a digit and a
@@ -68,9 +67,9 @@ impl<'t> Numbers<'t> {
         count: usize,
         at: Position,
         what: &str,
-    ) -> Result<(), ReadError> {
+    ) -> Result<(), ParseError> {
         let room: usize = self.lines.iter().skip(self.cursor.line).map(|line| line.len() + 1).sum();
-        number::check_room(count, room / 2 + 1, at, what)
+        check_room(count, room / 2 + 1, at, what)
     }
 
     /// Notes a record that starts on the line of the number before it.
@@ -79,7 +78,7 @@ impl<'t> Numbers<'t> {
         if let Some(token) = self.token(warnings) {
             if self.last_line == Some(token.at.line) {
                 let expected = format_args!("{what} to begin on a new line").to_string();
-                warnings.push(Deviation::RecordStart, token.at, quoted(token.text), expected);
+                warnings.push(WarningKind::RecordStart, token.at, quoted(token.text), expected);
             }
             self.cursor = cursor;
         }
@@ -91,15 +90,15 @@ impl<'t> Numbers<'t> {
         Some((token.text, token.at))
     }
 
-    fn written(&mut self, what: &str, warnings: &mut Warnings) -> Result<Written<'t>, ReadError> {
+    fn written(&mut self, what: &str, warnings: &mut Warnings) -> Result<Token<'t>, ParseError> {
         let Some(token) = self.token(warnings) else {
-            return Err(ReadError::new(self.end(), "the end of the file", what));
+            return Err(ParseError::new(self.end(), "the end of the file", what));
         };
         self.last_line = Some(token.at.line);
         Ok(token)
     }
 
-    fn token(&mut self, warnings: &mut Warnings) -> Option<Written<'t>> {
+    fn token(&mut self, warnings: &mut Warnings) -> Option<Token<'t>> {
         while let Some(&line) = self.lines.get(self.cursor.line) {
             let rest = &line[self.cursor.byte..];
             let skipped = rest.find(|c| !is_separator(c)).unwrap_or(rest.len());
@@ -107,7 +106,7 @@ impl<'t> Numbers<'t> {
                 let mut before = self.cursor;
                 before.advance(&rest[..semicolon]);
                 let expected = "blanks or a comma between numbers";
-                warnings.push(Deviation::Semicolon, before.position(), "a semicolon", expected);
+                warnings.push(WarningKind::Semicolon, before.position(), "a semicolon", expected);
             }
             if skipped < rest.len() {
                 let rest = &rest[skipped..];
@@ -115,7 +114,7 @@ impl<'t> Numbers<'t> {
                 self.cursor.advance(&line[self.cursor.byte..][..skipped]);
                 let at = self.cursor.position();
                 self.cursor.advance(text);
-                return Some(Written { text, at });
+                return Some(Token { text, at });
             }
             self.cursor = Cursor { line: self.cursor.line + 1, byte: 0, characters: 0 };
         }

@@ -1,21 +1,21 @@
 //! The horizontal angles of a type C file: checks, and what symmetry the planes mean.
 
+use crate::Symmetry;
 use crate::angles::{ROUNDING_DEG, check_ascending, radians, snapped};
-use crate::number::Number;
-use crate::report::Warnings;
-use crate::{Deviation, ReadError, Symmetry};
+use crate::warning::{WarningKind, Warnings};
+use quasilux_text::{Number, ParseError};
 
 /// Azimuths C in radians, and the symmetry that their span stands for.
 pub(crate) fn c_rad(
     angles: &[Number],
     warnings: &mut Warnings,
-) -> Result<(Vec<f64>, Symmetry), ReadError> {
+) -> Result<(Vec<f64>, Symmetry), ParseError> {
     check_ascending(angles, "horizontal")?;
     let degrees: Vec<f64> = angles.iter().map(|angle| snapped(angle.value, 90.0)).collect();
     let (first, last) = (degrees[0], degrees[degrees.len() - 1]);
     let at = angles[0].at;
     if let Some(far) = angles.iter().find(|angle| angle.value.abs() > 720.0) {
-        return Err(ReadError::new(far.at, far.value, "horizontal angles from 0 to 360 degrees"));
+        return Err(ParseError::new(far.at, far.value, "horizontal angles from 0 to 360 degrees"));
     }
     let widest_gap = degrees.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let span = last - first;
@@ -24,7 +24,7 @@ pub(crate) fn c_rad(
         if first != 0.0 {
             let expected = "a single plane at 0 (read as rotationally symmetric)";
             warnings.push(
-                Deviation::SinglePlane,
+                WarningKind::SinglePlane,
                 at,
                 format_args!("a single plane at {first}"),
                 expected,
@@ -40,24 +40,29 @@ pub(crate) fn c_rad(
     } else if span > 180.0 && span < 360.0 && 360.0 - span <= 1.5 * widest_gap {
         let found = format_args!("planes that end at {last}").to_string();
         let expected = "a closing plane at 360 (taken to equal the first one)";
-        warnings.push(Deviation::MissingClosingPlane, angles[angles.len() - 1].at, found, expected);
+        warnings.push(
+            WarningKind::MissingClosingPlane,
+            angles[angles.len() - 1].at,
+            found,
+            expected,
+        );
         Symmetry::Open
     } else {
         let found = format_args!("horizontal planes from {first} to {last}").to_string();
         let expected =
             "a single plane, or planes from 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees";
-        return Err(ReadError::new(at, found, expected));
+        return Err(ParseError::new(at, found, expected));
     };
     let usual = first == 0.0 || (first == 90.0 && symmetry == Symmetry::Bilateral);
     // Mirrored halves and quarters need a first plane that is one of the luminaire's axes.
     if matches!(symmetry, Symmetry::Quadrant | Symmetry::Bilateral) && first % 90.0 != 0.0 {
         let found = format_args!("horizontal planes from {first} to {last}").to_string();
-        return Err(ReadError::new(at, found, "planes that begin at 0 or 90 degrees"));
+        return Err(ParseError::new(at, found, "planes that begin at 0 or 90 degrees"));
     }
     if !usual && symmetry != Symmetry::Rotational {
         let found = format_args!("planes from {first} to {last}").to_string();
         let expected = "planes from 0 to 90, 0 to 180, 90 to 270 or 0 to 360 (read by their span)";
-        warnings.push(Deviation::FirstPlane, at, found, expected);
+        warnings.push(WarningKind::FirstPlane, at, found, expected);
     }
     Ok((degrees.into_iter().map(radians).collect(), symmetry))
 }

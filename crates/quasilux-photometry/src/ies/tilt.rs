@@ -10,9 +10,10 @@
 //! `TILT=<file>` came with LM-63-1986 and went with LM-63-2019.
 
 use super::numbers::Numbers;
+use crate::Tilt;
 use crate::angles::{check_ascending, radians, snapped};
-use crate::report::{Position, Warnings, quoted};
-use crate::{Deviation, ReadError, Tilt, Warning, text};
+use crate::warning::{Warning, WarningKind, Warnings};
+use quasilux_text::{ParseError, Position, decode, lines, quoted};
 
 /// A lamp does not get brighter than this by lying down; a greater number is no factor.
 const LARGEST_FACTOR: f64 = 100.0;
@@ -28,14 +29,14 @@ pub struct ReadTilt {
 
 /// Reads the file that `TILT=<file>` names. Total: any bytes give factors or an error with its
 /// place, and memory is bounded by a multiple of the file's length.
-pub fn read_tilt(bytes: &[u8]) -> Result<ReadTilt, ReadError> {
+pub fn read_tilt(bytes: &[u8]) -> Result<ReadTilt, ParseError> {
     let mut warnings = Warnings::default();
-    let text = text::decode(bytes, &mut warnings);
-    let lines: Vec<&str> = text::lines(&text).collect();
+    let text = decode(bytes, &mut warnings);
+    let lines: Vec<&str> = lines(&text).collect();
     let mut numbers = Numbers::new(&lines, 0);
     let tilt = read_factors(&mut numbers, &mut warnings)?;
     if let Some((text, at)) = numbers.rest(&mut warnings) {
-        warnings.push(Deviation::TrailingText, at, quoted(text), "the end of the file");
+        warnings.push(WarningKind::TrailingText, at, quoted(text), "the end of the file");
     }
     Ok(ReadTilt { tilt, warnings: warnings.into_vec() })
 }
@@ -44,11 +45,11 @@ pub fn read_tilt(bytes: &[u8]) -> Result<ReadTilt, ReadError> {
 pub(super) fn read_factors(
     numbers: &mut Numbers<'_>,
     warnings: &mut Warnings,
-) -> Result<Tilt, ReadError> {
+) -> Result<Tilt, ParseError> {
     let (lamp_geometry, at) = numbers.count("the lamp-to-luminaire geometry", 1, warnings)?;
     if lamp_geometry > 3 {
         let expected = "a lamp-to-luminaire geometry of 1, 2 or 3";
-        return Err(ReadError::new(at, lamp_geometry, expected));
+        return Err(ParseError::new(at, lamp_geometry, expected));
     }
     let (pairs, _) = numbers.count("the number of tilt angles", 1, warnings)?;
     let angles = numbers.list(pairs, "tilt angle", warnings)?;
@@ -59,16 +60,20 @@ pub(super) fn read_factors(
     let (first, last) = (degrees[0], degrees[pairs - 1]);
     for (angle, degrees) in angles.iter().zip(&degrees) {
         if !(0.0..=180.0).contains(degrees) {
-            return Err(ReadError::new(angle.at, degrees, "tilt angles between 0 and 180 degrees"));
+            return Err(ParseError::new(
+                angle.at,
+                degrees,
+                "tilt angles between 0 and 180 degrees",
+            ));
         }
     }
     if let Some(factor) = factors.iter().find(|f| !(0.0..=LARGEST_FACTOR).contains(&f.value)) {
-        return Err(ReadError::new(factor.at, factor.value, "a tilt factor between 0 and 100"));
+        return Err(ParseError::new(factor.at, factor.value, "a tilt factor between 0 and 100"));
     }
     if first != 0.0 || !matches!(last, 90.0 | 180.0) {
         let found = format_args!("tilt angles from {first} to {last}").to_string();
         let expected = "0 to 90 or 0 to 180 degrees (outside, the nearest factor holds)";
-        warnings.push(Deviation::TiltFactors, angles[0].at, found, expected);
+        warnings.push(WarningKind::TiltFactors, angles[0].at, found, expected);
     }
     Ok(Tilt::Include {
         lamp_geometry: lamp_geometry as u8,
@@ -81,6 +86,6 @@ pub(super) fn read_factors(
 pub(super) fn in_another_file(name: &str, line: usize, warnings: &mut Warnings) -> Tilt {
     let found = format_args!("a tilt file {}", quoted(name)).to_string();
     let expected = "TILT=NONE or TILT=INCLUDE (the factor is 1 until that file is read)";
-    warnings.push(Deviation::TiltFile, Position { line, column: 1 }, found, expected);
+    warnings.push(WarningKind::TiltFile, Position { line, column: 1 }, found, expected);
     Tilt::File(name.to_owned())
 }

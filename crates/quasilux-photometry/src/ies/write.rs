@@ -2,7 +2,7 @@
 
 use crate::angles::snapped;
 use crate::shape::opening_in;
-use crate::write::{Half, Note, Writer, Written, aligned, before, degrees, number};
+use crate::write::{Encoded, Half, Note, Writer, aligned, before, degrees, number};
 use crate::{
     IesStandard, Keyword, LuminaireFacts, PhotometricType, Photometry, Standard, Symmetry, Tilt,
 };
@@ -38,8 +38,8 @@ const NO_FACT: &str = "(not given)";
 ///   ("Undefined") if the luminaire did not come from a file of that edition.
 /// - Lines have at most 80 characters up to `TILT=` and 132 behind it, 254 from 2002 on.
 ///
-/// Whatever else had to be changed is in [`Written::notes`].
-pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Written {
+/// Whatever else had to be changed is in [`Encoded::notes`].
+pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Encoded {
     let mut writer = Writer::default();
     let facts = photometry.facts();
     let web = Angles::of(photometry, &mut writer);

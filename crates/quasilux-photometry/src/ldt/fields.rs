@@ -1,8 +1,7 @@
 //! One field a line: texts, counts and numbers with their places.
 
-use crate::number::{self, Number, Written};
-use crate::report::{Position, Warnings};
-use crate::{Deviation, ReadError};
+use crate::warning::{WarningKind, Warnings};
+use quasilux_text::{Number, ParseError, Position, Token, check_room, number_list};
 
 /// Reads a file line by line.
 pub(super) struct Fields<'t> {
@@ -16,9 +15,9 @@ impl<'t> Fields<'t> {
     }
 
     /// The next line, trimmed.
-    pub(super) fn text(&mut self, what: &str) -> Result<(&'t str, Position), ReadError> {
+    pub(super) fn text(&mut self, what: &str) -> Result<(&'t str, Position), ParseError> {
         let Some(line) = self.lines.get(self.next) else {
-            return Err(ReadError::new(self.end(), "the end of the file", what));
+            return Err(ParseError::new(self.end(), "the end of the file", what));
         };
         self.next += 1;
         let blanks = line.chars().take_while(|c| c.is_whitespace()).count();
@@ -31,9 +30,9 @@ impl<'t> Fields<'t> {
         &mut self,
         what: &str,
         warnings: &mut Warnings,
-    ) -> Result<Number, ReadError> {
+    ) -> Result<Number, ParseError> {
         let (text, at) = self.text(what)?;
-        Written { text, at }.number_with_comma(what, warnings)
+        Token { text, at }.number_with_comma(what, warnings)
     }
 
     /// The next line as a number, where an empty one counts as zero.
@@ -41,10 +40,10 @@ impl<'t> Fields<'t> {
         &mut self,
         what: &str,
         warnings: &mut Warnings,
-    ) -> Result<Number, ReadError> {
+    ) -> Result<Number, ParseError> {
         if self.lines.get(self.next).is_some_and(|line| line.trim().is_empty()) {
             let (_, at) = self.text(what)?;
-            warnings.push(Deviation::EmptyNumber, at, "an empty line", what);
+            warnings.push(WarningKind::EmptyNumber, at, "an empty line", what);
             return Ok(Number { value: 0.0, at });
         }
         self.number(what, warnings)
@@ -56,9 +55,9 @@ impl<'t> Fields<'t> {
         what: &str,
         least: usize,
         warnings: &mut Warnings,
-    ) -> Result<(usize, Position), ReadError> {
+    ) -> Result<(usize, Position), ParseError> {
         let (text, at) = self.text(what)?;
-        let written = Written { text, at };
+        let written = Token { text, at };
         let number = written.number_with_comma(what, warnings)?;
         Ok((written.count(number, what, least, warnings)?, at))
     }
@@ -69,8 +68,8 @@ impl<'t> Fields<'t> {
         count: usize,
         what: &str,
         warnings: &mut Warnings,
-    ) -> Result<Vec<Number>, ReadError> {
-        number::list(count, what, || self.number(what, warnings))
+    ) -> Result<Vec<Number>, ParseError> {
+        number_list(count, what, || self.number(what, warnings))
     }
 
     /// Refuses a count of lines that the file has not got, before anything is made of it.
@@ -79,8 +78,8 @@ impl<'t> Fields<'t> {
         count: usize,
         at: Position,
         what: &str,
-    ) -> Result<(), ReadError> {
-        number::check_room(count, self.lines.len() - self.next, at, what)
+    ) -> Result<(), ParseError> {
+        check_room(count, self.lines.len() - self.next, at, what)
     }
 
     /// The first line with text on it among those that are left.

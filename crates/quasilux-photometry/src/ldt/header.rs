@@ -1,10 +1,10 @@
 //! The fields before the angles: the luminaire, its dimensions, its lamps.
 
 use super::fields::Fields;
-use crate::number::Number;
-use crate::report::{Position, Warnings};
 use crate::shape::check_signs;
-use crate::{Deviation, EulumdatFacts, Keyword, LuminousOpening, ReadError, Standard};
+use crate::warning::{WarningKind, Warnings};
+use crate::{EulumdatFacts, Keyword, LuminousOpening, Standard};
+use quasilux_text::{Number, ParseError, Position};
 
 /// Metres in a millimetre.
 pub(super) const METRES_PER_MM: f64 = 1e-3;
@@ -53,7 +53,7 @@ pub(super) struct LampSet {
 pub(super) fn read_header(
     fields: &mut Fields<'_>,
     warnings: &mut Warnings,
-) -> Result<Header, ReadError> {
+) -> Result<Header, ParseError> {
     let mut keywords = Vec::new();
     keep(fields, "MANUFAC", "the company (field 1)", &mut keywords)?;
     let mut eulumdat = EulumdatFacts::default();
@@ -61,7 +61,7 @@ pub(super) fn read_header(
     let (symmetry, symmetry_at) = fields.count("the symmetry Isym (field 3)", 0, warnings)?;
     if symmetry > 4 {
         let expected = "a symmetry Isym between 0 and 4 (field 3)";
-        return Err(ReadError::new(symmetry_at, symmetry, expected));
+        return Err(ParseError::new(symmetry_at, symmetry, expected));
     }
     let (planes, planes_at) = fields.count("the number of C-planes Mc (field 4)", 1, warnings)?;
     let plane_distance = fields.number_or_zero("the distance Dc (field 5)", warnings)?;
@@ -86,7 +86,7 @@ pub(super) fn read_header(
     if tilt.value != 0.0 {
         let found = format_args!("a tilt of {} degrees during measurement", tilt.value).to_string();
         let expected = "0 (the tilt is not applied: the luminaire is taken as measured)";
-        warnings.push(Deviation::MeasurementTilt, tilt.at, found, expected);
+        warnings.push(WarningKind::MeasurementTilt, tilt.at, found, expected);
     }
     let lamps = read_lamp_sets(fields, &mut keywords, &mut eulumdat, warnings)?;
     eulumdat.conversion_factor = conversion_factor;
@@ -117,7 +117,7 @@ fn keep(
     name: &str,
     what: &str,
     keywords: &mut Vec<Keyword>,
-) -> Result<(), ReadError> {
+) -> Result<(), ParseError> {
     let (value, at) = fields.text(what)?;
     if !value.is_empty() {
         let value = value.to_owned();
@@ -132,7 +132,7 @@ fn read_opening(
     fields: &mut Fields<'_>,
     eulumdat: &mut EulumdatFacts,
     warnings: &mut Warnings,
-) -> Result<LuminousOpening, ReadError> {
+) -> Result<LuminousOpening, ParseError> {
     let housing = ["length (field 13)", "width (field 14)", "height (field 15)"];
     for (what, size_m) in housing.iter().zip(&mut eulumdat.housing_m) {
         let what = format!("the luminaire's {what}, in mm");
@@ -163,29 +163,33 @@ fn read_opening(
 }
 
 /// Field 23.
-fn read_ratio(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<Option<f64>, ReadError> {
+fn read_ratio(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<Option<f64>, ParseError> {
     let percent = fields.number_or_zero("the light output ratio in % (field 23)", warnings)?;
     if percent.value < 0.0 {
-        return Err(ReadError::new(percent.at, percent.value, "a light output ratio of 0 or more"));
+        return Err(ParseError::new(
+            percent.at,
+            percent.value,
+            "a light output ratio of 0 or more",
+        ));
     }
     if percent.value == 0.0 {
         let expected = "a light output ratio in % (the flux is not compared with it)";
-        warnings.push(Deviation::ZeroLightOutputRatio, percent.at, percent.value, expected);
+        warnings.push(WarningKind::ZeroLightOutputRatio, percent.at, percent.value, expected);
         return Ok(None);
     }
     Ok(Some(percent.value / 100.0))
 }
 
 /// Field 24.
-fn read_conversion(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<f64, ReadError> {
+fn read_conversion(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<f64, ParseError> {
     let factor = fields.number_or_zero("the conversion factor (field 24)", warnings)?;
     if factor.value < 0.0 {
         let expected = "a conversion factor above 0 (1 if none)";
-        return Err(ReadError::new(factor.at, factor.value, expected));
+        return Err(ParseError::new(factor.at, factor.value, expected));
     }
     if factor.value == 0.0 {
         let expected = "a conversion factor above 0 (read as 1)";
-        warnings.push(Deviation::ZeroConversionFactor, factor.at, factor.value, expected);
+        warnings.push(WarningKind::ZeroConversionFactor, factor.at, factor.value, expected);
         return Ok(1.0);
     }
     Ok(factor.value)
@@ -197,24 +201,24 @@ fn read_lamp_sets(
     keywords: &mut Vec<Keyword>,
     eulumdat: &mut EulumdatFacts,
     warnings: &mut Warnings,
-) -> Result<LampSet, ReadError> {
+) -> Result<LampSet, ParseError> {
     let (sets, at) = fields.count("the number of lamp sets (field 26)", 1, warnings)?;
     fields.check_room(sets.saturating_mul(LINES_PER_LAMP_SET), at, "lamp sets")?;
     if sets > 1 {
         let expected = "one set of lamps (the first one is taken)";
         let found = format_args!("{sets} sets of lamps").to_string();
-        warnings.push(Deviation::SeveralLampSets, at, found, expected);
+        warnings.push(WarningKind::SeveralLampSets, at, found, expected);
     }
     let count = fields.number_or_zero("the number of lamps (field 26a)", warnings)?;
     if count.value == 0.0 {
         let expected = "at least one lamp, or a negative number for absolute photometry";
-        warnings.push(Deviation::ZeroLampCount, count.at, count.value, expected);
+        warnings.push(WarningKind::ZeroLampCount, count.at, count.value, expected);
     }
     keep(fields, "LAMP", "the type of lamps (field 26b)", keywords)?;
     let flux_lm = fields.number("the lamps' total flux in lm (field 26c)", warnings)?;
     if flux_lm.value <= 0.0 {
         let expected = "a total flux of the lamps above 0 lm (field 26c)";
-        return Err(ReadError::new(flux_lm.at, flux_lm.value, expected));
+        return Err(ParseError::new(flux_lm.at, flux_lm.value, expected));
     }
     keep(fields, "COLORTEMP", "the colour of the light (field 26d)", keywords)?;
     keep(fields, "CRI", "the colour rendering (field 26e)", keywords)?;

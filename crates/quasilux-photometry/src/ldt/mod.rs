@@ -38,7 +38,7 @@
 //!   the lamps' flux times the light output ratio. The integral here differs from it by up to 0.15 % in
 //!   published files.
 //!
-//! What is tolerated beyond the format is listed, rule by rule, in [`Deviation`].
+//! What is tolerated beyond the format is listed, rule by rule, in [`WarningKind`].
 
 mod fields;
 mod header;
@@ -49,34 +49,34 @@ mod write;
 use crate::angles::{gamma_rad, radians};
 use crate::candela::intensity_cd;
 use crate::photometry::FLUX_TOLERANCE;
-use crate::report::{Position, Warnings, quoted};
+use crate::warning::{WarningKind, Warnings};
 use crate::{
-    Deviation, Grid, LuminaireFacts, PhotometricType, Photometry, Read, ReadError, SphericalTable,
-    Standard, Tilt, text,
+    Grid, LuminaireFacts, Parsed, PhotometricType, Photometry, SphericalTable, Standard, Tilt,
 };
 use fields::Fields;
 use header::{Header, LampSet, read_header};
 use planes::{check_distance, stored_planes};
+use quasilux_text::{ParseError, Position, decode, lines, quoted};
 pub use write::write_ldt;
 
 /// Lumens that the written intensities refer to.
 const REFERENCE_FLUX_LM: f64 = 1000.0;
 
 /// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, in
-/// no more memory than [`crate::most_read_memory_bytes`].
-pub fn read_ldt(bytes: &[u8]) -> Result<Read, ReadError> {
+/// no more memory than [`crate::max_read_memory_bytes`].
+pub fn read_ldt(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
-    let text = text::decode(bytes, &mut warnings);
-    let lines: Vec<&str> = text::lines(&text).collect();
+    let text = decode(bytes, &mut warnings);
+    let lines: Vec<&str> = lines(&text).collect();
     let mut fields = Fields::new(&lines);
     let header = read_header(&mut fields, &mut warnings)?;
     let table = read_table(&header, &mut fields, &mut warnings)?;
     if let Some((text, at)) = fields.rest() {
-        warnings.push(Deviation::TrailingText, at, quoted(text), "the end of the file");
+        warnings.push(WarningKind::TrailingText, at, quoted(text), "the end of the file");
     }
     check_flux(&table, &header, &mut warnings);
     let photometry = Photometry::new(table, facts(header));
-    Ok(Read { photometry, warnings: warnings.into_vec() })
+    Ok(Parsed { photometry, warnings: warnings.into_vec() })
 }
 
 /// Fields 28 to 30.
@@ -84,7 +84,7 @@ fn read_table(
     header: &Header,
     fields: &mut Fields<'_>,
     warnings: &mut Warnings,
-) -> Result<SphericalTable, ReadError> {
+) -> Result<SphericalTable, ParseError> {
     let planes = fields.list(header.planes, "an angle C in degrees (field 28)", warnings)?;
     let angles = fields.list(header.angles, "an angle gamma in degrees (field 29)", warnings)?;
     check_distance(&header.plane_distance, &planes, "planes", warnings);
@@ -108,7 +108,7 @@ fn read_table(
         symmetry: stored.symmetry,
         values,
     })
-    .map_err(|error| ReadError::new(header.symmetry_at, error, "a photometric table"))
+    .map_err(|error| ParseError::new(header.symmetry_at, error, "a photometric table"))
 }
 
 /// Candela of one written cd/klm.
@@ -140,7 +140,7 @@ fn facts(header: Header) -> LuminaireFacts {
 fn check_flux(table: &SphericalTable, header: &Header, warnings: &mut Warnings) {
     let (flux_lm, at): (f64, Position) = (table.integral(), header.lamps.flux_lm.at);
     if flux_lm <= 0.0 {
-        warnings.push(Deviation::NoLight, at, "an integrated flux of 0 lm", "some light");
+        warnings.push(WarningKind::NoLight, at, "an integrated flux of 0 lm", "some light");
         return;
     }
     let Some(ratio) = header.light_output_ratio else {
@@ -151,6 +151,6 @@ fn check_flux(table: &SphericalTable, header: &Header, warnings: &mut Warnings) 
         let found = format_args!("an integrated flux of {flux_lm:.1} lm").to_string();
         let expected =
             format!("{claimed_lm:.1} lm, lamps' flux x light output ratio (intensities count)");
-        warnings.push(Deviation::FluxDiffers, at, found, expected);
+        warnings.push(WarningKind::FluxDiffers, at, found, expected);
     }
 }

@@ -1,9 +1,9 @@
 //! Which C-planes a symmetry stores, and the azimuths they stand at.
 
+use crate::Symmetry;
 use crate::angles::{ROUNDING_DEG, check_ascending, radians, snapped};
-use crate::number::Number;
-use crate::report::{Position, Warnings};
-use crate::{Deviation, ReadError, Symmetry};
+use crate::warning::{WarningKind, Warnings};
+use quasilux_text::{Number, ParseError, Position};
 
 /// The gap that closes the turn may be as wide as so many of the others.
 const WIDEST_GAP: f64 = 1.5;
@@ -32,17 +32,17 @@ pub(super) fn stored_planes(
     isym_at: Position,
     angles: &[Number],
     warnings: &mut Warnings,
-) -> Result<StoredPlanes, ReadError> {
+) -> Result<StoredPlanes, ParseError> {
     check_ascending(angles, "C-plane")?;
     let degrees: Vec<f64> = angles.iter().map(|angle| snapped(angle.value, 90.0)).collect();
     if let Some(index) = degrees.iter().position(|degrees| !(0.0..=360.0).contains(degrees)) {
         let expected = "C-planes between 0 and 360 degrees";
-        return Err(ReadError::new(angles[index].at, angles[index].value, expected));
+        return Err(ParseError::new(angles[index].at, angles[index].value, expected));
     }
     let plane = |angle: f64| {
         degrees.iter().position(|&degrees| degrees == angle).ok_or_else(|| {
             let found = format_args!("no plane C{angle}, which Isym = {isym} needs").to_string();
-            ReadError::new(isym_at, found, "the planes of its axes in the list of field 28")
+            ParseError::new(isym_at, found, "the planes of its axes in the list of field 28")
         })
     };
     let (planes_deg, symmetry): (Vec<f64>, Symmetry) = match isym {
@@ -58,13 +58,13 @@ pub(super) fn stored_planes(
         _ if degrees.len() == 1 => {
             let expected = "Isym = 1 for a single plane (read as rotationally symmetric)";
             let found = "Isym = 0 with a single plane";
-            warnings.push(Deviation::SinglePlaneWithoutSymmetry, isym_at, found, expected);
+            warnings.push(WarningKind::SinglePlaneWithoutSymmetry, isym_at, found, expected);
             (vec![0.0], Symmetry::Rotational)
         }
         _ if degrees[degrees.len() - 1] - degrees[0] == 360.0 => {
             let expected = "planes below 360, the closing one left out (it is kept)";
             let at = angles[angles.len() - 1].at;
-            warnings.push(Deviation::ClosingPlaneGiven, at, "a plane at 360", expected);
+            warnings.push(WarningKind::ClosingPlaneGiven, at, "a plane at 360", expected);
             (degrees, Symmetry::None)
         }
         _ => {
@@ -82,7 +82,7 @@ fn note_gap(isym_at: Position, degrees: &[f64], warnings: &mut Warnings) {
     if first + 360.0 - last > WIDEST_GAP * widest {
         let found = format_args!("Isym = 0 with planes from {first} to {last}").to_string();
         let expected = "planes all around (the gap is interpolated; check Isym)";
-        warnings.push(Deviation::PlanesMissing, isym_at, found, expected);
+        warnings.push(WarningKind::PlanesMissing, isym_at, found, expected);
     }
 }
 
@@ -99,6 +99,6 @@ pub(super) fn check_distance(
     if distance.value != 0.0 && angles.windows(2).any(differs) {
         let found = format_args!("a distance of {} degrees", distance.value).to_string();
         let expected = format!("the distance of all {what}, or 0 if unequal (the list counts)");
-        warnings.push(Deviation::AngleDistance, distance.at, found, expected);
+        warnings.push(WarningKind::AngleDistance, distance.at, found, expected);
     }
 }

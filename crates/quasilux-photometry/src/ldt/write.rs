@@ -5,7 +5,7 @@ use super::header::METRES_PER_MM;
 use super::ratios::direct_ratios;
 use crate::angles::snapped;
 use crate::shape::opening_in;
-use crate::write::{Half, Note, Writer, Written, aligned, before, degrees, number};
+use crate::write::{Encoded, Half, Note, Writer, aligned, before, degrees, number};
 use crate::{Grid, LuminaireFacts, Photometry, SphericalTable, Standard, Symmetry, Tilt};
 use glam::DVec3;
 
@@ -31,13 +31,13 @@ const FIELDS: [&str; 9] =
 ///   integrated flux over lamps' flux.
 /// - The luminaire's own dimensions and type are kept from an EULUMDAT file; otherwise they are
 ///   those of the luminous opening, and Ityp is 1 for rotational symmetry and 3 without.
-/// - Texts are cut to the lengths of their fields. Deviation: numbers are as long as they must be
+/// - Texts are cut to the lengths of their fields. WarningKind: numbers are as long as they must be
 ///   to read back exactly, where the format gives them 4 to 12 characters.
 ///
-/// Whatever else had to be changed is in [`Written::notes`].
+/// Whatever else had to be changed is in [`Encoded::notes`].
 ///
 /// [`write_ies`]: crate::write_ies
-pub fn write_ldt(photometry: &Photometry) -> Written {
+pub fn write_ldt(photometry: &Photometry) -> Encoded {
     let mut writer = Writer::default();
     let facts = photometry.facts();
     let grid = aligned(photometry, Half::Front, &mut writer);

@@ -1,9 +1,10 @@
 //! From the signs of a file's dimensions to a shape, by format and edition.
 
 use super::{Axis, EQUAL, LuminousShape, Solid};
-use crate::report::{Position, Warnings};
-use crate::{Deviation, IesStandard, LuminousOpening, Standard};
+use crate::warning::{WarningKind, Warnings};
+use crate::{IesStandard, LuminousOpening, Standard};
 use glam::DVec3;
+use quasilux_text::Position;
 use std::cmp::Ordering::{Equal as Zero, Greater as Plus, Less as Minus};
 
 /// Dimensions below this are zero.
@@ -76,11 +77,11 @@ pub(crate) fn check_signs(
     match table {
         None => {
             let expected = format_args!("{own} (read as a point)").to_string();
-            warnings.push(Deviation::UnknownOpening, at, found, expected);
+            warnings.push(WarningKind::UnknownOpening, at, found, expected);
         }
         Some(table) if table != Table::of(standard) => {
             let expected = format_args!("{own} (read as a {}, as in LM-63-{table})", shape.name());
-            warnings.push(Deviation::OpeningOfOtherEdition, at, found, expected.to_string());
+            warnings.push(WarningKind::OpeningOfOtherEdition, at, found, expected.to_string());
         }
         Some(_) => {}
     }

@@ -5,10 +5,10 @@ use super::fields::{
     word,
 };
 use super::{check_flux, grid};
-use crate::number::Number;
-use crate::report::{Position, Warnings, quoted};
-use crate::xml::Element;
-use crate::{Deviation, Grid, Keyword, PhotometricType, ReadError, SphericalTable};
+use crate::warning::{WarningKind, Warnings};
+use crate::{Grid, Keyword, PhotometricType, SphericalTable};
+use quasilux_text::xml::Element;
+use quasilux_text::{Number, ParseError, Position, quoted};
 
 /// What is kept of an element `Emitter` with luminous intensities.
 pub(super) struct Emitter {
@@ -35,7 +35,7 @@ impl Emitter {
         element: &Element<'_>,
         photometric_type: PhotometricType,
         warnings: &mut Warnings,
-    ) -> Result<Option<Self>, ReadError> {
+    ) -> Result<Option<Self>, ParseError> {
         let Some(data) = intensities(element, warnings)? else {
             return Ok(None);
         };
@@ -43,13 +43,13 @@ impl Emitter {
             && read_type(Some(own), warnings)? != photometric_type
         {
             let expected = format!("type {photometric_type:?}, that of the goniometer");
-            return Err(ReadError::new(own.text_at, quoted(own.text()), expected));
+            return Err(ParseError::new(own.text_at, quoted(own.text()), expected));
         }
         require(element, &["Quantity", "Description"], warnings);
         let quantity = match optional_count(element, "Quantity", warnings)? {
             Some(0) => {
                 let expected = "at least one lamp (read as one)";
-                warnings.push(Deviation::ZeroLampCount, element.at, "a Quantity of 0", expected);
+                warnings.push(WarningKind::ZeroLampCount, element.at, "a Quantity of 0", expected);
                 1.0
             }
             quantity => quantity.unwrap_or(1) as f64,
@@ -62,14 +62,14 @@ impl Emitter {
         if is_absolute && ballast_factor != 1.0 {
             let found = format_args!("a BallastFactor of {ballast_factor}").to_string();
             let expected = "1 with absolute photometry (not applied: measured with the ballast)";
-            warnings.push(Deviation::AbsoluteBallastFactor, element.at, found, expected);
+            warnings.push(WarningKind::AbsoluteBallastFactor, element.at, found, expected);
         }
         note_tilt(element, warnings)?;
         let multiplier = factor(data, "Multiplier", warnings)?;
         let candela_factor = if is_absolute { multiplier } else { multiplier * ballast_factor };
         let grid = grid::read(data, photometric_type, candela_factor, warnings)?;
         let table = SphericalTable::new(grid.clone())
-            .map_err(|error| ReadError::new(data.at, error, "a photometric table"))?;
+            .map_err(|error| ParseError::new(data.at, error, "a photometric table"))?;
         let stated = element.child("LuminousData").unwrap_or(element);
         let emitter = Self {
             at: element.at,
@@ -111,7 +111,7 @@ impl Emitter {
 pub(super) fn photometric_type(
     root: &Element<'_>,
     warnings: &mut Warnings,
-) -> Result<PhotometricType, ReadError> {
+) -> Result<PhotometricType, ParseError> {
     let goniometer = root
         .child("Equipment")
         .and_then(|equipment| named(equipment, &["Gonioradiometer", "Goniometer"], warnings))
@@ -130,7 +130,7 @@ pub(super) fn photometric_type(
 fn read_type(
     element: Option<&Element<'_>>,
     warnings: &mut Warnings,
-) -> Result<PhotometricType, ReadError> {
+) -> Result<PhotometricType, ParseError> {
     let Some(element) = element.filter(|element| !is_empty_or_missing(Some(element))) else {
         return Ok(PhotometricType::C);
     };
@@ -140,12 +140,12 @@ fn read_type(
         "iesa" | "typea" | "a" => PhotometricType::A,
         _ => {
             let expected = "IES_A, IES_B, IES_C or CIE_C: no other goniometer types are read";
-            return Err(ReadError::new(element.text_at, quoted(element.text()), expected));
+            return Err(ParseError::new(element.text_at, quoted(element.text()), expected));
         }
     };
     if !matches!(element.text(), "IES_A" | "IES_B" | "IES_C" | "CIE_C") {
         let expected = format_args!("IES_{photometric_type:?} or CIE_C (read as that)").to_string();
-        warnings.push(Deviation::WordSpelling, element.text_at, quoted(element.text()), expected);
+        warnings.push(WarningKind::WordSpelling, element.text_at, quoted(element.text()), expected);
     }
     Ok(photometric_type)
 }
@@ -155,7 +155,7 @@ fn read_type(
 fn intensities<'e, 't>(
     element: &'e Element<'t>,
     warnings: &mut Warnings,
-) -> Result<Option<&'e Element<'t>>, ReadError> {
+) -> Result<Option<&'e Element<'t>>, ParseError> {
     let outer = named(element, &["LuminousData", "IntensityDistribution"], warnings);
     let Some(outer) = outer else {
         return Ok(None);
@@ -164,14 +164,14 @@ fn intensities<'e, 't>(
     for (name, expected) in [("Metric", "luminous"), ("Units", "cd")] {
         if let Some(child) = data.child(name).filter(|child| word(child) != expected) {
             let expected = format_args!("{expected} intensities: no others are read").to_string();
-            return Err(ReadError::new(child.text_at, quoted(child.text()), expected));
+            return Err(ParseError::new(child.text_at, quoted(child.text()), expected));
         }
     }
     Ok(Some(data))
 }
 
 /// Tilt factors are not applied: the luminaire is taken in the position it was measured in.
-fn note_tilt(element: &Element<'_>, warnings: &mut Warnings) -> Result<(), ReadError> {
+fn note_tilt(element: &Element<'_>, warnings: &mut Warnings) -> Result<(), ParseError> {
     let Some(angles) = element.child("TiltAngles") else {
         return Ok(());
     };
@@ -180,7 +180,7 @@ fn note_tilt(element: &Element<'_>, warnings: &mut Warnings) -> Result<(), ReadE
         if factor.value != 1.0 {
             let found = format_args!("a tilt factor of {}", factor.value).to_string();
             let expected = "1 (tilt factors are not applied: the luminaire is taken as measured)";
-            warnings.push(Deviation::TiltFactors, factor.at, found, expected);
+            warnings.push(WarningKind::TiltFactors, factor.at, found, expected);
         }
     }
     Ok(())

@@ -1,9 +1,8 @@
 //! Elements by name: under the standard's names, or under those that other writers use.
 
-use crate::number::{Number, Written};
-use crate::report::{Warnings, quoted};
-use crate::xml::Element;
-use crate::{Deviation, ReadError};
+use crate::warning::{WarningKind, Warnings};
+use quasilux_text::xml::Element;
+use quasilux_text::{Number, ParseError, Token, quoted};
 
 /// The child with the first of these names that there is. The first name is the standard's; a child
 /// under another one is noted.
@@ -22,7 +21,7 @@ pub(super) fn note_foreign(element: &Element<'_>, standard: &str, warnings: &mut
     if element.name != standard {
         let expected = format_args!("{standard} (read as that)").to_string();
         let found = format_args!("the element {}", quoted(element.name)).to_string();
-        warnings.push(Deviation::ForeignElement, element.at, found, expected);
+        warnings.push(WarningKind::ForeignElement, element.at, found, expected);
     }
 }
 
@@ -33,7 +32,7 @@ pub(super) fn require(parent: &Element<'_>, names: &[&str], warnings: &mut Warni
         let has_children = child.is_some_and(|child| !child.children.is_empty());
         if is_empty_or_missing(child) && !has_children {
             let found = format_args!("{} without {name}", parent.name).to_string();
-            warnings.push(Deviation::MissingElement, parent.at, found, "all that TM-33 requires");
+            warnings.push(WarningKind::MissingElement, parent.at, found, "all that TM-33 requires");
         }
     }
 }
@@ -44,8 +43,8 @@ pub(super) fn is_empty_or_missing(element: Option<&Element<'_>>) -> bool {
 }
 
 /// The text of an element as a number.
-pub(super) fn number(element: &Element<'_>) -> Result<Number, ReadError> {
-    Written { text: element.text(), at: element.text_at }.number(element.name)
+pub(super) fn number(element: &Element<'_>) -> Result<Number, ParseError> {
+    Token { text: element.text(), at: element.text_at }.number(element.name)
 }
 
 /// A child's number, where an empty child counts as none.
@@ -53,13 +52,13 @@ pub(super) fn optional_number(
     parent: &Element<'_>,
     names: &[&str],
     warnings: &mut Warnings,
-) -> Result<Option<Number>, ReadError> {
+) -> Result<Option<Number>, ParseError> {
     let Some(child) = named(parent, names, warnings) else {
         return Ok(None);
     };
     if child.text().is_empty() {
         let expected = format_args!("a number in {} (read as missing)", child.name).to_string();
-        warnings.push(Deviation::EmptyNumber, child.at, "nothing", expected);
+        warnings.push(WarningKind::EmptyNumber, child.at, "nothing", expected);
         return Ok(None);
     }
     number(child).map(Some)
@@ -70,12 +69,12 @@ pub(super) fn factor(
     parent: &Element<'_>,
     name: &str,
     warnings: &mut Warnings,
-) -> Result<f64, ReadError> {
+) -> Result<f64, ParseError> {
     match optional_number(parent, &[name], warnings)? {
         None => Ok(1.0),
         Some(Number { value, .. }) if value > 0.0 => Ok(value),
         Some(Number { value, at }) => {
-            Err(ReadError::new(at, value, format_args!("a {name} above 0 (1 if unknown)")))
+            Err(ParseError::new(at, value, format_args!("a {name} above 0 (1 if unknown)")))
         }
     }
 }
@@ -85,26 +84,26 @@ pub(super) fn optional_count(
     parent: &Element<'_>,
     name: &str,
     warnings: &mut Warnings,
-) -> Result<Option<usize>, ReadError> {
+) -> Result<Option<usize>, ParseError> {
     let Some(number) = optional_number(parent, &[name], warnings)? else {
         return Ok(None);
     };
     let text = parent.child(name).map_or("", Element::text);
-    Written { text, at: number.at }.count(number, name, 0, warnings).map(Some)
+    Token { text, at: number.at }.count(number, name, 0, warnings).map(Some)
 }
 
 /// A child's truth value, if there is one.
 pub(super) fn optional_boolean(
     parent: &Element<'_>,
     name: &str,
-) -> Result<Option<bool>, ReadError> {
+) -> Result<Option<bool>, ParseError> {
     let Some(child) = parent.child(name).filter(|child| !child.text().is_empty()) else {
         return Ok(None);
     };
     match child.text().to_ascii_lowercase().as_str() {
         "true" | "1" => Ok(Some(true)),
         "false" | "0" => Ok(Some(false)),
-        other => Err(ReadError::new(child.text_at, quoted(other), "true or false")),
+        other => Err(ParseError::new(child.text_at, quoted(other), "true or false")),
     }
 }
 

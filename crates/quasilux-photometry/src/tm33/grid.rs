@@ -4,10 +4,10 @@ use super::fields::{named, note_foreign, number, optional_count, word};
 use crate::angles::gamma_rad;
 use crate::candela::{check_closing, intensity_cd};
 use crate::ies::{HvAngles, c_rad};
-use crate::number::{Number, Written};
-use crate::report::{Position, Warnings, quoted};
-use crate::xml::Element;
-use crate::{Deviation, Grid, PhotometricType, ReadError, Symmetry};
+use crate::warning::{WarningKind, Warnings};
+use crate::{Grid, PhotometricType, Symmetry};
+use quasilux_text::xml::Element;
+use quasilux_text::{Number, ParseError, Position, Token, quoted};
 
 /// One `IntData`.
 struct Point {
@@ -23,7 +23,7 @@ pub(super) fn read(
     photometric_type: PhotometricType,
     factor: f64,
     warnings: &mut Warnings,
-) -> Result<Grid, ReadError> {
+) -> Result<Grid, ParseError> {
     let mut points = Vec::new();
     for name in ["IntData", "IntensityData"] {
         for element in data.all(name) {
@@ -33,7 +33,7 @@ pub(super) fn read(
     }
     if points.is_empty() {
         let found = format!("{} without intensities", data.name);
-        return Err(ReadError::new(data.at, found, "elements IntData, one for each direction"));
+        return Err(ParseError::new(data.at, found, "elements IntData, one for each direction"));
     }
     points.sort_by(|a, b| {
         let by_horizontal = a.horizontal.value.total_cmp(&b.horizontal.value);
@@ -45,7 +45,7 @@ pub(super) fn read(
     let vertical = distinct(vertical.into_iter());
     if let [single] = vertical[..] {
         let found = format!("all intensities at v = {}", single.value);
-        return Err(ReadError::new(single.at, found, "two or more vertical angles v"));
+        return Err(ParseError::new(single.at, found, "two or more vertical angles v"));
     }
     check_complete(&points, &horizontal, &vertical)?;
     check_counts(data, [points.len(), horizontal.len(), vertical.len()], warnings)?;
@@ -67,19 +67,19 @@ pub(super) fn read(
     Ok(grid)
 }
 
-fn point(element: &Element<'_>, factor: f64, warnings: &mut Warnings) -> Result<Point, ReadError> {
+fn point(element: &Element<'_>, factor: f64, warnings: &mut Warnings) -> Result<Point, ParseError> {
     let mut angle = |names: [&str; 3]| {
         let attribute = element.attributes.iter().find(|a| names.contains(&a.name.as_str()));
         let Some(attribute) = attribute else {
             let found = format!("{} without an angle {}", element.name, names[0]);
-            return Err(ReadError::new(element.at, found, "the angles h and v in degrees"));
+            return Err(ParseError::new(element.at, found, "the angles h and v in degrees"));
         };
         if attribute.name != names[0] {
             let found = format_args!("the attribute {}", quoted(&attribute.name)).to_string();
             let expected = format_args!("{} (read as that)", names[0]).to_string();
-            warnings.push(Deviation::ForeignElement, element.at, found, expected);
+            warnings.push(WarningKind::ForeignElement, element.at, found, expected);
         }
-        let angle = Written { text: attribute.value.trim(), at: element.at }.number(names[0])?;
+        let angle = Token { text: attribute.value.trim(), at: element.at }.number(names[0])?;
         // Adding zero turns -0 into 0.
         Ok(Number { value: angle.value + 0.0, at: angle.at })
     };
@@ -106,7 +106,7 @@ fn check_complete(
     points: &[Point],
     horizontal: &[Number],
     vertical: &[Number],
-) -> Result<(), ReadError> {
+) -> Result<(), ParseError> {
     let same = |pair: &&[Point]| {
         pair[0].horizontal.value == pair[1].horizontal.value
             && pair[0].vertical.value == pair[1].vertical.value
@@ -115,7 +115,7 @@ fn check_complete(
     if let Some([_, again]) = points.windows(2).find(same) {
         let found = name(again.horizontal.value, again.vertical.value);
         let found = format!("a second intensity at {found}");
-        return Err(ReadError::new(again.at, found, "each direction once"));
+        return Err(ParseError::new(again.at, found, "each direction once"));
     }
     // Points ascend as the grid does: the first one off it shows what is missing before.
     for (index, point) in points.iter().enumerate() {
@@ -135,9 +135,9 @@ fn check_complete(
     Ok(())
 }
 
-fn missing(at: Position, direction: &str) -> ReadError {
+fn missing(at: Position, direction: &str) -> ParseError {
     let found = format!("no intensity at {direction}");
-    ReadError::new(at, found, "one for each pair of a horizontal and a vertical angle")
+    ParseError::new(at, found, "one for each pair of a horizontal and a vertical angle")
 }
 
 /// Notes counts that are not those of the intensities: points, horizontal and vertical angles.
@@ -145,14 +145,14 @@ fn check_counts(
     data: &Element<'_>,
     counts: [usize; 3],
     warnings: &mut Warnings,
-) -> Result<(), ReadError> {
+) -> Result<(), ParseError> {
     for (name, count) in ["NumberMeasured", "NumberHorz", "NumberVert"].iter().zip(counts) {
         match optional_count(data, name, warnings)? {
             Some(stated) if stated != count => {
                 let at = data.child(name).map_or(data.at, |child| child.text_at);
                 let found = format_args!("a {name} of {stated}").to_string();
                 let expected = format_args!("{count}, as many as there are").to_string();
-                warnings.push(Deviation::CountDiffers, at, found, expected);
+                warnings.push(WarningKind::CountDiffers, at, found, expected);
             }
             Some(_) => {}
             None => super::fields::require(data, &[name], warnings),
@@ -167,7 +167,7 @@ fn check_symmetry(
     symmetry: Symmetry,
     planes: &[Number],
     warnings: &mut Warnings,
-) -> Result<(), ReadError> {
+) -> Result<(), ParseError> {
     let Some(element) = named(data, &["Symm", "SymmType"], warnings) else {
         return Ok(());
     };
@@ -182,18 +182,18 @@ fn check_symmetry(
         _ => {
             let expected = "Symm_None, Symm_Bi_0, Symm_Bi_90, Symm_Quad, Symm_Full or \
                             Symm_Arbitrary";
-            return Err(ReadError::new(element.text_at, quoted(element.text()), expected));
+            return Err(ParseError::new(element.text_at, quoted(element.text()), expected));
         }
     };
     if element.text() != name {
         let expected = format_args!("{name} (read as that)").to_string();
-        warnings.push(Deviation::WordSpelling, element.text_at, quoted(element.text()), expected);
+        warnings.push(WarningKind::WordSpelling, element.text_at, quoted(element.text()), expected);
     }
     if !fits {
         let (first, last) = (planes[0].value, planes[planes.len() - 1].value);
         let found = format_args!("{name} with planes from {first} to {last}").to_string();
         let expected = "the symmetry that they span (the planes count)";
-        warnings.push(Deviation::SymmetryDiffers, element.text_at, found, expected);
+        warnings.push(WarningKind::SymmetryDiffers, element.text_at, found, expected);
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 //!
 //! The elements that light depends on, and how they are read, stand in
 //! [`formats::tm33`](crate::formats::tm33); what is tolerated beyond the standard is listed, rule by
-//! rule, in [`Deviation`].
+//! rule, in [`WarningKind`].
 
 mod emitter;
 mod fields;
@@ -11,19 +11,19 @@ mod opening;
 mod sum;
 
 use crate::photometry::FLUX_TOLERANCE;
-use crate::report::{Warnings, quoted};
-use crate::xml::{self, Element};
+use crate::warning::{WarningKind, Warnings};
 use crate::{
-    Deviation, Keyword, LuminaireFacts, Photometry, Read, ReadError, SphericalTable, Standard,
-    Tilt, Tm33Edition, text,
+    Keyword, LuminaireFacts, Parsed, Photometry, SphericalTable, Standard, Tilt, Tm33Edition,
 };
 use emitter::Emitter;
 use fields::{is_empty_or_missing, require};
+use quasilux_text::xml::{self, Element};
+use quasilux_text::{ParseError, quoted};
 use std::borrow::Cow;
 
 /// Reads a TM-33 file. Total: any bytes give a luminaire or an error with its place, and memory is
 /// bounded by a multiple of the file's length.
-pub fn read_tm33(bytes: &[u8]) -> Result<Read, ReadError> {
+pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let root = xml::parse(text.trim_start_matches('\u{FEFF}'))?;
@@ -50,18 +50,18 @@ pub fn read_tm33(bytes: &[u8]) -> Result<Read, ReadError> {
     if let Some(dark) = dark {
         let found = "an emitter without luminous intensities";
         let expected = "LuminousData in each emitter (this one is left out)";
-        warnings.push(Deviation::EmitterWithoutLight, dark.at, found, expected);
+        warnings.push(WarningKind::EmitterWithoutLight, dark.at, found, expected);
     }
     if let [_, second, ..] = &emitters[..] {
         let found = format_args!("{} emitters", emitters.len()).to_string();
         let expected = "one emitter (their intensities are added, as if from one place)";
-        warnings.push(Deviation::SeveralEmitters, second.at, found, expected);
+        warnings.push(WarningKind::SeveralEmitters, second.at, found, expected);
     }
     let opening = opening::read(&root, &mut warnings)?;
     let table = sum::sum(&emitters)?;
     if table.integral() <= 0.0 {
         let found = "an integrated flux of 0 lm";
-        warnings.push(Deviation::NoLight, emitters[0].at, found, "some light");
+        warnings.push(WarningKind::NoLight, emitters[0].at, found, "some light");
     }
     let facts = LuminaireFacts {
         standard: Standard::Tm33(edition),
@@ -80,26 +80,26 @@ pub fn read_tm33(bytes: &[u8]) -> Result<Read, ReadError> {
         eulumdat: None,
     };
     let photometry = Photometry::new(table, facts);
-    Ok(Read { photometry, warnings: warnings.into_vec() })
+    Ok(Parsed { photometry, warnings: warnings.into_vec() })
 }
 
 /// The text. XML may start with a byte order mark, be UTF-16, or name its encoding.
 fn decode<'b>(bytes: &'b [u8], warnings: &mut Warnings) -> Cow<'b, str> {
     let mut found = Warnings::default();
-    let text = text::decode(bytes, &mut found);
+    let text = quasilux_text::decode(bytes, &mut found);
     let names_latin_1 = text.lines().next().is_some_and(|line| {
         let line = line.to_ascii_lowercase();
         line.contains("iso-8859-1") || line.contains("windows-1252")
     });
     let is_wide = matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]);
     if !names_latin_1 && !is_wide {
-        warnings.keep(found, Deviation::Encoding);
+        warnings.take_kind(found, WarningKind::Encoding);
     }
     text
 }
 
 /// What the root names.
-fn edition(root: &Element<'_>, warnings: &mut Warnings) -> Result<Tm33Edition, ReadError> {
+fn edition(root: &Element<'_>, warnings: &mut Warnings) -> Result<Tm33Edition, ParseError> {
     let (edition, is_known) = match root.name {
         "IESTM33-22" => (Tm33Edition::Of2023, true),
         "IESTM33" | "IESTM33-18" => (Tm33Edition::Of2018, true),
@@ -109,21 +109,21 @@ fn edition(root: &Element<'_>, warnings: &mut Warnings) -> Result<Tm33Edition, R
         name => {
             let found = format!("{} as the root element", quoted(name));
             let expected = "a luminaire in the TM-33 format: IESTM33-22, IESTM33 or ATLA_S001";
-            return Err(ReadError::new(root.at, found, expected));
+            return Err(ParseError::new(root.at, found, expected));
         }
     };
     if !is_known {
         let found = format_args!("{} as the root element", quoted(root.name));
         let expected = "IESTM33-22, IESTM33 or ATLA_S001 (read as the nearest of them)";
-        warnings.push(Deviation::UnknownStandard, root.at, found.to_string(), expected);
+        warnings.push(WarningKind::UnknownStandard, root.at, found.to_string(), expected);
     }
     Ok(edition)
 }
 
 /// Why a file without luminous intensities is refused: what it has instead.
-fn no_light(root: &Element<'_>, dark: Option<&Element<'_>>) -> ReadError {
+fn no_light(root: &Element<'_>, dark: Option<&Element<'_>>) -> ParseError {
     let Some(emitter) = dark else {
-        return ReadError::new(root.at, "no element Emitter", "at least one emitter");
+        return ParseError::new(root.at, "no element Emitter", "at least one emitter");
     };
     let other = ["RadiantData", "PhotonData", "SpectralData", "IllumData", "IrradData", "PFDData"];
     let found = match other.iter().find(|name| emitter.child(name).is_some()) {
@@ -131,7 +131,7 @@ fn no_light(root: &Element<'_>, dark: Option<&Element<'_>>) -> ReadError {
         None => "an emitter without LuminousData".to_owned(),
     };
     let expected = "LuminousData with LuminousIntensity: only luminous intensities are read";
-    ReadError::new(emitter.at, found, expected)
+    ParseError::new(emitter.at, found, expected)
 }
 
 /// Lumens of one lamp; `None` if an emitter is measured absolutely.
@@ -177,6 +177,6 @@ fn check_flux(table: &SphericalTable, emitter: &Emitter, warnings: &mut Warnings
         let found =
             format_args!("an integrated flux of {flux_lm:.1} lm ({ratio:.1} %)").to_string();
         let expected = format!("{stated_lm:.1} lm, {what} (intensities count)");
-        warnings.push(Deviation::FluxDiffers, at, found, expected);
+        warnings.push(WarningKind::FluxDiffers, at, found, expected);
     }
 }

@@ -5,9 +5,10 @@
 //! signs that LM-63 gives it.
 
 use super::fields::{number, optional_boolean};
-use crate::report::Warnings;
-use crate::xml::Element;
-use crate::{Deviation, LuminousOpening, ReadError};
+use crate::LuminousOpening;
+use crate::warning::{WarningKind, Warnings};
+use quasilux_text::ParseError;
+use quasilux_text::xml::Element;
 
 /// Metres in a millimetre.
 const METRES_PER_MM: f64 = 1e-3;
@@ -42,7 +43,7 @@ struct Extent {
 pub(super) fn read(
     root: &Element<'_>,
     warnings: &mut Warnings,
-) -> Result<LuminousOpening, ReadError> {
+) -> Result<LuminousOpening, ParseError> {
     let mut extent = Extent::default();
     for areas in root.all("Emitter").filter_map(|emitter| emitter.child("EmissionAreas")) {
         for (face, area, axes) in FACES {
@@ -58,7 +59,7 @@ pub(super) fn read(
 }
 
 impl Extent {
-    fn add(&mut self, area: &Element<'_>, axes: [Axis; 2]) -> Result<(), ReadError> {
+    fn add(&mut self, area: &Element<'_>, axes: [Axis; 2]) -> Result<(), ParseError> {
         for axis in axes {
             let (size, offset) = match axis {
                 Axis::Length => ("Length", "LengthOffset"),
@@ -87,13 +88,13 @@ impl Extent {
 }
 
 /// `LuminousOpening` of the luminaire, which other writers use, in millimetres.
-fn foreign(root: &Element<'_>, warnings: &mut Warnings) -> Result<LuminousOpening, ReadError> {
+fn foreign(root: &Element<'_>, warnings: &mut Warnings) -> Result<LuminousOpening, ParseError> {
     let luminaire = root.child("Luminaire");
     let Some(element) = luminaire.and_then(|luminaire| luminaire.child("LuminousOpening")) else {
         return Ok(LuminousOpening::default());
     };
     let expected = "EmissionAreas in the emitter, in m (read, as its writers mean it, in mm)";
-    warnings.push(Deviation::OpeningInMillimetres, element.at, "LuminousOpening", expected);
+    warnings.push(WarningKind::OpeningInMillimetres, element.at, "LuminousOpening", expected);
     let sizes = element.child("Dimensions").unwrap_or(element);
     let diameter = length(sizes, "Diameter")?;
     let length_m = diameter.or(length(sizes, "Length")?).unwrap_or(0.0) * METRES_PER_MM;
@@ -109,13 +110,17 @@ fn opening(length_m: f64, width_m: f64, height_m: f64, is_round: bool) -> Lumino
     LuminousOpening { width_m: sign * length_m, length_m: sign * width_m, height_m }
 }
 
-fn length(parent: &Element<'_>, name: &str) -> Result<Option<f64>, ReadError> {
+fn length(parent: &Element<'_>, name: &str) -> Result<Option<f64>, ParseError> {
     let Some(child) = parent.child(name) else {
         return Ok(None);
     };
     let length = number(child)?;
     if length.value < 0.0 {
-        return Err(ReadError::new(length.at, length.value, format_args!("a {name} of 0 or more")));
+        return Err(ParseError::new(
+            length.at,
+            length.value,
+            format_args!("a {name} of 0 or more"),
+        ));
     }
     Ok(Some(length.value))
 }

@@ -7,7 +7,8 @@
 //! which shine into a sector, must be on one grid.
 
 use super::emitter::Emitter;
-use crate::{Angles, Grid, ReadError, SphericalTable, Symmetry};
+use crate::{Angles, Grid, SphericalTable, Symmetry};
+use quasilux_text::ParseError;
 use std::f64::consts::TAU;
 
 /// Azimuths closer than this are one.
@@ -17,7 +18,7 @@ const SAME_AZIMUTH_RAD: f64 = 1e-12;
 const MAX_VALUES_PER_POINT: usize = 64;
 
 /// The sum of at least one emitter.
-pub(super) fn sum(emitters: &[Emitter]) -> Result<SphericalTable, ReadError> {
+pub(super) fn sum(emitters: &[Emitter]) -> Result<SphericalTable, ParseError> {
     let first = &emitters[0];
     let is_same = |emitter: &Emitter| {
         let (a, b) = (&emitter.grid, &first.grid);
@@ -35,13 +36,13 @@ pub(super) fn sum(emitters: &[Emitter]) -> Result<SphericalTable, ReadError> {
         union(emitters)?
     };
     SphericalTable::new(grid)
-        .map_err(|error| ReadError::new(first.at, error, "a photometric table"))
+        .map_err(|error| ParseError::new(first.at, error, "a photometric table"))
 }
 
-fn union(emitters: &[Emitter]) -> Result<Grid, ReadError> {
+fn union(emitters: &[Emitter]) -> Result<Grid, ParseError> {
     if let Some(sector) = emitters.iter().find(|e| e.grid.symmetry == Symmetry::Sector) {
         let found = "an emitter of type A or B whose angles are not those of the others";
-        return Err(ReadError::new(sector.at, found, "the same angles in all emitters"));
+        return Err(ParseError::new(sector.at, found, "the same angles in all emitters"));
     }
     let tables = || emitters.iter().map(|emitter| &emitter.table);
     let mut theta_rad: Vec<f64> = tables().flat_map(|table| table.theta_rad()).copied().collect();
@@ -61,7 +62,7 @@ fn union(emitters: &[Emitter]) -> Result<Grid, ReadError> {
     let values = theta_rad.len().saturating_mul(phi_rad.len());
     if values > points.saturating_mul(MAX_VALUES_PER_POINT) {
         let found = format!("emitters whose sum has {values} values");
-        return Err(ReadError::new(emitters[1].at, found, "emitters with angles in common"));
+        return Err(ParseError::new(emitters[1].at, found, "emitters with angles in common"));
     }
     for emitter in emitters {
         check_ends(emitter, theta_rad[0], theta_rad[theta_rad.len() - 1])?;
@@ -83,7 +84,7 @@ fn union(emitters: &[Emitter]) -> Result<Grid, ReadError> {
 }
 
 /// Refuses an emitter that is cut off while it shines, at angles where another one goes on.
-fn check_ends(emitter: &Emitter, first_rad: f64, last_rad: f64) -> Result<(), ReadError> {
+fn check_ends(emitter: &Emitter, first_rad: f64, last_rad: f64) -> Result<(), ParseError> {
     let grid = &emitter.grid;
     let (columns, rows) = (grid.phi_rad.len(), grid.theta_rad.len());
     let shines = |row: usize| grid.values[row * columns..][..columns].iter().any(|&cd| cd > 0.0);
@@ -93,7 +94,7 @@ fn check_ends(emitter: &Emitter, first_rad: f64, last_rad: f64) -> Result<(), Re
         let found = "an emitter with light at its last vertical angle, and others beyond";
         let expected = "the same range of vertical angles in all emitters, or intensities that \
                         end in 0";
-        return Err(ReadError::new(emitter.at, found, expected));
+        return Err(ParseError::new(emitter.at, found, expected));
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ pub(crate) use turn::{Half, aligned};
 
 /// A file that was written, with what the format could not hold.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Written {
+pub struct Encoded {
     /// The file. Lines end with carriage return and line feed, as both formats ask for.
     pub text: String,
     /// What was changed, left out or added on the way.
@@ -157,10 +157,10 @@ impl Writer {
         }
     }
 
-    pub(crate) fn finish(mut self) -> Written {
+    pub(crate) fn finish(mut self) -> Encoded {
         if !self.text.is_ascii() {
             self.note(Note::NotAscii);
         }
-        Written { text: self.text, notes: self.notes }
+        Encoded { text: self.text, notes: self.notes }
     }
 }

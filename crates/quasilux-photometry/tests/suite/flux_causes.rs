@@ -7,7 +7,7 @@
 use crate::corpus::{name, published_files_of};
 use crate::fluxes::{midpoint_sum_lm, sum_of_means_lm};
 use Cause::{Losses, MadeUp, NominalLumens, Numbered, OtherRatio, StatedLosses, TableOf};
-use quasilux_photometry::{Angles, Deviation, Photometry, Read, read_ies, read_ldt};
+use quasilux_photometry::{Angles, Parsed, Photometry, WarningKind, read_ies, read_ldt};
 use std::f64::consts::PI;
 
 /// Why the flux of a table is not that of the header.
@@ -128,7 +128,7 @@ fn each_difference_has_its_cause() {
                 continue;
             };
             let ratio = read.photometry.flux_lm() / claimed_lm;
-            let warned = read.warnings.iter().any(|w| w.deviation() == Deviation::FluxDiffers);
+            let warned = read.warnings.iter().any(|w| w.kind() == WarningKind::FluxDiffers);
             assert_eq!((ratio - 1.0).abs() > 0.01, warned, "{name}: {ratio}");
             let known = DIFFERENCES.iter().find(|(known, ..)| *known == name);
             assert_eq!(warned, known.is_some(), "{name}: {ratio}");
@@ -189,7 +189,7 @@ fn check(name: &str, photometry: &Photometry, claimed_lm: f64, cause: Cause) {
 }
 
 /// A file that states its flux: lamps and, in EULUMDAT, a light output ratio.
-fn read_with_claim(name: &str) -> Option<(Read, f64)> {
+fn read_with_claim(name: &str) -> Option<(Parsed, f64)> {
     let read = read_file(name)?;
     let facts = read.photometry.facts();
     let claimed_lm = if name.ends_with(".ldt") {
@@ -205,7 +205,7 @@ fn absolute(name: &str) -> Photometry {
 }
 
 /// `None` for a refused file.
-fn read_file(name: &str) -> Option<Read> {
+fn read_file(name: &str) -> Option<Parsed> {
     let (extension, read): (_, fn(&[u8]) -> _) =
         if name.ends_with(".ldt") { ("ldt", read_ldt) } else { ("ies", read_ies) };
     let files = published_files_of(extension)?;

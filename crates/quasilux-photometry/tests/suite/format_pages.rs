@@ -1,4 +1,4 @@
-//! The pages of the formats name every tolerated deviation.
+//! The pages of the formats name every kind of warning.
 
 use std::path::Path;
 
@@ -13,23 +13,23 @@ fn variants<'s>(source: &'s str, name: &str) -> Vec<&'s str> {
 /// Variants without a row, or a mention with a row elsewhere: `[`Name`]: crate::...`.
 fn missing<'s>(variants: &[&'s str], pages: &str) -> Vec<&'s str> {
     let is_named =
-        |name: &&&str| pages.contains(&format!("[`{name}`]: crate::Deviation::{name}\n"));
+        |name: &&&str| pages.contains(&format!("[`{name}`]: crate::WarningKind::{name}\n"));
     variants.iter().filter(|name| !is_named(name)).copied().collect()
 }
 
 #[test]
-fn every_deviation_stands_on_a_page() {
+fn every_kind_of_warning_stands_on_a_page() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let report = std::fs::read_to_string(source.join("report.rs")).unwrap();
+    let kinds = std::fs::read_to_string(source.join("warning.rs")).unwrap();
     let pages: String = std::fs::read_dir(source.join("formats"))
         .unwrap()
         .map(|entry| std::fs::read_to_string(entry.unwrap().path()).unwrap())
         .collect();
-    let variants = variants(&report, "Deviation");
+    let variants = variants(&kinds, "WarningKind");
     assert!(variants.len() > 30 && variants.contains(&"Encoding"));
     let missing_here = missing(&variants, &pages);
     assert!(missing_here.is_empty(), "not on a page in src/formats/: {missing_here:?}");
     // A page that has lost a row is found out.
-    let lost = pages.replace("[`Semicolon`]: crate::Deviation::Semicolon\n", "");
+    let lost = pages.replace("[`Semicolon`]: crate::WarningKind::Semicolon\n", "");
     assert_eq!(missing(&variants, &lost), ["Semicolon"]);
 }

@@ -1,7 +1,7 @@
 //! EULUMDAT: symmetries, factors, tolerated deviations, refusals with their places.
 
 use glam::DVec3;
-use quasilux_photometry::{Deviation, Read, ReadError, Standard, Symmetry, read_ldt};
+use quasilux_photometry::{ParseError, Parsed, Standard, Symmetry, WarningKind, read_ldt};
 use std::f64::consts::PI;
 
 /// The pieces of a file: gamma is 0, 90, 180 and each plane is constant over it, so that the flux
@@ -45,22 +45,22 @@ impl File {
         )
     }
 
-    fn read(&self) -> Read {
+    fn read(&self) -> Parsed {
         let text = self.text();
         read_ldt(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
     }
 }
 
-fn deviations(read: &Read) -> Vec<Deviation> {
-    read.warnings.iter().map(|warning| warning.deviation()).collect()
+fn deviations(read: &Parsed) -> Vec<WarningKind> {
+    read.warnings.iter().map(|warning| warning.kind()).collect()
 }
 
-fn at_horizon(read: &Read, c_deg: i32) -> f64 {
+fn at_horizon(read: &Parsed, c_deg: i32) -> f64 {
     let (y, x) = libm::sincos(f64::from(c_deg) / 180.0 * PI);
     read.photometry.intensity_cd(DVec3::new(x, y, 0.0))
 }
 
-fn refused(text: &str) -> ReadError {
+fn refused(text: &str) -> ParseError {
     read_ldt(text.as_bytes()).expect_err("a refusal")
 }
 
@@ -107,7 +107,7 @@ fn unequal_planes_keep_their_azimuths() {
     {
         assert!((at_horizon(&read, c_deg) - expected_cd).abs() < 1e-9, "C{c_deg}");
     }
-    assert_eq!(deviations(&read), [Deviation::FluxDiffers]);
+    assert_eq!(deviations(&read), [WarningKind::FluxDiffers]);
 }
 
 #[test]
@@ -152,32 +152,32 @@ fn each_tolerated_deviation_is_reported() {
     let with = |luminaire| File { luminaire, ..ROTATIONAL };
     let closing = ("90", "0 90 180 270 360");
     let cases = [
-        (with("1200 300 80 1100 200 10 20 10 20 100 125,66 1 0"), Deviation::DecimalComma),
-        (with("1200  80 1100 200 10 20 10 20 100 125.66 1 0"), Deviation::EmptyNumber),
-        (with("1 1 1 1 1 0 0 0 0 100 0 1 0"), Deviation::ZeroLightOutputRatio),
-        (with("1 1 1 1 1 0 0 0 0 100 125.66 0 0"), Deviation::ZeroConversionFactor),
-        (with("1 1 1 1 1 0 0 0 0 100 125.66 1 15"), Deviation::MeasurementTilt),
-        (with("1 1 1 1 1 0 0 0 0 100 90 1 0"), Deviation::FluxDiffers),
-        (File { planes: ("30", "0 90 180 270"), ..ROTATIONAL }, Deviation::AngleDistance),
-        (File { isym: "0", ..ROTATIONAL }, Deviation::SinglePlaneWithoutSymmetry),
+        (with("1200 300 80 1100 200 10 20 10 20 100 125,66 1 0"), WarningKind::DecimalComma),
+        (with("1200  80 1100 200 10 20 10 20 100 125.66 1 0"), WarningKind::EmptyNumber),
+        (with("1 1 1 1 1 0 0 0 0 100 0 1 0"), WarningKind::ZeroLightOutputRatio),
+        (with("1 1 1 1 1 0 0 0 0 100 125.66 0 0"), WarningKind::ZeroConversionFactor),
+        (with("1 1 1 1 1 0 0 0 0 100 125.66 1 15"), WarningKind::MeasurementTilt),
+        (with("1 1 1 1 1 0 0 0 0 100 90 1 0"), WarningKind::FluxDiffers),
+        (File { planes: ("30", "0 90 180 270"), ..ROTATIONAL }, WarningKind::AngleDistance),
+        (File { isym: "0", ..ROTATIONAL }, WarningKind::SinglePlaneWithoutSymmetry),
         (
             File { isym: "0", planes: closing, intensities: "1 1 1 1 1", ..ROTATIONAL },
-            Deviation::ClosingPlaneGiven,
+            WarningKind::ClosingPlaneGiven,
         ),
         (
             File { isym: "0", planes: ("90", "0 90 180"), intensities: "1 1 1", ..ROTATIONAL },
-            Deviation::PlanesMissing,
+            WarningKind::PlanesMissing,
         ),
-        (File { lamps: "1\n\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, Deviation::EmptyNumber),
-        (File { lamps: "1\n0\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, Deviation::ZeroLampCount),
+        (File { lamps: "1\n\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, WarningKind::EmptyNumber),
+        (File { lamps: "1\n0\nT\n1000\n3000K\n80\n20", ..ROTATIONAL }, WarningKind::ZeroLampCount),
         (
             File { lamps: "2\n1\nT\n1000\n-\n-\n20\n1\nT\n2000\n-\n-\n40", ..ROTATIONAL },
-            Deviation::SeveralLampSets,
+            WarningKind::SeveralLampSets,
         ),
-        (File { intensities: "100 7", ..ROTATIONAL }, Deviation::TrailingText),
-        (File { intensities: "-1", ..ROTATIONAL }, Deviation::NegativeCandela),
-        (File { intensities: "0", ..ROTATIONAL }, Deviation::NoLight),
-        (File { isym: "1.0", ..ROTATIONAL }, Deviation::CountWithPoint),
+        (File { intensities: "100 7", ..ROTATIONAL }, WarningKind::TrailingText),
+        (File { intensities: "-1", ..ROTATIONAL }, WarningKind::NegativeCandela),
+        (File { intensities: "0", ..ROTATIONAL }, WarningKind::NoLight),
+        (File { isym: "1.0", ..ROTATIONAL }, WarningKind::CountWithPoint),
     ];
     for (file, deviation) in cases {
         let read = file.read();
@@ -205,7 +205,7 @@ fn line_ends_and_encodings_do_not_matter() {
     for bytes in variants {
         let read = read_ldt(&bytes).unwrap();
         assert_eq!(read.photometry.flux_lm(), flux_lm);
-        assert!(!deviations(&read).contains(&Deviation::TrailingText));
+        assert!(!deviations(&read).contains(&WarningKind::TrailingText));
     }
 }
 

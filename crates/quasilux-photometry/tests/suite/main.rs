@@ -1,7 +1,6 @@
 //! Tests of the crate from outside: files, closed forms, sampling.
 
 mod analysis;
-mod bsdf;
 mod closed_forms;
 mod corpus;
 mod flux_causes;

@@ -1,19 +1,19 @@
 //! The reader's rules: factors, editions, tolerated deviations, refusals with their places.
 
 use glam::DVec3;
-use quasilux_photometry::{Deviation, IesStandard, Read, Standard, Symmetry, Tilt, read_ies};
+use quasilux_photometry::{IesStandard, Parsed, Standard, Symmetry, Tilt, WarningKind, read_ies};
 
 /// Header, records 1 and 2, and a table of two vertical angles in one plane.
 fn file(first_line: &str, record_1: &str, record_2: &str) -> String {
     format!("{first_line}\nTILT=NONE\n{record_1}\n{record_2}\n0 180\n0\n100 100\n")
 }
 
-fn read(text: &str) -> Read {
+fn read(text: &str) -> Parsed {
     read_ies(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-fn deviations(read: &Read) -> Vec<Deviation> {
-    read.warnings.iter().map(|warning| warning.deviation()).collect()
+fn deviations(read: &Parsed) -> Vec<WarningKind> {
+    read.warnings.iter().map(|warning| warning.kind()).collect()
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn header_facts_are_kept() {
     assert_eq!(facts.opening.height_m, 0.6096);
     assert_eq!(facts.tilt, Tilt::None);
     assert_eq!(read.photometry.rated_flux_lm(), Some(2400.0));
-    assert_eq!(deviations(&read), [Deviation::FluxDiffers]);
+    assert_eq!(deviations(&read), [WarningKind::FluxDiffers]);
 }
 
 #[test]
@@ -67,10 +67,10 @@ fn symmetries_follow_the_span_of_the_planes() {
         ("0 90 180", Symmetry::Bilateral, None),
         ("90 180 270", Symmetry::Bilateral, None),
         ("0 180 360", Symmetry::None, None),
-        ("0 90 180 270", Symmetry::Open, Some(Deviation::MissingClosingPlane)),
-        ("-90 0 90", Symmetry::Bilateral, Some(Deviation::FirstPlane)),
-        ("-180 0 180", Symmetry::None, Some(Deviation::FirstPlane)),
-        ("45", Symmetry::Rotational, Some(Deviation::SinglePlane)),
+        ("0 90 180 270", Symmetry::Open, Some(WarningKind::MissingClosingPlane)),
+        ("-90 0 90", Symmetry::Bilateral, Some(WarningKind::FirstPlane)),
+        ("-180 0 180", Symmetry::None, Some(WarningKind::FirstPlane)),
+        ("45", Symmetry::Rotational, Some(WarningKind::SinglePlane)),
     ];
     for (planes, symmetry, deviation) in cases {
         let read = read(&text(planes));
@@ -94,27 +94,27 @@ fn half_planes_are_mirrored_where_they_belong() {
 #[test]
 fn each_deviation_is_tolerated_and_named() {
     let good = file("IESNA:LM-63-2002", "1 -1 1 2 1 1 2 0 0 0", "1 1 10");
-    let cases: &[(Deviation, &str, &str)] = &[
-        (Deviation::ByteOrderMark, "IESNA", "\u{FEFF}IESNA"),
-        (Deviation::LeadingBlankLine, "IESNA", "\n\nIESNA"),
-        (Deviation::IdentifyingLine, "IESNA:", " IESNA: "),
-        (Deviation::UnknownStandard, "2002", "2031"),
-        (Deviation::LabelWithoutKeyword, "TILT", "no keyword\nTILT"),
-        (Deviation::TiltSpelling, "TILT=NONE", "Tilt = none"),
-        (Deviation::TiltFactors, "NONE", "INCLUDE\n1 2 0 60 1 0.8"),
-        (Deviation::TiltFile, "NONE", "lamp.tlt"),
-        (Deviation::Semicolon, "1 1 10", "1;1;10"),
-        (Deviation::RecordStart, "0 0 0\n", "0 0 0 "),
-        (Deviation::CountWithPoint, "1 2 1 1 2", "1 2.0 1 1 2"),
-        (Deviation::NegativeLumens, "1 -1 1", "1 -2 1"),
-        (Deviation::ZeroBallastLampFactor, "1 1 10", "1 0 10"),
-        (Deviation::BallastLampFactor, "1 1 10", "1 1.1 10"),
-        (Deviation::VerticalRange, "0 180", "0 170"),
-        (Deviation::SinglePlane, "\n0\n", "\n30\n"),
-        (Deviation::NegativeCandela, "100 100", "100 -0.1"),
-        (Deviation::TrailingText, "100 100\n", "100 100\nthe end of it\n"),
-        (Deviation::NoLight, "100 100", "0 0"),
-        (Deviation::FluxDiffers, "1 -1 1", "1 1000 1"),
+    let cases: &[(WarningKind, &str, &str)] = &[
+        (WarningKind::ByteOrderMark, "IESNA", "\u{FEFF}IESNA"),
+        (WarningKind::LeadingBlankLine, "IESNA", "\n\nIESNA"),
+        (WarningKind::IdentifyingLine, "IESNA:", " IESNA: "),
+        (WarningKind::UnknownStandard, "2002", "2031"),
+        (WarningKind::LabelWithoutKeyword, "TILT", "no keyword\nTILT"),
+        (WarningKind::TiltSpelling, "TILT=NONE", "Tilt = none"),
+        (WarningKind::TiltFactors, "NONE", "INCLUDE\n1 2 0 60 1 0.8"),
+        (WarningKind::TiltFile, "NONE", "lamp.tlt"),
+        (WarningKind::Semicolon, "1 1 10", "1;1;10"),
+        (WarningKind::RecordStart, "0 0 0\n", "0 0 0 "),
+        (WarningKind::CountWithPoint, "1 2 1 1 2", "1 2.0 1 1 2"),
+        (WarningKind::NegativeLumens, "1 -1 1", "1 -2 1"),
+        (WarningKind::ZeroBallastLampFactor, "1 1 10", "1 0 10"),
+        (WarningKind::BallastLampFactor, "1 1 10", "1 1.1 10"),
+        (WarningKind::VerticalRange, "0 180", "0 170"),
+        (WarningKind::SinglePlane, "\n0\n", "\n30\n"),
+        (WarningKind::NegativeCandela, "100 100", "100 -0.1"),
+        (WarningKind::TrailingText, "100 100\n", "100 100\nthe end of it\n"),
+        (WarningKind::NoLight, "100 100", "0 0"),
+        (WarningKind::FluxDiffers, "1 -1 1", "1 1000 1"),
     ];
     assert!(read(&good).warnings.is_empty());
     for (deviation, from, to) in cases {
@@ -125,7 +125,7 @@ fn each_deviation_is_tolerated_and_named() {
     let latin_1 = good.replace("TILT", "[LAMP] 30x\nTILT").into_bytes();
     let latin_1: Vec<u8> = latin_1.iter().map(|&b| if b == b'x' { 0xB0 } else { b }).collect();
     let read = read_ies(&latin_1).unwrap();
-    assert_eq!(deviations(&read), [Deviation::Encoding]);
+    assert_eq!(deviations(&read), [WarningKind::Encoding]);
     assert_eq!(read.photometry.facts().keyword("LAMP"), Some("30\u{B0}"));
 }
 
@@ -198,6 +198,6 @@ fn a_file_may_be_one_long_line() {
     );
     let read = read(&text);
     assert!((read.photometry.flux_lm() / (400.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12);
-    assert_eq!(deviations(&read), [Deviation::RecordStart]);
+    assert_eq!(deviations(&read), [WarningKind::RecordStart]);
     assert_eq!(read.warnings[0].count(), planes + 3);
 }

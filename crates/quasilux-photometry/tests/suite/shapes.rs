@@ -3,7 +3,7 @@
 use crate::corpus::{name, published_files, published_files_of};
 use glam::DVec3;
 use quasilux_photometry::{
-    Deviation, IesStandard, LuminousOpening, LuminousShape, Standard, read_ies, read_ldt,
+    IesStandard, LuminousOpening, LuminousShape, Standard, WarningKind, read_ies, read_ldt,
     write_ies, write_ldt,
 };
 
@@ -65,14 +65,14 @@ fn signs_mean_what_the_edition_says() {
 
 #[test]
 fn signs_of_another_edition_are_warned_of() {
-    let deviations = |first_line: &str, dimensions: &str| -> Vec<Deviation> {
+    let deviations = |first_line: &str, dimensions: &str| -> Vec<WarningKind> {
         let text = format!(
             "{first_line}\nTILT=NONE\n1 -1 1 2 1 1 2 {dimensions}\n1 1 10\n0 180\n0\n100 100\n"
         );
         let read = read_ies(text.as_bytes()).unwrap();
-        read.warnings.iter().map(|warning| warning.deviation()).collect()
+        read.warnings.iter().map(|warning| warning.kind()).collect()
     };
-    let (other, unknown) = (Deviation::OpeningOfOtherEdition, Deviation::UnknownOpening);
+    let (other, unknown) = (WarningKind::OpeningOfOtherEdition, WarningKind::UnknownOpening);
     assert_eq!(deviations("IESNA:LM-63-2002", "-1 -1 0"), []);
     assert_eq!(deviations("IESNA:LM-63-2002", "-1 0 0"), [other]);
     assert_eq!(deviations("IESNA:LM-63-2002", "0 -1 0"), [unknown]);

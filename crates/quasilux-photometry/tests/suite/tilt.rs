@@ -2,7 +2,7 @@
 
 use crate::tables::Generator;
 use glam::DVec3;
-use quasilux_photometry::{Deviation, Tilt, TiltSupport, read_ies, read_tilt};
+use quasilux_photometry::{Tilt, TiltSupport, WarningKind, read_ies, read_tilt};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 const TILT: &str = "1\n3\n0 45 90\n1 0.9 0.6\n";
@@ -28,7 +28,7 @@ fn factors_in_the_file_and_beside_it_are_the_same() {
     assert_eq!(included.photometry.facts().tilt, expected);
     assert_eq!(file.tilt, expected);
 
-    assert_eq!(beside.warnings[0].deviation(), Deviation::TiltFile);
+    assert_eq!(beside.warnings[0].kind(), WarningKind::TiltFile);
     let unread = beside.photometry.tilt_factor(LEVEL);
     assert_eq!((unread.factor, unread.support), (1.0, TiltSupport::NotRead));
     let read = beside.photometry.with_tilt(file.tilt);
@@ -43,8 +43,8 @@ fn factors_in_the_file_and_beside_it_are_the_same() {
 #[test]
 fn oddities_are_reported_and_nonsense_is_refused() {
     let odd = read_tilt(b"2 2\n10 60\n1 0.5\nand more").unwrap();
-    let deviations: Vec<Deviation> = odd.warnings.iter().map(|w| w.deviation()).collect();
-    assert_eq!(deviations, [Deviation::TiltFactors, Deviation::TrailingText]);
+    let deviations: Vec<WarningKind> = odd.warnings.iter().map(|w| w.kind()).collect();
+    assert_eq!(deviations, [WarningKind::TiltFactors, WarningKind::TrailingText]);
     let cases = [
         ("", 1, 1, "geometry"),
         ("4\n1\n0\n1", 1, 1, "1, 2 or 3"),

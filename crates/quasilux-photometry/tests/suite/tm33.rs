@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use quasilux_photometry::{
-    Angles, Deviation, Photometry, Read, ReadError, Standard, Symmetry, Tm33Edition, read_ies,
+    Angles, ParseError, Parsed, Photometry, Standard, Symmetry, Tm33Edition, WarningKind, read_ies,
     read_tm33,
 };
 use std::f64::consts::PI;
@@ -71,12 +71,12 @@ impl File {
         )
     }
 
-    pub(crate) fn read(&self) -> Read {
+    pub(crate) fn read(&self) -> Parsed {
         read(&self.text())
     }
 }
 
-fn read(text: &str) -> Read {
+fn read(text: &str) -> Parsed {
     read_tm33(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -87,8 +87,8 @@ fn together(files: &[File]) -> String {
     text.replacen(&all[0], &all.join("\n"), 1)
 }
 
-fn deviations(read: &Read) -> Vec<Deviation> {
-    read.warnings.iter().map(|warning| warning.deviation()).collect()
+fn deviations(read: &Parsed) -> Vec<WarningKind> {
+    read.warnings.iter().map(|warning| warning.kind()).collect()
 }
 
 fn intensity_cd(photometry: &Photometry, gamma_deg: f64, c_deg: f64) -> f64 {
@@ -214,14 +214,14 @@ fn factors_depend_on_the_kind_of_photometry() {
     assert_eq!((facts.lamp_count, facts.lumens_per_lamp), (2.0, Some(500.0)));
     assert_eq!((facts.ballast_factor, facts.candela_factor), (0.5, 1.5));
     assert_eq!(relative.photometry.rated_flux_lm(), Some(1000.0));
-    assert_eq!(deviations(&relative), [Deviation::FluxDiffers]);
+    assert_eq!(deviations(&relative), [WarningKind::FluxDiffers]);
     // 1885 lm from lamps of 500 lm are no loss.
     assert!(relative.warnings[0].expected().contains("check Multiplier"), "{relative:?}");
 
     let absolute = of("1");
     assert_eq!(intensity_cd(&absolute.photometry, 40.0, 0.0), 300.0);
     assert_eq!(absolute.photometry.rated_flux_lm(), None);
-    assert_eq!(deviations(&absolute), [Deviation::AbsoluteBallastFactor]);
+    assert_eq!(deviations(&absolute), [WarningKind::AbsoluteBallastFactor]);
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn facts_are_kept() {
 fn emitters_on_the_same_grid_are_added() {
     let (a, b) = (File::rotational([1.0, 2.0, 3.0]), File::rotational([10.0, 20.0, 30.0]));
     let read = read(&together(&[a, b]));
-    assert_eq!(deviations(&read), [Deviation::SeveralEmitters]);
+    assert_eq!(deviations(&read), [WarningKind::SeveralEmitters]);
     assert_eq!(read.photometry.table().symmetry(), Symmetry::Rotational);
     assert_eq!(intensity_cd(&read.photometry, 90.0, 10.0), 22.0);
     assert_eq!(read.photometry.facts().lamp_count, 2.0);
@@ -285,7 +285,7 @@ fn emitters_on_different_grids_are_added_exactly() {
         File::at(&[0.0, 55.0], &[(0.0, [30.0, 0.0])]),
     ];
     let sum = read(&together(&parts));
-    let parts: Vec<Read> = parts.iter().map(File::read).collect();
+    let parts: Vec<Parsed> = parts.iter().map(File::read).collect();
     let flux_lm: f64 = parts.iter().map(|part| part.photometry.flux_lm()).sum();
     assert!((sum.photometry.flux_lm() / flux_lm - 1.0).abs() < 1e-13);
     for step in 0..1000 {
@@ -313,46 +313,49 @@ fn each_tolerated_deviation_is_reported() {
     let opening = "<Luminaire><LuminousOpening><Shape>Circular</Shape><Length>150</Length>\
                    </LuminousOpening></Luminaire><Emitter>";
     let cases = [
-        (with("IESTM33-22", "LuminaireOpticalData"), Deviation::UnknownStandard),
-        (with("IESTM33-22", "IESTM33-30"), Deviation::UnknownStandard),
-        (with("<Version>1.1</Version>", ""), Deviation::MissingElement),
-        (with("<Quantity>1</Quantity>", ""), Deviation::MissingElement),
-        (with("InputWattage", "InputWatts"), Deviation::ForeignElement),
-        (with("h=\"0\"", "horz=\"0\""), Deviation::ForeignElement),
-        (with("IntData", "IntensityData"), Deviation::ForeignElement),
+        (with("IESTM33-22", "LuminaireOpticalData"), WarningKind::UnknownStandard),
+        (with("IESTM33-22", "IESTM33-30"), WarningKind::UnknownStandard),
+        (with("<Version>1.1</Version>", ""), WarningKind::MissingElement),
+        (with("<Quantity>1</Quantity>", ""), WarningKind::MissingElement),
+        (with("InputWattage", "InputWatts"), WarningKind::ForeignElement),
+        (with("h=\"0\"", "horz=\"0\""), WarningKind::ForeignElement),
+        (with("IntData", "IntensityData"), WarningKind::ForeignElement),
         (
             with("<NumberMeasured>", "<Symm>symm _ full</Symm><NumberMeasured>"),
-            Deviation::WordSpelling,
+            WarningKind::WordSpelling,
         ),
         (
             with("<NumberMeasured>", "<Symm>Symm_Quad</Symm><NumberMeasured>"),
-            Deviation::SymmetryDiffers,
+            WarningKind::SymmetryDiffers,
         ),
-        (with("<NumberVert>3", "<NumberVert>4"), Deviation::CountDiffers),
-        (with("<NumberVert>3", "<NumberVert>3.0"), Deviation::CountWithPoint),
-        (two, Deviation::SeveralEmitters),
-        (dark, Deviation::EmitterWithoutLight),
-        (with("<Quantity>1<", "<Quantity>0<"), Deviation::ZeroLampCount),
+        (with("<NumberVert>3", "<NumberVert>4"), WarningKind::CountDiffers),
+        (with("<NumberVert>3", "<NumberVert>3.0"), WarningKind::CountWithPoint),
+        (two, WarningKind::SeveralEmitters),
+        (dark, WarningKind::EmitterWithoutLight),
+        (with("<Quantity>1<", "<Quantity>0<"), WarningKind::ZeroLampCount),
         (
             with("<Quantity>1<", "<BallastFactor>2</BallastFactor><Quantity>1<"),
-            Deviation::AbsoluteBallastFactor,
+            WarningKind::AbsoluteBallastFactor,
         ),
-        (with("<Quantity>1<", "<PowerFactor/><RatedLumens/><Quantity>1<"), Deviation::EmptyNumber),
+        (
+            with("<Quantity>1<", "<PowerFactor/><RatedLumens/><Quantity>1<"),
+            WarningKind::EmptyNumber,
+        ),
         (
             with(
                 "<Quantity>1<",
                 "<TiltAngles><Tilt angle=\"10\">0.9</Tilt></TiltAngles><Quantity>1<",
             ),
-            Deviation::TiltFactors,
+            WarningKind::TiltFactors,
         ),
-        (with("<Emitter>", opening), Deviation::OpeningInMillimetres),
+        (with("<Emitter>", opening), WarningKind::OpeningInMillimetres),
         (
             with("</LuminousData>", "<LuminousFlux>9</LuminousFlux></LuminousData>"),
-            Deviation::FluxDiffers,
+            WarningKind::FluxDiffers,
         ),
-        (with(">100<", ">-1<"), Deviation::NegativeCandela),
-        (with(">100<", ">0<"), Deviation::NoLight),
-        (with("v=\"180\"", "v=\"120\""), Deviation::VerticalRange),
+        (with(">100<", ">-1<"), WarningKind::NegativeCandela),
+        (with(">100<", ">0<"), WarningKind::NoLight),
+        (with("v=\"180\"", "v=\"120\""), WarningKind::VerticalRange),
     ];
     for (text, deviation) in cases {
         let read = read(&text);
@@ -360,7 +363,7 @@ fn each_tolerated_deviation_is_reported() {
     }
 }
 
-fn refused(text: &str) -> ReadError {
+fn refused(text: &str) -> ParseError {
     read_tm33(text.as_bytes()).expect_err(text)
 }
 
@@ -448,5 +451,5 @@ fn encodings_do_not_matter() {
     let declared = read_tm33(&latin_1("ISO-8859-1")).unwrap();
     assert!(declared.warnings.is_empty(), "{:?}", declared.warnings);
     let undeclared = read_tm33(&latin_1("UTF-8")).unwrap();
-    assert_eq!(deviations(&undeclared), [Deviation::Encoding]);
+    assert_eq!(deviations(&undeclared), [WarningKind::Encoding]);
 }

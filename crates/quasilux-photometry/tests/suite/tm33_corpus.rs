@@ -1,7 +1,7 @@
 //! TM-33 files as other programs publish them.
 
 use crate::corpus::name;
-use quasilux_photometry::{Deviation, read_tm33};
+use quasilux_photometry::{WarningKind, read_tm33};
 use std::path::{Path, PathBuf};
 
 /// Each file's flux in lumens, by a quadrature that shares nothing with the reader (an XML library
@@ -38,7 +38,7 @@ fn published_tm33_files_load_or_are_refused_for_a_known_reason() {
             (Ok(read), Ok(expected_lm)) => {
                 let flux_lm = read.photometry.flux_lm();
                 assert!((flux_lm / expected_lm - 1.0).abs() < 1e-5, "{name}: {flux_lm} lm");
-                let warned = read.warnings.iter().any(|w| w.deviation() == Deviation::FluxDiffers);
+                let warned = read.warnings.iter().any(|w| w.kind() == WarningKind::FluxDiffers);
                 assert!(warned, "{name}: {:?}", read.warnings);
             }
             (Err(error), Err(reason)) => {

@@ -1,23 +1,23 @@
-//! Written files read back to the same table and facts.
+//! Encoded files read back to the same table and facts.
 
 use crate::corpus::{name, published_files_of};
 use glam::DVec3;
 use quasilux_photometry::{
-    Angles, Deviation, Grid, IesStandard, Keyword, LuminaireFacts, LuminousOpening, Note,
-    PhotometricType, Photometry, Read, SphericalTable, Standard, Symmetry, Tilt, Written, read_ies,
+    Angles, Encoded, Grid, IesStandard, Keyword, LuminaireFacts, LuminousOpening, Note, Parsed,
+    PhotometricType, Photometry, SphericalTable, Standard, Symmetry, Tilt, WarningKind, read_ies,
     read_ldt, write_ies, write_ldt,
 };
 use std::f64::consts::PI;
 
-fn ies(written: &Written) -> Read {
+fn ies(written: &Encoded) -> Parsed {
     read_ies(written.text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn ldt(written: &Written) -> Read {
+fn ldt(written: &Encoded) -> Parsed {
     read_ldt(written.text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn published() -> Vec<(String, Read)> {
+fn published() -> Vec<(String, Parsed)> {
     let mut all = Vec::new();
     for (extension, read) in [("ies", read_ies as fn(&[u8]) -> _), ("ldt", read_ldt)] {
         for file in published_files_of(extension).unwrap_or_default() {
@@ -59,29 +59,29 @@ fn same_values(a: &Grid, b: &Grid, relative: f64) {
 }
 
 /// Warnings about what the file says, not about how it is written.
-fn is_about_content(deviation: Deviation) -> bool {
+fn is_about_content(deviation: WarningKind) -> bool {
     matches!(
         deviation,
-        Deviation::FluxDiffers
-            | Deviation::NoLight
-            | Deviation::VerticalRange
-            | Deviation::TiltFactors
-            | Deviation::TiltFile
-            | Deviation::SeveralLampSets
-            | Deviation::MeasurementTilt
-            | Deviation::ClosingPlaneDiffers
-            | Deviation::OpeningOfOtherEdition
-            | Deviation::UnknownOpening
+        WarningKind::FluxDiffers
+            | WarningKind::NoLight
+            | WarningKind::VerticalRange
+            | WarningKind::TiltFactors
+            | WarningKind::TiltFile
+            | WarningKind::SeveralLampSets
+            | WarningKind::MeasurementTilt
+            | WarningKind::ClosingPlaneDiffers
+            | WarningKind::OpeningOfOtherEdition
+            | WarningKind::UnknownOpening
     )
 }
 
-fn check_warnings(name: &str, read: &Read) {
+fn check_warnings(name: &str, read: &Parsed) {
     for warning in &read.warnings {
-        assert!(is_about_content(warning.deviation()), "{name}: {warning}");
+        assert!(is_about_content(warning.kind()), "{name}: {warning}");
     }
 }
 
-fn check_lines(written: &Written, limit: usize) {
+fn check_lines(written: &Encoded, limit: usize) {
     assert!(written.text.ends_with("\r\n"));
     assert!(written.text.lines().all(|line| line.chars().count() <= limit));
 }
@@ -269,7 +269,7 @@ fn each_symmetry_survives_in_both_formats() {
 fn what_no_format_holds_is_noted() {
     let tilted = built(&[30.0, 60.0, 120.0], Symmetry::Quadrant);
     for (notes, read) in [
-        (write_ies(&tilted, IesStandard::Lm63Of2019), ies as fn(&Written) -> Read),
+        (write_ies(&tilted, IesStandard::Lm63Of2019), ies as fn(&Encoded) -> Parsed),
         (write_ldt(&tilted), ldt),
     ]
     .map(|(written, read)| (written.notes.clone(), read(&written)))
@@ -339,7 +339,7 @@ fn resampled_fluxes_lm(note: &Note) -> Option<[f64; 2]> {
 }
 
 /// The note names both fluxes, that of the luminaire and that of the file.
-fn assert_resampled(written: &Written, photometry: &Photometry, read: &Read) {
+fn assert_resampled(written: &Encoded, photometry: &Photometry, read: &Parsed) {
     let fluxes_lm = written.notes.iter().find_map(resampled_fluxes_lm).expect("a note");
     for (noted_lm, flux_lm) in fluxes_lm.into_iter().zip([photometry, &read.photometry]) {
         let flux_lm = flux_lm.flux_lm();

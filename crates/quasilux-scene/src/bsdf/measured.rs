@@ -1,7 +1,7 @@
 //! A measured sheet.
 
 use glam::DVec3;
-use quasilux_photometry::bsdf::{EnergyBalance, MeasuredBsdf, Side, Way};
+use quasilux_bsdf::{EnergyBalance, MeasuredBsdf, Side, Way};
 use std::sync::Arc;
 
 /// A thin sheet whose scattering was measured: tables for light that arrives on its two sides.

@@ -6,7 +6,7 @@ use crate::geometry::read_file;
 use crate::project::Project;
 use crate::{Files, LoadError, Mesh, Placed, Warning};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf_named};
+use quasilux_bsdf::{MeasuredBsdf, read_bsdf_named};
 use std::collections::HashMap;
 use std::sync::Arc;
 

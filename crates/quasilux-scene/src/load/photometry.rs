@@ -3,7 +3,7 @@
 use crate::geometry::{beside, read_file, reason};
 use crate::project::Project;
 use crate::{Files, LoadError, Place, Placed, Warning};
-use quasilux_photometry::{Deviation, Format, Photometry, ReadError, Tilt, read_tilt};
+use quasilux_photometry::{Format, ParseError, Photometry, Tilt, WarningKind, read_tilt};
 
 /// Reads an IES, EULUMDAT or TM-33 file, as its content or else its extension says, passing its
 /// warnings on.
@@ -27,7 +27,7 @@ pub(super) fn read(
     let read = format.read(&bytes).map_err(|error| load_error(file, &error))?;
     for warning in &read.warnings {
         // Whether that file is there is found out below.
-        if warning.deviation() != Deviation::TiltFile {
+        if warning.kind() != WarningKind::TiltFile {
             warnings.push(passed_on(file, warning));
         }
     }
@@ -42,7 +42,7 @@ pub(super) fn read(
             Ok(read.photometry.with_tilt(tilt.tilt))
         }
         Err(error) => {
-            let at = read.warnings.iter().find(|w| w.deviation() == Deviation::TiltFile);
+            let at = read.warnings.iter().find(|w| w.kind() == WarningKind::TiltFile);
             let place = at.map(|warning| Place { line: warning.line(), column: warning.column() });
             let reason = reason(&error);
             let message = format!(
@@ -55,12 +55,12 @@ pub(super) fn read(
     }
 }
 
-pub(super) fn load_error(file: &str, error: &ReadError) -> LoadError {
+pub(super) fn load_error(file: &str, error: &ParseError) -> LoadError {
     let place = Place { line: error.line(), column: error.column() };
     LoadError::new(file, Some(place), error.message())
 }
 
-pub(super) fn passed_on(file: &str, warning: &quasilux_photometry::Warning) -> Warning {
+pub(super) fn passed_on<K: Copy>(file: &str, warning: &quasilux_text::Warning<K>) -> Warning {
     let place = Place { line: warning.line(), column: warning.column() };
     Warning::new(file, Some(place), warning.message())
 }

@@ -10,7 +10,7 @@ use super::BsdfSample;
 use super::Mode;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Distribution, MeasuredBsdf, Side, Way};
+use quasilux_bsdf::{Distribution, MeasuredBsdf, Side, Way};
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_scene::{Rgb, bsdf as scene};

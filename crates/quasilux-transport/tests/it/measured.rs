@@ -3,7 +3,7 @@
 use crate::images::add_panel;
 use crate::scenes::{all_walls_emit, level_grid, points, room};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{
+use quasilux_bsdf::{
     AngleBasis, BsdfFacts, BsdfFormat, Distribution, KlemsTable, MeasuredBsdf, Side, Way, read_bsdf,
 };
 use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};

@@ -8,7 +8,7 @@
 use crate::measured::{Mean, REPLICATES, assert_estimators_agree, divided, estimates, measured};
 use crate::scenes::{all_walls_emit, diffuse, level_grid, room};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Distribution, GriddedTable, Side, TensorTree, Way};
+use quasilux_bsdf::{Distribution, GriddedTable, Side, TensorTree, Way};
 use quasilux_sampling::warp::sample_disk;
 use quasilux_scene::bsdf::Conductor;
 use quasilux_scene::{Bsdf, Rgb, Scene};

@@ -7,7 +7,7 @@ use crate::measured::{
 };
 use crate::scenes::{diffuse, point_light, points, room};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Distribution, Side, Way};
+use quasilux_bsdf::{Distribution, Side, Way};
 use quasilux_scene::{Bsdf, Grid, Quantity, Scene, Sensor, SensorShape};
 use quasilux_transport::{EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::FRAC_1_PI;

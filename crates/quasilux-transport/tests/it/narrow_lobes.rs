@@ -5,7 +5,7 @@ use crate::measured::measured;
 use crate::measured_known::lobes;
 use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{Side, Way};
+use quasilux_bsdf::{Side, Way};
 use quasilux_scene::{Bsdf, Rgb, Scene, bsdf};
 use quasilux_transport::{Estimates, Scattering, Settings, simulate};
 

@@ -1,7 +1,7 @@
 //! Measurement files that are named on the command line: their bytes, and why one cannot be read.
 
 use crate::project::{read_all, read_bounded};
-use quasilux_photometry::{ReadError, Warning};
+use quasilux_text::{ParseError, Warning};
 use serde::Serialize;
 use std::fmt;
 use std::io;
@@ -58,7 +58,7 @@ pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 /// A warning as a line of a summary.
-pub(super) fn warning_line(name: &str, warning: &Warning) -> String {
+pub(super) fn warning_line<K: Copy + fmt::Debug>(name: &str, warning: &Warning<K>) -> String {
     printable(&format!("warning: {name}:{warning} [{}]", rule(warning)))
 }
 
@@ -67,14 +67,14 @@ pub(super) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The rule's name, as `quasilux_photometry::Deviation` lists it.
-fn rule(warning: &Warning) -> String {
-    format!("{:?}", warning.deviation())
+/// The rule's name, as the `WarningKind` of the reader's crate lists it.
+fn rule<K: Copy + fmt::Debug>(warning: &Warning<K>) -> String {
+    format!("{:?}", warning.kind())
 }
 
 impl Failure {
     /// A reader's error.
-    pub(super) fn of(name: &str, error: &ReadError) -> Self {
+    pub(super) fn of(name: &str, error: &ParseError) -> Self {
         Self::at(name, [error.line(), error.column()], error.message())
     }
 
@@ -102,7 +102,7 @@ impl fmt::Display for Failure {
 }
 
 impl WarningEntry {
-    pub(super) fn of(warning: &Warning) -> Self {
+    pub(super) fn of<K: Copy + fmt::Debug>(warning: &Warning<K>) -> Self {
         Self {
             rule: rule(warning),
             line: warning.line(),

@@ -9,7 +9,7 @@ mod ranges;
 mod sampling;
 
 use glam::DVec3;
-use quasilux_photometry::{Deviation, PhotometricType, Photometry, read_ies};
+use quasilux_photometry::{PhotometricType, Photometry, WarningKind, read_ies};
 use std::f64::consts::PI;
 
 pub(super) const A_AND_B: [PhotometricType; 2] = [PhotometricType::A, PhotometricType::B];
@@ -47,9 +47,9 @@ impl File<'_> {
         text
     }
 
-    pub(super) fn read(&self) -> (Photometry, Vec<Deviation>) {
+    pub(super) fn read(&self) -> (Photometry, Vec<WarningKind>) {
         let read = read_ies(self.text().as_bytes()).unwrap();
-        (read.photometry, read.warnings.iter().map(|warning| warning.deviation()).collect())
+        (read.photometry, read.warnings.iter().map(|warning| warning.kind()).collect())
     }
 
     pub(super) fn photometry(&self) -> Photometry {

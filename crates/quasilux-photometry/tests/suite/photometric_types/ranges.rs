@@ -2,7 +2,7 @@
 
 use super::{A_AND_B, File, direction, spread, uneven};
 use crate::tables::steps;
-use quasilux_photometry::{Deviation, PhotometricType, Symmetry, read_ies};
+use quasilux_photometry::{PhotometricType, Symmetry, WarningKind, read_ies};
 use std::f64::consts::PI;
 
 /// Across the border the intensity jumps from its value there to zero: no cell of interpolation.
@@ -60,7 +60,7 @@ fn mirrored_halves_are_those_of_the_whole_file() {
         let (half, no_warnings) = photometry(&five(0.0), &five(-90.0));
         assert!(no_warnings.is_empty(), "{no_warnings:?}");
         let (quarter, warnings) = photometry(&five(0.0), &five(0.0));
-        assert_eq!(warnings, [Deviation::VerticalMirror]);
+        assert_eq!(warnings, [WarningKind::VerticalMirror]);
         for other in [half, quarter] {
             assert_eq!(other.table().theta_rad(), whole.table().theta_rad());
             assert_eq!(other.flux_lm(), whole.flux_lm());
@@ -82,11 +82,11 @@ fn unusual_ranges_are_warned_of_or_refused() {
         candela: &constant,
     };
     let (a, b) = (PhotometricType::A, PhotometricType::B);
-    let warned: [(_, &[f64], &[f64], &[Deviation]); 4] = [
-        (b, &[-60.0, 60.0], &[-90.0, 90.0], &[Deviation::HorizontalRange]),
-        (a, &[-90.0, 90.0], &[-15.0, 10.0], &[Deviation::VerticalRange]),
-        (b, &[0.0, 90.0], &[0.0, 90.0], &[Deviation::VerticalMirror]),
-        (a, &[-180.0, 0.0, 180.0], &[-90.0, 90.0], &[Deviation::HorizontalRange]),
+    let warned: [(_, &[f64], &[f64], &[WarningKind]); 4] = [
+        (b, &[-60.0, 60.0], &[-90.0, 90.0], &[WarningKind::HorizontalRange]),
+        (a, &[-90.0, 90.0], &[-15.0, 10.0], &[WarningKind::VerticalRange]),
+        (b, &[0.0, 90.0], &[0.0, 90.0], &[WarningKind::VerticalMirror]),
+        (a, &[-180.0, 0.0, 180.0], &[-90.0, 90.0], &[WarningKind::HorizontalRange]),
     ];
     for (photometric_type, h, v, expected) in warned {
         assert_eq!(file(photometric_type, h, v).read().1, expected, "{h:?} {v:?}");

@@ -4,8 +4,8 @@ use super::input::{Input, Surface};
 use crate::arguments::Incidence;
 use crate::commands::inputs::stem_of;
 use glam::DVec3;
+use quasilux_bsdf::{Side, Way, luminance};
 use quasilux_measure::svg::{Dash, IntensityCurve, Lobe, LobeDiagram, PALETTE, Stroke, lobes};
-use quasilux_photometry::bsdf::{Side, Way, luminance};
 
 /// Directions are looked at in steps of this.
 const STEP_DEG: f64 = 0.25;

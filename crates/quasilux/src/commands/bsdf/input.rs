@@ -1,8 +1,8 @@
 //! Files of measured surfaces, read by what is in them.
 
 use crate::commands::inputs::{Failure, bytes_of, name_of};
-use quasilux_photometry::Warning;
-use quasilux_photometry::bsdf::{MeasuredBsdf, read_bsdf_named};
+use quasilux_bsdf::Warning;
+use quasilux_bsdf::{MeasuredBsdf, read_bsdf_named};
 use std::path::Path;
 
 /// A file, and what came of it.

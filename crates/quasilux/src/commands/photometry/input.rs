@@ -1,7 +1,7 @@
 //! Luminaire files, read by what is in them.
 
 use crate::commands::inputs::{Failure, bytes_of, name_of, stem_of};
-use quasilux_photometry::{Analysis, Deviation, Format, Photometry, Standard, Warning};
+use quasilux_photometry::{Analysis, Format, Photometry, Standard, Warning, WarningKind};
 use std::path::Path;
 
 /// A file, and what came of it.
@@ -56,6 +56,6 @@ impl Luminaire {
     pub(super) fn is_odd(&self) -> bool {
         let has_losses = self.analysis.light_output_ratio.is_some_and(|ratio| ratio < 1.0)
             && matches!(self.photometry.facts().standard, Standard::Lm63(_));
-        self.warnings.iter().any(|w| !(has_losses && w.deviation() == Deviation::FluxDiffers))
+        self.warnings.iter().any(|w| !(has_losses && w.kind() == WarningKind::FluxDiffers))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::commands::experiment::closed_box::{ClosedBox, HALF_M};
 use glam::DVec3;
-use quasilux_photometry::bsdf::{AngleBasis, Distribution, KlemsTable};
+use quasilux_bsdf::{AngleBasis, Distribution, KlemsTable};
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{sample_uniform_hemisphere, sample_uniform_sphere};
 use std::f64::consts::{FRAC_1_PI, PI};

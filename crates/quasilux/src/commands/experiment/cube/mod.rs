@@ -11,7 +11,7 @@
 //! ways of our own form about as good and chance decides; here the column takes the map, and the other is measured
 //! beside it.
 //!
-//! Deviation: the paper does not tell the size of its elements, nor how many photons come with a path. Direct light
+//! WarningKind: the paper does not tell the size of its elements, nor how many photons come with a path. Direct light
 //! is computed, not read from the map, where paths end on it.
 
 mod bias;

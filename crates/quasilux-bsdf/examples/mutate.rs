@@ -1,0 +1,37 @@
+//! Reads 200,000 damaged files of measured surfaces, or as many as the first argument says:
+//!
+//!     cargo run --release -p quasilux-bsdf --example mutate -- 1000000
+//!
+//! The numbers of the files go on from a second argument (0 without it), so that runs can share the
+//! work. A panic names the file.
+
+#[path = "../tests/damage/mod.rs"]
+mod damage;
+
+use damage::{Outcome, examine, seeds};
+use quasilux_stats::damage::examine_damaged;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments: Result<Vec<u64>, _> = std::env::args().skip(1).map(|a| a.parse()).collect();
+    let Ok(arguments) = arguments else {
+        eprintln!("usage: mutate [FILES [FIRST]]");
+        return ExitCode::from(2);
+    };
+    let count = arguments.first().copied().unwrap_or(200_000);
+    let first = arguments.get(1).copied().unwrap_or(0);
+    let seeds = seeds();
+    let (mut read, mut max_bytes) = (0_u64, 0);
+    for index in first..first + count {
+        let Outcome { is_read, peak_bytes } = examine_damaged(&seeds, index, examine);
+        read += u64::from(is_read);
+        max_bytes = max_bytes.max(peak_bytes);
+    }
+    println!(
+        "{count} damaged files of {} seeds: {read} load, {} are refused; at most {max_bytes} bytes \
+         allocated at one time",
+        seeds.files().len(),
+        count - read,
+    );
+    ExitCode::SUCCESS
+}

@@ -1,0 +1,122 @@
+//! Reader of ASTM E1392 files: reflection and transmission as a list of measured directions.
+//!
+//! What is read and tolerated stands in [`formats::astm`](crate::formats::astm).
+
+mod colour;
+mod exits;
+mod grid;
+mod lines;
+mod records;
+
+use super::defects::{warn_of_defects, warn_of_one_way};
+use super::pieces::{Pieces, Style};
+use super::read::{BsdfFormat, Parsed};
+use super::{BsdfFacts, Distribution, GriddedTable, MeasuredBsdf, Side, Way};
+use crate::warning::Warnings;
+use lines::Lines;
+use quasilux_text::{ParseError, Position, Token, decode, lines, quoted};
+use records::Records;
+
+/// The angles that come first in each line.
+const ANGLES: [&str; 4] = ["theta_i", "phi_i", "theta_s", "phi_s"];
+
+/// What the columns behind the angles are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Columns {
+    Grey,
+    Rgb,
+    Xyz,
+}
+
+/// Reads an ASTM E1392 file. What is measured counts for light on the front. Total: any bytes give a surface or an error with its
+/// place.
+pub fn read_astm(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    let mut warnings = Warnings::default();
+    let text = decode(bytes, &mut warnings);
+    let mut all = (1..).zip(lines(text.trim_start_matches('\u{FEFF}')));
+    let Some((columns, first_line)) = columns(&mut all)? else {
+        let at = Position { line: 1, column: 1 };
+        return Err(ParseError::new(at, "no line VARS", "VARS theta_i,phi_i,theta_s,phi_s,..."));
+    };
+    let lines = Lines::survey(all, columns, &mut warnings).ok_or_else(|| {
+        let at = Position { line: first_line, column: 1 };
+        ParseError::new(at, "VARS without data", "a line for each pair of directions")
+    })?;
+    let at = lines.first();
+    let tables = if columns == Columns::Grey {
+        tables::<1>(&lines, &mut warnings)?
+    } else {
+        tables::<3>(&lines, &mut warnings)?
+    };
+
+    let facts = BsdfFacts {
+        format: BsdfFormat::Astm,
+        name: String::new(),
+        manufacturer: String::new(),
+        thickness_m: None,
+    };
+    let mut bsdf = MeasuredBsdf::new(facts);
+    for (way, table) in tables {
+        bsdf.set(Side::Front, way, Distribution::Gridded(table));
+    }
+    warn_of_one_way(&bsdf, at, &mut warnings);
+    warn_of_defects(&bsdf, at, &mut warnings);
+    Ok(Parsed { bsdf, warnings: warnings.into_vec() })
+}
+
+/// The tables of both ways, in so far as there are lines, of one or three channels.
+fn tables<'t, const N: usize>(
+    lines: &Lines<impl Iterator<Item = (usize, &'t str)> + Clone>,
+    warnings: &mut Warnings,
+) -> Result<Vec<(Way, GriddedTable)>, ParseError> {
+    let records = Records::<N>::read(lines, warnings)?;
+    let mut tables = Vec::new();
+    for way in Way::ALL {
+        if let Some(table) = grid::table(&records, way, warnings)? {
+            tables.push((way, table));
+        }
+    }
+    Ok(tables)
+}
+
+/// Whether a line names the columns.
+pub(super) fn names_columns(line: &[u8]) -> bool {
+    let word = line.split(u8::is_ascii_whitespace).find(|word| !word.is_empty());
+    word.is_some_and(|word| word.eq_ignore_ascii_case(b"VARS"))
+}
+
+/// The columns, and the line that names them.
+fn columns<'t>(
+    lines: &mut impl Iterator<Item = (usize, &'t str)>,
+) -> Result<Option<(Columns, usize)>, ParseError> {
+    let Some((line, text)) = lines.find(|(_, text)| names_columns(text.as_bytes())) else {
+        return Ok(None);
+    };
+    let start = Position { line, column: 1 };
+    let names: Vec<Token<'_>> = Pieces::new(text, start, Style::Plain).skip(1).collect();
+    for (index, expected) in ANGLES.iter().enumerate() {
+        let name = names.get(index).map_or("nothing", |name| name.text);
+        if !name.eq_ignore_ascii_case(expected) {
+            let at = names.get(index).map_or(start, |name| name.at);
+            let all = ANGLES.join(",");
+            return Err(ParseError::new(
+                at,
+                quoted(name),
+                format_args!("the columns {all}, then f"),
+            ));
+        }
+    }
+    let values: Vec<String> =
+        names[4..].iter().map(|name| name.text.to_ascii_uppercase()).collect();
+    let values: Vec<&str> = values.iter().map(String::as_str).collect();
+    let columns = match values[..] {
+        [_] => Columns::Grey,
+        ["R", "G", "B"] => Columns::Rgb,
+        ["X", "Y", "Z"] => Columns::Xyz,
+        _ => {
+            let found = format!("{} columns of values", values.len());
+            return Err(ParseError::new(start, found, "one, or R,G,B or X,Y,Z"));
+        }
+    };
+    Ok(Some((columns, line)))
+}

@@ -1,0 +1,138 @@
+//! Which format a file of a measured surface has, and what a reader returns.
+
+use super::{MeasuredBsdf, Way, astm, merl};
+use super::{read_astm, read_bsdf_xml, read_ddr, read_merl};
+use crate::warning::{Warning, WarningKind, Warnings};
+use quasilux_text::{ParseError, Position, quoted};
+
+/// The mark of a format stands within so many bytes, those of comments before it not counted.
+const SEARCHED: usize = 1 << 14;
+
+/// The formats of measured surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BsdfFormat {
+    /// LBNL WINDOW XML, a matrix over Klems patches.
+    WindowKlems,
+    /// LBNL WINDOW XML, a tensor tree.
+    WindowTensorTree,
+    /// Integra DDR or DDT.
+    Ddr,
+    /// MERL binary.
+    Merl,
+    /// ASTM E1392 text.
+    Astm,
+}
+
+/// A file that was read, with what was odd about it.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// The surface.
+    pub bsdf: MeasuredBsdf,
+    /// What was tolerated, left out or made up; each rule at most once, at its first place.
+    pub warnings: Vec<Warning>,
+}
+
+impl BsdfFormat {
+    /// What people call it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::WindowKlems => "WINDOW XML, Klems",
+            Self::WindowTensorTree => "WINDOW XML, tensor tree",
+            Self::Ddr => "DDR",
+            Self::Merl => "MERL",
+            Self::Astm => "ASTM E1392",
+        }
+    }
+}
+
+/// Reads a measured surface of any known format, told by the content; that of a DDR file is reflection, with a warning, see
+/// [`read_bsdf_named`]. Total: any bytes give a surface or an error with its place, in memory bounded by
+/// [`max_bsdf_memory_bytes`](crate::max_bsdf_memory_bytes).
+pub fn read_bsdf(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    read_bsdf_named("", bytes)
+}
+
+/// The same with the name of the file, whose extension tells reflection, `.ddr`, from transmission, `.ddt`.
+pub fn read_bsdf_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
+    if merl::counts(bytes).is_some() {
+        return read_merl(bytes);
+    }
+    let start = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
+    let is_wide = matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]);
+    if start.starts_with(b"<") || is_wide || contains(bytes, b"<WindowElement") {
+        return read_bsdf_xml(bytes);
+    }
+    let searched = behind_comments(start);
+    let searched = &searched[..searched.len().min(SEARCHED)];
+    let has_line = |is_mark: fn(&[u8]) -> bool| lines(searched).any(is_mark);
+    if has_line(astm::names_columns) {
+        return read_astm(bytes);
+    }
+    if has_line(begins_ddr) { read_ddr_named(name, bytes) } else { Err(unknown(bytes)) }
+}
+
+/// The content of DDR and DDT files does not tell which it is.
+fn read_ddr_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    let is = |known: &str| extension.eq_ignore_ascii_case(known);
+    let way = if is("ddt") { Way::Transmission } else { Way::Reflection };
+    let mut read = read_ddr(bytes, way)?;
+    if !is("ddt") && !is("ddr") {
+        let mut warnings = Warnings::default();
+        let at = Position { line: 1, column: 1 };
+        let found = if name.is_empty() {
+            "no name".to_owned()
+        } else {
+            format!("the name {}", quoted(name))
+        };
+        let expected =
+            "a name in .ddr for reflection, or .ddt for transmission (read as reflection)";
+        warnings.push(WarningKind::UnknownWay, at, found, expected);
+        read.warnings.splice(..0, warnings.into_vec());
+    }
+    Ok(read)
+}
+
+/// A line that only the head of a DDR file has.
+fn begins_ddr(line: &[u8]) -> bool {
+    let word = line.split(u8::is_ascii_whitespace).find(|word| !word.is_empty());
+    let is = |known: &&[u8]| word.is_some_and(|word| word.eq_ignore_ascii_case(known));
+    [&b"typesym"[..], b"typecolormodel", b"sigma"].iter().any(is)
+}
+
+/// What follows after lines that are empty or comments.
+fn behind_comments(bytes: &[u8]) -> &[u8] {
+    let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
+    let mut rest = bytes.trim_ascii_start();
+    while let [b';' | b'#', ..] = rest {
+        let end = rest.iter().position(is_end).unwrap_or(rest.len());
+        rest = rest[end..].trim_ascii_start();
+    }
+    rest
+}
+
+fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    bytes.split(|byte| matches!(byte, b'\n' | b'\r'))
+}
+
+/// Why a file of no known format is refused: what it seems to be.
+fn unknown(bytes: &[u8]) -> ParseError {
+    let at = Position { line: 1, column: 1 };
+    let found = if bytes.starts_with(b"tensor_file\0") {
+        "a container of tensors (RGL, .bsdf or .pbsdf)"
+    } else if contains(bytes, b"{ Units, Wavelength Units }") {
+        "spectra of a glazing (Optics, .dat)"
+    } else if bytes.is_empty() {
+        "an empty file"
+    } else {
+        "none of their marks"
+    };
+    ParseError::new(at, found, "a measured surface: WINDOW XML, MERL, ASTM E1392 or DDR")
+}
+
+/// Whether the mark stands near the beginning.
+fn contains(bytes: &[u8], mark: &[u8]) -> bool {
+    bytes.windows(mark.len()).take(SEARCHED).any(|window| window == mark)
+}

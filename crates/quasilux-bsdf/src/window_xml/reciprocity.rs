@@ -1,0 +1,41 @@
+//! The transmission that a file leaves out.
+
+use super::block::Block;
+use crate::warning::{WarningKind, Warnings};
+use crate::{Distribution, MeasuredBsdf, Side, Way};
+
+/// Takes the transmission of a side that the file leaves out from the other side, by reciprocity.
+pub(super) fn fill_transmission(
+    bsdf: &mut MeasuredBsdf,
+    blocks: &[Block<'_, '_>],
+    warnings: &mut Warnings,
+) {
+    let given = |side: Side| {
+        let is_given =
+            |block: &&Block<'_, '_>| (block.side, block.way) == (side, Way::Transmission);
+        blocks.iter().find(is_given)
+    };
+    for side in Side::ALL {
+        let (None, Some(source)) = (given(side), given(side.other())) else {
+            continue;
+        };
+        let found = format!("no Transmission {}", side.name());
+        let known = bsdf.scattering(side.other(), Way::Transmission);
+        let reversed = known.and_then(Distribution::reversed);
+        let (deviation, expected) = match &reversed {
+            Some(_) => {
+                let expected = "both directions (taken from the other one by reciprocity)";
+                (WarningKind::ByReciprocity, expected.to_owned())
+            }
+            None => {
+                let expected =
+                    "both directions (this table cannot be turned round: nothing passes)";
+                (WarningKind::OneWayTransmission, expected.to_owned())
+            }
+        };
+        warnings.push(deviation, source.element.at, found, expected);
+        if let Some(reversed) = reversed {
+            bsdf.set(side, Way::Transmission, reversed);
+        }
+    }
+}

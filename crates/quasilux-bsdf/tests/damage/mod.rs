@@ -1,0 +1,55 @@
+//! Damaged files of measured surfaces, and what must hold of the reader's answer to any bytes.
+//!
+//! The bounded run of the test suite, the full run (`examples/mutate.rs`) and the fuzz target
+//! (`fuzz/`) share this module, its allocator included: memory is that of the whole process, so one
+//! thread only may read at a time.
+
+mod surface;
+
+use peak_alloc::PeakAlloc;
+use quasilux_bsdf::{max_bsdf_memory_bytes, read_bsdf_named};
+use quasilux_stats::damage::{Random, Seeds, check_message};
+use std::path::Path;
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
+/// What became of one file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outcome {
+    pub(crate) is_read: bool,
+    /// The most memory that was allocated at one time while reading.
+    pub(crate) peak_bytes: usize,
+}
+
+/// Files made up for the purpose.
+pub(crate) fn samples() -> Seeds {
+    Seeds::new(surface::samples())
+}
+
+/// The same, with the published files where they are present.
+pub(crate) fn seeds() -> Seeds {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
+    samples().with_folder(&folder, "xml")
+}
+
+/// Reads any bytes and checks the answer: no more memory than stated, messages with a position in
+/// the file, and a surface whose samples and densities are numbers that fit each other.
+pub(crate) fn examine(bytes: &[u8]) -> Outcome {
+    let before = ALLOCATOR.current_usage();
+    ALLOCATOR.reset_peak_usage();
+    let answer = read_bsdf_named(surface::name(bytes), bytes);
+    let peak_bytes = ALLOCATOR.peak_usage() - before;
+    let max = max_bsdf_memory_bytes(bytes.len());
+    assert!(peak_bytes <= max, "{peak_bytes} bytes for a file of {}, over {max}", bytes.len());
+    match &answer {
+        Ok(read) => {
+            for warning in &read.warnings {
+                check_message(warning.line(), warning.column(), &warning.to_string(), bytes);
+            }
+            surface::check(&read.bsdf, &mut Random::new(bytes.len() as u64));
+        }
+        Err(error) => check_message(error.line(), error.column(), &error.to_string(), bytes),
+    }
+    Outcome { is_read: answer.is_ok(), peak_bytes }
+}
