@@ -1,7 +1,7 @@
 //! cargo run --release -p quasilux-bvh --example hard_builds [TRIANGLES [NAME]]
 //!
-//! Builds and checks hierarchies over meshes that are hard on a builder, of a million triangles each
-//! unless told. The tests do the same with fewer triangles.
+//! Builds and checks hierarchies over meshes that are hard on a builder, of a million triangles
+//! each unless told. The tests do the same with fewer triangles.
 
 #[path = "../tests/it/degenerate_meshes.rs"]
 mod degenerate_meshes;

@@ -1,8 +1,8 @@
 //! cargo run --release -p quasilux-bvh --example hard_rays [RAYS [SEED]]
 //!
-//! Random rays, ten million unless told, at meshes that are hard on a ray kernel: every kernel of this
-//! machine against trying every triangle, closest hits and occlusion, one by one and in batches of all
-//! sizes, to the last bit. The tests do the same with fewer rays.
+//! Random rays, ten million unless told, at meshes that are hard on a ray kernel: every kernel of
+//! this machine against trying every triangle, closest hits and occlusion, one by one and in
+//! batches of all sizes, to the last bit. The tests do the same with fewer rays.
 
 #[path = "../tests/it/meshes.rs"]
 mod meshes;

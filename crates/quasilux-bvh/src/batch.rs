@@ -1,4 +1,4 @@
-//! Many rays at once: the same answers as one by one, sooner.
+//! Batches of rays: the same results as one query at a time, in less time.
 
 use crate::frame::Framed;
 use crate::group::{Answers, Diverged, GroupSize, GroupTracer, RayGroup, RayRun};
@@ -10,8 +10,8 @@ use crate::{Hit, PreparedRay, Shot, TriangleBvh};
 impl TriangleBvh {
     /// [`Self::closest_hit`] of each of `shots`, in their order.
     ///
-    /// Shots that follow each other in nearly the same direction from nearly the same place are traced
-    /// together.
+    /// Shots that follow each other in nearly the same direction from nearly the same place are
+    /// traced together.
     ///
     /// # Panics
     /// If there are not as many `hits` as `shots`, or more than 2^32 of them.

@@ -36,8 +36,8 @@ impl Candidates {
         }
     }
 
-    /// Adds a candidate that cannot be hit behind `latest`, infinite if it may not be hit at all; one that
-    /// is hit for sure before all others takes their place.
+    /// Adds a candidate that cannot be hit behind `latest`, infinite if it may not be hit at all;
+    /// one that is hit for sure before all others takes their place.
     #[inline(always)]
     pub(crate) fn push(&mut self, candidate: Candidate, latest: f32) {
         if self.count == ROOM {

@@ -1,4 +1,4 @@
-//! Whether boxes cover a triangle.
+//! Whether a union of boxes covers a triangle, by clipping.
 //!
 //! Box after box is taken away from what is left of the triangle, each of which leaves at most six
 //! convex pieces of a convex piece, one beyond each of its planes.

@@ -1,7 +1,8 @@
 //! Edge functions of triangles seen so nearly edge-on that rounding would be most of them.
 //!
-//! Numbers are integers times powers of two. A product of two is exact in 106 bits, and a difference of
-//! products is exact in 128 unless one of them is so much smaller that it cannot change the sign.
+//! Numbers are integers times powers of two. A product of two is exact in 106 bits, and a
+//! difference of products is exact in 128 unless one of them is so much smaller that it cannot
+//! change the sign.
 
 /// Bits that a mantissa is moved up by before something smaller is taken away.
 const ROOM: i32 = 20;
@@ -15,8 +16,8 @@ struct Wide {
 
 /// The edge functions of the corners `a`, `b` and `c` about zero, to a common power of two.
 ///
-/// Their signs are right and their relative errors below `2^-52`, but for such as are below `2^-800` of
-/// the largest, which may come out as zero.
+/// Their signs are right and their relative errors below `2^-52`, but for such as are below
+/// `2^-800` of the largest, which may come out as zero.
 pub(crate) fn edge_functions([a, b, c]: [[f64; 2]; 3]) -> [f64; 3] {
     let edges = [(c, b), (a, c), (b, a)].map(|(p, q)| {
         let (left, right) = (Wide::product(p[0], q[1]), Wide::product(p[1], q[0]));

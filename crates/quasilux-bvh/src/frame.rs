@@ -110,7 +110,8 @@ impl Frame {
         if framed.end >= 0.0 { Framed::Ray(framed) } else { Framed::Misses }
     }
 
-    /// A distance in the frame that is not less than `distance` along the ray; not a number where that is none.
+    /// A distance in the frame that is not less than `distance` along the ray; not a number where
+    /// that is none.
     #[inline(always)]
     pub(crate) fn end(&self, moved: f64, distance: f64) -> f32 {
         // The move is off by less than 2^20 * 2^-50 = h / 64.

@@ -7,20 +7,21 @@
 //! inside for both neighbours. A ray through a shared edge or vertex hits at least one of the
 //! triangles around it.
 //!
-//! Deviation: the paper decides ties again in double precision. Here all is in double precision, and
-//! what is decided again, without rounding ([`crate::exact`]), are triangles seen so nearly edge-on
-//! that rounding would decide where on them the hit is. No neighbour disagrees: its rounded signs are
-//! the exact ones or ties. Triangles are missed only where they are seen exactly edge-on after
-//! the shear, so that neighbours cover what they hide.
+//! Deviation: the paper decides ties again in double precision. Here all is in double precision,
+//! and what is decided again, without rounding ([`crate::exact`]), are triangles seen so nearly
+//! edge-on that rounding would decide where on them the hit is. No neighbour disagrees: its rounded
+//! signs are the exact ones or ties. Triangles are missed only where they are seen exactly edge-on
+//! after the shear, so that neighbours cover what they hide.
 //!
 //! What a hit promises to a hierarchy: the point of the triangle with the weights returned is the
-//! point of the ray at the distance returned, but for rounding. Let the corners be within `D` of the
-//! origin and within `S` of each other in each coordinate, and `e = 2^-53`. A sheared corner is off by
-//! `6 e D` across the ray and by `3 e` of itself along it, and weighting takes another `6 e`, together
-//! `15 e D` at most. Rounding moves edge functions by `2 e` of the products in them. Where the double
-//! area of the sheared triangle is at least `f` of the sum of all these products' sizes ([`NARROW`]), the
-//! weighted corners, each within `2 S` of the ray, are so off it by at most `4 e S / f`; where it is less, by
-//! `6 e S`, since relative errors of the weights are then those of a division.
+//! point of the ray at the distance returned, but for rounding. Let the corners be within `D` of
+//! the origin and within `S` of each other in each coordinate, and `e = 2^-53`. A sheared corner is
+//! off by `6 e D` across the ray and by `3 e` of itself along it, and weighting takes another `6
+//! e`, together `15 e D` at most. Rounding moves edge functions by `2 e` of the products in them.
+//! Where the double area of the sheared triangle is at least `f` of the sum of all these products'
+//! sizes ([`NARROW`]), the weighted corners, each within `2 S` of the ray, are so off it by at most
+//! `4 e S / f`; where it is less, by `6 e S`, since relative errors of the weights are then those
+//! of a division.
 
 use crate::Ray;
 use crate::exact::edge_functions;
@@ -49,8 +50,8 @@ impl Hit {
     }
 }
 
-/// Triangles whose double area after the shear is a smaller share of what it is the difference of are
-/// decided without rounding.
+/// Triangles whose double area after the shear is a smaller share of what it is the difference of
+/// are decided without rounding.
 const NARROW: f64 = 1.0 / (1 << 20) as f64;
 
 /// More than products lose by underflow, as far as anything this large can see it.
@@ -60,8 +61,8 @@ const MIN_AREA: f64 = 1e-180;
 const AFTER: [usize; 3] = [1, 2, 0];
 const BEFORE: [usize; 3] = [2, 0, 1];
 
-/// The corners of a triangle axis by axis, so that an instruction can see all three; the fourth place is
-/// empty.
+/// The corners of a triangle axis by axis, so that an instruction can see all three; the fourth
+/// place is empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct Corners([[f64; 4]; 3]);

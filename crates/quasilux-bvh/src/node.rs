@@ -1,4 +1,4 @@
-//! How the hierarchy lies in memory.
+//! The memory layout of the hierarchy: eight-wide nodes and blocks of eight triangles.
 //!
 //! An inner node holds the boxes of up to eight children, a block up to eight triangles, both by
 //! coordinate, so that one vector instruction sees all eight.
@@ -13,16 +13,17 @@ pub(crate) const WIDTH: usize = 8;
 ///
 /// Take a hit at distance `t` and an axis along which the ray rises; the other direction and the
 /// far planes are symmetric. With `d` and `o` direction and origin and `'` for what single
-/// precision makes of them, the lower plane is met at
-/// `t_low = ((low - g) r - o' r (1 + e)) (1 + e)`, `r = (1 + e) / d'`, each `|e| <= h`, and
-/// `low <= o + t d` up to the box's own rounding `h`. So `t_low <= t` if
-/// `g >= h + t |d - d'| + |o - o'| + h |o'| + 2.1 h t d'`, and with the frame's bounds the right side is
-/// at most `h (1 + 3.7 + 0.1 + 2.7 + 2.7 + 7.8) = 18 h`. Rounding the grown plane takes another `h`.
+/// precision makes of them, the lower plane is met at `t_low = ((low - g) r - o' r (1 + e)) (1 +
+/// e)`, `r = (1 + e) / d'`, each `|e| <= h`, and `low <= o + t d` up to the box's own rounding `h`.
+/// So `t_low <= t` if `g >= h + t |d - d'| + |o - o'| + h |o'| + 2.1 h t d'`, and with the frame's
+/// bounds the right side is at most `h (1 + 3.7 + 0.1 + 2.7 + 2.7 + 7.8) = 18 h`. Rounding the
+/// grown plane takes another `h`.
 ///
-/// A hit is what [`crate::intersect`] says, and its point of the ray is off that of the triangle by up to
-/// `15 e D + 4 e S / f`, with `e = 2^-53`, `f = 2^-20`, corners at most `D = 2^20 + 1` from the
-/// origin of a ray that starts as far away as one can, and at most `S = 2` from each other: `h / 20`,
-/// however nearly edge-on the triangle is seen, for which there is room here and in [`Slack::new`].
+/// A hit is what [`crate::intersect`] says, and its point of the ray is off that of the triangle by
+/// up to `15 e D + 4 e S / f`, with `e = 2^-53`, `f = 2^-20`, corners at most `D = 2^20 + 1` from
+/// the origin of a ray that starts as far away as one can, and at most `S = 2` from each other: `h
+/// / 20`, however nearly edge-on the triangle is seen, for which there is room here and in
+/// [`Slack::new`].
 pub(crate) const GROWTH: f32 = 24.0 * H;
 
 /// An inner node.
@@ -149,14 +150,15 @@ impl Block {
 impl Slack {
     /// Bounds for a triangle with these edges.
     ///
-    /// With first corner `v` and edges `e1` and `e2` as stored, `c = v - o`, `r = c x d` and `n = e2 x e1`,
-    /// the ray meets the plane where the determinant `n.d` times distance, second and third weight
-    /// are `n.c`, `e2.r` and `e1.r` (Möller and Trumbore 1997). Let `s` be the larger 1-norm of
-    /// the edges and `q` the product of both, `q <= 6 s`. In each coordinate, in units of `h`:
-    /// `c` is off by `1 + 2.7 + 3.7`, `r` by `sqrt 2 (7.4 + 3.7 + 7.4) < 26.2` and at most `5.3 / h`, so
-    /// `e2.r` and `e1.r` by `(26.2 + 5.3 + 3 * 5.3) s < 48 s`. The terms of `n` sum to at most `q` and
-    /// are off by `4` of themselves each, so `n.d` by `8 q`, `n.c` by `(7.4 + 4 * 3.7 + 3 * 3.7) q < 34 q`,
-    /// and determinant minus both weights by `(2 * 48 + 8 * 6 + 2 * 17) s < 192 s`.
+    /// With first corner `v` and edges `e1` and `e2` as stored, `c = v - o`, `r = c x d` and
+    /// `n = e2 x e1`, the ray meets the plane where the determinant `n.d` times distance, second and
+    /// third weight are `n.c`, `e2.r` and `e1.r` (Möller and Trumbore 1997). Let `s` be the larger
+    /// 1-norm of the edges and `q` the product of both, `q <= 6 s`. In each coordinate, in units of
+    /// `h`: `c` is off by `1 + 2.7 + 3.7`, `r` by `sqrt 2 (7.4 + 3.7 + 7.4) < 26.2` and at most
+    /// `5.3 / h`, so `e2.r` and `e1.r` by `(26.2 + 5.3 + 3 * 5.3) s < 48 s`. The terms of `n` sum
+    /// to at most `q` and are off by `4` of themselves each, so `n.d` by `8 q`, `n.c` by
+    /// `(7.4 + 4 * 3.7 + 3 * 3.7) q < 34 q`, and determinant minus both weights by
+    /// `(2 * 48 + 8 * 6 + 2 * 17) s < 192 s`.
     ///
     /// Signs are those of the determinant. Where that comes out wrong the determinant is within
     /// `8 q` of zero, a hit's weights within `16 q` and its distance times the determinant within

@@ -1,4 +1,4 @@
-//! Memory that will be needed soon.
+//! Software prefetching of memory that a ray will read soon.
 
 /// Has the processor fetch an element of a list.
 #[inline(always)]

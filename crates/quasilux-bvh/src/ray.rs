@@ -1,4 +1,4 @@
-//! A half-line, or a part of one.
+//! Rays and ray segments.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What a ray sees of boxes and triangles, eight at a time, with room for every rounding.
+//! Conservative tests of one ray against eight boxes (slabs) or triangles at a time.
 
 use crate::frame::{FrameRay, H};
 use crate::lanes::Lanes;

@@ -1,4 +1,4 @@
-//! Which instructions are used, and the one place that chooses them.
+//! The instruction sets of the traversal, and the one place that dispatches to them.
 
 use crate::lanes::{Lanes, Portable};
 
@@ -16,8 +16,8 @@ pub enum SimdLevel {
 }
 
 impl SimdLevel {
-    /// The fastest one on this machine, as far as that is known: [`Self::Avx512`] was never timed, and
-    /// Embree is slower with it than with AVX2 on rays like ours.
+    /// The fastest one on this machine, as far as that is known: [`Self::Avx512`] was never timed,
+    /// and Embree is slower with it than with AVX2 on rays like ours.
     #[must_use]
     pub fn fastest() -> Self {
         #[cfg(target_arch = "x86_64")]

@@ -1,11 +1,11 @@
-//! Many rays on their way at once.
+//! Interleaved traversal of many independent rays, which hides memory latency.
 //!
-//! A ray alone waits most of its time: for memory, for the outcome of a test, and for the processor to
-//! come back from a wrong guess of an outcome. So a few rays are in flight together, and each in turn
-//! takes a step: through a node, through a block, to a decision or back to what waits for it. A step
-//! has next to no branches: what a ray meets is written to its stack whether there is anything to
-//! write or not, and the queue for its next step is computed. While others take their steps, memory for
-//! its next one arrives.
+//! A ray alone waits most of its time: for memory, for the outcome of a test, and for the processor
+//! to come back from a wrong guess of an outcome. So a few rays are in flight together, and each in
+//! turn takes a step: through a node, through a block, to a decision or back to what waits for it.
+//! A step has next to no branches: what a ray meets is written to its stack whether there is
+//! anything to write or not, and the queue for its next step is computed. While others take their
+//! steps, memory for its next one arrives.
 //!
 //! A ray that needs more room than nearly all do leaves, and is traced alone.
 

@@ -1,4 +1,4 @@
-//! Children that wait until a walk comes back to them.
+//! The stack of children that a traversal has yet to visit.
 
 use crate::lanes::Lanes;
 use crate::node::{Child, Node, WIDTH};
@@ -27,8 +27,8 @@ impl TraversalStack {
         }
     }
 
-    /// Returns the nearest of the children in `met`, of which there is one at least, and has the others wait;
-    /// none of them is entered behind `limit`.
+    /// Returns the nearest of the children in `met`, of which there is one at least, and has the
+    /// others wait; none of them is entered behind `limit`.
     #[inline(always)]
     pub(crate) fn push_children<L: Lanes>(
         &mut self,

@@ -1,4 +1,4 @@
-//! The way of a ray through the hierarchy.
+//! The traversal of the hierarchy by one ray.
 //!
 //! Children are met nearest first; the others that the ray meets wait on a stack with the distance
 //! at which it enters them, and are dropped there once a nearer hit is known. What may be hit in a
@@ -27,8 +27,8 @@ pub(crate) struct Query {
     pub(crate) ray: FrameRay,
     /// Triangles that do not count.
     pub(crate) excluded: [u32; 2],
-    /// Whether there are more that do not count, which whoever decides must know; until then none is
-    /// hit for sure.
+    /// Whether there are more that do not count, which whoever decides must know; until then none
+    /// is hit for sure.
     pub(crate) excludes_more: bool,
 }
 
@@ -49,8 +49,8 @@ impl<const ANY: bool> SimdTask for Traversal<'_, ANY> {
 }
 
 impl Tree {
-    /// Collects every triangle that can be the closest hit, none of `excluded`, and returns an end behind
-    /// which none of them is hit.
+    /// Collects every triangle that can be the closest hit, none of `excluded`, and returns an end
+    /// behind which none of them is hit.
     #[inline(always)]
     pub(crate) fn closest(
         &self,
@@ -61,7 +61,8 @@ impl Tree {
         simd.run(Traversal::<false> { tree: self, query, candidates })
     }
 
-    /// Whether the ray hits any triangle but `excluded` for sure; if not, collects those that it may hit.
+    /// Whether the ray hits any triangle but `excluded` for sure; if not, collects those that it
+    /// may hit.
     #[inline(always)]
     pub(crate) fn any(&self, simd: SimdLevel, query: &Query, candidates: &mut Candidates) -> bool {
         simd.run(Traversal::<true> { tree: self, query, candidates }) < 0.0

@@ -1,4 +1,4 @@
-//! Triangles that answer ray queries.
+//! The bounding volume hierarchy over a triangle mesh, and its queries.
 
 use crate::build::{Leaf, WideTree, build, collapse};
 use crate::candidates::Candidates;
@@ -132,7 +132,8 @@ impl TriangleBvh {
         intersect(ray, &self.tree.corners[triangle as usize], triangle)
     }
 
-    /// Checks everything that queries rely on, and that no part of a triangle is out of their sight.
+    /// Checks everything that queries rely on, and that no part of a triangle is out of their
+    /// sight.
     ///
     /// # Errors
     /// The first flaw that is found, which is a defect of the builder.

@@ -1,9 +1,10 @@
-//! Whether a hierarchy is what the traversal takes it for.
+//! Validation of a hierarchy against all assumptions of the traversal.
 //!
 //! What the traversal relies on, all of which is checked: indices exist, no way down is longer than
-//! its stack, boxes lie in the boxes above them, places without a child cannot be met, blocks hold what
-//! their triangles make them hold, the frame holds all corners, and every point of every triangle is in
-//! a box of the triangle, with the margin that the bounds on rounding ask for ([`GROWTH`]).
+//! its stack, boxes lie in the boxes above them, places without a child cannot be met, blocks hold
+//! what their triangles make them hold, the frame holds all corners, and every point of every
+//! triangle is in a box of the triangle, with the margin that the bounds on rounding ask for
+//! ([`GROWTH`]).
 
 use crate::coverage::{Solid, is_covered};
 use crate::frame::{Frame, H};
@@ -12,8 +13,8 @@ use crate::traversal_stack::MAX_DEPTH;
 use crate::traverse::Tree;
 use glam::Vec3A;
 
-/// How far inside of its box everything must be: the growth, but for the rounding of the box and of its
-/// grown planes.
+/// How far inside of its box everything must be: the growth, but for the rounding of the box and of
+/// its grown planes.
 const MARGIN: f64 = (GROWTH - 2.0 * H) as f64;
 
 /// A box of a child as it is stored.

@@ -2,10 +2,11 @@
 //! comparison with handing them out in order.
 //!
 //! Their coordinate 1 chooses the light, 2 and 3 the direction, 4 the event at the first hit, 5 and
-//! 6 the direction after it, 7 the event at the second hit, and so on. Here dimensions count from 0.
+//! 6 the direction after it, 7 the event at the second hit, and so on. Here dimensions count from
+//! 0.
 //!
-//! Each event has a coordinate of its own here. A walk with survival 2/3 takes 9 on average (2 for the
-//! direction from the lamp, 3 events, 2 directions of 2), against 7 where events share one.
+//! Each event has a coordinate of its own here. A walk with survival 2/3 takes 9 on average (2 for
+//! the direction from the lamp, 3 events, 2 directions of 2), against 7 where events share one.
 //! Give these to [`Sampler::skip_to`](crate::Sampler::skip_to):
 //!
 //! ```

@@ -50,8 +50,8 @@ impl PointSet {
     }
 
     /// Coordinate `dimension` of the points of these indices, as many as there is room for: what
-    /// [`coordinate`](Self::coordinate) gives, bit for bit; faster for dimensions of Sobol' and of the
-    /// base-4 sequence, whose digits are randomised in vectors.
+    /// [`coordinate`](Self::coordinate) gives, bit for bit; faster for dimensions of Sobol' and of
+    /// the base-4 sequence, whose digits are randomised in vectors.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
@@ -83,8 +83,8 @@ impl PointSet {
         }
     }
 
-    /// Whether [`fill_at`](Self::fill_at) is faster than one coordinate at a time, so that some made
-    /// in vain do not matter.
+    /// Whether [`fill_at`](Self::fill_at) is faster than one coordinate at a time, so that some
+    /// made in vain do not matter.
     #[must_use]
     pub fn fills_lists_fast(&self) -> bool {
         matches!(self.generator, Generator::Binary(_))

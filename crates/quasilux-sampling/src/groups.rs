@@ -1,15 +1,16 @@
-//! Coherent groups: the indices below N, regrouped so that the points of a group lie close together.
+//! Coherent groups: the indices below N, regrouped so that the points of a group lie close
+//! together.
 //!
 //! A. Voloboy, K. Dmitriev, E. Kopylov (2003), after K. Dmitriev, S. Brabec, K. Myszkowski, H.-P.
-//! Seidel, "Interactive global illumination using selective photon tracing" (EGWR 2002): the radical
-//! inverses of i and i + n b^k differ by less than b^-k, so photons whose indices agree modulo the
-//! product of b_j^k_j start at the same light in nearly the same direction: they visit the same
-//! nodes and cache lines. For a matrix over bits the same holds of the cosets of a subspace: the
-//! indices x with R x = 0, R the first k_j rows of the matrices C_j.
+//! Seidel, "Interactive global illumination using selective photon tracing" (EGWR 2002): the
+//! radical inverses of i and i + n b^k differ by less than b^-k, so photons whose indices agree
+//! modulo the product of b_j^k_j start at the same light in nearly the same direction: they visit
+//! the same nodes and cache lines. For a matrix over bits the same holds of the cosets of a
+//! subspace: the indices x with R x = 0, R the first k_j rows of the matrices C_j.
 //!
-//! Groups are numbered so that neighbours are close as well: the first digits of a number are the first
-//! shared digits of its points, those of all dimensions in turn, so that the groups of one coarser
-//! partition follow each other.
+//! Groups are numbered so that neighbours are close as well: the first digits of a number are the
+//! first shared digits of its points, those of all dimensions in turn, so that the groups of one
+//! coarser partition follow each other.
 
 use crate::point_set::{Generator, PointSet};
 use crate::randomization::Randomization;
@@ -45,11 +46,11 @@ pub struct CoherentGroups {
 
 #[derive(Clone, Debug)]
 enum Partition {
-    /// Indices that agree modulo the product of `factors`: the lowest digit of an index in this mixed
-    /// radix is the highest digit of its group's number.
+    /// Indices that agree modulo the product of `factors`: the lowest digit of an index in this
+    /// mixed radix is the highest digit of its group's number.
     Residues { period: u64, factors: Vec<u32> },
-    /// Cosets of the span of `kernel`. Bit r of a group's number adds `labels[r]` to its first index,
-    /// which flips one shared digit of the points, the last one for r = 0.
+    /// Cosets of the span of `kernel`. Bit r of a group's number adds `labels[r]` to its first
+    /// index, which flips one shared digit of the points, the last one for r = 0.
     Cosets { kernel: Vec<u64>, labels: Vec<u64> },
 }
 
@@ -145,8 +146,8 @@ impl CoherentGroups {
 
     /// What the bound promises, measured: the largest minus the smallest coordinate of the members
     /// of a group, in the order of [`shared`](Self::shared); 0 for an empty group. Under
-    /// [`Rotation`](crate::Randomization::CranleyPattersonRotation), the length of the shortest arc of the circle of
-    /// length 1 that holds them.
+    /// [`Rotation`](crate::Randomization::CranleyPattersonRotation), the length of the shortest arc
+    /// of the circle of length 1 that holds them.
     #[must_use]
     pub fn spreads(&self, points: &PointSet, number: u64) -> Vec<f64> {
         let spread = |shared: &SharedDigits| {
@@ -234,8 +235,8 @@ fn residues(shared: &[SharedDigits], bases: &[u32]) -> Option<Partition> {
     (period <= 1 << 63).then_some(Partition::Residues { period, factors })
 }
 
-/// The number below `period`, the product of `factors`, whose digits in this mixed radix are those of
-/// `number` in reverse.
+/// The number below `period`, the product of `factors`, whose digits in this mixed radix are those
+/// of `number` in reverse.
 fn reversed(number: u64, period: u64, factors: &[u32]) -> u64 {
     let (mut rest, mut value, mut sum) = (number, period, 0);
     for factor in factors.iter().rev().copied().map(u64::from) {

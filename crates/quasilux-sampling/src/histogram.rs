@@ -1,4 +1,4 @@
-//! How many coordinates samples consume.
+//! The histogram of the number of coordinates that samples consume.
 
 /// The distribution of the constructive dimension of many samples, in integers: histograms of parts
 /// merge to the histogram of the whole in any order.
@@ -102,7 +102,8 @@ impl DimensionHistogram {
         self.largest
     }
 
-    /// So many coordinates are enough for this share of the samples, up to [`LAST`](Self::LAST) + 1; 0 without samples.
+    /// So many coordinates are enough for this share of the samples, up to [`LAST`](Self::LAST) +
+    /// 1; 0 without samples.
     #[must_use]
     pub fn quantile(&self, share: f64) -> u32 {
         let wanted = share * self.samples as f64;

@@ -2,21 +2,23 @@
 //!
 //! # Limits
 //! - Indices have 64 bits. Sobol', the base-4 sequence and the pseudo-random points do not repeat
-//!   within 2^64 points, Halton's coordinates under shift or scrambling within 2^51; nothing folds at
-//!   2^16. Coordinates have 53 bits (Halton's under shift or scrambling 51 or more): more points than
-//!   that share some, as do Halton's unrandomised ones from 2^42 points on in its large bases.
-//! - Sobol' has 1024 dimensions of Joe and Kuo's, the base-4 sequence 4. Past them come independently
-//!   shuffled and scrambled copies, at about half the speed and without the evenness of pairs across
-//!   copies. Halton has 1024 bases; past them dimensions are pseudo-random. No dimension is refused.
+//!   within 2^64 points, Halton's coordinates under shift or scrambling within 2^51; nothing folds
+//!   at 2^16. Coordinates have 53 bits (Halton's under shift or scrambling 51 or more): more points
+//!   than that share some, as do Halton's unrandomised ones from 2^42 points on in its large bases.
+//! - Sobol' has 1024 dimensions of Joe and Kuo's, the base-4 sequence 4. Past them come
+//!   independently shuffled and scrambled copies, at about half the speed and without the evenness
+//!   of pairs across copies. Halton has 1024 bases; past them dimensions are pseudo-random. No
+//!   dimension is refused.
 //! - Use 2^m points of Sobol' and 4^m of the base-4 sequence, from the first on; other counts lose
 //!   the gain over N^-1. Of Hammersley's N points use all N.
 //! - [`Randomization::None`] says nothing about its error. Take several replicates, each under its
 //!   own key, and their spread; never the spread of the points within one.
-//! - Owen scrambling is by hashing: the flips of the first four digits and all pairs of points, hence
-//!   variances, are as under exact nested scrambling as far as tests can see; the joint distribution
-//!   of many points is not.
-//! - [`PointSet::fill`] is about ten times as fast as [`PointSet::coordinate`] for matrices over bits
-//!   and scrambled points, and [`PointSet::fill_at`] lies between; for Halton they are no faster.
+//! - Owen scrambling is by hashing: the flips of the first four digits and all pairs of points,
+//!   hence variances, are as under exact nested scrambling as far as tests can see; the joint
+//!   distribution of many points is not.
+//! - [`PointSet::fill`] is about ten times as fast as [`PointSet::coordinate`] for matrices over
+//!   bits and scrambled points, and [`PointSet::fill_at`] lies between; for Halton they are no
+//!   faster.
 //!
 //! # Which sequence
 //! Owen-scrambled Sobol' unless there is a reason: on a photon's emission (4 coordinates, 4096

@@ -1,4 +1,4 @@
-//! One randomised sequence.
+//! One randomised point set with random access.
 
 use crate::hash::{GOLDEN, dimension_key, mix};
 use crate::randomization::{
@@ -41,8 +41,8 @@ const PADDING_KEY: u64 = 0x7061_6464_696e_6721;
 impl PointSet {
     /// A sequence, randomised under a key from [`stream_key`](crate::stream_key).
     ///
-    /// [`Randomization::None`] ignores the key. [`Sequence::Independent`] is random already: it uses the
-    /// key and ignores the randomisation.
+    /// [`Randomization::None`] ignores the key. [`Sequence::Independent`] is random already: it
+    /// uses the key and ignores the randomisation.
     #[must_use]
     pub fn new(sequence: Sequence, randomization: Randomization, key: u64) -> Self {
         let radical = |steps| Generator::Radical { bases: halton::bases(), steps };
@@ -90,10 +90,11 @@ impl PointSet {
     /// A coordinate in [0, 1) of 53 bits (Halton under shift or scrambling: of 51 or more); both
     /// numbers count from 0.
     ///
-    /// Past the last dimension of Sobol' (1024) and of the base-4 sequence (4) come their dimensions
-    /// again, each time with the indices shuffled in aligned blocks of 2^m and the digits scrambled,
-    /// independently of all that came before, also where the sequence itself is not randomised.
-    /// Halton's and Hammersley's dimensions past the first 1024 bases (2 to 8161) are pseudo-random.
+    /// Past the last dimension of Sobol' (1024) and of the base-4 sequence (4) come their
+    /// dimensions again, each time with the indices shuffled in aligned blocks of 2^m and the
+    /// digits scrambled, independently of all that came before, also where the sequence itself is
+    /// not randomised. Halton's and Hammersley's dimensions past the first 1024 bases (2 to 8161)
+    /// are pseudo-random.
     #[inline]
     #[must_use]
     pub fn coordinate(&self, index: u64, dimension: u32) -> f64 {

@@ -1,13 +1,13 @@
-//! Handing out the coordinates of one sample.
+//! The sampler: hands out the coordinates of one sample in order.
 //!
 //! Discrete choices share a coordinate by modified superposition: each takes some of its bits, and
-//! leaves the rest to the next. Only the first digits of a coordinate are evenly spread, log2 N of N
-//! points, so the rest soon is no better than pseudo-random, or a constant where nothing is
+//! leaves the rest to the next. Only the first digits of a coordinate are evenly spread, log2 N of
+//! N points, so the rest soon is no better than pseudo-random, or a constant where nothing is
 //! randomised. The rule: a choice is charged the bits that its distribution needs on average (its
 //! entropy, rounded up), known before its outcome, and opens a fresh coordinate when it would bring
 //! the open one above [`SHARED_BITS`](Sampler::SHARED_BITS). It depends neither on N, so that a
-//! longer run extends a shorter one, nor on outcomes: decisions keep their coordinates as long as the
-//! distributions before them are the same.
+//! longer run extends a shorter one, nor on outcomes: decisions keep their coordinates as long as
+//! the distributions before them are the same.
 
 use crate::discrete::Discrete;
 use crate::discrete_sample::{BoolSample, DiscreteSample, choose_bool, choose_weights};
@@ -76,12 +76,13 @@ impl<'a> Sampler<'a> {
     /// The sampler of child `child` of a sample that is split here, counted from 1; child 0 goes on
     /// with this sampler itself.
     ///
-    /// It goes on at this dimension with a randomisation of its own, which is a function of the
-    /// way to it: the dimensions at which its ancestors were split, and which children they were. So
-    /// all children of one way, over all indices, have coordinates of one randomised sequence, and no
-    /// two ways share any. Dimensions that its ancestors used are not used again: the digits of a point
-    /// are the same in each randomisation but for a permutation, so what became of its ancestors would
-    /// decide what becomes of the child, and no number of samples would average that out.
+    /// It goes on at this dimension with a randomisation of its own, which is a function of the way
+    /// to it: the dimensions at which its ancestors were split, and which children they were. So
+    /// all children of one way, over all indices, have coordinates of one randomised sequence, and
+    /// no two ways share any. Dimensions that its ancestors used are not used again: the digits of
+    /// a point are the same in each randomisation but for a permutation, so what became of its
+    /// ancestors would decide what becomes of the child, and no number of samples would average
+    /// that out.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
@@ -99,15 +100,16 @@ impl<'a> Sampler<'a> {
         Self { branch, dimension: self.dimension, ..Self::new(self.points, self.index) }
     }
 
-    /// Whether it is a split sample's child, or comes from one: its coordinates are not those of its
-    /// point set.
+    /// Whether it is a split sample's child, or comes from one: its coordinates are not those of
+    /// its point set.
     #[inline]
     #[must_use]
     pub const fn is_branch(&self) -> bool {
         self.branch != 0
     }
 
-    /// The same sample, if a split one the same child, among other points: from their coordinate `dimension` on.
+    /// The same sample, if a split one the same child, among other points: from their coordinate
+    /// `dimension` on.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
@@ -220,7 +222,8 @@ impl<'a> Sampler<'a> {
     }
 
     /// Chooses from a table on a fresh coordinate that goes on, renormalised, to what hangs on the
-    /// choice, however many bits the choice takes: a photon's light, and then the direction from it.
+    /// choice, however many bits the choice takes: a photon's light, and then the direction from
+    /// it.
     ///
     /// The rule of this module is for chains of choices. Here a single one cuts its coordinate into
     /// intervals, and where a net's first coordinate falls into a dyadic interval, its points are a
@@ -246,8 +249,8 @@ impl<'a> Sampler<'a> {
         choice
     }
 
-    /// What choices left of their coordinate, for a decision that is not discrete; a fresh one where
-    /// they took too much of it, by the rule of this module. Ends the shared coordinate.
+    /// What choices left of their coordinate, for a decision that is not discrete; a fresh one
+    /// where they took too much of it, by the rule of this module. Ends the shared coordinate.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};

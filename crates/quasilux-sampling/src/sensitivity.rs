@@ -1,18 +1,18 @@
 //! Points that differ from others in some dimensions only: what a value owes to its coordinates.
 //!
-//! The share of the variance of f that hangs on the coordinates u of a point, alone or together with
-//! others, is `E (f(x) - f(x'))^2 / (2 Var f)`, where x' has independent coordinates in u and those of x
-//! elsewhere (Jansen 1999; Saltelli et al. 2010, table 2(f)). How (f(x) - f(x'))^2 falls when x' is moved
-//! by little tells jumps from slopes.
+//! The share of the variance of f that hangs on the coordinates u of a point, alone or together
+//! with others, is `E (f(x) - f(x'))^2 / (2 Var f)`, where x' has independent coordinates in u and
+//! those of x elsewhere (Jansen 1999; Saltelli et al. 2010, table 2(f)). How (f(x) - f(x'))^2 falls
+//! when x' is moved by little tells jumps from slopes.
 
 use crate::point_set::{Generator, PointSet};
 use crate::variation::{Change, Variation};
 use std::ops::Range;
 
 impl PointSet {
-    /// The same points, but with the coordinates in `dimensions` of the point set under another key.
-    /// All other coordinates keep their bits. Point sets that ignore their key stay as they are. Of
-    /// points that are varied already it varies the original.
+    /// The same points, but with the coordinates in `dimensions` of the point set under another
+    /// key. All other coordinates keep their bits. Point sets that ignore their key stay as they
+    /// are. Of points that are varied already it varies the original.
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sequence};
@@ -28,8 +28,8 @@ impl PointSet {
         self.varied(dimensions, Change::Exchange { key })
     }
 
-    /// The same points, but with the coordinates in `dimensions` moved up by a step in (0, 1/2), and down
-    /// where that leads out of [0, 1).
+    /// The same points, but with the coordinates in `dimensions` moved up by a step in (0, 1/2),
+    /// and down where that leads out of [0, 1).
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sequence};

@@ -1,4 +1,4 @@
-//! From 64 bits to the unit interval.
+//! Conversion from 64 bits to the unit interval.
 
 /// The largest coordinate: coordinates have 53 bits.
 pub(crate) const ONE_BELOW: f64 = 1.0 - f64::EPSILON / 2.0;

@@ -1,4 +1,4 @@
-//! Triangles cut by planes across an axis.
+//! Clipping of triangles to slabs between axis-aligned planes.
 
 use super::grid::{BINS, Grid};
 use super::reference::{Bounds, Reference};
@@ -48,7 +48,8 @@ impl Triangles<'_> {
     }
 }
 
-/// A triangle on a grid. Boxes of its parts are rounded to nearest: good enough to choose a plane by.
+/// A triangle on a grid. Boxes of its parts are rounded to nearest: good enough to choose a plane
+/// by.
 pub(crate) struct ClippedTriangle<'a> {
     grid: &'a Grid,
     corners: [Vec3A; 3],

@@ -1,4 +1,4 @@
-//! Bins of equal width along each axis.
+//! Bins of equal width along each axis, for the surface area heuristic.
 
 use super::reference::Bounds;
 use glam::Vec3A;

@@ -34,8 +34,8 @@ const CHILD_COST: f32 = 0.3;
 /// At most this many copies are made for each triangle.
 const MAX_COPIES: f64 = 1.0;
 
-/// A spatial split must cost less than this share of the object split: copies make blocks fuller, which
-/// the costs of both halves do not show.
+/// A spatial split must cost less than this share of the object split: copies make blocks fuller,
+/// which the costs of both halves do not show.
 const WORTHWHILE: f32 = 0.98;
 
 /// Spatial splits are tried where the halves of an object split overlap by this share of the whole
@@ -187,8 +187,8 @@ mod tests {
     use super::*;
     use rayon::ThreadPoolBuilder;
 
-    /// Long and short triangles in all directions, enough of them for all that is done in parallel, and such
-    /// that spatial splits pay.
+    /// Long and short triangles in all directions, enough of them for all that is done in parallel,
+    /// and such that spatial splits pay.
     fn thicket(count: usize) -> Vec<[DVec3; 3]> {
         let mut state = 1_u64;
         let mut number = || {

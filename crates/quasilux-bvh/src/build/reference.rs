@@ -1,10 +1,11 @@
-//! Triangles as the builder sees them: boxes.
+//! Triangle references of the builder: a triangle index with the box of its part.
 
 use crate::frame::Frame;
 use glam::{DVec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
-/// Lists of references longer than this are gone through on all threads, in parts of a quarter of it.
+/// Lists of references longer than this are gone through on all threads, in parts of a quarter of
+/// it.
 const PARALLEL: usize = 1 << 16;
 
 /// A box in the frame.
@@ -111,8 +112,8 @@ pub(crate) fn all(corners: &[[DVec3; 3]], frame: &Frame, spare: usize) -> Vec<Re
     all
 }
 
-/// What `part` makes of all references, where it may make something of parts of them that `union` puts
-/// together.
+/// What `part` makes of all references, where it may make something of parts of them that `union`
+/// puts together.
 pub(crate) fn in_parts<R: Send>(
     references: &[Reference],
     part: impl Fn(&[Reference]) -> R + Send + Sync,

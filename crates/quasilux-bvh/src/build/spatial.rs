@@ -13,7 +13,8 @@ use super::reference::{Bounds, Reference, in_parts};
 /// Shorter axes are not divided.
 const SHORTEST: f32 = 1.6e-5;
 
-/// Fewer references are cut into half as many bins: they cross more of them each, and there is less to gain.
+/// Fewer references are cut into half as many bins: they cross more of them each, and there is less
+/// to gain.
 const FEW: usize = 4096;
 
 /// A plane that divides space, and what lies on its sides.
@@ -92,8 +93,8 @@ impl SpatialSplit {
         (self.sides[0].count + self.sides[1].count) as usize - references
     }
 
-    /// Shares out the first `count` references, with room for copies behind them; one across the plane
-    /// goes to one side if that costs less, or if there is no room for a copy.
+    /// Shares out the first `count` references, with room for copies behind them; one across the
+    /// plane goes to one side if that costs less, or if there is no room for a copy.
     pub(crate) fn divide(
         &self,
         triangles: Triangles<'_>,

@@ -1,4 +1,4 @@
-//! Which rays belong together.
+//! Detection of coherent runs in a batch of rays.
 
 use crate::Shot;
 use crate::frame::Frame;
@@ -50,7 +50,8 @@ pub(crate) struct RayGroup<'a> {
 }
 
 impl RayRun {
-    /// The first run among `shots`, of which there is at least one; at most `most` of them belong together.
+    /// The first run among `shots`, of which there is at least one; at most `most` of them belong
+    /// together.
     #[inline]
     pub(crate) fn first(shots: &[Shot], frame: &Frame, most: usize) -> Self {
         let mut start = 0;

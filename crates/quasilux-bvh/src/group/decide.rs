@@ -1,6 +1,7 @@
 //! The decision, of four rays at a time.
 //!
-//! What [`crate::intersect()`] does with one ray and one triangle, operation by operation, so that the bits are the same.
+//! What [`crate::intersect()`] does with one ray and one triangle, operation by operation, so that
+//! the bits are the same.
 
 use crate::group::candidates::{ExtraCandidate, GroupCandidates};
 use crate::group::coherence::{Heading, RayGroup};
@@ -200,7 +201,8 @@ fn sheared<Q: Quad>(shear: [Q; 3], origin: [Q; 3], corner: [Q; 3]) -> [Q; 3] {
     [x.sub(shear[0].mul(z)), y.sub(shear[1].mul(z)), shear[2].mul(z)]
 }
 
-/// Whether [`PreparedRay::new`] takes the last of the axes in their order for all of four directions.
+/// Whether [`PreparedRay::new`] takes the last of the axes in their order for all of four
+/// directions.
 #[inline(always)]
 fn most_along_last<Q: Quad>(direction: [Q; 3], heading: Heading) -> bool {
     let [a, b, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];

@@ -1,4 +1,4 @@
-//! How many rays go together.
+//! The adaptive size of ray groups.
 //!
 //! A shaft that is wide for the triangles in it makes all of its rays try them all. Once a group
 //! has cost what its rays would cost alone it is given up, and the next groups are smaller; where

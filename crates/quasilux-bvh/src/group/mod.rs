@@ -1,17 +1,16 @@
-//! Rays that travel together, up to [`MAX_GROUP`] at a time.
+//! Coherent rays traced as groups of up to 128 with one traversal (Reshetov, Soupikov and Hurley
+//! 2005, "Multi-level ray tracing algorithm", SIGGRAPH).
 //!
-//! Photons that leave a lamp in nearly the same direction meet the same boxes and the same triangles. So
-//! what is alike is candidates out once for all of them: a box is held against the shaft around the
-//! rays (Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm", SIGGRAPH; here
-//! for all eight children of a node at once), and a triangle against the directions of all rays
-//! before it is held against eight rays at a time. As for single rays, all of this only proposes; the
-//! arithmetic of [`crate::intersect()`] decides, four rays at a time, with the same bits.
+//! Photons that leave a lamp in nearly the same direction meet the same boxes and triangles. A box
+//! is tested against the shaft around all rays of a group, here for all eight children of a node at
+//! once, and a triangle against the range of all directions before it is tested against eight rays
+//! at a time. As for single rays, this only proposes candidates; the arithmetic of
+//! [`crate::intersect()`] decides, four rays at a time, with the same bits. Where the rays diverge
+//! the shaft holds too many triangles, and the group is given up.
 //!
-//! Where rays part the shaft holds too much; then they are given up as a group.
-//!
-//! Where what is: `run` finds rays that belong together, `rays` has them by coordinate, `shaft` is
-//! what surrounds them, `tester` what they see of triangles, `candidates` what they may hit, `walk` their
-//! way, `decide` the decision, `group_size` how many of them go together.
+//! Modules: `coherence` finds rays that form a group, `rays` stores them by coordinate, `shaft`
+//! bounds them by planes, `triangle_tester` tests triangles, `candidates` collects possible hits,
+//! `traverse` walks the hierarchy, `decide` decides the hits, `group_size` adapts the size.
 
 mod candidates;
 mod coherence;
@@ -32,7 +31,7 @@ use rays::Rays;
 use shaft::Shaft;
 use triangle_tester::{CommonOrigin, SeparateOrigins};
 
-/// Rays and what they candidates, for one group after the other.
+/// Memory for the rays of a group and their candidates, used again for each group.
 pub(crate) struct GroupTracer {
     rays: Rays,
     candidates: GroupCandidates,

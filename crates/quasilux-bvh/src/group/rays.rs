@@ -1,4 +1,4 @@
-//! Rays by coordinate, eight to a vector.
+//! The rays of a group as a structure of arrays, eight to a vector.
 
 use crate::Shot;
 use crate::frame::Frame;

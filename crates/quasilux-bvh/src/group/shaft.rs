@@ -1,13 +1,14 @@
-//! What surrounds the rays of a group: four planes through their origins and two across.
+//! Shaft culling: four planes through the origins of a group of rays and two across.
 //!
-//! Let `z` be the coordinate along the heading, so that all rays rise in it, and `s = dx / dz` the slope of a ray
-//! aside. For slopes in `[s0, s1]` each point of a ray has `x - s0 z >= ox - s0 oz` and `s1 z - x >= s1 oz - ox`,
-//! and so has each point of all rays with the least right sides among them. A box is outside
-//! where the largest left side in it falls short, and so is a triangle.
+//! Let `z` be the coordinate along the heading, so that all rays rise in it, and `s = dx / dz` the
+//! slope of a ray aside. For slopes in `[s0, s1]` each point of a ray has `x - s0 z >= ox - s0 oz`
+//! and `s1 z - x >= s1 oz - ox`, and so has each point of all rays with the least right sides among
+//! them. A box is outside where the largest left side in it falls short, and so is a triangle.
 //!
-//! Rounding, in units of `h`, with slopes at most below 3: slopes are off by four of themselves, which over
-//! a depth of `3.7` is `45`; origins by `2`, so right sides by `2 + 3 * 2` and their rounding by `14`; left sides
-//! by `9`, and by `12 (1 + 3)` more where the corners of a triangle come from its edges. The sum is `124`.
+//! Rounding, in units of `h`, with slopes at most below 3: slopes are off by four of themselves,
+//! which over a depth of `3.7` is `45`; origins by `2`, so right sides by `2 + 3 * 2` and their
+//! rounding by `14`; left sides by `9`, and by `12 (1 + 3)` more where the corners of a triangle
+//! come from its edges. The sum is `124`.
 
 use crate::frame::H;
 use crate::group::coherence::Heading;

@@ -1,7 +1,7 @@
-//! The way of a group through the hierarchy.
+//! The traversal of the hierarchy by a group of rays.
 //!
-//! As that of a ray ([`crate::traverse`]), with a shaft in its place: children are met in the order of the depth
-//! at which their boxes begin, and none that begins behind the ends of all rays.
+//! As that of a ray ([`crate::traverse`]), with a shaft in its place: children are met in the order
+//! of the depth at which their boxes begin, and none that begins behind the ends of all rays.
 
 use crate::group::candidates::GroupCandidates;
 use crate::group::group_size::{BLOCK, Diverged, GroupSize, NODE, TRIAL};
@@ -16,8 +16,8 @@ use crate::traversal_stack::TraversalStack;
 use crate::traverse::Tree;
 
 impl Tree {
-    /// Collects the triangles that each ray of a group may hit, and returns the cost in the units of
-    /// [`GroupSize`].
+    /// Collects the triangles that each ray of a group may hit, and returns the cost in the units
+    /// of [`GroupSize`].
     ///
     /// # Errors
     /// [`Diverged`] once the rays cost as much as single rays would.

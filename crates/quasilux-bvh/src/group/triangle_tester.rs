@@ -1,4 +1,4 @@
-//! What the rays of a group see of triangles.
+//! Tests of a block of triangles against a group of rays.
 
 use crate::frame::H;
 use crate::group::rays::Rays;
@@ -47,13 +47,14 @@ pub(crate) trait TriangleTester<L: Lanes> {
 /// Rays with a common origin.
 ///
 /// With the names of [`Slack::new`], `e2.(c x d) = (e2 x c).d` is linear in the direction, and its
-/// factor is that of all rays. The bound there holds for this order of operations too: `e2 x c` is off
-/// by `26.2 s` in the 2-norm and at most `5.3 s / h`, the direction by one of itself, and the
+/// factor is that of all rays. The bound there holds for this order of operations too: `e2 x c` is
+/// off by `26.2 s` in the 2-norm and at most `5.3 s / h`, the direction by one of itself, and the
 /// sum of three products by three.
 ///
-/// For all rays at once, directions `d` are divided by their component along the heading, which leaves a rectangle of
-/// slopes: with middle `m` and half-widths `r`, `a.d` lies within `|a|.r` of `a.m`. Such a `d` is shorter than
-/// 4 and computed with at most six more roundings, so eight times the slacks cover it.
+/// For all rays at once, directions `d` are divided by their component along the heading, which
+/// leaves a rectangle of slopes: with middle `m` and half-widths `r`, `a.d` lies within `|a|.r` of
+/// `a.m`. Such a `d` is shorter than 4 and computed with at most six more roundings, so eight times
+/// the slacks cover it.
 pub(crate) struct CommonOrigin<L> {
     origin: [L; 3],
     middle: [L; 3],

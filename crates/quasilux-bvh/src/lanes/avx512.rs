@@ -2,7 +2,8 @@
 //! compression that needs no table.
 //!
 //! Tested without a machine that has it: in the emulator Bochs 2.7 as a Skylake-X, under Linux with
-//! `clearcpuid=321,323`, by the test of all instructions and the example `hard_rays`, linked statically.
+//! `clearcpuid=321,323`, by the test of all instructions and the example `hard_rays`, linked
+//! statically.
 
 use super::traits::Lanes;
 use super::ymm::in_256_bits;

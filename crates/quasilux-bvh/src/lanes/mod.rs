@@ -1,7 +1,7 @@
 //! Eight single-precision numbers at once, or four of double precision.
 //!
-//! What eight are computed with differs in the last bits, for which the traversal allows; four are the
-//! same everywhere, since they decide.
+//! What eight are computed with differs in the last bits, for which the traversal allows; four are
+//! the same everywhere, since they decide.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

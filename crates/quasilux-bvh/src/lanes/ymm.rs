@@ -1,7 +1,7 @@
 //! What AVX2 and AVX-512 do alike in a register of 256 bits.
 
-/// The operations of [`super::Lanes`] that need no mask, for a tuple of one `__m256`, which exists only
-/// where AVX2 and fused multiply-add are there.
+/// The operations of [`super::Lanes`] that need no mask, for a tuple of one `__m256`, which exists
+/// only where AVX2 and fused multiply-add are there.
 macro_rules! in_256_bits {
     () => {
         #[inline(always)]

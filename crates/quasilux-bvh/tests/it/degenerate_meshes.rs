@@ -1,4 +1,5 @@
-//! Meshes that are hard on a builder: nothing tells their triangles apart, or one is unlike all others.
+//! Meshes that are hard on a builder: nothing tells their triangles apart, or one is unlike all
+//! others.
 
 use crate::meshes::{NamedMesh, Numbers, Triangles};
 use glam::DVec3;

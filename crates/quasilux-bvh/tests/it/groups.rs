@@ -18,7 +18,8 @@ enum Kind {
     Parallel(f64),
     /// From points within so much of the mesh's size, each toward the same point.
     Converging(f64),
-    /// From one point toward corners, middles of edges and points on edges of neighbouring triangles.
+    /// From one point toward corners, middles of edges and points on edges of neighbouring
+    /// triangles.
     TowardEdges,
     /// As it comes.
     Mixed,
@@ -103,7 +104,8 @@ fn runs_are_answered_as_ray_by_ray() {
     }
 }
 
-/// The rays, some short of or just beyond what they hit, some that cannot hit that or another triangle.
+/// The rays, some short of or just beyond what they hit, some that cannot hit that or another
+/// triangle.
 fn shots(bvh: &TriangleBvh, rays: &[Ray], run: usize, numbers: &mut Numbers) -> Vec<Shot> {
     let shot = |(i, &ray): (usize, &Ray)| {
         let hit = bvh.closest_hit(&ray, &[]);

@@ -1,4 +1,5 @@
-//! The hierarchy against its slow twin, meshes that must not leak, and meshes that are hard to build over.
+//! The hierarchy against its slow twin, meshes that must not leak, and meshes that are hard to
+//! build over.
 
 mod batches;
 mod builds;

@@ -16,8 +16,8 @@ pub(crate) struct HardQuery {
 pub(crate) const BATCHES: [usize; 13] = [0, 1, 7, 8, 9, 23, 24, 25, 63, 64, 65, 1000, 10_000];
 
 /// Rays from inside and just outside, from triangles, from corners and from far away: in random
-/// directions, along axes, toward corners and edges, in the planes of triangles or very nearly so, and
-/// along edges.
+/// directions, along axes, toward corners and edges, in the planes of triangles or very nearly so,
+/// and along edges.
 pub(crate) fn hard_query(mesh: &Triangles, number: usize, numbers: &mut Numbers) -> HardQuery {
     let Extent { low, size } = extent(mesh);
     let any = |numbers: &mut Numbers| (numbers.next() * mesh.len() as f64) as usize;

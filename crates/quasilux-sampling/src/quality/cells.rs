@@ -42,8 +42,8 @@ impl CellCounts {
     }
 }
 
-/// Counts the points of a projection in `per_side` x `per_side` cells; what lies at 1 is in the last
-/// cell.
+/// Counts the points of a projection in `per_side` x `per_side` cells; what lies at 1 is in the
+/// last cell.
 ///
 /// # Panics
 /// When there is no such dimension, or `per_side` is 0 or above [`CellCounts::MAX_PER_SIDE`].

@@ -2,11 +2,11 @@
 //! average over the boxes of a family. O(N^2 d).
 //!
 //! T. T. Warnock, "Computational investigations of low-discrepancy point sets" (1972): boxes
-//! anchored at the origin. F. J. Hickernell, "A generalized discrepancy and quadrature error bound",
-//! Math. Comp. 67 (1998), and "Lattice rules: how well do they measure up?" (1998):
-//! boxes anchored at the nearest corner, and boxes that wrap around. Y.-D. Zhou, K.-T. Fang, J.-H.
-//! Ning, "Mixture discrepancy for quasi-random point sets", J. Complexity 29 (2013).
-//! Hickernell's and the mixture count the boxes of all projections to fewer dimensions too.
+//! anchored at the origin. F. J. Hickernell, "A generalized discrepancy and quadrature error
+//! bound", Math. Comp. 67 (1998), and "Lattice rules: how well do they measure up?" (1998): boxes
+//! anchored at the nearest corner, and boxes that wrap around. Y.-D. Zhou, K.-T. Fang, J.-H. Ning,
+//! "Mixture discrepancy for quasi-random point sets", J. Complexity 29 (2013). Hickernell's and the
+//! mixture count the boxes of all projections to fewer dimensions too.
 //!
 //! Of `scipy.stats.qmc.discrepancy`, the methods `CD`, `WD` and `MD` are the *squares*
 //! ([`squared_l2_discrepancy`]), and `L2-star` is the discrepancy itself ([`l2_discrepancy`]).
@@ -16,8 +16,8 @@ use super::points_view::PointsView;
 /// Which boxes are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum L2Measure {
-    /// Boxes from the origin (Warnock). In many dimensions it measures little but a neighbourhood of
-    /// the corner (1, .., 1).
+    /// Boxes from the origin (Warnock). In many dimensions it measures little but a neighbourhood
+    /// of the corner (1, .., 1).
     Star,
     /// Boxes from the nearest corner: unchanged by reflections x -> 1 - x (Hickernell).
     Centred,
@@ -37,7 +37,8 @@ impl L2Measure {
     ];
 }
 
-/// The discrepancy. Of N random points it falls like N^-1/2, of good ones like N^-1 (log N)^(d-1)/2.
+/// The discrepancy. Of N random points it falls like N^-1/2, of good ones like N^-1 (log
+/// N)^(d-1)/2.
 ///
 /// As the root of a difference of sums near 1 it has an absolute error of about 1e-8 where it is
 /// zero, of 1e-16 over itself elsewhere.

@@ -3,12 +3,13 @@
 //! Three degrees of roughness in 2, 8 and 32 dimensions each. A. Genz, "Testing multidimensional
 //! integration routines" (1984): the Gaussian, the oscillatory and the continuous function. I. M.
 //! Sobol', "Sensitivity estimates for nonlinear mathematical models" (1993): the g-function. P.
-//! Christensen, A. Kensler, C. Kilpatrick, "Progressive multi-jittered sample sequences" (EGSR 2018):
-//! the quarter disk. The volumes of cut cubes are P. Hall's, "The distribution of means for samples of
-//! size n drawn from a population in which the variate takes values between 0 and 1" (1927).
+//! Christensen, A. Kensler, C. Kilpatrick, "Progressive multi-jittered sample sequences" (EGSR
+//! 2018): the quarter disk. The volumes of cut cubes are P. Hall's, "The distribution of means for
+//! samples of size n drawn from a population in which the variate takes values between 0 and 1"
+//! (1927).
 //!
-//! Kinks and jumps stay clear of fractions with small denominators: on the borders of the cells that
-//! a net fills evenly they would go unnoticed.
+//! Kinks and jumps stay clear of fractions with small denominators: on the borders of the cells
+//! that a net fills evenly they would go unnoticed.
 
 use core::f64::consts::{FRAC_PI_4, TAU};
 

@@ -1,8 +1,8 @@
 //! How good a set of points is: discrepancies, pairs of dimensions, cells, integration errors.
 //!
 //! All measures take points that have been written down, as a [`PointsView`]; all are exact up to
-//! rounding, and none is random. Read on at [`discrepancy`] and [`star`] for the measures of a whole
-//! set, at [`pairs`] for the report that finds the pair of dimensions that spoils it, and at
+//! rounding, and none is random. Read on at [`discrepancy`] and [`star`] for the measures of a
+//! whole set, at [`pairs`] for the report that finds the pair of dimensions that spoils it, and at
 //! [`integrands`] for functions with known integrals.
 //! ```
 //! use quasilux_sampling::quality::{L2Measure, PointsView, l2_discrepancy, star_discrepancy};

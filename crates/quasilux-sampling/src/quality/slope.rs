@@ -11,8 +11,8 @@ pub struct PowerLaw {
 
 /// The power law through points (N, error) with the least sum of squares of logarithms.
 ///
-/// Points without a logarithm (an error of zero) are left out; `None` where fewer than two different
-/// N remain.
+/// Points without a logarithm (an error of zero) are left out; `None` where fewer than two
+/// different N remain.
 #[must_use]
 pub fn fit_power_law(points: &[[f64; 2]]) -> Option<PowerLaw> {
     let usable = |point: &&[f64; 2]| point.iter().all(|x| *x > 0.0 && x.is_finite());

@@ -1,9 +1,9 @@
 //! The star discrepancy, exactly: the largest difference, over all boxes [0, a), between the share
 //! of the points in the box and its volume.
 //!
-//! H. Niederreiter, "Discrepancy and convex programming" (1972): only boxes whose faces touch points
-//! (or the far faces of the cube) need be looked at. All but the last dimension are enumerated; the
-//! points, sorted along the last, are then swept once.
+//! H. Niederreiter, "Discrepancy and convex programming" (1972): only boxes whose faces touch
+//! points (or the far faces of the cube) need be looked at. All but the last dimension are
+//! enumerated; the points, sorted along the last, are then swept once.
 
 use super::points_view::PointsView;
 

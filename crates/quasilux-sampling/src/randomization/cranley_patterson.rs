@@ -1,7 +1,7 @@
 //! Random rotation (R. Cranley and T. N. L. Patterson, "Randomization of number theoretic methods
-//! for multiple integration", SIAM J. Numer. Anal. 13, 1976): one random number a dimension is added
-//! modulo 1. Made for lattices; a net keeps its discrepancy up to a constant, but its cells move off
-//! the grid, so that up to 2^s of them share what one held.
+//! for multiple integration", SIAM J. Numer. Anal. 13, 1976): one random number a dimension is
+//! added modulo 1. Made for lattices; a net keeps its discrepancy up to a constant, but its cells
+//! move off the grid, so that up to 2^s of them share what one held.
 
 use crate::hash::dimension_key;
 use crate::unit::unit_from_word;

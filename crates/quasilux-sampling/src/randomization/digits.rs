@@ -66,16 +66,16 @@ mod tests {
     use super::*;
     use crate::sequence::{Radix, halton};
 
-    /// The places of a coordinate: the fewest that tell 2^53 numbers apart, or else as many as leave
-    /// all numbers below 2^64.
+    /// The places of a coordinate: the fewest that tell 2^53 numbers apart, or else as many as
+    /// leave all numbers below 2^64.
     fn places(base: u32) -> u32 {
         let power = |places| u128::from(base).pow(places);
         let enough = (1..).find(|places| power(*places) >= 1 << 53).expect("powers grow");
         if power(enough) < 1 << 64 { enough } else { enough - 1 }
     }
 
-    /// The slow twin: the digits of the index, each through a table of its images that `images` gives
-    /// for the digits before it, and a sum of fractions.
+    /// The slow twin: the digits of the index, each through a table of its images that `images`
+    /// gives for the digits before it, and a sum of fractions.
     fn slow_radical_inverse(base: u32, index: u64, images: impl Fn(&[u64]) -> Vec<u64>) -> f64 {
         let digit =
             |place| (u128::from(index) / u128::from(base).pow(place) % u128::from(base)) as u64;
@@ -141,8 +141,8 @@ mod tests {
         assert!(shortest > Some(1 << 51));
     }
 
-    /// Without randomisation 53 bits no longer tell numbers apart that differ in their fifth digit alone,
-    /// where the base to the fifth is well above 2^53: above base 1552, 1552^4 = 2^42.4.
+    /// Without randomisation 53 bits no longer tell numbers apart that differ in their fifth digit
+    /// alone, where the base to the fifth is well above 2^53: above base 1552, 1552^4 = 2^42.4.
     #[test]
     fn unrandomised_coordinates_meet_from_2_to_the_42() {
         let inverse = crate::sequence::radical_inverse;

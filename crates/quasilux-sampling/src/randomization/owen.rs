@@ -10,9 +10,9 @@
 //! flips of the first levels to each other (of the 8 ways to flip two levels such a sum reaches 4).
 //! Here the multipliers come from the key as well, and between them each digit is flipped by a sum
 //! of all products of the three digits before it, each term with a key bit of its own. The tests
-//! find all 2^15 ways to flip four levels equally likely, and all joint positions of two points; the
-//! variance of an estimate depends on pairs alone (J. Matousek, "On the L2-discrepancy for anchored
-//! boxes", J. Complexity 14, 1998).
+//! find all 2^15 ways to flip four levels equally likely, and all joint positions of two points;
+//! the variance of an estimate depends on pairs alone (J. Matousek, "On the L2-discrepancy for
+//! anchored boxes", J. Complexity 14, 1998).
 
 use crate::hash::{GOLDEN, mix};
 

@@ -1,8 +1,8 @@
 //! The first dimension of Hammersley's point set: equal steps.
 //!
 //! J. M. Hammersley, "Monte Carlo methods for solving multivariable problems" (Ann. New York Acad.
-//! Sci. 86, 1960): i / N stands before the first s - 1 dimensions of Halton's sequence, which takes a
-//! logarithm off the discrepancy.
+//! Sci. 86, 1960): i / N stands before the first s - 1 dimensions of Halton's sequence, which takes
+//! a logarithm off the discrepancy.
 
 use crate::hash::{dimension_key, mix};
 use crate::randomization::Randomization;

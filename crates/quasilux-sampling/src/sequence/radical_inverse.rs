@@ -6,8 +6,8 @@ use crate::unit::ONE_BELOW;
 /// d1 / b^2 + d2 / b^3 + ..
 ///
 /// Correctly rounded where `index` times `base` is below 2^53, else to 2^-52 relative; never 1. The
-/// N numbers of the first N indices are as even as N numbers of a sequence can be, up to a constant:
-/// the star discrepancy is O(log N / N). A base below 2 counts as 2.
+/// N numbers of the first N indices are as even as N numbers of a sequence can be, up to a
+/// constant: the star discrepancy is O(log N / N). A base below 2 counts as 2.
 ///
 /// ```
 /// use quasilux_sampling::radical_inverse;

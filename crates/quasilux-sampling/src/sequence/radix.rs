@@ -6,15 +6,17 @@ use crate::unit::ONE_BELOW;
 /// Digits are taken in groups with at most so many values.
 const MAX_VALUES: u32 = 256;
 
-/// A base with what its radical inverses take, but for base 2, where bits are reversed: a table of mirrored groups of digits, and a factor in place of the
-/// division by their number (D. Lemire, O. Kaser and N. Kurz, "Faster remainder by direct computation", Software: Practice and Experience 49, 2019).
+/// A base with what its radical inverses take, but for base 2, where bits are reversed: a table of
+/// mirrored groups of digits, and a factor in place of the division by their number (D. Lemire, O.
+/// Kaser and N. Kurz, "Faster remainder by direct computation", Software: Practice and Experience
+/// 49, 2019).
 #[derive(Debug)]
 pub(crate) struct Radix {
     base: u32,
     /// The power of the base that groups have values below.
     values: u64,
-    /// 2^64 over `values`, rounded up: the high half of its product with a number below 2^32 is that number over
-    /// `values`, rounded down.
+    /// 2^64 over `values`, rounded up: the high half of its product with a number below 2^32 is
+    /// that number over `values`, rounded down.
     reciprocal: u64,
     /// Of each group, its digits mirrored; empty where groups are digits.
     mirrored: Box<[u8]>,
@@ -40,8 +42,8 @@ impl Radix {
         self.base
     }
 
-    /// What [`radical_inverse`] gives, bit for bit: below 2^32 all integers are exact, and zeros past the last
-    /// digit change numerator and denominator alike.
+    /// What [`radical_inverse`] gives, bit for bit: below 2^32 all integers are exact, and zeros
+    /// past the last digit change numerator and denominator alike.
     #[inline]
     pub(crate) fn inverse(&self, index: u64) -> f64 {
         if self.base == 2 || index > u64::from(u32::MAX) {

@@ -2,16 +2,16 @@
 //!
 //! The weight of the first corner is drawn from its marginal, a cubic that a safeguarded Newton
 //! iteration inverts; the place on the segment that is left has a linear density, inverted by a
-//! quadratic in the form that does not cancel. Where the density is constant, the marginal is that of
-//! the uniform triangle by square root.
+//! quadratic in the form that does not cancel. Where the density is constant, the marginal is that
+//! of the uniform triangle by square root.
 
 use crate::unit::clamp_to_unit;
 
 /// Newton steps and halvings; each step of either kind narrows the bracket, most need five.
 const MAX_STEPS: usize = 64;
 
-/// Barycentric coordinates of a point whose density is proportional to the linear function with these
-/// values at the corners: none negative, not all 0.
+/// Barycentric coordinates of a point whose density is proportional to the linear function with
+/// these values at the corners: none negative, not all 0.
 ///
 /// ```
 /// use quasilux_sampling::warp::sample_linear_triangle;
@@ -135,8 +135,8 @@ mod tests {
         }
     }
 
-    /// Counts of 2^16 pseudo-random points (key 1) in the 64 equal parts of a triangle, family of six,
-    /// each at 1e-4; a density that is wrong by 2 % at one corner is rejected.
+    /// Counts of 2^16 pseudo-random points (key 1) in the 64 equal parts of a triangle, family of
+    /// six, each at 1e-4; a density that is wrong by 2 % at one corner is rejected.
     #[test]
     fn counts_follow_the_density() {
         let points = PointSet::new(Sequence::Independent, Randomization::None, 1);

@@ -3,9 +3,10 @@
 //! Directions are unit vectors in a local frame with z up. All maps are continuous, and send an
 //! even point set to an even one.
 //!
-//! Spherical triangles and rectangles have no map by solid angle: luminaires are sampled uniformly by
-//! area, and multiple importance sampling with cosine directions bounds the variance near them. Close
-//! to large luminaires, where the density by area varies most in solid angle, such a map would pay.
+//! Spherical triangles and rectangles have no map by solid angle: luminaires are sampled uniformly
+//! by area, and multiple importance sampling with cosine directions bounds the variance near them.
+//! Close to large luminaires, where the density by area varies most in solid angle, such a map
+//! would pay.
 
 mod disk;
 mod hemisphere;

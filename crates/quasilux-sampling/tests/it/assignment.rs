@@ -6,8 +6,8 @@ use crate::support::{SampleMean, assert_mean, random, sample_mean};
 
 const SURVIVAL: f64 = 2.0 / 3.0;
 
-/// A photon in a closed room: a direction from the lamp; at each hit an event, and a direction where
-/// it survives. Gives the coordinates used.
+/// A photon in a closed room: a direction from the lamp; at each hit an event, and a direction
+/// where it survives. Gives the coordinates used.
 fn walk(mut sampler: Sampler<'_>, is_fixed: bool) -> f64 {
     let go_to = |sampler: &mut Sampler<'_>, dimension| {
         if is_fixed {
@@ -28,8 +28,8 @@ fn walk(mut sampler: Sampler<'_>, is_fixed: bool) -> f64 {
 }
 
 /// Events are 3 on average, 1 / (1 - 2/3), each but the last with a direction: 2 + 3 + 4 = 9
-/// coordinates where each event has its own. Shared, one lasts until m survivals have taken its bits,
-/// and the mean number of them is 1 + (2/3)^m + (2/3)^2m + ..: 7.003 coordinates in all.
+/// coordinates where each event has its own. Shared, one lasts until m survivals have taken its
+/// bits, and the mean number of them is 1 + (2/3)^m + (2/3)^2m + ..: 7.003 coordinates in all.
 ///
 /// 2^16 walks, seeds 1 and 2: finds means that are off by 0.15.
 #[test]

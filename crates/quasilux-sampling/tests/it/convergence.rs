@@ -56,8 +56,8 @@ fn replicate_slope(
     }))
 }
 
-/// Up to 2^20 points, far past where libraries of 16-bit indices fold. The standard error of a slope
-/// is about 0.02: eight errors, each known to 18 % from 16 replicates.
+/// Up to 2^20 points, far past where libraries of 16-bit indices fold. The standard error of a
+/// slope is about 0.02: eight errors, each known to 18 % from 16 replicates.
 #[test]
 fn scrambled_errors_fall_faster_than_theory_must_have_it() {
     let owen = replicate_slope(Sequence::Sobol, Randomization::Owen, 20, 16);

@@ -60,11 +60,11 @@ const fn figure(sequence: Sequence, ratio: f64) -> Figure {
     Figure { sequence, ratio }
 }
 
-/// Errors relative to those of Sobol', each within a range about the figure that the documentation of
-/// the crate gives.
+/// Errors relative to those of Sobol', each within a range about the figure that the documentation
+/// of the crate gives.
 ///
-/// Seed 11. The standard error of a ratio is 3 % for the base-4 sequence (1024 replicates each), 5 % for
-/// the others (256): their ranges of a quarter either side are five of them wide.
+/// Seed 11. The standard error of a ratio is 3 % for the base-4 sequence (1024 replicates each), 5
+/// % for the others (256): their ranges of a quarter either side are five of them wide.
 fn assert_ratios(reading: Reading, figures: [Figure; 3]) {
     let truth = truth(reading);
     let sobol = error(Sequence::Sobol, reading, truth, 1024);

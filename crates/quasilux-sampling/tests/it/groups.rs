@@ -12,9 +12,9 @@ const RANDOMIZATIONS: [Randomization; 4] = [
     Randomization::Owen,
 ];
 
-/// The inequality |Phi_b(i) - Phi_b(i + n b^k)| < b^-k and its like for matrices, measured; and each
-/// index once, whether or not the count is a multiple of the number of groups. Of Hammersley's points
-/// the dimensions with digits, which begin at 1.
+/// The inequality |Phi_b(i) - Phi_b(i + n b^k)| < b^-k and its like for matrices, measured; and
+/// each index once, whether or not the count is a multiple of the number of groups. Of Hammersley's
+/// points the dimensions with digits, which begin at 1.
 #[test]
 fn groups_are_a_partition_within_the_bound() {
     let hammersley = Sequence::Hammersley { points: 4096 };
@@ -46,8 +46,8 @@ fn groups_are_a_partition_within_the_bound() {
     }
 }
 
-/// Rotation carries groups over the end of the axis: there the smallest and the largest coordinate lie
-/// at either end, and the arc between them is short.
+/// Rotation carries groups over the end of the axis: there the smallest and the largest coordinate
+/// lie at either end, and the arc between them is short.
 #[test]
 fn spreads_under_rotation_wrap_around() {
     for sequence in SEQUENCES {
@@ -98,8 +98,8 @@ fn the_bound_is_nearly_reached() {
     }
 }
 
-/// Groups that follow each other make up a group of a coarser partition: in base 2 for all that are a
-/// power of two larger, in Halton's bases for those that the divisions pass through.
+/// Groups that follow each other make up a group of a coarser partition: in base 2 for all that are
+/// a power of two larger, in Halton's bases for those that the divisions pass through.
 #[test]
 fn neighbouring_groups_are_close() {
     for sequence in SEQUENCES {

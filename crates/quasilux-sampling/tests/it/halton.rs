@@ -56,9 +56,9 @@ fn digit_randomisations_keep_the_nets() {
     }
 }
 
-/// Two points of one dimension under nested permutations: where their digits first differ the images
-/// are any two different digits with equal probability, and what follows is independent. 2^16 keys,
-/// 6 x 9 x 9 cells in base 3: finds frequencies that are off by 10 % in half of them.
+/// Two points of one dimension under nested permutations: where their digits first differ the
+/// images are any two different digits with equal probability, and what follows is independent.
+/// 2^16 keys, 6 x 9 x 9 cells in base 3: finds frequencies that are off by 10 % in half of them.
 #[test]
 fn pairs_under_nested_permutations_are_jointly_uniform() {
     for (index, other) in [(0, 1), (1, 2), (5, 5 + 9), (5, 5 + 2 * 27), (80, 80 + (1 << 4) * 81)] {

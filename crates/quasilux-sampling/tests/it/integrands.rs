@@ -13,8 +13,8 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_2, 0.101_228_536_290_376_26],
 ];
 
-/// The integral over [0, 1]^8 of a function of the sum of the coordinates, as one over the density of
-/// the sum, convolved seven times with that of one coordinate on a grid of step 1/`STEPS`.
+/// The integral over [0, 1]^8 of a function of the sum of the coordinates, as one over the density
+/// of the sum, convolved seven times with that of one coordinate on a grid of step 1/`STEPS`.
 fn of_sum(function: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 400;
     let mut density = vec![1.0; STEPS];
@@ -27,8 +27,8 @@ fn of_sum(function: impl Fn(f64) -> f64) -> f64 {
             |i: usize| sums[(i + 1).min(density.len())] - sums[(i + 1).saturating_sub(STEPS)];
         density = (0..density.len() + STEPS - 1).map(|i| window(i) / STEPS as f64).collect();
     }
-    // The sum of eight middles of steps is a whole number of steps and four; where the function jumps
-    // there, the mean of both sides is taken.
+    // The sum of eight middles of steps is a whole number of steps and four; where the function
+    // jumps there, the mean of both sides is taken.
     let value = |(i, d): (usize, &f64)| {
         let sum = (i as f64 + 4.0) / STEPS as f64;
         d * 0.5 * (function(sum - 1e-9) + function(sum + 1e-9))
@@ -95,8 +95,8 @@ fn factors_of_products_have_mean_one() {
     }
 }
 
-/// z-test over 64 seeds, 2^12 points each: finds an integral that is off by five standard errors, for
-/// the worst of them (half-space) 1.7 %.
+/// z-test over 64 seeds, 2^12 points each: finds an integral that is off by five standard errors,
+/// for the worst of them (half-space) 1.7 %.
 #[test]
 fn integrals_equal_means_over_scrambled_points() {
     for integrand in Integrand::ALL {

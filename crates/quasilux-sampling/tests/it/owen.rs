@@ -17,7 +17,8 @@ fn scrambled(points: &PointSet, digits: u64) -> u64 {
 }
 
 /// Four levels of the tree of flips are 1 + 2 + 4 + 8 random bits. All 2^15 states must be equally
-/// frequent over the keys; 2^20 of them find frequencies that are off by 10 % in half of the states.
+/// frequent over the keys; 2^20 of them find frequencies that are off by 10 % in half of the
+/// states.
 #[test]
 fn all_trees_of_flips_are_equally_likely() {
     let mut counts = vec![0; 1 << 15];

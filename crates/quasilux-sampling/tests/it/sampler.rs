@@ -46,8 +46,8 @@ fn choices_share_a_coordinate_up_to_its_useful_bits() {
     }
 }
 
-/// A choice among 1024 has its coordinate for itself; certain choices cost nothing; a choice without
-/// a choice consumes nothing.
+/// A choice among 1024 has its coordinate for itself; certain choices cost nothing; a choice
+/// without a choice consumes nothing.
 #[test]
 fn choices_are_charged_by_their_distribution() {
     let points = sobol(Randomization::Owen, 2);
@@ -166,8 +166,9 @@ fn children_of_one_way_are_as_even_as_their_sequence() {
     assert!(grandchild.is_branch() && grandchild.next_1d() != child(9, 3, 1).next_1d());
 }
 
-/// Where their ancestors began says nothing of the coordinates of children: those whose ancestors began in
-/// one eighth of the line are spread over all of it, as evenly as points of a net in two dimensions are.
+/// Where their ancestors began says nothing of the coordinates of children: those whose ancestors
+/// began in one eighth of the line are spread over all of it, as evenly as points of a net in two
+/// dimensions are.
 #[test]
 fn children_do_not_repeat_their_ancestors() {
     for seed in 1..=20 {

@@ -47,9 +47,9 @@ pub(crate) fn chi_square_p_value(counts: &[u64], probabilities: &[f64]) -> f64 {
 
 /// The chi-square of the first 2^14 points of a pair of dimensions in 16 x 16 cells.
 ///
-/// Where the indices of the one are a nested shuffle of those of the other it is distributed like 16
-/// chi2_1 + 8 chi2_4 + 4 chi2_16 + 2 chi2_64, whose mean is 240 and variance 2048: the counts of 2^a by
-/// 2^b cells, a + b <= 8, are tied by the nets on both axes. A diagonal has 245 760.
+/// Where the indices of the one are a nested shuffle of those of the other it is distributed like
+/// 16 chi2_1 + 8 chi2_4 + 4 chi2_16 + 2 chi2_64, whose mean is 240 and variance 2048: the counts of
+/// 2^a by 2^b cells, a + b <= 8, are tied by the nets on both axes. A diagonal has 245 760.
 pub(crate) fn pair_chi_square(points: &PointSet, [first, second]: [u32; 2]) -> f64 {
     let [mut x, mut y] = [(); 2].map(|()| vec![0.0; 1 << 14]);
     points.fill(first, 0, &mut x);
@@ -61,10 +61,10 @@ pub(crate) fn pair_chi_square(points: &PointSet, [first, second]: [u32; 2]) -> f
     counts.iter().map(|count| (*count as f64 - 64.0) * (*count as f64 - 64.0) / 64.0).sum()
 }
 
-/// That pairs of dimensions are shuffled against each other. The mean of 64 keys, seeds 0 to 63, has a
-/// standard error of 5.7: at [`SIGNIFICANCE`] it finds an excess of 28, which cells have whose
-/// densities are off by 4 % (root mean square). Where nothing is random there is one value, and above
-/// 790 with a probability below 1e-6 (Chernoff's bound): densities off by 18 %.
+/// That pairs of dimensions are shuffled against each other. The mean of 64 keys, seeds 0 to 63,
+/// has a standard error of 5.7: at [`SIGNIFICANCE`] it finds an excess of 28, which cells have
+/// whose densities are off by 4 % (root mean square). Where nothing is random there is one value,
+/// and above 790 with a probability below 1e-6 (Chernoff's bound): densities off by 18 %.
 pub(crate) fn assert_pairs_are_shuffled(sequence: Sequence, pairs: &[[u32; 2]]) {
     for (name, randomization) in Randomization::NAMES {
         for pair in pairs {
