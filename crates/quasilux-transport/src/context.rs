@@ -2,7 +2,7 @@
 
 use crate::lights::Lights;
 use crate::lights::images::SpecularImages;
-use crate::purpose::{Ledger, Purpose};
+use crate::purpose::{Purpose, PurposeRecorder};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -49,7 +49,7 @@ pub(crate) struct Stage<'a, S> {
     /// Told of the steps of waves, in benchmarks.
     pub(crate) stopwatch: Option<&'a dyn Stopwatch>,
     /// Told what coordinates are drawn for, where that is to be explained.
-    pub(crate) ledger: Option<&'a Ledger>,
+    pub(crate) purposes: PurposeRecorder<'a>,
     settings: &'a Settings,
 }
 
@@ -159,7 +159,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
             listed_terms: settings.list_terms,
             warning,
             stopwatch: None,
-            ledger: None,
+            purposes: PurposeRecorder::default(),
             settings,
         }
     }
@@ -191,12 +191,7 @@ impl<'a, S: Spectrum> Stage<'a, S> {
         purpose: Purpose,
         draw: impl FnOnce(&mut Sampler<'p>) -> T,
     ) -> T {
-        let first = sampler.dimension();
-        let drawn = draw(sampler);
-        if let Some(ledger) = self.ledger {
-            ledger.note(first, sampler, purpose);
-        }
-        drawn
+        self.purposes.draw(sampler, purpose, draw)
     }
 }
 

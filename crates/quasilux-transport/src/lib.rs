@@ -51,10 +51,10 @@ pub use run::parts::{MergeError, decide, merge, trace_part};
 pub use run::simulate::{is_over, resume, simulate};
 pub use run::trial;
 pub use settings::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
-pub use stats::convergence::{self, Convergence};
+pub use stats::convergence;
 pub use stats::decisions::Decisions;
 pub use stats::estimates::{
-    self, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
+    self, Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
 };
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, Progress, Snapshot};

@@ -83,6 +83,40 @@ impl Ledger {
     }
 }
 
+/// Draws coordinates, and records what for where that is to be explained.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PurposeRecorder<'a> {
+    ledger: Option<&'a Ledger>,
+}
+
+impl<'a> PurposeRecorder<'a> {
+    /// Records in this ledger.
+    pub(crate) fn recording(ledger: &'a Ledger) -> Self {
+        Self { ledger: Some(ledger) }
+    }
+
+    /// Whether anything is recorded.
+    pub(crate) fn is_recording(self) -> bool {
+        self.ledger.is_some()
+    }
+
+    /// Draws coordinates for a purpose.
+    #[inline]
+    pub(crate) fn draw<'p, T>(
+        self,
+        sampler: &mut Sampler<'p>,
+        purpose: Purpose,
+        draw: impl FnOnce(&mut Sampler<'p>) -> T,
+    ) -> T {
+        let first = sampler.dimension();
+        let drawn = draw(sampler);
+        if let Some(ledger) = self.ledger {
+            ledger.note(first, sampler, purpose);
+        }
+        drawn
+    }
+}
+
 impl fmt::Display for Purpose {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (what, surface) = match *self {

@@ -10,7 +10,7 @@
 //!
 //! Numbers are little-endian; lists have their lengths before them. `docs/formats.md` has the whole.
 
-mod counts;
+mod histogram;
 mod reader;
 mod writer;
 

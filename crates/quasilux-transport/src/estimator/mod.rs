@@ -2,8 +2,10 @@
 
 pub(crate) mod connection;
 pub(crate) mod control_variate;
+pub(crate) mod exact;
 pub(crate) mod paths;
 pub(crate) mod photons;
+pub(crate) mod pilot;
 pub(crate) mod selection;
 
 use crate::codec::{Reader, StateError, Writer};

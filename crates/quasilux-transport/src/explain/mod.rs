@@ -19,8 +19,8 @@ mod photons;
 mod shares;
 
 use crate::context::{Stage, Stream};
-use crate::photon::trace::PhotonCounts;
-use crate::purpose::{Ledger, Purpose};
+use crate::photon::counts::PhotonCounts;
+use crate::purpose::{Ledger, Purpose, PurposeRecorder};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use gain::gain;
@@ -174,7 +174,7 @@ pub fn explain(scene: &Scene, settings: &Settings) -> Explanation {
 fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     let ledger = Ledger::default();
     let mut stage = Stage::<S>::new(scene, settings);
-    stage.ledger = Some(&ledger);
+    stage.purposes = PurposeRecorder::recording(&ledger);
     match settings.estimator {
         EstimatorKind::Photon => {
             look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings).explanation

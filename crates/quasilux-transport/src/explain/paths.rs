@@ -4,7 +4,7 @@ use super::beside::{BesideWalk, Role};
 use super::{Pilot, Points, Walk, WalkKind};
 use crate::context::{Stage, Stream};
 use crate::estimator::connection::Joined;
-use crate::estimator::paths::exact;
+use crate::estimator::exact::exact;
 use crate::estimator::selection::{Decision, decide};
 use crate::path::end::PathEnd;
 use crate::path::sections::Section;
@@ -156,7 +156,7 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
                 target: target.target,
                 points: points(Stream::Paths(target.number)),
                 rest: self.end.rest(self.stage, 0, target.number as usize),
-                joining: self.joined.as_ref().map(|joined| &joined.joining),
+                partition: self.joined.as_ref().map(|joined| &joined.joining.partition),
                 hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),
                 indices: first..(first + WAVE).min(samples),
             };

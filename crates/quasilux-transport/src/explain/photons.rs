@@ -6,10 +6,12 @@ use super::{Pilot, Points, Walk, WalkKind};
 use crate::context::{Stage, Stream};
 use crate::estimator::photons::{self, Receivers};
 use crate::importance::Windows;
-use crate::photon::trace::{Flight, Lead, PhotonReceiver, Source, trace_photon};
+use crate::photon::receiver::PhotonReceiver;
+use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
 use quasilux_scene::Scene;
 

@@ -225,7 +225,7 @@ impl Survey {
         let points = stage.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut sampler = Sampler::new(&points, index);
-            let start = stage.lights.emit(stage, &mut sampler)?.emission;
+            let start = stage.lights.emit(&stage.world, stage.purposes, &mut sampler)?.emission;
             Some(fly(stage, start, &mut sampler))
         };
         let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();

@@ -9,9 +9,8 @@ pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
 pub(crate) use pointlike::{Incidence, PointLikes};
 
-use crate::context::Stage;
 use crate::lights::images::Trail;
-use crate::purpose::Purpose;
+use crate::purpose::{Purpose, PurposeRecorder};
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::{Vantage, World};
@@ -47,6 +46,13 @@ pub(crate) struct Emission {
     pub(crate) from: Vantage,
     /// Unit direction.
     pub(crate) direction: DVec3,
+}
+
+/// A light that was chosen, and the two coordinates of its first distribution.
+#[derive(Clone, Copy)]
+pub(crate) struct Chosen {
+    pub(crate) number: usize,
+    pub(crate) u: [f64; 2],
 }
 
 impl<'a> Lights<'a> {
@@ -99,27 +105,27 @@ impl<'a> Lights<'a> {
     /// lights there are; a photon of an area light or luminaire takes two more.
     pub(crate) fn emit<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
+        world: &World<S>,
+        purposes: PurposeRecorder<'_>,
         sampler: &mut Sampler<'_>,
     ) -> Option<Emitted> {
         let by_flux = self.by_flux.as_ref()?;
-        let (choice, u) = stage.draw(sampler, Purpose::Emission, |sampler| {
+        let (choice, u) = purposes.draw(sampler, Purpose::Emission, |sampler| {
             (sampler.choose_leading(by_flux), [sampler.remapped_1d(), sampler.next_1d()])
         });
-        self.emit_from(choice.index, u, stage, sampler)
+        self.emit_from(Chosen { number: choice.index, u }, world, purposes, sampler)
     }
 
     /// One photon of a certain light: place and direction from its own distribution. The two coordinates
     /// come before those of the sampler.
     pub(crate) fn emit_from<S: Spectrum>(
         &self,
-        number: usize,
-        u: [f64; 2],
-        stage: &Stage<'_, S>,
+        Chosen { number, u }: Chosen,
+        world: &World<S>,
+        purposes: PurposeRecorder<'_>,
         sampler: &mut Sampler<'_>,
     ) -> Option<Emitted> {
-        let world = &stage.world;
-        let mut more = || stage.draw(sampler, Purpose::EmissionOfArea, Sampler::next_2d);
+        let mut more = || purposes.draw(sampler, Purpose::EmissionOfArea, Sampler::next_2d);
         if let Some(light) = self.pointlikes.get(number) {
             let (position, direction) = match light {
                 Light::Point(light) => {

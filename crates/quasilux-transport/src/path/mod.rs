@@ -3,6 +3,7 @@
 pub(crate) mod contribution;
 pub(crate) mod end;
 pub(crate) mod lobes;
+pub(crate) mod partition;
 pub(crate) mod sections;
 pub(crate) mod trace;
 pub(crate) mod wave;

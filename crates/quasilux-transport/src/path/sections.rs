@@ -1,10 +1,11 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
+use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Stage;
-use crate::estimator::connection::Joining;
 use crate::path::contribution::Gathered;
 use crate::path::end::Rest;
 use crate::path::lobes::LobeSums;
+use crate::path::partition::Partition;
 use crate::path::trace::{Ended, Seeks, Start};
 use crate::path::wave::PathWave;
 use crate::photon::caustics::HiddenEnd;
@@ -45,7 +46,7 @@ pub(crate) struct Section<'g, S> {
     pub(crate) rest: Rest<'g, S>,
     pub(crate) hidden: Option<HiddenEnd<'g, S>>,
     /// What photons that are joined to the target leave to the paths.
-    pub(crate) joining: Option<&'g Joining>,
+    pub(crate) partition: Option<&'g Partition>,
     pub(crate) indices: Range<u64>,
 }
 
@@ -116,7 +117,7 @@ impl<S: Spectrum> Section<'_, S> {
                 seeks,
                 rest: &self.rest,
                 hidden: self.hidden,
-                joining: self.joining,
+                partition: self.partition,
                 sampler,
             }
         })
@@ -173,5 +174,47 @@ impl AddAssign for WorkCounts {
         self.rays += other.rays;
         self.dimensions.merge(&other.dimensions);
         self.endless += other.endless;
+    }
+}
+
+impl Stored for PathSums {
+    fn put(&self, out: &mut Writer) {
+        let Self { direct, indirect, terms, reflected, lobes } = self;
+        direct.put(out);
+        indirect.put(out);
+        out.u64(*reflected);
+        lobes.put(out);
+        terms.as_slice().put(out);
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        let Self { direct, indirect, terms, reflected, lobes } = self;
+        direct.take_in(from)?;
+        indirect.take_in(from)?;
+        from.add_u64(reflected)?;
+        lobes.take_in(from)?;
+        let listed = from.length(Sum::BYTES)?;
+        if terms.is_empty() {
+            // Before its first path a target has none.
+            terms.resize(listed, Sum::default());
+        }
+        if listed != 0 && listed != terms.len() {
+            return Err(StateError::Unfit("a list of terms"));
+        }
+        terms.iter_mut().take(listed).try_for_each(|term| term.take_in(from))
+    }
+}
+
+impl Stored for WorkCounts {
+    fn put(&self, out: &mut Writer) {
+        let Self { paths, rays, dimensions, endless } = self;
+        [paths, rays, endless].into_iter().for_each(|count| out.u64(*count));
+        dimensions.put(out);
+    }
+
+    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        let Self { paths, rays, dimensions, endless } = self;
+        [paths, rays, endless].into_iter().try_for_each(|count| from.add_u64(count))?;
+        dimensions.take_in(from)
     }
 }

@@ -15,12 +15,12 @@ mod asking;
 use crate::bsdf::Mode;
 use crate::context::Stage;
 use crate::cutoff::Gain;
-use crate::estimator::connection::{Joining, Shares};
 use crate::estimator::control_variate::{FrozenEnd, Note, bounces_left};
 use crate::lights::images::ImageOffers;
 use crate::path::contribution::Gathered;
 use crate::path::end::{MapEnd, Rest};
 use crate::path::lobes::{self, Met};
+use crate::path::partition::{Partition, Shares};
 use crate::photon::caustics::HiddenEnd;
 use crate::photon::map::{IlluminationMap, Place};
 use crate::purpose::Purpose;
@@ -61,7 +61,7 @@ pub(crate) struct Start<'p, S> {
     /// Light that it cannot find by itself.
     pub(crate) hidden: Option<HiddenEnd<'p, S>>,
     /// What photons leave to it.
-    pub(crate) joining: Option<&'p Joining>,
+    pub(crate) partition: Option<&'p Partition>,
     pub(crate) sampler: Sampler<'p>,
 }
 
@@ -84,7 +84,7 @@ pub(crate) struct Path<'p, S> {
     number: u32,
     rest: &'p Rest<'p, S>,
     hidden: Option<HiddenEnd<'p, S>>,
-    joining: Option<&'p Joining>,
+    partition: Option<&'p Partition>,
     /// The parts that it is to find of the light at its first surface.
     shares: Shares,
     sampler: Sampler<'p>,
@@ -144,7 +144,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, seeks, rest, hidden, joining, mut sampler } = start;
+        let Start { from, seeks, rest, hidden, partition, mut sampler } = start;
         let (direction, pdf_sr, beta) = match seeks {
             Seeks::Illuminance { n, .. } => {
                 let u = stage.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -158,7 +158,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             number,
             rest,
             hidden,
-            joining,
+            partition,
             shares: Shares::ALL,
             sampler,
             from,
@@ -179,7 +179,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             let vertex = Vertex::sensor(from, n);
             work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
             if tests_pointlikes {
-                path.ask_images(stage, &vertex, 0, work);
+                path.ask_images(stage, &vertex, work);
             }
             path.ask_emitters(stage, &vertex, work);
             path.ask_area_luminaires(stage, &vertex, work);
@@ -241,10 +241,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         // Past mirrors alone, paths find nothing but facets that emit.
         self.found.reflected |= !bsdf.is_specular() || stage.lights.emitters.is_some();
         self.bounces_asked = bounces + 1;
-        if let (0, Some(joining)) = (bounces, self.joining)
+        if let (0, Some(partition)) = (bounces, self.partition)
             && bsdf.keeps_illuminance()
         {
-            self.shares = self.shares_at(joining, at);
+            self.shares = self.shares_at(partition, at);
         }
         if !bsdf.is_specular() {
             self.ask_all(stage, bounces + 1, at, work);
@@ -398,11 +398,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// The parts of the light at its first surface that it is to find beside photons.
-    fn shares_at(&self, joining: &Joining, at: &Interaction) -> Shares {
+    fn shares_at(&self, partition: &Partition, at: &Interaction) -> Shares {
         let cos_there = -at.n.dot(self.direction);
         let pdf_m2 = |pdf_sr| pdf_sr * cos_there / (at.distance_m * at.distance_m);
         let share =
-            |pdf_sr| joining.path_shares(pdf_m2(pdf_sr), joining.landings(at.position, at.n));
+            |pdf_sr| partition.path_shares(pdf_m2(pdf_sr), partition.density(at.position, at.n));
         self.pdf_sr.map_or(Shares::ALL, share)
     }
 

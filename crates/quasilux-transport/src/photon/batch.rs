@@ -2,8 +2,10 @@
 
 use crate::context::{Stage, Stream};
 use crate::cutoff;
+use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{WAVES_PER_FIELD, Waves, Way};
-use crate::photon::trace::{Lead, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::photon::receiver::PhotonReceiver;
+use crate::photon::trace::{Lead, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::FluxBalance;

@@ -13,89 +13,16 @@ use crate::context::Stage;
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::importance::{Guide, Split, Windows};
 use crate::lights::images::Trail;
-use crate::lights::{Emission, Emitted};
-use crate::photon::first_shot::{Drawn, LitCells, LitPlace};
+use crate::lights::{Chosen, Emission, Emitted};
+use crate::photon::counts::{PhotonCounts, QUANTA_PER_PHOTON};
+use crate::photon::lit_cells::{Drawn, LitCells, LitPlace};
+use crate::photon::receiver::{Arrival, PhotonReceiver};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use glam::DVec3;
-use quasilux_sampling::{DimensionHistogram, Sampler};
-use std::ops::AddAssign;
-
-/// Flux is counted in this many steps a photon: 2^39 photons fit.
-const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
-
-/// How photons ended, and what they cost. Flux is in quanta.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct PhotonCounts {
-    /// Photons that began, until those from lit places are [taken out](Self::apart_from_flux): those that left lights.
-    pub(crate) emitted: u64,
-    /// Those from lit places too; what splitting added is not among them.
-    pub(crate) begun: u64,
-    /// Absorbed, less what splitting added.
-    pub(crate) absorbed: i64,
-    pub(crate) lost: i64,
-    /// Cut after the wanted number of bounces.
-    pub(crate) cut: i64,
-    /// Photons cut because they would not [end](crate::cutoff).
-    pub(crate) endless: u64,
-    /// The same of photons that are not in the balance of the flux.
-    pub(crate) trapped: u64,
-    pub(crate) rays: u64,
-    /// Rays among them that join photons to sensors.
-    pub(crate) joins: u64,
-    /// Surfaces that photons came to.
-    pub(crate) events: u64,
-    /// Coordinates that each of them used, children of splits by themselves.
-    pub(crate) dimensions: DimensionHistogram,
-}
-
-/// What sees photons on their way.
-pub(crate) trait PhotonReceiver<S> {
-    /// Whether photons end where [`Trail::Found`] begins: nobody looks at them further.
-    const SPECULAR_ONLY: bool = false;
-
-    /// All that it sees from here on is of the photon whose coordinates come from there.
-    fn follow(&mut self, sampler: &Sampler<'_>) {
-        let _ = sampler;
-    }
-
-    /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
-    /// `bounces` reflections; `weight` is its colour, of luminance one or near it.
-    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32);
-
-    /// A photon lands on a surface that keeps illuminance.
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32);
-
-    /// The flight of a photon that came by specular surfaces alone from a light that nothing runs
-    /// into; a flight like others unless somebody sees such light in another way.
-    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
-        let _ = trail;
-        self.flight(flight, weight, bounces);
-    }
-
-    /// The landing of such a photon.
-    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
-        let _ = trail;
-        self.landing(at, weight, bounces);
-    }
-
-    /// Nothing more is to come; how many rays it traced itself.
-    fn finish(self) -> u64
-    where
-        Self: Sized,
-    {
-        0
-    }
-}
-
-/// A straight piece of a photon's way.
-pub(crate) struct Flight {
-    pub(crate) from: DVec3,
-    pub(crate) direction: DVec3,
-    /// Infinite where it leaves the scene.
-    pub(crate) length_m: f64,
-}
+use quasilux_sampling::Sampler;
 
 /// A photon on its way, but for where it flies.
 pub(crate) struct Photon<'p, S> {
@@ -224,17 +151,6 @@ struct Door<'a> {
     guide: Option<&'a Guide>,
 }
 
-/// The end of a flight.
-pub(crate) struct Arrival<'a> {
-    /// Along which the photon flew.
-    pub(crate) direction: DVec3,
-    pub(crate) found: Option<&'a Interaction>,
-    /// Before this one, since it began.
-    pub(crate) bounces: u32,
-    /// Whether no flight led here: the place was drawn, from those whose light goes on.
-    pub(crate) is_drawn: bool,
-}
-
 impl<'p, S: Spectrum> Photon<'p, S> {
     /// The photon that takes its coordinates from `sampler`.
     pub(crate) fn new(sampler: Sampler<'p>) -> Self {
@@ -257,12 +173,13 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     pub(crate) fn begin(&mut self, stage: &Stage<'_, S>, source: Source<'_>) -> Option<Beginning> {
         let lights = &stage.lights;
         let Emitted { emission, trail } = match source {
-            Source::Lights => lights.emit(stage, &mut self.sampler)?,
+            Source::Lights => lights.emit(&stage.world, stage.purposes, &mut self.sampler)?,
             Source::LitCells(cells) => match cells.draw(stage, &mut self.sampler)? {
                 Drawn::Place(place) => return Some(Beginning::IfLit(place)),
                 Drawn::Light { number, u, flux_share } => {
                     self.weight = S::white() * flux_share;
-                    lights.emit_from(number, u, stage, &mut self.sampler)?
+                    let chosen = Chosen { number, u };
+                    lights.emit_from(chosen, &stage.world, stage.purposes, &mut self.sampler)?
                 }
             },
         };
@@ -406,13 +323,6 @@ fn quanta(weight: f64) -> i64 {
 }
 
 impl PhotonCounts {
-    /// What they cost, without where their flux went: those from lit cells do not carry all of it.
-    pub(crate) fn apart_from_flux(self) -> Self {
-        let trapped = self.trapped + self.endless;
-        let Self { begun, rays, joins, events, dimensions, .. } = self;
-        Self { begun, trapped, rays, joins, events, dimensions, ..Self::default() }
-    }
-
     /// Records a photon that ended.
     pub(crate) fn end<S>(&mut self, photon: &Photon<'_, S>) {
         self.dimensions.record(photon.sampler.used());
@@ -423,65 +333,5 @@ impl PhotonCounts {
         self.endless += 1;
         self.cut += photon.quanta();
         self.end(photon);
-    }
-
-    /// Flux of some quanta, as a share of all that was emitted.
-    pub(crate) fn share(&self, quanta: i64) -> f64 {
-        quanta as f64 / (self.emitted.max(1) as f64 * QUANTA_PER_PHOTON)
-    }
-}
-
-impl AddAssign for PhotonCounts {
-    fn add_assign(&mut self, other: Self) {
-        self.emitted += other.emitted;
-        self.begun += other.begun;
-        self.absorbed += other.absorbed;
-        self.lost += other.lost;
-        self.cut += other.cut;
-        self.endless += other.endless;
-        self.trapped += other.trapped;
-        self.rays += other.rays;
-        self.joins += other.joins;
-        self.events += other.events;
-        self.dimensions.merge(&other.dimensions);
-    }
-}
-
-/// Receives nothing, or what the inner one receives.
-impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
-    const SPECULAR_ONLY: bool = R::SPECULAR_ONLY;
-
-    fn follow(&mut self, sampler: &Sampler<'_>) {
-        if let Some(receiver) = self {
-            receiver.follow(sampler);
-        }
-    }
-
-    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
-        if let Some(receiver) = self {
-            receiver.flight(flight, weight, bounces);
-        }
-    }
-
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        if let Some(receiver) = self {
-            receiver.landing(at, weight, bounces);
-        }
-    }
-
-    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
-        if let Some(receiver) = self {
-            receiver.specular_flight(flight, weight, bounces, trail);
-        }
-    }
-
-    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
-        if let Some(receiver) = self {
-            receiver.specular_landing(at, weight, bounces, trail);
-        }
-    }
-
-    fn finish(self) -> u64 {
-        self.map_or(0, R::finish)
     }
 }

@@ -9,7 +9,9 @@
 
 use crate::context::{Stage, Step};
 use crate::cutoff::MAX_EVENTS;
-use crate::photon::trace::{Arrival, Beginning, Lead, Photon, PhotonCounts, PhotonReceiver};
+use crate::photon::counts::PhotonCounts;
+use crate::photon::receiver::{Arrival, PhotonReceiver};
+use crate::photon::trace::{Beginning, Lead, Photon};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, Shot};

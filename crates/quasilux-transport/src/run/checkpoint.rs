@@ -2,8 +2,10 @@
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::settings::Settings;
-use crate::stats::convergence::{Convergence, History};
-use crate::stats::estimates::{Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates};
+use crate::stats::convergence::History;
+use crate::stats::estimates::{
+    Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
+};
 use crate::stats::schedule::Schedule;
 use quasilux_scene::Scene;
 

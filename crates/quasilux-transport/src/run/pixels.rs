@@ -262,7 +262,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
         let direction = self.view.direction([x + u, y + v]);
         Start {
             hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
-            joining: None,
+            partition: None,
             from: self.stage.world.vantage_of_sensor(self.view.position, direction),
             seeks: Seeks::Luminance { direction },
             rest: &Rest::Path,

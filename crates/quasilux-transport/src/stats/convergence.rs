@@ -25,7 +25,7 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::settings::Settings;
-use crate::stats::estimates::Estimates;
+use crate::stats::estimates::{Convergence, Estimates};
 use crate::stats::schedule::{MAX_SAMPLES, Schedule};
 use crate::stats::tolerance::Standing;
 use quasilux_sampling::quality::fit_power_law;
@@ -40,22 +40,6 @@ const EXPECTED_SLOPE: f64 = -0.5;
 const SPREAD_OF_SLOPES: f64 = 0.25;
 /// What is foretold with lies in here.
 const SLOPES: std::ops::RangeInclusive<f64> = -1.5..=-0.4;
-
-/// How half-widths shrank so far, and what follows from that.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Convergence {
-    /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or where
-    /// nothing has a half-width above 0. About -0.5 says that the points are no better than random ones.
-    pub slope: Option<f64>,
-    /// Indices per replicate at which the tolerance should be reached, whatever limit may come first; `None`
-    /// where nothing says when.
-    pub samples: Option<u64>,
-    /// Rays of the whole run up to there.
-    pub rays: Option<u64>,
-    /// Half-widths over what was foretold for them two checkpoints before with a measured slope: the geometric mean
-    /// over checkpoints, each as often as it had targets with one before and after that grew.
-    pub against_prediction: Option<f64>,
-}
 
 /// The checkpoints of a run so far.
 #[derive(Clone, Debug, Default)]

@@ -1,9 +1,7 @@
 //! What a simulation knows at a checkpoint: figures of each replicate, nothing summarised yet.
 
-use crate::Interval;
-use crate::stats::convergence::Convergence;
 use crate::stats::decisions::Decisions;
-use crate::stats::interval::t_quantile_for;
+use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{lowest, ratios};
 use crate::stats::picture::CameraEstimates;
 use quasilux_sampling::DimensionHistogram;
@@ -216,5 +214,32 @@ impl SensorEstimates {
             samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),
         }
+    }
+}
+
+/// How half-widths shrank so far, and what follows from that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Convergence {
+    /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or where
+    /// nothing has a half-width above 0. About -0.5 says that the points are no better than random ones.
+    pub slope: Option<f64>,
+    /// Indices per replicate at which the tolerance should be reached, whatever limit may come first; `None`
+    /// where nothing says when.
+    pub samples: Option<u64>,
+    /// Rays of the whole run up to there.
+    pub rays: Option<u64>,
+    /// Half-widths over what was foretold for them two checkpoints before with a measured slope: the geometric mean
+    /// over checkpoints, each as often as it had targets with one before and after that grew.
+    pub against_prediction: Option<f64>,
+}
+
+impl Estimates {
+    /// The interval of the mean luminance of a picture, in cd/m^2. Pictures are not looked at before
+    /// their end, so it has the nominal confidence.
+    #[must_use]
+    pub fn picture_mean(&self, camera: usize) -> Interval {
+        let means = &self.cameras[camera].replicate_mean_cd_m2;
+        let t = t_quantile_for(means.len(), 1.0 - self.confidence);
+        Interval::of_mean(means.iter().copied(), t)
     }
 }

@@ -1,6 +1,6 @@
 //! How a running simulation talks to the outside, and how the outside stops it.
 
-use crate::Estimates;
+use crate::stats::estimates::Estimates;
 
 /// Whether a simulation goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

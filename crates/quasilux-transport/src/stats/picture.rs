@@ -1,7 +1,5 @@
 //! What cameras see: luminances of pixels.
 
-use crate::stats::estimates::Estimates;
-use crate::stats::interval::{Interval, t_quantile_for};
 use std::sync::Arc;
 
 /// The picture of one camera.
@@ -25,15 +23,4 @@ pub struct Pixel {
     /// Half the width of the luminance's interval, at the nominal confidence; `None` where there are
     /// fewer than two replicates, or where light was looked for and none found.
     pub half_width_cd_m2: Option<f32>,
-}
-
-impl Estimates {
-    /// The interval of the mean luminance of a picture, in cd/m^2. Pictures are not looked at before
-    /// their end, so it has the nominal confidence.
-    #[must_use]
-    pub fn picture_mean(&self, camera: usize) -> Interval {
-        let means = &self.cameras[camera].replicate_mean_cd_m2;
-        let t = t_quantile_for(means.len(), 1.0 - self.confidence);
-        Interval::of_mean(means.iter().copied(), t)
-    }
 }

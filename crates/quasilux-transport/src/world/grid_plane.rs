@@ -1,8 +1,8 @@
 //! A grid sensor as flights see it: which cell one passes through.
 
-use crate::photon::trace::Flight;
 use crate::spectrum::Spectrum;
 use crate::world::World;
+use crate::world::flight::Flight;
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
 

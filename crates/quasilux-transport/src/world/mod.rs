@@ -1,5 +1,6 @@
 //! The scene as rays see it: facets, the hierarchy over them, and where rays may start.
 
+pub(crate) mod flight;
 pub(crate) mod frame;
 pub(crate) mod grid_plane;
 pub(crate) mod panes;

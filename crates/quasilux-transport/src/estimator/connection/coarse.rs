@@ -1,18 +1,20 @@
 //! Photons counted by the cells around where they land.
 
 use super::Joining;
-use super::joined::lock;
 use super::leaving::Leaving;
+use super::lock;
 use super::outlook::{CLASSES, Outlook};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Stage, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
+use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
-use crate::photon::trace::{Flight, PhotonCounts, PhotonReceiver};
+use crate::photon::receiver::PhotonReceiver;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::watch::Watch;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use std::ops::Range;
 use std::sync::Mutex;
 

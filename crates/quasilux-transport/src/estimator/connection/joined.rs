@@ -2,20 +2,21 @@
 
 use super::Joining;
 use super::coarse::Coarse;
+use super::lock;
 use super::outlook::Outlook;
 use super::receiver::{Group, JoinReceiver};
 use super::spot::Spot;
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Stage, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
+use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
-use crate::photon::trace::PhotonCounts;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
 use crate::stats::watch::Watch;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// Targets that the same photons are joined to; others have photons of their own.
 const GROUP: usize = 256;
@@ -137,7 +138,7 @@ impl Joined {
 
     /// How much work an index is, in photons that are not joined.
     pub(crate) fn work_of_an_index(&self) -> u64 {
-        let joined = self.joining.photons * self.sums.len() as u64 * JOINING;
+        let joined = self.joining.photons() * self.sums.len() as u64 * JOINING;
         (joined + self.joining.coarse_photons) * self.replicates.len() as u64
     }
 
@@ -149,7 +150,7 @@ impl Joined {
         samples: u64,
         watch: &mut Watch<'_>,
     ) -> Option<[PhotonCounts; 2]> {
-        let photons = self.joining.photons;
+        let photons = self.joining.photons();
         let mut counts = PhotonCounts::default();
         let mut counted = PhotonCounts::default();
         if let Some((_, coarse)) = &mut self.coarse {
@@ -245,7 +246,7 @@ impl Joined {
     /// What a sum of a target means so far.
     fn value_lx(&self, target: usize, sum: Sum) -> f64 {
         let samples = self.ends[target].unwrap_or(self.samples);
-        let photons = (samples * self.joining.photons).max(1) as f64;
+        let photons = (samples * self.joining.photons()).max(1) as f64;
         self.quantum.value(sum) / photons
     }
 
@@ -296,8 +297,4 @@ impl Stored for Joined {
         }
         Ok(())
     }
-}
-
-pub(super) fn lock(sums: &Mutex<Vec<Sum>>) -> std::sync::MutexGuard<'_, Vec<Sum>> {
-    sums.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -41,7 +41,7 @@ impl Leaving {
             let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
             let lm_sr = scattered.luminance() * stage.lights.flux_lm;
             let around = match lm_sr > 0.0 {
-                true => joining.landings.around(at.position, n),
+                true => joining.partition.landings.around(at.position, n),
                 false => Around::default(),
             };
             Side { lm_sr, around }

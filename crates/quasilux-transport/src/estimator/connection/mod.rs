@@ -51,27 +51,24 @@ pub(crate) use joined::Joined;
 pub(crate) use ways::{Alone, Ways};
 
 use crate::codec::Writer;
-use crate::importance::{Density, Landings, Windows};
+use crate::importance::Windows;
+use crate::path::partition::Partition;
 use crate::photon::trace::{Lead, Source};
+use crate::stats::tally::Sum;
 use crate::world::Interaction;
-use glam::DVec3;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// k: paths take over where a photon would count this many times what it does on average.
-const CLAMP: f64 = 3.0;
 /// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
 /// by chance later: smooth sums are what quasi-random points are good at.
 const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// How photons are joined to sensors.
 pub(crate) struct Joining {
-    /// Where to expect them.
-    landings: Landings,
+    /// What paths leave to them.
+    pub(crate) partition: Partition,
     /// What steers them.
     windows: Option<Windows>,
-    /// For each path of a sensor.
-    photons: u64,
-    /// More for each path, that are only counted by the cell they land in.
+    /// Photons for each path, that are only counted by the cell they land in.
     coarse_photons: u64,
     /// What deviates from the foreseen by less than this part of what a sensor gets in all is left to chance.
     small: f64,
@@ -79,30 +76,16 @@ pub(crate) struct Joining {
     places: Arc<[Vec<Interaction>]>,
 }
 
-/// Parts of the light that comes to a sensor by one place which paths find.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Shares {
-    /// Of what comes there straight from the lights.
-    pub(crate) first: f64,
-    /// Of all other light.
-    pub(crate) rest: f64,
-}
-
-impl Shares {
-    /// Paths find everything.
-    pub(crate) const ALL: Self = Self { first: 1.0, rest: 1.0 };
-}
-
 impl Joining {
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
-        let Self { landings, windows, photons, coarse_photons, small, places } = self;
-        landings.put(out);
+        let Self { partition, windows, coarse_photons, small, places } = self;
+        partition.landings.put(out);
         out.bool(windows.is_some());
         if let Some(windows) = windows {
             windows.put(out);
         }
-        out.u64(*photons);
+        out.u64(partition.photons);
         out.u64(*coarse_photons);
         out.f64(*small);
         let places = places.iter().flatten().flat_map(|at| at.position.to_array());
@@ -117,7 +100,7 @@ impl Joining {
 
     /// Photons for each path of a sensor.
     pub(crate) fn photons(&self) -> u64 {
-        self.photons
+        self.partition.photons
     }
 
     /// Photons for each path that are only counted.
@@ -129,22 +112,9 @@ impl Joining {
     pub(crate) fn uses_importance(&self) -> bool {
         self.windows.is_some()
     }
+}
 
-    /// What to expect of a photon on the side `n` of a surface.
-    pub(crate) fn landings(&self, position: DVec3, n: DVec3) -> Density {
-        self.landings.density(&self.landings.around(position, n))
-    }
-
-    /// The parts that paths find by a place where their first hits have the density `pdf_m2`, in m^-2,
-    /// and landings this one.
-    pub(crate) fn path_shares(&self, pdf_m2: f64, density: Density) -> Shares {
-        let [first, rest] =
-            [density.first, density.rest].map(|per_m2| per_m2 * self.photons as f64);
-        let left = match &self.windows {
-            None => (1.0 - CLAMP * rest / pdf_m2).max(0.0),
-            // Where photons need steering, paths hardly ever find the light.
-            Some(_) => 0.0,
-        };
-        Shares { first: pdf_m2 / (pdf_m2 + first), rest: left }
-    }
+/// The sums behind a mutex; a panic of another thread does not make them unusable.
+fn lock(sums: &Mutex<Vec<Sum>>) -> MutexGuard<'_, Vec<Sum>> {
+    sums.lock().unwrap_or_else(PoisonError::into_inner)
 }

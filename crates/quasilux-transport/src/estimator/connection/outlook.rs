@@ -75,7 +75,8 @@ fn look<S: Spectrum>(
     places: &[Interaction],
     spots: &[Spot],
 ) -> (Vec<f32>, u64) {
-    let densities: Vec<_> = places.iter().map(|at| joining.landings(at.position, at.n)).collect();
+    let densities: Vec<_> =
+        places.iter().map(|at| joining.partition.density(at.position, at.n)).collect();
     let (mut sights, mut offers) = (Vec::new(), Vec::new());
     for (number, spot) in spots.iter().enumerate() {
         for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL.iter().cycle()) {
@@ -83,7 +84,7 @@ fn look<S: Spectrum>(
             if view.behind {
                 continue;
             }
-            let shares = joining.path_shares(view.pdf_m2, *density);
+            let shares = joining.partition.path_shares(view.pdf_m2, *density);
             let lx = PI * view.pdf_m2 * view.weight / places.len() as f64;
             sights.push(view.sight());
             offers.push((number, lx * (1.0 - shares.first), lx * (1.0 - shares.rest)));

@@ -1,17 +1,18 @@
 //! What joins each landing of a photon to the sensors that see it.
 
 use super::Joining;
-use super::joined::lock;
 use super::leaving::Leaving;
+use super::lock;
 use super::outlook::Outlook;
 use super::spot::Spot;
 use super::view::View;
 use crate::context::Stage;
 use crate::importance::Density;
-use crate::photon::trace::{Flight, PhotonReceiver};
+use crate::photon::receiver::PhotonReceiver;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use quasilux_bvh::Shot;
 use quasilux_sampling::{PointSet, Sampler};
 use std::f64::consts::PI;
@@ -166,7 +167,7 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
     /// What a target gets if nothing stands in the way.
     fn unshadowed_lx(&self, view: &View, leaving: &Leaving, bounces: u32) -> f64 {
         let side = usize::from(view.behind);
-        let shares = self.joining.path_shares(view.pdf_m2, self.landings[side]);
+        let shares = self.joining.partition.path_shares(view.pdf_m2, self.landings[side]);
         let share = if bounces == 0 { shares.first } else { shares.rest };
         leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
     }
@@ -198,7 +199,8 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
         let Some(leaving) = leaving else { return };
-        self.landings = leaving.sides.map(|side| self.joining.landings.density(&side.around));
+        self.landings =
+            leaving.sides.map(|side| self.joining.partition.landings.density(&side.around));
         if let Some(outlook) = self.group.outlook {
             outlook.foresee(&leaving, bounces == 0, &mut self.foreseen_lx);
         }

@@ -1,16 +1,20 @@
 //! What one photon by itself gives, for those who look into the variance.
 
 use super::Joining;
-use super::joined::{Joined, lock};
+use super::joined::Joined;
 use super::leaving::Leaving;
+use super::lock;
 use super::outlook::Outlook;
 use super::receiver::{Group, JoinReceiver, Seen};
 use crate::context::Stage;
-use crate::photon::trace::{Flight, PhotonCounts, PhotonReceiver, trace_photon};
+use crate::photon::counts::PhotonCounts;
+use crate::photon::receiver::PhotonReceiver;
+use crate::photon::trace::trace_photon;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Sum;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use quasilux_sampling::{PointSet, Sampler};
 use std::sync::Mutex;
 
@@ -50,7 +54,7 @@ impl Joined {
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
         // Noted here once: the receiver draws them anew for each flight.
-        if stage.ledger.is_some() {
+        if stage.purposes.is_recording() {
             stage.draw(&mut Seen::sampler(&sampler, &places), Purpose::Joins, Seen::draw);
         }
         let group = self.group(0);
@@ -80,7 +84,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Expected<'_, S> {
 mod tests {
     use super::*;
     use crate::context::Stream;
-    use crate::estimator::paths::exact;
+    use crate::estimator::exact::exact;
     use crate::estimator::selection::{Decision, decide};
     use crate::scenes::{diffuse, level_grid, point_light, points, room};
     use crate::settings::{EstimatorKind, Settings, Switch};
@@ -116,8 +120,8 @@ mod tests {
         let [counted, fine] = [Stream::CoarsePhotons, Stream::JoinedPhotons(0)].map(points);
         let places = points(Stream::JoinedPlaces(0));
         let [mut counts, mut counts_of_joined] = [(); 2].map(|()| PhotonCounts::default());
-        let Joining { coarse_photons, photons, .. } = joined.joining;
-        let (coarse_photons, photons) = (coarse_photons * samples, photons * samples);
+        let coarse_photons = joined.joining.coarse_photons() * samples;
+        let photons = joined.joining.photons() * samples;
         let mut means_lx = [[0.0; 2]; 3];
         for index in 0..coarse_photons {
             let sampler = Sampler::new(&counted, index);

@@ -9,12 +9,13 @@
 
 use super::{Joined, Joining};
 use crate::context::Stage;
-use crate::estimator::paths::Exact;
-use crate::estimator::selection::{
+use crate::estimator::exact::Exact;
+use crate::estimator::pilot::{
     BY_CHANCE, MUCH_MORE, Promise, REPLICATES, SAMPLES, Sample, Trial, Wanted,
 };
 use crate::importance::{self, Performance, Plan, WORTHWHILE};
-use crate::photon::trace::PhotonCounts;
+use crate::path::partition::Partition;
+use crate::photon::counts::PhotonCounts;
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
@@ -106,10 +107,13 @@ impl Ways {
             let asked_lx = sample.of(&expected_lx);
             let is_coarse = targets.len() * forecast.places.len() <= MAX_VIEWS;
             let joining = Joining {
-                landings: forecast.landings,
+                partition: Partition {
+                    landings: forecast.landings,
+                    photons: PHOTONS,
+                    is_guided: windows.is_some(),
+                },
                 places: forecast.places,
                 windows,
-                photons: PHOTONS,
                 coarse_photons: if is_coarse { COARSE_PHOTONS } else { 0 },
                 small: left_to_chance(steered),
             };
@@ -121,7 +125,7 @@ impl Ways {
             let [joined, coarse] = found(&pilot, sample.targets.len(), &counts);
             // Photons that are counted serve all targets, not those alone that are looked at.
             let coarse = Trial { rays: coarse.rays / sample.step as f64, ..coarse };
-            let beside = Trial::of_paths_beside(stage, sample, &pilot.joining, quantum);
+            let beside = Trial::of_paths_beside(stage, sample, &pilot.joining.partition, quantum);
             rays += pilot.rays + beside.rays as u64;
             rays += counts.iter().map(|counts| counts.rays).sum::<u64>();
             let beforehand = pilot.rays as f64 * sample.targets_for_each();
@@ -172,7 +176,8 @@ impl Ways {
         let best = best.map(|(number, (best, _))| (number, best));
         best.map(|(number, Best { photons, coarse_photons, .. })| {
             let way = self.ways.swap_remove(number);
-            let joining = Joining { photons, coarse_photons, ..way.joining };
+            let partition = Partition { photons, ..way.joining.partition };
+            let joining = Joining { partition, coarse_photons, ..way.joining };
             let replicates = 0..replicates;
             let kept = (stage.listed_terms, quantum);
             Joined::new(stage, joining, targets, way.expected_lx, replicates, kept)

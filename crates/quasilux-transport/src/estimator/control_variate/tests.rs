@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::context::{Stage, Stream};
-use crate::estimator::paths::exact;
-use crate::estimator::selection::{PathTrial, Promise, SAMPLES, Sample, Wanted};
+use crate::estimator::exact::exact;
+use crate::estimator::pilot::{PathTrial, Promise, SAMPLES, Sample, Wanted};
 use crate::path::end::Rest;
 use crate::path::sections::{Section, trace_sections};
 use crate::path::wave::PathWave;
@@ -61,8 +61,8 @@ impl Bench<'_> {
                     Paths::Alone => Rest::Path,
                     Paths::OnMap(map) => Rest::Frozen(map.end(number)),
                 };
-                let (hidden, joining, indices) = (None, None, 0..SAMPLES);
-                let section = Section { number, target, points, rest, hidden, joining, indices };
+                let (hidden, partition, indices) = (None, None, 0..SAMPLES);
+                let section = Section { number, target, points, rest, hidden, partition, indices };
                 let wave = &mut PathWave::default();
                 let piece = trace_sections(self.stage, &[section], self.quantum, wave);
                 rays += piece.work.rays;
@@ -75,7 +75,7 @@ impl Bench<'_> {
             let squares = values.iter().map(|v| (v - middle) * (v - middle)).sum::<f64>();
             variances.push(squares / f64::from(REPLICATES - 1));
         }
-        let trials = f64::from(REPLICATES) / crate::estimator::selection::REPLICATES.len() as f64;
+        let trials = f64::from(REPLICATES) / crate::estimator::pilot::REPLICATES.len() as f64;
         (mean(&variances), rays as f64 / trials)
     }
 }

@@ -4,7 +4,7 @@ use super::survival::Finding;
 use super::walk::{Ending, Price, Step, Walk};
 use super::{Note, Survival, bounces_left};
 use crate::context::Stage;
-use crate::estimator::selection::{MUCH_MORE, SAMPLES, Wanted};
+use crate::estimator::pilot::{MUCH_MORE, SAMPLES, Wanted};
 use crate::path::trace::Ended;
 use crate::photon::map::{IlluminationMap, MapLayout};
 use crate::spectrum::Spectrum;

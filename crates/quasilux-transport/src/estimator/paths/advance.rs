@@ -9,7 +9,7 @@ use crate::estimator::connection::Joined;
 use crate::path::end::{GrowingMaps, PathEnd};
 use crate::path::sections::{PathSums, Piece, WorkCounts};
 use crate::path::wave::{PathWave, WAVE};
-use crate::photon::trace::PhotonCounts;
+use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use rayon::prelude::*;

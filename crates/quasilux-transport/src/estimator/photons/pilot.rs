@@ -11,11 +11,14 @@
 use super::Receivers;
 use crate::context::{Stage, Stream};
 use crate::importance::{self, Plan, Windows};
-use crate::photon::trace::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::photon::counts::PhotonCounts;
+use crate::photon::receiver::PhotonReceiver;
+use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::targets::targets;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
 use quasilux_scene::Scene;
 use rayon::prelude::*;

@@ -14,7 +14,6 @@ mod planes;
 mod trail;
 mod tree;
 
-use crate::context::Stage;
 use crate::lights::{Lights, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
@@ -44,6 +43,15 @@ pub(crate) struct SpecularImages {
 pub(crate) struct ImageOffers<S> {
     links: Links,
     offers: Vec<ImageOffer<S>>,
+}
+
+/// Who asks images for light, and what stands around.
+pub(crate) struct ImageQuery<'q, S> {
+    pub(crate) world: &'q World<S>,
+    pub(crate) pointlikes: &'q PointLikes<'q>,
+    /// Number of the receiver.
+    pub(crate) who: u32,
+    pub(crate) vertex: &'q Vertex<'q, S>,
 }
 
 /// What one image gives to a place unless something stands in the way.
@@ -122,7 +130,8 @@ impl SpecularImages {
     /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.
     pub(crate) fn all<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
+        world: &World<S>,
+        pointlikes: &PointLikes<'_>,
         askers: &[Asker<'_, S>],
         shadows: &mut Shadows<S>,
         receive: impl FnMut(u32, S, u32),
@@ -132,29 +141,28 @@ impl SpecularImages {
         }
         let mut found = ImageOffers::default();
         for Asker { who, vertex } in askers {
-            self.find(stage, vertex, 0, Thinning::NONE, &mut found);
+            let query = ImageQuery { world, pointlikes, who: *who, vertex };
+            self.find(&query, shadows.most_bounces, Thinning::NONE, &mut found);
             for offer in &found.offers {
-                self.ask(stage, (*who, vertex), offer, &found.links, shadows);
+                self.ask(&query, offer, &found.links, shadows);
             }
         }
-        shadows.answer(&stage.world, receive);
+        shadows.answer(world, receive);
     }
 
-    /// Asks for the light that a path gets from images at a vertex after `bounces` bounces, with the
-    /// coordinate `u`: of all where they are few. Of very many, far ones are thinned out; of those that
+    /// Asks for the light that a path gets from images at a vertex, with the coordinate `u`: of all where they are few. Of very many, far ones are thinned out; of those that
     /// give anything unshadowed, one is chosen in proportion to what it gives where they are more than
     /// [`ALL_TESTED`].
     pub(crate) fn ask_some<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
-        (who, vertex): (u32, &Vertex<'_, S>),
-        bounces: u32,
+        query: &ImageQuery<'_, S>,
         u: f64,
-        (found, shadows): (&mut ImageOffers<S>, &mut Shadows<S>),
+        found: &mut ImageOffers<S>,
+        shadows: &mut Shadows<S>,
     ) {
         let others = self.images.nodes.len().saturating_sub(self.images.lights + SURE);
         let stride = others.div_ceil(THINNED).max(1);
-        self.find(stage, vertex, bounces, Thinning { stride, phase: u }, found);
+        self.find(query, shadows.most_bounces, Thinning { stride, phase: u }, found);
         let u = (u * stride as f64).fract();
         let ImageOffers { links, offers } = found;
         if offers.len() > ALL_TESTED {
@@ -167,28 +175,26 @@ impl SpecularImages {
             }
         }
         for offer in offers.iter() {
-            self.ask(stage, (who, vertex), offer, links, shadows);
+            self.ask(query, offer, links, shadows);
         }
     }
 
-    /// Finds what all images may give to a vertex after `bounces` bounces.
+    /// Finds what all images over at most `max_bounces` mirrors may give to a vertex.
     fn find<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
-        vertex: &Vertex<'_, S>,
-        bounces: u32,
+        query: &ImageQuery<'_, S>,
+        max_bounces: u32,
         Thinning { stride, phase }: Thinning,
         found: &mut ImageOffers<S>,
     ) {
         let ImageOffers { links, offers } = found;
         links.clear();
         offers.clear();
-        let (world, lights) = (&stage.world, &stage.lights.pointlikes);
-        let most = stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(bounces));
+        let &ImageQuery { world, pointlikes, vertex, .. } = query;
         let place = vertex.position();
         for (count, number) in self.images.mirrored(SURE, stride, phase).enumerate() {
             let (image, node) = (number as u32, &self.images.nodes[number]);
-            if node.depth > most {
+            if node.depth > max_bounces {
                 break;
             }
             let toward_m = node.position - place;
@@ -200,7 +206,7 @@ impl SpecularImages {
             };
             let distance_m = toward_m.length();
             let direction = toward_m / distance_m;
-            let intensity_cd = lights.intensity_cd(node.light, way.leaves);
+            let intensity_cd = pointlikes.intensity_cd(node.light, way.leaves);
             let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
             let stands_for = if count < SURE { 1.0 } else { stride as f64 };
             let light = vertex.weight(direction) * way.reflected * (illuminance_lx * stands_for);
@@ -216,17 +222,17 @@ impl SpecularImages {
 
     fn ask<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
-        (who, vertex): (u32, &Vertex<'_, S>),
+        query: &ImageQuery<'_, S>,
         offer: &ImageOffer<S>,
         links: &Links,
         shadows: &mut Shadows<S>,
     ) {
+        let &ImageQuery { world, who, vertex, .. } = query;
         let image = &self.images.nodes[offer.image as usize];
         let from = vertex.vantage(image.position - vertex.position());
         let light_m = self.images.nodes[image.light as usize].position;
         shadows.ask_way(who, offer.light, image.depth, |sights| {
-            links.sights(&stage.world, &offer.way, from, light_m, sights);
+            links.sights(world, &offer.way, from, light_m, sights);
         });
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Path, PathWork};
 use crate::context::Stage;
+use crate::lights::images::ImageQuery;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -22,23 +23,28 @@ impl<S: Spectrum> Path<'_, S> {
         work.shadows.most_bounces = stage.max_bounces.map_or(u32::MAX, |most| most - bounces);
         self.ask_area_luminaires(stage, &vertex, work);
         self.ask_pointlikes(stage, &vertex, work);
-        self.ask_images(stage, &vertex, bounces, work);
+        self.ask_images(stage, &vertex, work);
         self.ask_emitters(stage, &vertex, work);
     }
 
-    /// Asks for the light of point-like lights in mirrors, after this many bounces.
+    /// Asks for the light of point-like lights in mirrors.
     pub(super) fn ask_images(
         &mut self,
         stage: &Stage<'_, S>,
         vertex: &Vertex<'_, S>,
-        bounces: u32,
         work: &mut PathWork<S>,
     ) {
         if !stage.images.is_empty() {
             let choice = Purpose::Image { surface: self.bounces_asked };
             let u = stage.draw(&mut self.sampler, choice, Sampler::next_1d);
             let PathWork { shadows, images, .. } = work;
-            stage.images.ask_some(stage, (self.number, vertex), bounces, u, (images, shadows));
+            let query = ImageQuery {
+                world: &stage.world,
+                pointlikes: &stage.lights.pointlikes,
+                who: self.number,
+                vertex,
+            };
+            stage.images.ask_some(&query, u, images, shadows);
         }
     }
 

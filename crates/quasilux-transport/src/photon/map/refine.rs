@@ -14,12 +14,15 @@ use super::tally::most_bounces;
 use crate::context::{Stage, Stream};
 use crate::lights::images::Trail;
 use crate::photon::batch::{PhotonBatch, trace_photons};
+use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
-use crate::photon::trace::{Flight, Lead, PhotonCounts, PhotonReceiver, Source};
+use crate::photon::receiver::PhotonReceiver;
+use crate::photon::trace::{Lead, Source};
 use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use std::ops::Range;
 
 /// Pilot photons of the first round; each further round has as many as all before it.

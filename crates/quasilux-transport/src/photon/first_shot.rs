@@ -7,12 +7,15 @@
 //! Those from lit places lie more evenly, and few of their weights are far from the others, next to the
 //! lights where it matters to few: see [`EVENNESS`].
 
-use super::LitCells;
 use crate::context::{Stage, Stream};
-use crate::photon::trace::{Flight, Lead, PhotonCounts, PhotonReceiver, Source, trace_photon};
+use crate::photon::counts::PhotonCounts;
+use crate::photon::lit_cells::LitCells;
+use crate::photon::receiver::PhotonReceiver;
+use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
+use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
 
 /// Pilot photons of each kind.

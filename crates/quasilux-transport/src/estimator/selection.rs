@@ -7,19 +7,12 @@
 //! which the scene is surveyed. So a few paths are tried first, and a map of a few photons; photons are only joined where what is
 //! best without them takes many rays, or where paths do not find the light that photons do.
 
-mod cost;
-mod trial;
-mod wanted;
-
-pub(crate) use cost::Promise;
-pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial};
-pub(crate) use wanted::{BY_CHANCE, MUCH_MORE, Wanted};
-
 use crate::context::Stage;
 use crate::estimator::connection::{self, Alone, Joined};
 use crate::estimator::control_variate::{Choice, FrozenMap, Outcome};
-use crate::estimator::paths::Exact;
-use crate::photon::trace::PhotonCounts;
+use crate::estimator::exact::Exact;
+use crate::estimator::pilot::{PathTrial, Promise, Sample, Wanted, looks};
+use crate::photon::counts::PhotonCounts;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
@@ -171,7 +164,7 @@ impl<S: Spectrum> Tried<S> {
         if self.sample.step == 1 {
             return (0..targets.len()).map(|target| self.wanted.worth_per_lx(target)).collect();
         }
-        let (looks_lx, of_looks) = trial::looks(stage, targets, quantum);
+        let (looks_lx, of_looks) = looks(stage, targets, quantum);
         *rays += of_looks;
         let found = exact.iter().zip(&looks_lx);
         found.map(|(exact, lx)| self.wanted.worth_of(exact.sum_lx() + lx)).collect()

@@ -20,16 +20,13 @@
 
 mod cell;
 mod lit;
-mod pilot;
 #[cfg(test)]
 mod tests;
-
-pub(crate) use pilot::decide;
 
 use crate::codec::Writer;
 use crate::context::Stage;
 use crate::lights::{Incidence, Lights};
-use crate::photon::trace::Arrival;
+use crate::photon::receiver::Arrival;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;

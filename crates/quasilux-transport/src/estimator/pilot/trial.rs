@@ -1,10 +1,10 @@
 //! Trials: what a few samples in a few replicates find at some of the targets.
 
 use crate::context::{Stage, Stream};
-use crate::estimator::connection::Joining;
 use crate::estimator::control_variate::{RayCounts, Walks};
-use crate::estimator::paths::Exact;
+use crate::estimator::exact::Exact;
 use crate::path::end::Rest;
+use crate::path::partition::Partition;
 use crate::path::sections::{Piece, Section, trace_and_look};
 use crate::path::wave::PathWave;
 use crate::spectrum::Spectrum;
@@ -76,11 +76,11 @@ impl Trial {
     pub(crate) fn of_paths_beside<S: Spectrum>(
         stage: &Stage<'_, S>,
         sample: &Sample,
-        joining: &Joining,
+        partition: &Partition,
         quantum: Quantum,
     ) -> Self {
         let of_all = (&sample.targets[..], REPLICATES.len());
-        let pieces = trace(stage, of_all, false, (Some(joining), quantum));
+        let pieces = trace(stage, of_all, false, (Some(partition), quantum));
         Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
     }
 
@@ -130,7 +130,7 @@ impl<S: Spectrum> PathTrial<S> {
 }
 
 /// What one short look finds at each target, in lx, by paths to their ends in one replicate; and its rays.
-pub(super) fn looks<S: Spectrum>(
+pub(crate) fn looks<S: Spectrum>(
     stage: &Stage<'_, S>,
     targets: &[Target],
     quantum: Quantum,
@@ -157,7 +157,7 @@ fn trace<S: Spectrum>(
     stage: &Stage<'_, S>,
     (targets, each): (&[Target], usize),
     is_noted: bool,
-    (joining, quantum): (Option<&Joining>, Quantum),
+    (partition, quantum): (Option<&Partition>, Quantum),
 ) -> Vec<(Piece, Walks<S>)> {
     let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, Walks<S>) {
         let target = number / each;
@@ -168,7 +168,7 @@ fn trace<S: Spectrum>(
             points: stage.points_of_trial(replicate, Stream::Paths(target as u64)),
             rest: if is_noted { Rest::Noted } else { Rest::Path },
             hidden: None,
-            joining,
+            partition,
             indices: 0..SAMPLES,
         };
         let mut walks = Walks::default();
