@@ -1,7 +1,11 @@
 //! Warnings of tables that break energy conservation or reciprocity.
 
-use super::{MeasuredBsdf, Reciprocity, Side, Way};
-use crate::warning::{WarningKind, Warnings};
+use crate::analysis::Reciprocity;
+use crate::measured::MeasuredBsdf;
+use crate::side::Side;
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::Position;
 
 /// Albedos above 1 by less are the rounding of a file.

@@ -1,19 +1,16 @@
 //! How one side of a surface scatters light one way: a closed set of tables, one file each.
 
-use super::analysis::Incident;
-use super::{ExchangedTree, GriddedTable, KlemsTable, TensorTree};
+use crate::gridded::GriddedTable;
+use crate::hemisphere::Incident;
+use crate::hemisphere::ScatterSample;
+use crate::klems::KlemsTable;
+use crate::tree::ExchangedTree;
+use crate::tree::TensorTree;
 use glam::DVec3;
-
-/// Luminance of linear RGB (ITU-R BT.709).
-const LUMINANCE_WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
-
-/// Samples nearer to the edge of a cell, in parts of it, are moved inside: rounding must not carry a direction
-/// into the next cell.
-pub(super) const INSIDE: f64 = 1e-9;
 
 /// A scattering distribution function f(wi, wo) in sr^-1, as a table.
 ///
-/// All directions are in the frame of the [module](super): unit, away from the surface, with a positive `z` on their
+/// All directions are in the frame of the [crate](crate): unit, away from the surface, with a positive `z` on their
 /// own side. f does not contain the cosine of `wo`.
 #[derive(Clone, Debug)]
 pub enum Distribution {
@@ -25,15 +22,6 @@ pub enum Distribution {
     ExchangedTree(ExchangedTree),
     /// Lobes over a grid of incident directions.
     Gridded(GriddedTable),
-}
-
-/// A scattered direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScatterSample {
-    /// Away from the surface, `z` positive on its own side.
-    pub wo: DVec3,
-    /// Density with respect to solid angle, in sr^-1. Positive.
-    pub pdf_sr: f64,
 }
 
 impl Distribution {
@@ -170,41 +158,4 @@ impl Distribution {
             Self::Gridded(_) => "gridded",
         }
     }
-}
-
-/// The unit direction with that projection.
-pub(super) fn upwards([x, y]: [f64; 2]) -> DVec3 {
-    DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
-}
-
-/// Luminance of linear RGB (ITU-R BT.709); grey stays exactly what it is.
-#[must_use]
-pub fn luminance(rgb: [f64; 3]) -> f64 {
-    // The weights add up to 1 but for rounding: grey stays what it is.
-    if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
-        return rgb[0];
-    }
-    rgb.iter().zip(LUMINANCE_WEIGHTS).map(|(channel, weight)| channel * weight).sum()
-}
-
-/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the renormalised rest.
-/// Never a step of height zero.
-pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usize, f64) {
-    let (start, end) = (before(0), before(count));
-    let target = start + u * (end - start);
-    let (mut low, mut high) = (0, count);
-    while low < high {
-        let middle = low.midpoint(high);
-        if before(middle + 1) > target {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    // Rounding, or u = 1: the last step that rises.
-    while low == count || before(low + 1) <= before(low) {
-        low -= 1;
-    }
-    let rest = (target - before(low)) / (before(low + 1) - before(low));
-    (low, rest.clamp(0.0, 1.0))
 }

@@ -3,10 +3,16 @@
 //! All take f(wi, wo) in sr^-1 without the cosine, in the frame of the [module](super). Boxes and patches hold means of f over midpoints, two
 //! along each axis, so that lobes little wider than a box keep their light; f, being constant in it, is of first order in its width.
 
-use super::distribution::upwards;
-use super::gridded::{ExitKnots, Lobe, as_in_file};
-use super::tree::{DEEPEST, TreeBuilder};
-use super::{AngleBasis, GriddedTable, KlemsTable, TensorTree};
+use crate::gridded::ExitKnots;
+use crate::gridded::GriddedTable;
+use crate::gridded::Lobe;
+use crate::gridded::as_in_file;
+use crate::hemisphere::upwards;
+use crate::klems::AngleBasis;
+use crate::klems::KlemsTable;
+use crate::tree::DEEPEST;
+use crate::tree::TensorTree;
+use crate::tree::TreeBuilder;
 use glam::DVec3;
 use quasilux_photometry::Angles;
 use quasilux_sampling::warp::sample_disk;

@@ -6,7 +6,8 @@
 //! leaves room for what a smooth lobe has besides. Azimuths *about* the mirror direction smear no lobe, however wide: a quarter turn is narrow
 //! enough there, and between azimuths of incidence.
 
-use crate::warning::{WarningKind, Warnings};
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::Position;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 

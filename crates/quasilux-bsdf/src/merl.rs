@@ -2,11 +2,20 @@
 //!
 //! What is read and tolerated stands in [`formats::merl`](crate::formats::merl).
 
-use super::defects::warn_of_defects;
-use super::gridded::{ExitKnots, GriddedTable, Lobe, table_error};
-use super::read::{BsdfFormat, Parsed};
-use super::{BsdfFacts, Distribution, MeasuredBsdf, Side, Way};
-use crate::warning::{WarningKind, Warnings};
+use crate::defects::warn_of_defects;
+use crate::distribution::Distribution;
+use crate::facts::BsdfFacts;
+use crate::facts::BsdfFormat;
+use crate::gridded::ExitKnots;
+use crate::gridded::GriddedTable;
+use crate::gridded::Lobe;
+use crate::gridded::table_error;
+use crate::measured::MeasuredBsdf;
+use crate::parsed::Parsed;
+use crate::side::Side;
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use glam::DVec3;
 use quasilux_photometry::Angles;
 use quasilux_text::{ParseError, Position};

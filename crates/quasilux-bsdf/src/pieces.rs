@@ -1,6 +1,7 @@
 //! Pieces of a text between blanks and commas, with their places.
 
-use crate::warning::{WarningKind, Warnings};
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position, Token, quoted};
 
 /// Values below count as zero: sums and quotients of them would lose digits to underflow.

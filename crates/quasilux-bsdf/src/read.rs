@@ -1,51 +1,19 @@
 //! Which format a file of a measured surface has, and what a reader returns.
 
-use super::{MeasuredBsdf, Way, astm, merl};
-use super::{read_astm, read_bsdf_xml, read_ddr, read_merl};
-use crate::warning::{Warning, WarningKind, Warnings};
+use crate::astm;
+use crate::astm::read_astm;
+use crate::ddr::read_ddr;
+use crate::merl;
+use crate::merl::read_merl;
+use crate::parsed::Parsed;
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
+use crate::window_xml::read_bsdf_xml;
 use quasilux_text::{ParseError, Position, quoted};
 
 /// The mark of a format stands within so many bytes, those of comments before it not counted.
 const SEARCHED: usize = 1 << 14;
-
-/// The formats of measured surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum BsdfFormat {
-    /// LBNL WINDOW XML, a matrix over Klems patches.
-    WindowKlems,
-    /// LBNL WINDOW XML, a tensor tree.
-    WindowTensorTree,
-    /// Integra DDR or DDT.
-    Ddr,
-    /// MERL binary.
-    Merl,
-    /// ASTM E1392 text.
-    Astm,
-}
-
-/// A file that was read, with what was odd about it.
-#[derive(Clone, Debug)]
-pub struct Parsed {
-    /// The surface.
-    pub bsdf: MeasuredBsdf,
-    /// What was tolerated, left out or made up; each rule at most once, at its first place.
-    pub warnings: Vec<Warning>,
-}
-
-impl BsdfFormat {
-    /// What people call it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::WindowKlems => "WINDOW XML, Klems",
-            Self::WindowTensorTree => "WINDOW XML, tensor tree",
-            Self::Ddr => "DDR",
-            Self::Merl => "MERL",
-            Self::Astm => "ASTM E1392",
-        }
-    }
-}
 
 /// Reads a measured surface of any known format, told by the content; that of a DDR file is reflection, with a warning, see
 /// [`read_bsdf_named`]. Total: any bytes give a surface or an error with its place, in memory bounded by

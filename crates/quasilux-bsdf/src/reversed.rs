@@ -1,6 +1,7 @@
 //! The two directions of a distribution exchanged.
 
-use super::{Distribution, ExchangedTree};
+use crate::distribution::Distribution;
+use crate::tree::ExchangedTree;
 
 impl Distribution {
     /// f'(wi, wo) = f(wo, wi), for light that goes the other way round, exactly. `None` for grids, for patches without a counterpart at the opposite azimuth,
@@ -21,8 +22,9 @@ impl Distribution {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AngleBasis, KlemsTable};
     use super::*;
+    use crate::klems::AngleBasis;
+    use crate::klems::KlemsTable;
     use glam::DVec3;
 
     #[test]

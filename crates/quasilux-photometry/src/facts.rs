@@ -1,7 +1,5 @@
 //! What a photometric file says about its luminaire beside the intensities.
 
-use crate::LuminousShape;
-
 /// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standard {
@@ -62,7 +60,7 @@ pub struct Keyword {
 }
 
 /// The luminous opening as the file gives it, in metres. The *signs* carry the shape
-/// (a negative width is a diameter, and so on; [`LuminousShape::of_opening`]): they are kept.
+/// (a negative width is a diameter, and so on; [`LuminousShape::of_opening`](crate::LuminousShape::of_opening)): they are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LuminousOpening {
     /// Across the C90-C270 plane, along the local y axis.
@@ -154,11 +152,6 @@ impl IesStandard {
 }
 
 impl LuminaireFacts {
-    /// The shape of the luminous opening, by the signs of its dimensions.
-    pub fn shape(&self) -> LuminousShape {
-        LuminousShape::of_opening(self.standard, &self.opening)
-    }
-
     /// Lamp lumens times number of lamps; `None` for absolute photometry, and where either is not
     /// positive.
     pub fn rated_flux_lm(&self) -> Option<f64> {

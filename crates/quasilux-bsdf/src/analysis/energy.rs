@@ -1,8 +1,13 @@
 //! Shares of light: what is reflected, what passes, and the greatest sum of both.
 
-use super::super::distribution::{luminance, upwards};
-use super::super::{Distribution, KlemsTable, MeasuredBsdf, Side, Way};
-use super::{Incident, spread};
+use crate::color::luminance;
+use crate::distribution::Distribution;
+use crate::hemisphere::upwards;
+use crate::hemisphere::{Incident, spread};
+use crate::klems::KlemsTable;
+use crate::side::Side;
+use crate::side::Way;
+use crate::tables::ScatteringTables;
 use glam::DVec3;
 
 /// Directions where sums of two tables are looked at that have nothing in common.
@@ -29,9 +34,8 @@ pub struct EnergyBalance {
 
 impl EnergyBalance {
     /// The balance of one side; `None` where it scatters nothing.
-    #[must_use]
-    pub fn of(bsdf: &MeasuredBsdf, side: Side) -> Option<Self> {
-        let ways = Way::ALL.map(|way| bsdf.scattering(side, way));
+    pub(super) fn new(tables: &ScatteringTables, side: Side) -> Option<Self> {
+        let ways = Way::ALL.map(|way| tables.get(side, way));
         let share = |way: usize, wi| ways[way].map_or([0.0; 3], |found| found.albedo(wi));
         let total = |wi| {
             let (reflected, passed) = (share(0, wi), share(1, wi));

@@ -1,8 +1,12 @@
 //! How far exchanged directions have the same value.
 
-use super::super::distribution::{luminance, upwards};
-use super::super::{Distribution, MeasuredBsdf, Side, Way};
-use super::{Incident, lattice, spread};
+use crate::color::luminance;
+use crate::distribution::Distribution;
+use crate::hemisphere::upwards;
+use crate::hemisphere::{Incident, lattice, spread};
+use crate::side::Side;
+use crate::side::Way;
+use crate::tables::ScatteringTables;
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
 use std::f64::consts::PI;
@@ -33,20 +37,19 @@ pub struct Reciprocity {
 }
 
 /// Reflection off both sides, transmission once.
-pub(super) fn all(bsdf: &MeasuredBsdf) -> Vec<Reciprocity> {
+pub(super) fn all(tables: &ScatteringTables) -> Vec<Reciprocity> {
     let (front, back) = (Side::Front, Side::Back);
     let pairs = [(front, Way::Reflection), (back, Way::Reflection), (front, Way::Transmission)];
-    pairs.into_iter().filter_map(|(side, way)| Reciprocity::of(bsdf, side, way)).collect()
+    pairs.into_iter().filter_map(|(side, way)| Reciprocity::new(tables, side, way)).collect()
 }
 
 impl Reciprocity {
     /// Compares f of light that arrives on `side` and goes `way` with f of light the other way round; `None` where one
     /// of the two is missing or both are dark.
-    #[must_use]
-    pub fn of(bsdf: &MeasuredBsdf, side: Side, way: Way) -> Option<Self> {
+    pub(super) fn new(tables: &ScatteringTables, side: Side, way: Way) -> Option<Self> {
         let back_side = if way == Way::Reflection { side } else { side.other() };
-        let forth = bsdf.scattering(side, way)?;
-        let back = bsdf.scattering(back_side, way)?;
+        let forth = tables.get(side, way)?;
+        let back = tables.get(back_side, way)?;
         let mut sums = Sums::default();
         let mut look = |a, b, weight: f64| {
             let values = [forth.evaluate(a, b), back.evaluate(b, a)].map(luminance);

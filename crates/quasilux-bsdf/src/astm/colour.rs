@@ -1,7 +1,8 @@
 //! Colours of a file to those of the program.
 
-use crate::luminance;
-use crate::warning::{WarningKind, Warnings};
+use crate::color::luminance;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::Position;
 
 /// Channels below zero by less, in parts of the luminance, are rounding.

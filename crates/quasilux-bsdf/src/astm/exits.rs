@@ -1,9 +1,12 @@
 //! The exits of one incidence as a full grid.
 
 use super::records::{Exit, Key, angle, key};
-use crate::gaps::{self, Gap};
-use crate::gridded::{ExitKnots, Lobe};
-use crate::warning::{WarningKind, Warnings};
+use crate::gaps;
+use crate::gaps::Gap;
+use crate::gridded::ExitKnots;
+use crate::gridded::Lobe;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_photometry::Symmetry;
 use quasilux_text::{ParseError, Position};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

@@ -2,10 +2,13 @@
 
 use super::exits::Exits;
 use super::records::{Beginning, Key, Records, angle, too_many};
-use crate::Way;
 use crate::gaps;
-use crate::gridded::{GriddedTable, Lobe, MAX_INCIDENCES};
-use crate::warning::{WarningKind, Warnings};
+use crate::gridded::GriddedTable;
+use crate::gridded::Lobe;
+use crate::gridded::MAX_INCIDENCES;
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position};
 use std::f64::consts::FRAC_PI_2;
 

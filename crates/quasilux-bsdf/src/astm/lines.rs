@@ -3,8 +3,11 @@
 //! The text is gone through twice, so that nothing is kept of a line before the unit of its angles is known.
 
 use super::{Columns, colour};
-use crate::pieces::{self, Pieces, Style};
-use crate::warning::{WarningKind, Warnings};
+use crate::pieces;
+use crate::pieces::Pieces;
+use crate::pieces::Style;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position, Token, quoted};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

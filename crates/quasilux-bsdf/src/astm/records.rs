@@ -1,9 +1,10 @@
 //! What a file measured, in few bytes: a number that tells both directions, the line and f in 24 bits.
 
 use super::lines::Lines;
-use crate::Way;
 use crate::gridded::MAX_INCIDENCES;
-use crate::warning::{WarningKind, Warnings};
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

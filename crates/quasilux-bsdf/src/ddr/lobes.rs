@@ -2,7 +2,12 @@
 
 use super::Block;
 use super::header::{Header, SpecularSymmetry, Unit};
-use crate::gridded::{ExitKnots, GriddedTable, Lobe, around, bracket, table_error};
+use crate::gridded::ExitKnots;
+use crate::gridded::GriddedTable;
+use crate::gridded::Lobe;
+use crate::gridded::around;
+use crate::gridded::bracket;
+use crate::gridded::table_error;
 use glam::DVec3;
 use quasilux_photometry::Angles;
 use std::f64::consts::TAU;

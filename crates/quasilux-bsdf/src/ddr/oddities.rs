@@ -1,8 +1,10 @@
 //! Warnings of what the angles of a DDR file leave open.
 
 use super::header::{Header, SpecularSymmetry};
-use crate::gaps::{self, Gap};
-use crate::warning::{WarningKind, Warnings};
+use crate::gaps;
+use crate::gaps::Gap;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 
 /// Angles of a file are rounded by no more, in radians.
 const ROUNDING_RAD: f64 = 1e-3;

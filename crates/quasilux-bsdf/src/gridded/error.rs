@@ -1,9 +1,10 @@
 //! How far a table of lobes is off, at the incidences that it stores and between them.
 
-use super::super::analysis::lattice;
-use super::super::distribution::{luminance, upwards};
 use super::mixture::{Mixture, Part};
 use super::{GriddedTable, Move, as_in_file};
+use crate::color::luminance;
+use crate::hemisphere::lattice;
+use crate::hemisphere::upwards;
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! What one incident direction is scattered to.
 
-use super::super::distribution::luminance;
 use super::ExitKnots;
+use crate::color::luminance;
 use glam::DVec3;
 use quasilux_photometry::{Grid, SphericalTable};
 use std::f64::consts::{FRAC_PI_2, PI};

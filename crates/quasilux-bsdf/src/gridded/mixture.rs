@@ -1,7 +1,9 @@
 //! The lobes that mix at an incident direction.
 
-use super::super::distribution::{INSIDE, luminance, upwards};
 use super::{Lobe, Move};
+use crate::color::luminance;
+use crate::hemisphere::INSIDE;
+use crate::hemisphere::upwards;
 use glam::DVec3;
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use std::f64::consts::PI;

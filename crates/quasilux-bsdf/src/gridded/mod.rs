@@ -23,8 +23,8 @@ mod mixture;
 mod motion;
 mod resample;
 
-use super::analysis::Incident;
-use super::distribution::ScatterSample;
+use crate::hemisphere::Incident;
+use crate::hemisphere::ScatterSample;
 pub(super) use error::table_error;
 use glam::DVec3;
 pub(super) use knots::{around, bracket};

@@ -10,8 +10,8 @@
 //! Which power serves a pair of neighbours, or whether lobes had better stay, is what the neighbours say: that under which one of
 //! them, moved onto the other, has the most in common with it.
 
-use super::super::analysis::lattice;
 use super::Lobe;
+use crate::hemisphere::lattice;
 use glam::DVec3;
 
 /// Directions in which two lobes are compared.

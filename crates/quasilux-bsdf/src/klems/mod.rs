@@ -7,8 +7,10 @@
 
 mod basis;
 
-use super::analysis::Incident;
-use super::distribution::{INSIDE, ScatterSample, pick};
+use crate::hemisphere::INSIDE;
+use crate::hemisphere::Incident;
+use crate::hemisphere::ScatterSample;
+use crate::hemisphere::pick;
 use basis::Cell;
 pub use basis::{AngleBasis, ThetaBand};
 use glam::DVec3;

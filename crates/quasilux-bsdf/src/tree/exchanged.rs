@@ -10,9 +10,12 @@
 //! sides and C that of the four at the corners. Sums of I and C over rings are stored for each column. `u[0]` picks a ring by its
 //! share and, renormalised, the squared sine in it; `u[1]` runs along the sides.
 
-use super::super::analysis::Incident;
-use super::super::distribution::{INSIDE, ScatterSample, pick, upwards};
 use super::{DEEPEST, Incidence, TensorTree};
+use crate::hemisphere::INSIDE;
+use crate::hemisphere::Incident;
+use crate::hemisphere::ScatterSample;
+use crate::hemisphere::pick;
+use crate::hemisphere::upwards;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 

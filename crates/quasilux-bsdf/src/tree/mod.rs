@@ -13,8 +13,10 @@ mod build;
 mod exchanged;
 mod means;
 
-use super::analysis::Incident;
-use super::distribution::{INSIDE, ScatterSample, upwards};
+use crate::hemisphere::INSIDE;
+use crate::hemisphere::Incident;
+use crate::hemisphere::ScatterSample;
+use crate::hemisphere::upwards;
 pub(super) use build::TreeBuilder;
 pub use exchanged::ExchangedTree;
 use glam::DVec3;

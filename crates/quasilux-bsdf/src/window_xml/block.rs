@@ -1,7 +1,9 @@
 //! The blocks of scattering data that are read: one spectrum, each side and way once.
 
-use super::super::{Side, Way};
-use crate::warning::{WarningKind, Warnings};
+use crate::side::Side;
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::xml::Element;
 use quasilux_text::{ParseError, quoted};
 

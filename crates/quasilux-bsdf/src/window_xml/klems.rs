@@ -2,9 +2,13 @@
 
 use super::block::Block;
 use super::number_of;
-use crate::pieces::{self, Pieces, Style};
-use crate::warning::{WarningKind, Warnings};
-use crate::{AngleBasis, KlemsTable};
+use crate::klems::AngleBasis;
+use crate::klems::KlemsTable;
+use crate::pieces;
+use crate::pieces::Pieces;
+use crate::pieces::Style;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::xml::Element;
 use quasilux_text::{ParseError, quoted};
 use std::f64::consts::FRAC_PI_2;

@@ -1,8 +1,12 @@
 //! The transmission that a file leaves out.
 
 use super::block::Block;
-use crate::warning::{WarningKind, Warnings};
-use crate::{Distribution, MeasuredBsdf, Side, Way};
+use crate::distribution::Distribution;
+use crate::measured::MeasuredBsdf;
+use crate::side::Side;
+use crate::side::Way;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 
 /// Takes the transmission of a side that the file leaves out from the other side, by reciprocity.
 pub(super) fn fill_transmission(

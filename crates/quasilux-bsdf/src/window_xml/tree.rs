@@ -1,9 +1,13 @@
 //! Tensor trees: nodes in braces.
 
 use super::block::Block;
-use crate::pieces::{self, Pieces, Style};
-use crate::warning::{WarningKind, Warnings};
-use crate::{TensorTree, tree::TreeBuilder};
+use crate::pieces;
+use crate::pieces::Pieces;
+use crate::pieces::Style;
+use crate::tree::TensorTree;
+use crate::tree::TreeBuilder;
+use crate::warning::WarningKind;
+use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position, Token, quoted};
 
 /// The tree of one block.

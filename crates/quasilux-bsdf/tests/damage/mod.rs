@@ -9,7 +9,7 @@ mod surface;
 use peak_alloc::PeakAlloc;
 use quasilux_bsdf::{max_bsdf_memory_bytes, read_bsdf_named};
 use quasilux_stats::damage::{Random, Seeds, check_message};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
@@ -30,7 +30,20 @@ pub(crate) fn samples() -> Seeds {
 /// The same, with the published files where they are present.
 pub(crate) fn seeds() -> Seeds {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
-    samples().with_folder(&folder, "xml")
+    samples().with_files(published(&folder, "xml"))
+}
+
+/// The files of a folder that have the extension, in the order of their names; none, with a line
+/// that says so, where the folder is missing.
+fn published(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        println!("no published .{extension} files at {}", folder.display());
+        return Vec::new();
+    };
+    let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(fits).collect();
+    paths.sort();
+    paths.iter().map(|path| std::fs::read(path).unwrap()).collect()
 }
 
 /// Reads any bytes and checks the answer: no more memory than stated, messages with a position in

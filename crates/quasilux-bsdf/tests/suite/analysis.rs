@@ -4,7 +4,7 @@ use super::{analytic, ddr, direction, folder, surface};
 use glam::DVec3;
 use quasilux_bsdf::{
     AngleBasis, BsdfAnalysis, BsdfFacts, BsdfFormat, Distribution, EnergyBalance, KlemsTable,
-    MeasuredBsdf, Reciprocity, Side, TensorTree, Way, luminance,
+    MeasuredBsdf, Side, TensorTree, Way, luminance,
 };
 use quasilux_photometry::Angles;
 use quasilux_sampling::warp::sample_disk;
@@ -93,7 +93,7 @@ fn matrices_have_the_figures_of_their_files() {
         let text = std::fs::read(folder.join(name)).unwrap();
         let shares = matrices(&String::from_utf8_lossy(&text));
         let bsdf = surface(name).unwrap();
-        for balance in BsdfAnalysis::of(&bsdf).energy {
+        for balance in bsdf.analysis().clone().energy {
             let of_way = |wanted: Way| -> Vec<f64> {
                 let found = shares.iter().find(|(s, w, _)| (*s, *w) == (balance.side, wanted));
                 found.map_or(vec![0.0; 145], |(_, _, shares)| shares.clone())
@@ -133,7 +133,7 @@ fn trees_have_the_sums_of_their_values() {
         // The front of the first one passes light by reciprocity, in other pieces: see `window_xml`.
         let is_given =
             |balance: &EnergyBalance| name != "tt-pyradiance-t3.xml" || balance.side == Side::Back;
-        for balance in BsdfAnalysis::of(&bsdf).energy.into_iter().filter(is_given) {
+        for balance in bsdf.analysis().clone().energy.into_iter().filter(is_given) {
             let mut diffuse = [0.0; 2];
             let mut worst = 0.0_f64;
             for i in 0..SIDE / 2 {
@@ -173,7 +173,7 @@ fn a_tree_turned_round_has_its_true_maximum() {
         return;
     };
     let table = bsdf.scattering(Side::Front, Way::Transmission).unwrap();
-    let balance = EnergyBalance::of(&bsdf, Side::Front).unwrap();
+    let balance = bsdf.analysis().energy[0].clone();
     let (mut diffuse, mut worst) = (0.0, 0.0_f64);
     for i in 0..100_000 {
         let sin2 = (f64::from(i) + 0.5) / 1e5;
@@ -199,7 +199,7 @@ fn anisotropic_trees_have_the_mean_of_their_shares() {
         mean += share / 64.0;
         worst = worst.max(share);
     }
-    let energy = &BsdfAnalysis::of(&reflecting(table)).energy[0];
+    let energy = &reflecting(table).analysis().energy[0].clone();
     assert!((energy.diffuse[0] / mean - 1.0).abs() < 1e-12);
     assert!((energy.worst / worst - 1.0).abs() < 1e-12);
 }
@@ -229,7 +229,7 @@ fn lobes_have_the_integral_of_their_shares() {
                 worst = worst.max(share);
             }
         }
-        let energy = &BsdfAnalysis::of(&reflecting(table)).energy[0];
+        let energy = &reflecting(table).analysis().energy[0].clone();
         println!("{:.6} {diffuse:.6}, {:.6} {worst:.6}", energy.diffuse[0], energy.worst);
         assert!((energy.diffuse[0] - diffuse).abs() < 1e-5 * diffuse);
         assert!(energy.worst >= worst && energy.worst < 1.001 * worst);
@@ -246,7 +246,7 @@ fn each_pair_of_patches_is_looked_at() {
         values[145 * patch + other] = 3.0;
         let table = KlemsTable::new(basis(), basis(), values).unwrap();
         let bsdf = reflecting(Distribution::Klems(table));
-        let found = Reciprocity::of(&bsdf, Side::Front, Way::Reflection).expect("light");
+        let found = bsdf.analysis().reciprocity(Side::Front, Way::Reflection).expect("light");
         assert_eq!((found.mean, found.worst), (1.0, 1.0), "patch {patch}");
     }
 }
@@ -266,7 +266,7 @@ fn sums_over_different_patches_have_their_true_maximum() {
     let way = |way, table| (Side::Front, way, table);
     let tables = [way(Way::Reflection, reflected), way(Way::Transmission, passed)];
     let bsdf = MeasuredBsdf::from_tables(facts(), tables);
-    let balance = EnergyBalance::of(&bsdf, Side::Front).unwrap();
+    let balance = bsdf.analysis().energy[0].clone();
     assert!((balance.worst - 0.4 * PI).abs() < 1e-12, "{}", balance.worst);
     assert!(balance.worst_wi.angle_between(direction(49.5, 199.0)) < 0.02);
 }
@@ -294,7 +294,7 @@ fn defects_of_narrow_lobes_are_measured() {
     }
     let mean = difference / sum;
     let bsdf = reflecting(table);
-    let found = Reciprocity::of(&bsdf, Side::Front, Way::Reflection).unwrap();
+    let found = bsdf.analysis().reciprocity(Side::Front, Way::Reflection).unwrap();
     println!("{} for {mean}", found.mean);
     assert!((found.mean / mean - 1.0).abs() < 0.02);
 }

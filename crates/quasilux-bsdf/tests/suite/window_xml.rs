@@ -3,7 +3,7 @@
 use super::direction;
 use glam::DVec3;
 use quasilux_bsdf::WarningKind;
-use quasilux_bsdf::{BsdfAnalysis, Distribution, KlemsTable, Parsed, Side, Way, read_bsdf_xml};
+use quasilux_bsdf::{Distribution, KlemsTable, Parsed, Side, Way, read_bsdf_xml};
 use std::f64::consts::PI;
 
 /// Two bands: the cap up to 30 degrees, and four patches.
@@ -73,7 +73,7 @@ fn a_matrix_knows_its_albedo() {
     let (cap, patch) = (0.25 * PI, 0.75 * PI / 4.0);
     let column_1 = cap * 0.11 + patch * (0.21 + 0.31 + 0.41 + 0.51);
     assert!((back.albedo(DVec3::Z)[0] - column_1).abs() < 1e-14);
-    let energy = BsdfAnalysis::of(&read.bsdf).energy;
+    let energy = read.bsdf.analysis().clone().energy;
     assert_eq!(energy.len(), 1);
     assert!((energy[0].normal[0] - column_1).abs() < 1e-14 && energy[0].normal[1] == 0.0);
     // The last column is the greatest.
@@ -122,7 +122,7 @@ fn an_anisotropic_tree_is_turned_round_exactly() {
         let (a, b) = (direction(theta_i, phi_i), direction(theta_o, phi_o));
         assert_eq!(front.evaluate(a, b), back.evaluate(b, a));
     }
-    let reciprocity = BsdfAnalysis::of(&read.bsdf).reciprocity;
+    let reciprocity = read.bsdf.analysis().clone().reciprocity;
     assert!(reciprocity.len() == 1 && reciprocity[0].mean == 0.0, "{reciprocity:?}");
 }
 
@@ -135,7 +135,7 @@ fn reciprocity_is_measured() {
     let band =
         "<AngleBasisBlock><ThetaBounds><UpperTheta>90</UpperTheta></ThetaBounds><nPhis>2</nPhis>";
     let read = read(&(two[..cap].to_owned() + band + &two[bands..]));
-    let reciprocity = &BsdfAnalysis::of(&read.bsdf).reciprocity[0];
+    let reciprocity = &read.bsdf.analysis().clone().reciprocity[0];
     let expected = 0.5 * 2.0 / (0.25 + 0.25 * 3.0 + 0.5 * 3.0);
     assert!((reciprocity.mean - expected).abs() < 1e-12, "{}", reciprocity.mean);
     assert!((reciprocity.worst - 2.0 / 3.0).abs() < 1e-12);
@@ -149,17 +149,17 @@ fn reciprocity_is_measured() {
 fn transmission_from_the_other_side_is_reciprocal() {
     let read_matrix = read(&file("Columns", &matrix("Transmission Back", &places())));
     assert_eq!(read_matrix.warnings[0].kind(), WarningKind::ByReciprocity);
-    let reciprocity = &BsdfAnalysis::of(&read_matrix.bsdf).reciprocity;
+    let reciprocity = &read_matrix.bsdf.analysis().clone().reciprocity;
     assert_eq!((reciprocity[0].way, reciprocity[0].mean), (Way::Transmission, 0.0));
 
     let Some(bsdf) = super::surface("tt-pyradiance-t3.xml") else {
         return;
     };
-    let energy = BsdfAnalysis::of(&bsdf).energy;
+    let energy = bsdf.analysis().clone().energy;
     let passed = [0, 1].map(|side: usize| energy[side].diffuse[1]);
     println!("diffuse transmittance {:.5} and {:.5}", passed[0], passed[1]);
     assert!((passed[0] / passed[1] - 1.0).abs() < 1e-12, "{passed:?}");
-    let reciprocity = &BsdfAnalysis::of(&bsdf).reciprocity;
+    let reciprocity = &bsdf.analysis().clone().reciprocity;
     let passing = reciprocity.iter().find(|found| found.way == Way::Transmission).unwrap();
     assert!(passing.mean < 1e-12, "{passing:?}");
 }
@@ -177,7 +177,7 @@ fn deep_trees_are_turned_round_too() {
     }
     let read = read(&file("TensorTree3", &tree("Transmission Back", &values)));
     let [front, back] = Side::ALL.map(|side| scattering(&read, side, Way::Transmission));
-    let energy = &BsdfAnalysis::of(&read.bsdf).energy;
+    let energy = &read.bsdf.analysis().clone().energy;
     let passed = [0, 1].map(|side: usize| energy[side].diffuse[1]);
     assert!(passed[0] > 0.1 && (passed[0] / passed[1] - 1.0).abs() < 1e-12, "{passed:?}");
     for (a, b) in [(3.0, 80.0), (45.0, 45.0), (70.0, 20.0)] {

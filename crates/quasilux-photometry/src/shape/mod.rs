@@ -29,7 +29,7 @@ mod signs;
 
 pub(crate) use signs::{check_signs, opening_in};
 
-use crate::{LuminousOpening, Standard};
+use crate::{LuminaireFacts, LuminousOpening, Standard};
 use glam::DVec3;
 
 /// Two lengths that differ by less than this part count as equal where a name or a table asks.
@@ -72,6 +72,13 @@ pub struct SurfacePoint {
     /// Outward unit normal in the luminaire frame; toward the asker on flat shapes, zero on lines and
     /// points.
     pub normal: DVec3,
+}
+
+impl LuminaireFacts {
+    /// The shape of the luminous opening, by the signs of its dimensions.
+    pub fn shape(&self) -> LuminousShape {
+        LuminousShape::of_opening(self.standard, &self.opening)
+    }
 }
 
 impl LuminousShape {

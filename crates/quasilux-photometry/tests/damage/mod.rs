@@ -11,7 +11,7 @@ use quasilux_photometry::{
     ParseError, Parsed, max_read_memory_bytes, read_ies, read_ldt, read_tm33,
 };
 use quasilux_stats::damage::{Random, Seeds, check_message};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
@@ -60,8 +60,21 @@ impl Format {
             Self::Tm33 => ("ies/tm33", "xml"),
         };
         let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-        self.samples().with_folder(&data.join(folder), extension)
+        self.samples().with_files(published(&data.join(folder), extension))
     }
+}
+
+/// The files of a folder that have the extension, in the order of their names; none, with a line
+/// that says so, where the folder is missing.
+fn published(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        println!("no published .{extension} files at {}", folder.display());
+        return Vec::new();
+    };
+    let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(fits).collect();
+    paths.sort();
+    paths.iter().map(|path| std::fs::read(path).unwrap()).collect()
 }
 
 /// Reads any bytes and checks the answer: no more memory than stated, messages with a position in

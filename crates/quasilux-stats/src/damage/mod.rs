@@ -9,8 +9,6 @@ mod random;
 pub use mutator::mutate;
 pub use random::Random;
 
-use std::path::Path;
-
 /// Published files above this length are left out: most of the time would go into a few of them.
 const MAX_SEED_BYTES: usize = 4000;
 
@@ -25,23 +23,10 @@ impl Seeds {
         Self(files)
     }
 
-    /// The same, with the files of a folder that have the extension and are no longer than 4000
-    /// bytes, in the order of their names. A folder that is missing is named on the standard output.
-    ///
-    /// # Panics
-    /// Where the folder or a file cannot be read.
+    /// The same, with those of `files` that are no longer than 4000 bytes.
     #[must_use]
-    pub fn with_folder(mut self, folder: &Path, extension: &str) -> Self {
-        let Ok(entries) = std::fs::read_dir(folder) else {
-            println!("no published .{extension} files at {}", folder.display());
-            return self;
-        };
-        let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-        paths.sort();
-        let fits = |e: &std::ffi::OsStr| e.eq_ignore_ascii_case(extension);
-        for path in paths.iter().filter(|path| path.extension().is_some_and(fits)) {
-            self.0.push(std::fs::read(path).expect("a readable file"));
-        }
+    pub fn with_files(mut self, files: impl IntoIterator<Item = Vec<u8>>) -> Self {
+        self.0.extend(files);
         self.0.retain(|file| file.len() <= MAX_SEED_BYTES);
         self
     }
