@@ -17,6 +17,8 @@ use crate::stats::estimates::Estimates;
 use crate::stats::observer::Observer;
 use crate::stats::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -49,21 +51,54 @@ pub fn trace_part(
     }
 }
 
-/// Why parts do not make a run.
+/// Why parts do not make a run. Parts are numbered from 0 in the order in which they were given.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("part {part}: {error}")]
-pub struct MergeError {
-    /// Number of the part that is to blame, in the order in which they were given.
-    pub part: usize,
-    /// What is wrong with it.
-    pub error: StateError,
+pub enum MergeError {
+    /// The bytes of a part are damaged, or pilots decide otherwise here than where it was traced.
+    #[error("part {part}: {error}")]
+    Part {
+        /// Number of the part.
+        part: usize,
+        /// Why its bytes are refused.
+        error: StateError,
+    },
+    /// A part was traced in another scene, with other settings, or for another number of samples.
+    #[error("part {part} belongs to another scene, other settings or another number of samples")]
+    Foreign {
+        /// Number of the part.
+        part: usize,
+    },
+    /// The indices of a part end before they begin, or behind the last sample of the run.
+    #[error("part {part} has the indices from {} to before {}, of {samples}", .range.start, .range.end)]
+    Range {
+        /// Number of the part.
+        part: usize,
+        /// Its indices.
+        range: Range<u64>,
+        /// Samples of the run.
+        samples: u64,
+    },
+    /// Two parts have indices in common, whose samples would count twice.
+    #[error("parts {} and {} overlap: both have index {index}", .parts[0], .parts[1])]
+    Overlap {
+        /// Numbers of the two parts.
+        parts: [usize; 2],
+        /// The first index that they share.
+        index: u64,
+    },
+    /// No part has these indices.
+    #[error("the indices from {} to before {} are in no part", .missing.start, .missing.end)]
+    Gap {
+        /// The first indices that are missing.
+        missing: Range<u64>,
+    },
 }
 
 /// Puts together what [`trace_part`] made of ranges that follow each other from 0 to `samples` without gaps,
 /// in any order; then takes the pictures of the cameras. The result has the bits of a run in one part.
 ///
 /// # Errors
-/// When a part is damaged, or of another run.
+/// When a part is damaged or of another run, when parts overlap, and when indices are missing.
 pub fn merge(
     scene: &Scene,
     settings: &Settings,
@@ -92,6 +127,9 @@ fn trace<S: Spectrum>(
     watch.obey();
     let mut out = Writer::default();
     out.bytes(&estimation.decisions().digest);
+    out.bytes(&fingerprint(scene, settings, samples));
+    out.u64(part.start);
+    out.u64(part.end);
     if !estimation.trace_part(part, samples, watch) {
         return None;
     }
@@ -100,20 +138,28 @@ fn trace<S: Spectrum>(
     Some(out.finish())
 }
 
-fn put_together<S: Spectrum>(
+fn put_together<'p, S: Spectrum>(
     scene: &Scene,
     settings: &Settings,
     samples: u64,
-    parts: &[&[u8]],
+    parts: &[&'p [u8]],
     watch: &mut Watch<'_>,
 ) -> Result<Estimates, MergeError> {
     let stage = Stage::<S>::new(scene, settings);
     let mut estimation = estimation(&stage, scene, settings, watch);
     let decisions = estimation.decisions();
+    let expected = Expected {
+        decisions: &decisions.digest,
+        fingerprint: fingerprint(scene, settings, samples),
+        samples,
+    };
+    let read = |(number, bytes): (usize, &&'p [u8])| expected.read(number, bytes);
+    let read = parts.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
+    expect_all_indices(&read, samples)?;
     let mut served = None;
-    for (number, part) in parts.iter().enumerate() {
-        add(estimation.as_mut(), part, &decisions.digest, &mut served)
-            .map_err(|error| MergeError { part: number, error })?;
+    for part in &read {
+        add(estimation.as_mut(), part, &mut served)
+            .map_err(|error| MergeError::Part { part: part.number, error })?;
     }
     estimation.complete_at(samples);
     let (mut estimates, _) =
@@ -124,30 +170,111 @@ fn put_together<S: Spectrum>(
     Ok(estimates)
 }
 
-/// Adds a part; `served` is what the parts before it have in common.
+/// A part whose sums are still bytes.
+#[derive(Clone, Debug)]
+struct Part<'b> {
+    number: usize,
+    /// Its indices.
+    range: Range<u64>,
+    /// Sums of the photons that all paths share, equal in all parts of a run.
+    served: &'b [u8],
+    /// Sums of its own indices.
+    own: &'b [u8],
+}
+
+/// Properties that all parts of a run have in common.
+struct Expected<'d> {
+    decisions: &'d [u8; 32],
+    fingerprint: [u8; 32],
+    samples: u64,
+}
+
+impl Expected<'_> {
+    fn read<'b>(&self, number: usize, bytes: &'b [u8]) -> Result<Part<'b>, MergeError> {
+        let refuse = |error| MergeError::Part { part: number, error };
+        let mut from = Reader::new(bytes);
+        let decisions = from.bytes(self.decisions.len()).map_err(refuse)?;
+        if from.bytes(self.fingerprint.len()).map_err(refuse)? != self.fingerprint {
+            return Err(MergeError::Foreign { part: number });
+        }
+        if decisions != self.decisions {
+            return Err(refuse(StateError::Decisions));
+        }
+        let mut rest = || -> Result<Part<'b>, StateError> {
+            let range = from.u64()?..from.u64()?;
+            let part = Part { number, range, served: from.block()?, own: from.block()? };
+            from.clone().end().map(|()| part)
+        };
+        let part = rest().map_err(refuse)?;
+        let samples = self.samples;
+        if part.range.start > part.range.end || part.range.end > samples {
+            return Err(MergeError::Range { part: number, range: part.range, samples });
+        }
+        Ok(part)
+    }
+}
+
+/// Whether each index from 0 to before `samples` is in one part, and in one alone.
+fn expect_all_indices(parts: &[Part<'_>], samples: u64) -> Result<(), MergeError> {
+    let mut parts: Vec<&Part<'_>> = parts.iter().filter(|part| !part.range.is_empty()).collect();
+    parts.sort_by_key(|part| (part.range.start, part.number));
+    let mut end = 0;
+    let mut before = 0;
+    for Part { number, range, .. } in parts {
+        if range.start < end {
+            return Err(MergeError::Overlap { parts: [before, *number], index: range.start });
+        }
+        if range.start > end {
+            return Err(MergeError::Gap { missing: end..range.start });
+        }
+        (end, before) = (range.end, *number);
+    }
+    if end < samples { Err(MergeError::Gap { missing: end..samples }) } else { Ok(()) }
+}
+
+/// Adds the sums of a part; `served` are the bytes that the parts before it have in common.
 fn add<'b>(
     estimation: &mut (dyn Estimation + '_),
-    part: &'b [u8],
-    digest: &[u8; 32],
+    part: &Part<'b>,
     served: &mut Option<&'b [u8]>,
 ) -> Result<(), StateError> {
-    let mut from = Reader::new(part);
-    if from.bytes(digest.len())? != digest {
-        return Err(StateError::Decisions);
-    }
-    let (own_served, own) = (from.block()?, from.block()?);
-    from.end()?;
     match *served {
         None => {
-            let mut from = Reader::new(own_served);
+            let mut from = Reader::new(part.served);
             estimation.take_in_served(&mut from)?;
             from.end()?;
-            *served = Some(own_served);
+            *served = Some(part.served);
         }
-        Some(served) if served == own_served => {}
+        Some(served) if served == part.served => {}
         Some(_) => return Err(StateError::Unfit("what photons for all paths found")),
     }
-    let mut from = Reader::new(own);
+    let mut from = Reader::new(part.own);
     estimation.take_in_part(&mut from)?;
     from.end()
+}
+
+/// SHA-256 of all that the sums of a part hang on: the settings, the number of samples and the scene without its
+/// cameras.
+fn fingerprint(scene: &Scene, settings: &Settings, samples: u64) -> [u8; 32] {
+    let Scene { mesh, materials, lights, sensors, cameras: _ } = scene;
+    let mut text = Hashed(Sha256::new());
+    for position in &mesh.positions {
+        position.to_array().iter().for_each(|x| text.0.update(x.to_bits().to_le_bytes()));
+    }
+    let numbers = mesh.triangles.iter().flatten().chain(&mesh.material_of);
+    numbers.for_each(|number| text.0.update(number.to_le_bytes()));
+    let lengths = [mesh.positions.len(), mesh.triangles.len()];
+    // Hashing a text cannot fail.
+    let _ = write!(text, "{lengths:?}{materials:?}{lights:?}{sensors:?}{settings:?}{samples}");
+    text.0.finalize().into()
+}
+
+/// Hashes a text instead of keeping it.
+struct Hashed(Sha256);
+
+impl Write for Hashed {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.0.update(text);
+        Ok(())
+    }
 }

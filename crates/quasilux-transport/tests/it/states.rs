@@ -8,8 +8,8 @@ use crate::scenes::{mirror, point_light, points};
 use glam::DVec3;
 use quasilux_scene::{Camera, Scene};
 use quasilux_transport::{
-    Control, Estimates, EstimatorKind, MergeError, Observer, Progress, Settings, StateError,
-    Switch, decide, merge, resume, simulate, trace_part,
+    Control, Estimates, EstimatorKind, MergeError, Observer, Progress, Settings, Switch, decide,
+    merge, resume, simulate, trace_part,
 };
 use std::ops::Range;
 
@@ -294,12 +294,8 @@ fn parts_and_states_of_other_runs_are_refused() {
         let parts = parts_of(scene, settings, 40, &[0, 20, 40]);
         let foreign = parts_of(scene, &other, 40, &[20, 40]);
         let mixed = [parts[0].clone(), foreign[0].clone()];
-        let plain_photon = *name == "photon";
-        match merged(scene, settings, 40, &mixed) {
-            Err(MergeError { part: 1, error: StateError::Decisions }) => {}
-            // Nothing is decided by a pilot: the command line compares the settings.
-            other => assert!(plain_photon, "{name}: {:?}", other.map(|_| ())),
-        }
+        let refused = merged(scene, settings, 40, &mixed).map(|_| ());
+        assert_eq!(refused, Err(MergeError::Foreign { part: 1 }), "{name}");
     }
     let (_, scene, settings) = &runs[2];
     let mut keeper = Keeper::new(1000);
@@ -309,6 +305,43 @@ fn parts_and_states_of_other_runs_are_refused() {
         let refused = resume(scene, settings, state, &mut ()).is_err();
         assert!(refused, "{name}");
     }
+}
+
+/// Each index has to be in one part and in one alone, all parts of one scene and one number of samples.
+#[test]
+fn parts_with_gaps_and_overlaps_are_refused() {
+    let scene = closed(0.5);
+    let settings = Settings { replicates: 2, ..Settings::default() };
+    let part = |range: Range<u64>| -> Vec<u8> {
+        trace_part(&scene, &settings, 40, range, &mut ()).expect("not stopped")
+    };
+    let [first, middle, last] = [0..10, 10..25, 25..40].map(part);
+    let refused = |parts: &[&Vec<u8>]| -> Result<(), MergeError> {
+        let parts: Vec<&[u8]> = parts.iter().map(|part| part.as_slice()).collect();
+        merge(&scene, &settings, 40, &parts, &mut ()).map(|_| ())
+    };
+    assert_eq!(refused(&[&last, &first, &middle]), Ok(()));
+    assert_eq!(refused(&[&last, &part(10..10), &first, &middle]), Ok(()));
+    let gap = |missing: Range<u64>| Err(MergeError::Gap { missing });
+    assert_eq!(refused(&[]), gap(0..40));
+    assert_eq!(refused(&[&first, &middle]), gap(25..40));
+    assert_eq!(refused(&[&last, &middle]), gap(0..10));
+    assert_eq!(refused(&[&last, &first]), gap(10..25));
+    let overlap = |parts, index| Err(MergeError::Overlap { parts, index });
+    assert_eq!(refused(&[&first, &middle, &last, &middle]), overlap([1, 3], 10));
+    assert_eq!(refused(&[&first, &part(9..25), &last]), overlap([0, 1], 9));
+    let longer = trace_part(&scene, &settings, 41, 10..25, &mut ()).expect("not stopped");
+    assert_eq!(refused(&[&first, &longer, &last]), Err(MergeError::Foreign { part: 1 }));
+    let brighter = closed(0.6);
+    let other = trace_part(&brighter, &settings, 40, 25..40, &mut ()).expect("not stopped");
+    assert_eq!(refused(&[&first, &middle, &other]), Err(MergeError::Foreign { part: 2 }));
+    // A range that a changed file claims: past the two digests.
+    let mut claims = last.clone();
+    claims[64..80].copy_from_slice(&[25_u64, 41].map(u64::to_le_bytes).concat());
+    let (range, samples) = (25..41, 40);
+    let wrong = MergeError::Range { part: 2, range, samples };
+    assert_eq!(refused(&[&first, &middle, &claims]), Err(wrong.clone()));
+    assert_eq!(wrong.to_string(), "part 2 has the indices from 25 to before 41, of 40");
 }
 
 /// What a resealed file may say: the right decisions, and rows for another number of replicates or of terms.

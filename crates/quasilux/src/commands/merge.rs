@@ -7,6 +7,7 @@ use crate::forecast::Forecast;
 use crate::plan::{Part, in_order};
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
+use quasilux_transport::MergeError;
 
 /// Puts parts together and writes the results of the run.
 pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Refusal> {
@@ -30,9 +31,14 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Refusal> {
     let watcher = Watcher::new(forecast, None, arguments.output.quiet);
     let put_together = |watcher: &mut Watcher<'_>| {
         let sums: Vec<&[u8]> = parts.iter().map(|part| part.sums.as_slice()).collect();
-        quasilux_transport::merge(scene, &settings, plan.samples, &sums, watcher)
-            .map(Some)
-            .map_err(|error| Refusal::new(format!("{}: {}", parts[error.part].name, error.error)))
+        quasilux_transport::merge(scene, &settings, plan.samples, &sums, watcher).map(Some).map_err(
+            |error| match error {
+                MergeError::Part { part, error } => {
+                    Refusal::new(format!("{}: {error}", parts[part].name))
+                }
+                error => Refusal::new(error),
+            },
+        )
     };
     match work(&project, watcher, put_together)? {
         Some(finished) => folder.deliver(&finished),

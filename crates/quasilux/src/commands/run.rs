@@ -78,7 +78,7 @@ fn run_plan(
         let merge = |part: Vec<u8>| {
             plan.expect_decisions(&part, &path.display().to_string())?;
             quasilux_transport::merge(scene, &settings, samples, &[&part], watcher)
-                .map_err(|error| Refusal::new(error.error))
+                .map_err(Refusal::new)
         };
         part.map(merge).transpose()
     };
