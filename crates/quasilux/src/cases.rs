@@ -1,7 +1,7 @@
 //! Validation cases: projects with known answers, as data (validation/README.md has the format).
 
 use crate::exit::Refusal;
-use quasilux_measure::{Figure, Report, SensorReport};
+use quasilux_report::{Figure, Report, SensorReport};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 

@@ -11,7 +11,7 @@ use crate::record::SettingsRecord;
 use crate::results;
 use crate::sealed::{seal, unseal};
 use crate::whole::{self, beside};
-use quasilux_measure::json;
+use quasilux_report::json;
 use quasilux_transport::Settings;
 use serde::{Deserialize, Serialize};
 use std::fs;

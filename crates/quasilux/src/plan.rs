@@ -9,7 +9,7 @@ use crate::exit::Refusal;
 use crate::project::{Project, read_bounded};
 use crate::record::SettingsRecord;
 use crate::sealed::{seal, unseal};
-use quasilux_measure::json;
+use quasilux_report::json;
 use quasilux_scene::project::{RENAMED_KEYS, RenamedKey};
 use quasilux_transport::{Decisions, Settings};
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 
 use crate::exit::Refusal;
 use crate::whole;
-use quasilux_measure::{
+use quasilux_report::{
     Report, camera_false_colour_png, csv, exr, false_colour_png, json, tone_mapped_png,
 };
 use std::io::{self, Write};

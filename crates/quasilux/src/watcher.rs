@@ -6,7 +6,7 @@ use crate::checkpoint::Keeping;
 use crate::forecast::Forecast;
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use quasilux_measure::number::{brief, count, memory};
+use quasilux_report::number::{brief, count, memory};
 use quasilux_transport::{Control, Estimates, Observer, Progress, Snapshot};
 use std::time::{Duration, Instant};
 

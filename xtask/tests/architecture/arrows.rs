@@ -23,7 +23,8 @@ const MAY_USE: [(&str, &[&str]); 11] = [
             "quasilux-photometry",
         ],
     ),
-    ("quasilux-measure", &["quasilux-transport", "quasilux-scene"]),
+    ("quasilux-drawing", &[]),
+    ("quasilux-report", &["quasilux-transport", "quasilux-scene", "quasilux-drawing"]),
     (
         "quasilux",
         &[
@@ -34,7 +35,8 @@ const MAY_USE: [(&str, &[&str]); 11] = [
             "quasilux-bsdf",
             "quasilux-scene",
             "quasilux-transport",
-            "quasilux-measure",
+            "quasilux-drawing",
+            "quasilux-report",
         ],
     ),
 ];

@@ -10,7 +10,7 @@ use crate::print::print;
 use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
-use quasilux_measure::{Report, RunFacts, Style, json, table};
+use quasilux_report::{Report, RunFacts, Style, json, table};
 use quasilux_transport::Estimates;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};

@@ -6,8 +6,8 @@ use crate::cases::{Case, Verdict};
 use crate::exit::{Exit, Refusal};
 use crate::print::print;
 use crate::{interrupt, project};
-use quasilux_measure::number::{brief, exact, figure_text};
-use quasilux_measure::{Figure, Report};
+use quasilux_report::number::{brief, exact, figure_text};
+use quasilux_report::{Figure, Report};
 use std::path::PathBuf;
 
 /// Runs the cases; exit code 1 when one fails. An interrupted run is no verdict.

@@ -10,7 +10,7 @@ use super::summary::share;
 use crate::arguments::Incidence;
 use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
 use quasilux_bsdf::{Distribution, EnergyBalance, Reciprocity, Side, Way, luminance};
-use quasilux_measure::json;
+use quasilux_report::json;
 use serde::Serialize;
 
 /// Name and version of the document's format.

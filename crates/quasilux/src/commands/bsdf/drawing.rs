@@ -5,7 +5,7 @@ use crate::arguments::Incidence;
 use crate::commands::inputs::stem_of;
 use glam::DVec3;
 use quasilux_bsdf::{Side, Way, luminance};
-use quasilux_measure::svg::{Dash, IntensityCurve, Lobe, LobeDiagram, PALETTE, Stroke, lobes};
+use quasilux_drawing::svg::{Dash, IntensityCurve, Lobe, LobeDiagram, PALETTE, Stroke, lobes};
 
 /// Directions are looked at in steps of this.
 const STEP_DEG: f64 = 0.25;

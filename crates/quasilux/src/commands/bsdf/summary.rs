@@ -4,7 +4,7 @@ use super::input::{Input, Surface};
 use crate::arguments::Incidence;
 use crate::commands::inputs::{printable, warning_line};
 use quasilux_bsdf::{EnergyBalance, Side, Way, luminance};
-use quasilux_measure::number::brief;
+use quasilux_report::number::brief;
 
 /// A line for the file, lines for each side, and a line for each warning.
 pub(super) fn summary(input: &Input, surface: &Surface, incidences: &[Incidence]) -> String {

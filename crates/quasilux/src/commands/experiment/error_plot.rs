@@ -1,6 +1,6 @@
 //! Errors over the number of photons, logarithmic both ways.
 
-use quasilux_measure::svg::{Axis, Figure, LegendEntry, Line, Panel, Scale, Stroke, figure};
+use quasilux_drawing::svg::{Axis, Figure, LegendEntry, Line, Panel, Scale, Stroke, figure};
 
 /// The errors of one setup.
 pub(super) struct ErrorLine {

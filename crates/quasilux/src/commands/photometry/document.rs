@@ -9,8 +9,8 @@
 use super::input::{Input, Luminaire};
 use super::words::{self, degrees};
 use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
-use quasilux_measure::json;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
+use quasilux_report::json;
 use serde::Serialize;
 
 /// Name and version of the document's format.

@@ -3,12 +3,12 @@
 use super::input::{Input, Luminaire};
 use super::words;
 use crate::arguments::DiagramName;
-use quasilux_measure::number::brief;
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Dash, Diagram, Intensities, IntensityCurve, PALETTE, Stroke, intensities,
 };
 use quasilux_photometry::Photometry;
 use quasilux_photometry::analysis::{Plane, PlaneCurve};
+use quasilux_report::number::brief;
 
 /// The drawing as an SVG file.
 pub(super) fn drawing(input: &Input, luminaire: &Luminaire, diagram: DiagramName) -> String {

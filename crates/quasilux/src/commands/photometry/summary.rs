@@ -3,9 +3,9 @@
 use super::input::{Input, Luminaire};
 use super::words::{self, degrees};
 use crate::commands::inputs::{printable, warning_line};
-use quasilux_measure::number::brief;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
 use quasilux_photometry::{Analysis, PhotometricType, Symmetry};
+use quasilux_report::number::brief;
 
 /// Digits of fluxes and intensities.
 const DIGITS: i32 = 5;

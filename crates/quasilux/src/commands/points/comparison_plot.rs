@@ -2,7 +2,7 @@
 
 use super::compare::Curve;
 use super::setup::{Measure, REPLICATES};
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 use quasilux_sampling::{Randomization, Sequence};

@@ -2,7 +2,7 @@
 
 use super::compare::{Curve, FIT_FROM};
 use super::setup::{Measure, REPLICATES};
-use quasilux_measure::number::exact;
+use quasilux_report::number::exact;
 use std::fmt::Write;
 
 const COLUMNS: &str =

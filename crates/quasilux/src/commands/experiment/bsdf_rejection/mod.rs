@@ -14,7 +14,7 @@ use super::claim::Claim;
 use super::flights::{Effort, Flights, MIN};
 use super::significance::{ALIKE, each_of};
 use crate::arguments::ExperimentArguments;
-use quasilux_measure::number::count;
+use quasilux_report::number::count;
 use quasilux_sampling::Sequence;
 use walk::{Glossy, Method};
 

@@ -2,7 +2,7 @@
 
 use super::walk::Glossy;
 use super::{Claim, Setup};
-use quasilux_measure::number::{count, exact};
+use quasilux_report::number::{count, exact};
 use std::fmt::Write;
 
 /// One line for each setup and number of photons.

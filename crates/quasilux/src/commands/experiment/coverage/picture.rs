@@ -3,7 +3,7 @@
 use super::SEQUENCES;
 use super::count::{Count, Figure, Moment};
 use super::report::ALL;
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure as Drawing, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 use quasilux_sampling::Sequence;

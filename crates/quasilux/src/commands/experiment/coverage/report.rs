@@ -3,7 +3,7 @@
 use super::SEQUENCES;
 use super::count::{Count, Figure, Moment, Verdict};
 use super::scenes;
-use quasilux_measure::number::exact;
+use quasilux_report::number::exact;
 use quasilux_sampling::Sequence;
 use std::fmt::Write;
 

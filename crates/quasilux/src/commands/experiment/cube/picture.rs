@@ -7,7 +7,7 @@ use super::curve::Currency;
 use super::floor::{End, Floor};
 use super::paper;
 use super::setup::{Form, Points};
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 

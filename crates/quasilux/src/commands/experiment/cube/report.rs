@@ -10,7 +10,7 @@ use super::scene::CLASSES;
 use super::setup::Setup;
 use super::{table_5, tables};
 use crate::commands::experiment::claim::Claim;
-use quasilux_measure::number::exact;
+use quasilux_report::number::exact;
 use std::fmt::Write;
 
 const COLUMNS: &str = "quantity,unit,column,form,points,randomization,element_m,place,replicates,n,paths_per_place,\

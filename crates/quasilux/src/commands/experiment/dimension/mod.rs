@@ -19,7 +19,7 @@ use super::flights::{Effort, Flights, MIN};
 use super::significance::{ALIKE, each_of};
 use crate::arguments::ExperimentArguments;
 use cube::Cube;
-use quasilux_measure::number::count;
+use quasilux_report::number::count;
 use quasilux_sampling::{Sampler, Sequence};
 use room::Room;
 use walk::{Features, Walk};

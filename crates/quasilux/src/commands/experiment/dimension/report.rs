@@ -2,7 +2,7 @@
 
 use super::cube::Cube;
 use super::{Claim, Setup, cost};
-use quasilux_measure::number::exact;
+use quasilux_report::number::exact;
 use quasilux_sampling::Sequence;
 use std::fmt::Write;
 

@@ -2,7 +2,7 @@
 
 use super::trial::{Part, Trial, error};
 use crate::commands::experiment::course::Stage;
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 use quasilux_sampling::Sequence;

@@ -5,7 +5,7 @@ use crate::commands::experiment::claim::Claim;
 use crate::commands::experiment::contrast::Contrast;
 use crate::commands::experiment::course::Course;
 use crate::commands::experiment::significance::each_of;
-use quasilux_measure::number::{count, exact};
+use quasilux_report::number::{count, exact};
 use std::fmt::Write;
 
 const COLUMNS: &str = "room,sequence,first_shot,samples,replicates,rms_error_of_photons,rms_error_of_whole,\

@@ -1,7 +1,7 @@
 //! The pictures: what a camera sees of the light of so many bounces.
 
 use super::{Effort, PIXEL_REPLICATES, room};
-use quasilux_measure::picture::{SeriesPicture, series_png};
+use quasilux_report::picture::{SeriesPicture, series_png};
 use quasilux_transport::{CameraEstimates, Interval, Settings, simulate};
 
 /// One picture.

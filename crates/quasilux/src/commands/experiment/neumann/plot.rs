@@ -2,7 +2,7 @@
 
 use super::terms::Terms;
 use crate::commands::experiment::course::mean_interval;
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 

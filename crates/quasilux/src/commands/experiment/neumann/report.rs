@@ -5,7 +5,7 @@ use super::terms::{Distance, Terms};
 use super::{CUTS, room};
 use crate::commands::experiment::claim::{Claim, largest, smallest};
 use crate::commands::experiment::course::mean_interval;
-use quasilux_measure::number::{count, exact};
+use quasilux_report::number::{count, exact};
 use quasilux_transport::Interval;
 use quasilux_transport::interval::t_quantile_for;
 use std::fmt::Write;

@@ -9,7 +9,7 @@ use crate::commands::experiment::claim::{Claim, largest, smallest};
 use crate::commands::experiment::contrast::Contrast;
 use crate::commands::experiment::course::mean_interval;
 use crate::commands::experiment::significance::each_of;
-use quasilux_measure::number::count;
+use quasilux_report::number::count;
 use quasilux_transport::Interval;
 use quasilux_transport::interval::t_quantile_for;
 

@@ -3,7 +3,7 @@
 use super::Findings;
 use super::curve::{Curve, Stop};
 use super::paper::{Printed, TABLE};
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 

@@ -11,7 +11,7 @@ use crate::commands::experiment::claim::Claim;
 use crate::commands::experiment::contrast::Contrast;
 use crate::commands::experiment::course::mean_interval;
 use glam::DVec3;
-use quasilux_measure::number::{count, exact};
+use quasilux_report::number::{count, exact};
 use quasilux_transport::Interval;
 use std::fmt::Write;
 

@@ -1,7 +1,7 @@
 //! Width of groups against their number.
 
 use super::Width;
-use quasilux_measure::svg::{
+use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
 };
 use quasilux_sampling::Randomization;

@@ -2,7 +2,7 @@
 
 use super::inverse::{Inverse, TABLE_2};
 use super::{Claim, DIMENSIONS, Width};
-use quasilux_measure::number::exact;
+use quasilux_report::number::exact;
 use quasilux_sampling::radical_inverse;
 use std::fmt::Write;
 

@@ -10,7 +10,7 @@ mod report;
 use super::Outcome;
 use super::claim::Claim;
 use crate::arguments::ExperimentArguments;
-use quasilux_measure::svg::{Scatter, scatters};
+use quasilux_drawing::svg::{Scatter, scatters};
 use quasilux_sampling::quality::{PointsView, cell_counts, star_discrepancy};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 use quasilux_transport::interval::t_quantile_for;

@@ -1,7 +1,7 @@
 //! All points for programs, and what is seen of each set for people.
 
 use super::{COUNT, Claim, LOG_CELLS, Seen, Set};
-use quasilux_measure::number::exact;
+use quasilux_report::number::exact;
 use std::fmt::Write;
 
 /// One line a point.

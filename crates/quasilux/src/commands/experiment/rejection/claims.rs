@@ -4,7 +4,7 @@ use super::Curve;
 use crate::commands::experiment::claim::Claim;
 use crate::commands::experiment::contrast::Contrast;
 use crate::commands::experiment::significance::{ALIKE, each_of};
-use quasilux_measure::number::count;
+use quasilux_report::number::count;
 
 /// Tests in all; the one of likeness has two sides, of which only one can be passed by chance.
 const TESTS: usize = 5;

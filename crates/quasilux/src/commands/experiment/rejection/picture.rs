@@ -3,7 +3,7 @@
 use super::{Curve, REPLICATES};
 use crate::commands::experiment::emission::Method;
 use crate::commands::experiment::error_plot::{ErrorLine, error_plot};
-use quasilux_measure::svg::{Dash, PALETTE, Stroke};
+use quasilux_drawing::svg::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Sequence;
 
 /// Slopes of the guides, with their names.

@@ -4,7 +4,7 @@ use super::floor::Floor;
 use super::{Curve, FIT_FROM, Method, REPLICATES, Setup};
 use crate::commands::experiment::batwing::Luminaire;
 use crate::commands::experiment::claim::Claim;
-use quasilux_measure::number::{count, exact};
+use quasilux_report::number::{count, exact};
 use quasilux_sampling::Sequence;
 use std::fmt::Write;
 

@@ -6,13 +6,13 @@
 //! two. The value is rounded to the same place.
 
 use crate::Figure;
+pub use quasilux_drawing::number::brief;
+use quasilux_drawing::number::{decimal_exponent, to_place};
 
 /// A value is never written with more significant digits than this, however narrow its interval.
 const MAX_DIGITS: i32 = 6;
 /// Significant digits of a value without an interval.
 const DIGITS_WITHOUT_INTERVAL: i32 = 4;
-/// Places of the last digit outside this range are written with an exponent.
-const PLAIN_PLACES: std::ops::RangeInclusive<i32> = -9..=6;
 
 /// A figure as text, value and half-width rounded to the same place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,17 +69,6 @@ pub fn exact(x: f64) -> String {
     format!("{x:?}")
 }
 
-/// A number with at most `digits` significant digits, trailing zeros of the fraction removed.
-#[must_use]
-pub fn brief(x: f64, digits: i32) -> String {
-    let place = decimal_exponent(x).map_or(0, |e| e - digits + 1);
-    let text = to_place(x, place.min(0));
-    if text.contains('.') && !text.contains('e') {
-        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
-    }
-    text
-}
-
 /// A count with its thousands set apart by spaces: `1 048 576`.
 #[must_use]
 pub fn count(n: u64) -> String {
@@ -106,31 +95,6 @@ fn last_place(half_width: f64) -> Option<i32> {
     let exponent = decimal_exponent(half_width)?;
     let leading = half_width / libm::exp10(f64::from(exponent));
     Some(if leading < 3.545 { exponent - 1 } else { exponent })
-}
-
-/// The exponent of a number in scientific notation; `None` for zero and what is not finite.
-pub(crate) fn decimal_exponent(x: f64) -> Option<i32> {
-    if x == 0.0 || !x.is_finite() {
-        return None;
-    }
-    let text = format!("{x:e}");
-    text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok())
-}
-
-/// Rounds to a multiple of 10^`place` and writes no digit below it.
-pub(crate) fn to_place(x: f64, place: i32) -> String {
-    if !PLAIN_PLACES.contains(&place) {
-        let digits = decimal_exponent(x).map_or(0, |e| (e - place).max(0));
-        return format!("{x:.*e}", digits as usize);
-    }
-    let text = if place <= 0 {
-        format!("{x:.*}", place.unsigned_abs() as usize)
-    } else {
-        let unit = libm::exp10(f64::from(place));
-        format!("{:.0}", (x / unit).round() * unit)
-    };
-    let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
-    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -177,15 +141,10 @@ mod tests {
     }
 
     #[test]
-    fn helpers() {
-        assert_eq!(brief(0.1 + 0.2, 4), "0.3");
-        assert_eq!(brief(1500.0, 4), "1500");
-        assert_eq!(brief(0.0, 4), "0");
-        assert_eq!(brief(123_456.0, 3), "123456");
+    fn counts_memory_and_exact_numbers() {
         assert_eq!(count(1_048_576), "1 048 576");
         assert_eq!(count(999), "999");
         assert_eq!((memory(96 << 20), memory(3 << 29)), ("96 MiB".into(), "1.5 GiB".into()));
         assert_eq!(exact(0.1), "0.1");
-        assert_eq!(decimal_exponent(9.999_999_999e5), Some(5));
     }
 }

@@ -7,7 +7,6 @@
 use super::colour_map::{self, Colour};
 use super::frame::Legend;
 use crate::number::brief;
-use quasilux_transport::Pixel;
 
 /// Share of the lit pixels that may be too dark for the scale.
 const TOO_DARK: f64 = 0.01;
@@ -28,9 +27,9 @@ pub(crate) struct LuminanceScale {
 
 impl LuminanceScale {
     /// The scale for a picture.
-    pub(crate) fn of(pixels: &[Pixel]) -> Self {
-        let lit = |pixel: &Pixel| (pixel.luminance_cd_m2 > 0.0).then_some(pixel.luminance_cd_m2);
-        let mut lit: Vec<f32> = pixels.iter().filter_map(lit).collect();
+    pub(crate) fn of(luminances_cd_m2: &[f32]) -> Self {
+        let lit = |luminance: &f32| *luminance > 0.0;
+        let mut lit: Vec<f32> = luminances_cd_m2.iter().copied().filter(lit).collect();
         lit.sort_unstable_by(f32::total_cmp);
         let dark = lit.get((TOO_DARK * lit.len() as f64) as usize).copied();
         let (dark, bright) = (dark.unwrap_or(1.0), lit.last().copied().unwrap_or(10.0));
@@ -56,7 +55,7 @@ impl LuminanceScale {
         colour_map::colour(self.share(luminance_cd_m2))
     }
 
-    pub(crate) fn legend(&self) -> Legend {
+    pub(crate) fn legend(&self) -> Legend<'static> {
         let ticks: Vec<(f64, String)> =
             self.ticks.iter().map(|&tick| (self.share(tick), brief(tick, 1))).collect();
         let inner = ticks.get(1..ticks.len() - 1).unwrap_or_default();
@@ -85,34 +84,22 @@ fn round_number(step: i32) -> f64 {
 mod tests {
     use super::*;
 
-    fn scale(luminances: &[f32]) -> LuminanceScale {
-        let pixels: Vec<Pixel> = luminances
-            .iter()
-            .map(|&luminance_cd_m2| Pixel {
-                rgb_cd_m2: [luminance_cd_m2; 3],
-                luminance_cd_m2,
-                half_width_cd_m2: None,
-            })
-            .collect();
-        LuminanceScale::of(&pixels)
-    }
-
     #[test]
     fn ends_and_ticks_are_round() {
-        let room = scale(&[3.4, 17.0, 88.0, 410.0]);
+        let room = LuminanceScale::of(&[3.4, 17.0, 88.0, 410.0]);
         assert_eq!(room.ticks, [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
         assert_eq!((room.share(2.0), room.share(500.0)), (0.0, 1.0));
         assert!((room.share(libm::sqrt(1000.0)) - 0.5).abs() < 1e-12);
         let labels: Vec<String> = room.legend().ticks.into_iter().map(|(_, label)| label).collect();
         assert_eq!(labels, ["2", "5", "10", "20", "50", "100", "200", "500"]);
-        let dim = scale(&[0.01, 0.05]);
+        let dim = LuminanceScale::of(&[0.01, 0.05]);
         assert_eq!(dim.ticks, [0.01, 0.02, 0.05]);
     }
 
     #[test]
     fn any_picture_has_a_scale() {
         for luminances in [&[][..], &[0.0], &[7.0], &[1e-30, 1.0], &[1e-30, 1e30], &[0.0, 1e-38]] {
-            let scale = scale(luminances);
+            let scale = LuminanceScale::of(luminances);
             assert!(scale.ticks.len() >= 2 && scale.ticks.len() <= 15, "{luminances:?}");
             assert!(luminances.iter().all(|&l| scale.share(f64::from(l)) < 1.0 + HAIR));
             assert!(!scale.legend().ticks.is_empty());
@@ -123,6 +110,6 @@ mod tests {
     fn a_few_dark_pixels_do_not_stretch_it() {
         let mut luminances = vec![50.0; 200];
         luminances[0] = 1e-3;
-        assert_eq!(scale(&luminances).ticks, [50.0, 100.0]);
+        assert_eq!(LuminanceScale::of(&luminances).ticks, [50.0, 100.0]);
     }
 }

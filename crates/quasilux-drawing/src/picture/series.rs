@@ -1,11 +1,11 @@
 //! Several pictures of one view side by side, under one exposure, so that they can be compared.
 
-use super::INK;
 use super::canvas::Canvas;
+use super::colour_map::INK;
+use super::image::Image;
 use super::text::{self, Align, TextStyle};
 use super::tone_map::Operator;
 use glam::DVec2;
-use quasilux_transport::Pixel;
 
 /// Height of a capital in a label, in pixels.
 const CAPITAL_PX: f64 = 11.0;
@@ -13,22 +13,23 @@ const CAPITAL_PX: f64 = 11.0;
 const LABEL_PX: usize = 26;
 const GAP_PX: usize = 8;
 
-/// One of them.
+/// One image of a series.
 #[derive(Clone, Copy, Debug)]
-pub struct SeriesPicture<'a> {
+pub struct LabelledImage<'a> {
     /// What stands above it.
     pub label: &'a str,
-    /// Row by row from the top left corner.
-    pub pixels: &'a [Pixel],
+    /// The image.
+    pub image: Image<'a>,
 }
 
-/// Pictures of one resolution in a row, each below its label, as a PNG file. All are shown as the operator of
-/// [`tone_mapped_png`](super::tone_mapped_png) shows the picture `exposure`; what is brighter than it is white.
+/// Images of one resolution in a row, each below its label, as a PNG file. All have the exposure that
+/// [`tone_mapped_png`](super::tone_mapped_png) gives an image with the luminances `exposure`; brighter
+/// pixels are white.
 #[must_use]
 pub fn series_png(
     [width, height]: [u32; 2],
-    pictures: &[SeriesPicture<'_>],
-    exposure: &[Pixel],
+    pictures: &[LabelledImage<'_>],
+    exposure: &[f32],
 ) -> Vec<u8> {
     let operator = Operator::of(exposure);
     let [width, height] = [width, height].map(|n| n as usize);
@@ -40,8 +41,9 @@ pub fn series_png(
         let base = DVec2::new(left as f64, LABEL_PX as f64 - 7.5);
         let label = text::fitted(picture.label, CAPITAL_PX, width as f64);
         text::draw(&mut canvas, &label, base, style);
-        for (i, pixel) in picture.pixels.iter().take(width * height).enumerate() {
-            canvas.set(left + i % width, LABEL_PX + i / width, operator.shown(pixel));
+        let colours = operator.all_shown(&picture.image);
+        for (i, colour) in colours.into_iter().take(width * height).enumerate() {
+            canvas.set(left + i % width, LABEL_PX + i / width, colour);
         }
     }
     canvas.to_png()
@@ -51,16 +53,16 @@ pub fn series_png(
 mod tests {
     use super::*;
 
-    fn grey(luminance_cd_m2: f32) -> Pixel {
-        Pixel { rgb_cd_m2: [luminance_cd_m2; 3], luminance_cd_m2, half_width_cd_m2: None }
-    }
-
     /// The same luminance has the same colour in each picture, and more light is lighter.
     #[test]
     fn pictures_share_one_exposure() {
-        let (dark, light) = ([grey(1.0), grey(0.0)], [grey(1.0), grey(9.0)]);
-        let pictures = [("dark", &dark), ("light", &light)]
-            .map(|(label, pixels)| SeriesPicture { label, pixels });
+        let (dark, light) = ([1.0, 0.0], [1.0, 9.0]);
+        let [dark_rgb, light_rgb] = [dark, light].map(|luminances| luminances.map(|l| [l; 3]));
+        let picture = |label, rgb, luminance| LabelledImage {
+            label,
+            image: Image { resolution: [2, 1], rgb, luminance },
+        };
+        let pictures = [picture("dark", &dark_rgb, &dark), picture("light", &light_rgb, &light)];
         let png = series_png([2, 1], &pictures, &light);
         let mut reader = png::Decoder::new(std::io::Cursor::new(&png)).read_info().expect("a PNG");
         let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
@@ -77,8 +79,8 @@ mod tests {
     #[test]
     fn no_pictures_and_no_light_do_not_break() {
         assert!(!series_png([3, 2], &[], &[]).is_empty());
-        let black = [grey(0.0); 6];
-        let picture = SeriesPicture { label: "a label that does not fit", pixels: &black };
-        assert!(!series_png([3, 2], &[picture], &black).is_empty());
+        let image = Image { resolution: [3, 2], rgb: &[[0.0; 3]; 6], luminance: &[0.0; 6] };
+        let picture = LabelledImage { label: "a label that does not fit", image };
+        assert!(!series_png([3, 2], &[picture], image.luminance).is_empty());
     }
 }

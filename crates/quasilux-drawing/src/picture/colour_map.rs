@@ -8,6 +8,13 @@
 /// sRGB, 8 bits a channel.
 pub(crate) type Colour = [u8; 3];
 
+/// Colour of titles.
+pub(crate) const INK: Colour = [24, 24, 24];
+/// Colour of axes and remarks.
+pub(crate) const SOFT_INK: Colour = [96, 96, 96];
+/// Colour of what a reader must not miss.
+pub(crate) const CAUTION_INK: Colour = [168, 52, 0];
+
 /// Viridis at 0, 0.1, ..., 1.
 const VIRIDIS: [Colour; 11] = [
     [0x44, 0x01, 0x54],

@@ -9,36 +9,33 @@
 //! the channels.
 
 use super::canvas::srgb_png;
-use crate::CameraReport;
-use quasilux_transport::Pixel;
+use super::image::Image;
 
 /// Display luminance of the log-average: a picture that is neither light nor dark.
 const KEY: f64 = 0.18;
 
-/// The picture of a camera as it would look on a screen, a PNG file.
+/// An image as it would look on a screen, a PNG file.
 ///
 /// Luminances are relative to the picture's own: two pictures cannot be compared by it.
 #[must_use]
-pub fn tone_mapped_png(camera: &CameraReport) -> Vec<u8> {
-    let operator = Operator::of(&camera.pixels);
-    let colours: Vec<[u8; 3]> = camera.pixels.iter().map(|pixel| operator.shown(pixel)).collect();
-    srgb_png(camera.resolution, colours.as_flattened())
+pub fn tone_mapped_png(image: &Image<'_>) -> Vec<u8> {
+    let operator = Operator::of(image.luminance);
+    srgb_png(image.resolution, operator.all_shown(image).as_flattened())
 }
 
 /// What turns luminances into colours of a screen.
 pub(super) struct Operator {
-    /// From luminance in cd/m^2 to L.
+    /// From luminance to L.
     scale: f64,
     /// One over L_white squared.
     burn: f64,
 }
 
 impl Operator {
-    /// That of a picture.
-    pub(super) fn of(pixels: &[Pixel]) -> Self {
+    /// The operator of an image with these luminances.
+    pub(super) fn of(luminances: &[f32]) -> Self {
         let (mut logarithms, mut lit, mut largest) = (0.0, 0_u64, 0.0_f64);
-        for pixel in pixels {
-            let luminance = f64::from(pixel.luminance_cd_m2);
+        for luminance in luminances.iter().copied().map(f64::from) {
             if luminance > 0.0 {
                 logarithms += libm::log(luminance);
                 lit += 1;
@@ -53,11 +50,17 @@ impl Operator {
         Self { scale, burn: 1.0 / (white * white) }
     }
 
+    /// The sRGB colours of all pixels of an image.
+    pub(super) fn all_shown(&self, image: &Image<'_>) -> Vec<[u8; 3]> {
+        let pixels = image.rgb.iter().zip(image.luminance);
+        pixels.map(|(rgb, luminance)| self.shown(*rgb, *luminance)).collect()
+    }
+
     /// The sRGB colour of a pixel.
-    pub(super) fn shown(&self, pixel: &Pixel) -> [u8; 3] {
-        let l = self.scale * f64::from(pixel.luminance_cd_m2);
+    fn shown(&self, rgb: [f32; 3], luminance: f32) -> [u8; 3] {
+        let l = self.scale * f64::from(luminance);
         let factor = self.scale * (1.0 + l * self.burn) / (1.0 + l);
-        pixel.rgb_cd_m2.map(|channel| {
+        rgb.map(|channel| {
             let shown = (f64::from(channel) * factor).clamp(0.0, 1.0);
             (255.0 * encoded(shown)).round() as u8
         })
@@ -77,28 +80,27 @@ fn encoded(linear: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn grey(luminance_cd_m2: f32) -> Pixel {
-        Pixel { rgb_cd_m2: [luminance_cd_m2; 3], luminance_cd_m2, half_width_cd_m2: None }
+    fn shown(operator: &Operator, luminance: f32) -> [u8; 3] {
+        operator.shown([luminance; 3], luminance)
     }
 
     /// In a picture of two luminances L and 4 L the log-average is 2 L.
     #[test]
     fn the_operator_is_the_published_one() {
         for unit in [1e-3_f32, 1.0, 1e4] {
-            let pixels = [grey(unit), grey(4.0 * unit)];
-            let operator = Operator::of(&pixels);
-            assert_eq!(operator.shown(&pixels[1]), [255; 3]);
+            let operator = Operator::of(&[unit, 4.0 * unit]);
+            assert_eq!(shown(&operator, 4.0 * unit), [255; 3]);
             let (l, white) = (0.09_f64, 0.36_f64);
             let wanted = 255.0 * encoded(l * (1.0 + l / (white * white)) / (1.0 + l));
-            assert_eq!(operator.shown(&pixels[0]), [wanted.round() as u8; 3]);
+            assert_eq!(shown(&operator, unit), [wanted.round() as u8; 3]);
         }
     }
 
     #[test]
     fn dark_and_saturated_pixels_do_not_break() {
-        assert_eq!(Operator::of(&[grey(0.0)]).shown(&grey(0.0)), [0; 3]);
-        let blue = Pixel { rgb_cd_m2: [0.0, 0.0, 1.0 / 0.0722], ..grey(1.0) };
-        assert_eq!(Operator::of(&[blue, grey(0.0)]).shown(&blue), [0, 0, 255]);
+        assert_eq!(shown(&Operator::of(&[0.0]), 0.0), [0; 3]);
+        let blue = Operator::of(&[1.0, 0.0]).shown([0.0, 0.0, 1.0 / 0.0722], 1.0);
+        assert_eq!(blue, [0, 0, 255]);
     }
 
     /// Values of the curve's own definition: its two pieces meet, and half of white is 188 of 255.

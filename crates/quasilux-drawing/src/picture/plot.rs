@@ -1,14 +1,13 @@
 //! The grid itself: cells, contour lines with their labels, and numbers in the cells.
 
-use super::SOFT_INK;
 use super::canvas::Canvas;
-use super::colour_map::{Colour, ink_on, mix};
+use super::cells::GridPicture;
+use super::colour_map::{Colour, SOFT_INK, ink_on, mix};
 use super::contour::{Field, Line};
 use super::label::{self, LabelPlace};
 use super::layout::Layout;
-use super::scale::LuxScale;
+use super::scale::ValueScale;
 use super::text::{self, Align, TextStyle};
-use crate::SensorReport;
 use crate::number::{decimal_exponent, to_place};
 use glam::DVec2;
 
@@ -23,14 +22,18 @@ const LINE_PX: f64 = 1.7;
 /// Colour of cells without a value.
 const NO_VALUE: Colour = [200, 200, 200];
 
-/// Draws the grid of a sensor.
-pub(crate) fn draw(canvas: &mut Canvas, layout: &Layout, sensor: &SensorReport, scale: &LuxScale) {
-    let Some(grid) = sensor.grid else { return };
+/// Draws a grid.
+pub(crate) fn draw(
+    canvas: &mut Canvas,
+    layout: &Layout,
+    grid: &GridPicture<'_>,
+    scale: &ValueScale,
+) {
     let plot = Plot {
         counts: grid.counts.map(|n| n as usize),
         corner: DVec2::new(layout.plot_corner[0] as f64, layout.plot_corner[1] as f64),
         size: DVec2::new(layout.plot_size[0] as f64, layout.plot_size[1] as f64),
-        lx: sensor.points.iter().map(|p| p.illuminance_lx.value).collect(),
+        values: grid.cells.iter().map(|cell| cell.value).collect(),
         scale,
     };
     plot.draw_cells(canvas, layout);
@@ -43,8 +46,8 @@ struct Plot<'a> {
     counts: [usize; 2],
     corner: DVec2,
     size: DVec2,
-    lx: Vec<Option<f64>>,
-    scale: &'a LuxScale,
+    values: Vec<Option<f64>>,
+    scale: &'a ValueScale,
 }
 
 impl Plot<'_> {
@@ -59,8 +62,8 @@ impl Plot<'_> {
         self.size / DVec2::new(self.counts[0] as f64, self.counts[1] as f64)
     }
 
-    fn colour_of(&self, lx: Option<f64>) -> Colour {
-        lx.map_or(NO_VALUE, |lx| self.scale.colour(lx))
+    fn colour_of(&self, value: Option<f64>) -> Colour {
+        value.map_or(NO_VALUE, |value| self.scale.colour(value))
     }
 
     fn draw_cells(&self, canvas: &mut Canvas, layout: &Layout) {
@@ -70,13 +73,13 @@ impl Plot<'_> {
             let j = rows - 1 - y * rows / h;
             for x in 0..w {
                 let i = x * columns / w;
-                canvas.set(x0 + x, y0 + y, self.colour_of(self.lx[j * columns + i]));
+                canvas.set(x0 + x, y0 + y, self.colour_of(self.values[j * columns + i]));
             }
         }
     }
 
     fn draw_contours(&self, canvas: &mut Canvas) -> Vec<LabelPlace> {
-        let values: Vec<f64> = self.lx.iter().map(|lx| lx.unwrap_or(f64::NAN)).collect();
+        let values: Vec<f64> = self.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
         let pieces = (self.cell_px().max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
         let mut labels: Vec<LabelPlace> = Vec::new();
@@ -109,12 +112,12 @@ impl Plot<'_> {
     }
 
     fn draw_numbers(&self, canvas: &mut Canvas, labels: &[LabelPlace]) {
-        let largest = self.lx.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
+        let largest = self.values.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
         let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
         let numbers: Vec<String> = self
-            .lx
+            .values
             .iter()
-            .map(|lx| lx.map_or_else(|| "-".into(), |lx| to_place(lx, place)))
+            .map(|value| value.map_or_else(|| "-".into(), |value| to_place(value, place)))
             .collect();
         let room = self.cell_px() - 2.0 * NUMBER_MARGIN_PX;
         let fits =
@@ -132,7 +135,7 @@ impl Plot<'_> {
             if hidden {
                 continue;
             }
-            let colour = self.colour_of(self.lx[cell]);
+            let colour = self.colour_of(self.values[cell]);
             // A little fainter than the contour lines, which are read first.
             let ink = mix(colour, ink_on(colour), 0.85);
             let style = TextStyle::new(px, ink, Align::Centre);

@@ -1,18 +1,27 @@
 //! What stands around every false-colour picture: its title, the scale, and how it was made.
 
 use super::canvas::Canvas;
-use super::colour_map::{self, Colour};
+use super::colour_map::{self, CAUTION_INK, Colour, INK, SOFT_INK};
 use super::layout::{self, Layout};
 use super::text::{self, Align, TextStyle};
-use super::{CAUTION_INK, INK, SOFT_INK};
-use crate::Report;
-use crate::number::{brief, count};
 use glam::DVec2;
-use std::ops::RangeInclusive;
+
+/// The words around a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Caption<'a> {
+    /// The heading.
+    pub title: &'a str,
+    /// Facts below it; lines are broken between them.
+    pub facts: &'a [String],
+    /// How the values were made, at the bottom.
+    pub method: &'a str,
+    /// What restricts their use, below that; empty for nothing.
+    pub caution: &'a str,
+}
 
 /// The labels of a colour scale; places on it are shares of its length.
-pub(crate) struct Legend {
-    pub(crate) unit: &'static str,
+pub(crate) struct Legend<'a> {
+    pub(crate) unit: &'a str,
     /// Lines across the scale.
     pub(crate) marks: Vec<f64>,
     /// Ticks below it with their numbers, ascending.
@@ -33,7 +42,7 @@ pub(crate) fn draw_title(canvas: &mut Canvas, layout: &Layout, name: &str) {
 }
 
 /// Draws the colour scale.
-pub(crate) fn draw_legend(canvas: &mut Canvas, layout: &Layout, legend: &Legend) {
+pub(crate) fn draw_legend(canvas: &mut Canvas, layout: &Layout, legend: &Legend<'_>) {
     let ([x, y], [w, h]) = (layout.legend_corner, layout.legend_size);
     for column in 0..w {
         let colour = colour_map::colour((column as f64 + 0.5) / w as f64);
@@ -63,52 +72,12 @@ pub(crate) fn draw_legend(canvas: &mut Canvas, layout: &Layout, legend: &Legend)
     text::draw(canvas, legend.unit, DVec2::new((x + w) as f64 + 10.0, base), unit);
 }
 
-/// How the numbers were made, from so many indices a replicate: they never go without.
-pub(crate) fn draw_footer(
-    canvas: &mut Canvas,
-    layout: &Layout,
-    report: &Report,
-    samples: RangeInclusive<u64>,
-) {
-    let run = &report.run;
-    let made = format!(
-        "quasilux {}: {}, {}, {}, {} x {} samples, {} % intervals",
-        run.version,
-        run.settings.estimator.name(),
-        run.settings.sequence.name(),
-        run.settings.randomization.name(),
-        run.replicates,
-        span(&samples),
-        brief(100.0 * run.confidence, 4),
-    );
-    let caution = if report.biased {
-        "values may be biased beyond their intervals"
-    } else if run.settings.rel_tol > 0.0 && !run.tolerance_reached {
-        "stopped before the wanted tolerance was reached"
-    } else {
-        ""
-    };
-    let lines: [(&str, Colour); 2] = [(&made, SOFT_INK), (caution, CAUTION_INK)];
+/// Draws how the numbers were made, and what restricts them.
+pub(crate) fn draw_footer(canvas: &mut Canvas, layout: &Layout, caption: &Caption<'_>) {
+    let lines: [(&str, Colour); 2] = [(caption.method, SOFT_INK), (caption.caution, CAUTION_INK)];
     for (k, (line, colour)) in lines.into_iter().enumerate() {
         let line = text::fitted(line, layout::SMALL_PX, layout.content_width());
         let style = TextStyle::new(layout::SMALL_PX, colour, Align::Left);
         text::draw(canvas, &line, DVec2::new(layout.content_left(), layout.footer_base(k)), style);
-    }
-}
-
-/// From the fewest to the most, or the one number that both are.
-fn span(samples: &RangeInclusive<u64>) -> String {
-    let [fewest, most] = [samples.start(), samples.end()].map(|n| count(*n));
-    if fewest == most { most } else { format!("{fewest} to {most}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn samples_are_told_from_the_fewest_to_the_most() {
-        assert_eq!(span(&(512..=512)), "512");
-        assert_eq!(span(&(128..=2048)), "128 to 2 048");
     }
 }

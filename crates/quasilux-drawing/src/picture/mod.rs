@@ -1,0 +1,34 @@
+//! Raster pictures: false colours with a scale for grids and images, tone-mapped images, alone or side
+//! by side.
+//!
+//! The false-colour picture of a grid has flat cells in true proportion, contour lines at round
+//! values, the number of each cell where it fits, axes in metres and a legend. Cells show one computed
+//! value each; only the contour lines interpolate (bilinear between cell centres, linear beyond them
+//! up to the border).
+
+mod axis;
+mod canvas;
+mod cells;
+mod colour_map;
+mod contour;
+mod frame;
+mod glyphs;
+mod grid;
+mod image;
+mod label;
+mod layout;
+mod luminance;
+mod luminance_scale;
+mod plot;
+mod scale;
+mod series;
+mod text;
+mod tone_map;
+
+pub use cells::{Cell, GridPicture};
+pub use frame::Caption;
+pub use grid::grid_png;
+pub use image::Image;
+pub use luminance::{LuminancePicture, luminance_png};
+pub use series::{LabelledImage, series_png};
+pub use tone_map::tone_mapped_png;

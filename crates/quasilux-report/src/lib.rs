@@ -1,0 +1,24 @@
+//! The results of a run with their intervals, as a document, tables, spreadsheets and pictures.
+//!
+//! A [`Report`] is built once from the scene, the settings and the estimates; all forms of output only
+//! read it. Nothing here can fail, and nothing reads the clock or writes a file.
+//!
+//! Read on at [`report`] for the figures, [`json`] for the document that other programs rely on, [`csv`]
+//! and [`table`] for spreadsheets and terminals, and [`picture`] for grids and cameras as PNG and
+//! OpenEXR. [`number`] decides how many digits a figure deserves.
+
+#[cfg(test)]
+pub(crate) mod example;
+
+pub mod camera;
+pub mod csv;
+pub mod json;
+pub mod number;
+pub mod picture;
+pub mod report;
+pub mod table;
+
+pub use camera::{CameraFiles, CameraReport};
+pub use picture::{camera_false_colour_png, exr, false_colour_png, tone_mapped_png};
+pub use report::{Figure, PointReport, Report, Run, RunFacts, SensorReport, Summary, TermReport};
+pub use table::Style;

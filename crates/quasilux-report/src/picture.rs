@@ -1,0 +1,222 @@
+//! The results as pictures: what [`quasilux_drawing`] is told of a grid and of a camera.
+
+use crate::number::{brief, count, figure_text};
+use crate::{CameraReport, Figure, Report, SensorReport};
+use quasilux_drawing::exr::{Channel, Layer, exr_bytes};
+use quasilux_drawing::picture::{
+    self, Caption, Cell, GridPicture, Image, LabelledImage, LuminancePicture,
+};
+use quasilux_transport::Pixel;
+use std::ops::RangeInclusive;
+
+/// The picture of a grid in false colours as a PNG file; `None` for a sensor that is not a grid.
+///
+/// The first edge of the rectangle runs to the right, the second one upward.
+#[must_use]
+pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8>> {
+    let grid = sensor.grid?;
+    let cell = |figure: Figure| Cell { value: figure.value, half_width: figure.half_width };
+    let cells: Vec<Cell> = sensor.points.iter().map(|p| cell(p.illuminance_lx)).collect();
+    Some(picture::grid_png(&GridPicture {
+        caption: Caption {
+            title: &sensor.name,
+            facts: &sensor_facts(sensor),
+            method: &method(report, &samples(sensor)),
+            caution: caution(report),
+        },
+        unit: "lx",
+        origin_m: grid.origin.to_array(),
+        u_m: grid.u.to_array(),
+        v_m: grid.v.to_array(),
+        counts: grid.counts,
+        cells: &cells,
+    }))
+}
+
+/// The luminances of a camera in false colours as a PNG file.
+#[must_use]
+pub fn camera_false_colour_png(camera: &CameraReport, report: &Report) -> Vec<u8> {
+    picture::luminance_png(&LuminancePicture {
+        caption: Caption {
+            title: &camera.name,
+            facts: &camera_facts(camera),
+            method: &method(report, &(camera.samples..=camera.samples)),
+            caution: caution(report),
+        },
+        resolution: camera.resolution,
+        luminances_cd_m2: &luminances_cd_m2(&camera.pixels),
+    })
+}
+
+/// The picture of a camera as it would look on a screen, a PNG file. Luminances are relative to the
+/// picture's own: two pictures cannot be compared by it.
+#[must_use]
+pub fn tone_mapped_png(camera: &CameraReport) -> Vec<u8> {
+    picture::tone_mapped_png(&Image {
+        resolution: camera.resolution,
+        rgb: &rgb_cd_m2(&camera.pixels),
+        luminance: &luminances_cd_m2(&camera.pixels),
+    })
+}
+
+/// The picture of a camera as an OpenEXR file with the layers `rgb` (R, G, B; the first, so that
+/// viewers show it), `luminance` (Y, which is 0.2126 R + 0.7152 G + 0.0722 B) and `half_width` (Y: half
+/// the width of the interval of the luminance, not a number where it is unknown), all in cd/m2.
+#[must_use]
+pub fn exr(camera: &CameraReport) -> Vec<u8> {
+    let channel = |name: &'static str, value: fn(&Pixel) -> f32| Channel {
+        name,
+        values: camera.pixels.iter().map(value).collect(),
+    };
+    let layer = |name: &'static str, channels| Layer { name, unit: "cd/m2", channels };
+    let rgb = vec![
+        channel("R", |pixel| pixel.rgb_cd_m2[0]),
+        channel("G", |pixel| pixel.rgb_cd_m2[1]),
+        channel("B", |pixel| pixel.rgb_cd_m2[2]),
+    ];
+    let half_width = channel("Y", |pixel| pixel.half_width_cd_m2.unwrap_or(f32::NAN));
+    let layers = vec![
+        layer("rgb", rgb),
+        layer("luminance", vec![channel("Y", |pixel| pixel.luminance_cd_m2)]),
+        layer("half_width", vec![half_width]),
+    ];
+    exr_bytes(camera.resolution, layers)
+}
+
+/// One picture of [`series_png`].
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesPicture<'a> {
+    /// Its heading.
+    pub label: &'a str,
+    /// Row by row from the top left corner.
+    pub pixels: &'a [Pixel],
+}
+
+/// Pictures of one resolution in a row, each below its label, as a PNG file. All have the exposure of
+/// the tone-mapped picture `exposure`; brighter pixels are white.
+#[must_use]
+pub fn series_png(
+    resolution: [u32; 2],
+    pictures: &[SeriesPicture<'_>],
+    exposure: &[Pixel],
+) -> Vec<u8> {
+    let rgb: Vec<_> = pictures.iter().map(|picture| rgb_cd_m2(picture.pixels)).collect();
+    let luminances: Vec<_> =
+        pictures.iter().map(|picture| luminances_cd_m2(picture.pixels)).collect();
+    let planes = rgb.iter().zip(&luminances);
+    let labelled = pictures.iter().zip(planes).map(|(picture, (rgb, luminance))| LabelledImage {
+        label: picture.label,
+        image: Image { resolution, rgb, luminance },
+    });
+    let labelled: Vec<LabelledImage<'_>> = labelled.collect();
+    picture::series_png(resolution, &labelled, &luminances_cd_m2(exposure))
+}
+
+fn rgb_cd_m2(pixels: &[Pixel]) -> Vec<[f32; 3]> {
+    pixels.iter().map(|pixel| pixel.rgb_cd_m2).collect()
+}
+
+fn luminances_cd_m2(pixels: &[Pixel]) -> Vec<f32> {
+    pixels.iter().map(|pixel| pixel.luminance_cd_m2).collect()
+}
+
+/// The fewest and the most samples of a replicate at a point: converged points get no more.
+fn samples(sensor: &SensorReport) -> RangeInclusive<u64> {
+    let samples = || sensor.points.iter().map(|point| point.samples);
+    samples().min().unwrap_or(0)..=samples().max().unwrap_or(0)
+}
+
+/// The summary of a sensor, each figure as one piece of text.
+fn sensor_facts(sensor: &SensorReport) -> Vec<String> {
+    let piece = |name: &str, figure: Figure, unit: &str| {
+        format!("{name} {}{unit}", figure_text(figure).joined())
+    };
+    let summary = &sensor.summary;
+    vec![
+        piece("average", summary.average_lx, " lx"),
+        piece("minimum", summary.minimum_lx, " lx"),
+        piece("maximum", summary.maximum_lx, " lx"),
+        piece("uniformity", summary.uniformity, ""),
+    ]
+}
+
+/// The figures of a camera, each as one piece of text.
+fn camera_facts(camera: &CameraReport) -> Vec<String> {
+    let mut pieces = vec![format!("mean {} cd/m²", figure_text(camera.mean_cd_m2).joined())];
+    if let Some(maximum) = camera.maximum_cd_m2 {
+        pieces.push(format!("maximum {} cd/m²", brief(maximum, 4)));
+    }
+    if let Some(half_width) = camera.mean_half_width_cd_m2 {
+        pieces.push(format!("one pixel ± {} cd/m² on average", brief(half_width, 2)));
+    }
+    pieces
+}
+
+/// How the values of a picture were made.
+fn method(report: &Report, samples: &RangeInclusive<u64>) -> String {
+    let run = &report.run;
+    format!(
+        "quasilux {}: {}, {}, {}, {} x {} samples, {} % intervals",
+        run.version,
+        run.settings.estimator.name(),
+        run.settings.sequence.name(),
+        run.settings.randomization.name(),
+        run.replicates,
+        span(samples),
+        brief(100.0 * run.confidence, 4),
+    )
+}
+
+fn caution(report: &Report) -> &'static str {
+    if report.biased {
+        "values may be biased beyond their intervals"
+    } else if report.run.settings.rel_tol > 0.0 && !report.run.tolerance_reached {
+        "stopped before the wanted tolerance was reached"
+    } else {
+        ""
+    }
+}
+
+/// Both ends of the range, or the one number that both are.
+fn span(samples: &RangeInclusive<u64>) -> String {
+    let [fewest, most] = [samples.start(), samples.end()].map(|n| count(*n));
+    if fewest == most { most } else { format!("{fewest} to {most}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::{office, picture};
+
+    #[test]
+    fn grids_have_pictures_and_points_have_none() {
+        let report = office();
+        assert!(false_colour_png(&report.sensors[0], &report).is_some());
+        assert!(false_colour_png(&report.sensors[1], &report).is_none());
+    }
+
+    #[test]
+    fn captions_say_how_the_values_were_made() {
+        let mut report = office();
+        let made = method(&report, &samples(&report.sensors[0]));
+        assert!(made.ends_with("16 x 65 536 samples, 95 % intervals"), "{made}");
+        assert_eq!(span(&(128..=2048)), "128 to 2 048");
+        assert_eq!(caution(&report), "");
+        report.run.tolerance_reached = false;
+        assert!(caution(&report).contains("tolerance"));
+        report.biased = true;
+        assert!(caution(&report).contains("biased"));
+    }
+
+    #[test]
+    fn cameras_have_three_pictures() {
+        let report = picture([4, 2], |x, _| if x == 0 { 20.0 } else { 4.0 });
+        let camera = &report.cameras[0];
+        let facts =
+            ["mean 8.000 ± 0 cd/m²", "maximum 20 cd/m²", "one pixel ± 0.5 cd/m² on average"];
+        assert_eq!(camera_facts(camera), facts);
+        let png = [tone_mapped_png(camera), camera_false_colour_png(camera, &report)];
+        assert!(png.iter().all(|file| file.starts_with(b"\x89PNG")));
+        assert_eq!(exr(camera)[..4], 20_000_630_u32.to_le_bytes());
+    }
+}
