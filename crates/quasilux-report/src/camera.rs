@@ -1,6 +1,6 @@
 //! The results of one camera, and what its files are called.
 
-use crate::Figure;
+use crate::figure::Figure;
 use quasilux_scene::{Camera, Scene};
 use quasilux_transport::{Estimates, Pixel};
 use std::sync::Arc;

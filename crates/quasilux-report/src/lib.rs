@@ -12,6 +12,7 @@ pub(crate) mod example;
 
 pub mod camera;
 pub mod csv;
+mod figure;
 pub mod json;
 pub mod number;
 pub mod picture;
@@ -19,6 +20,7 @@ pub mod report;
 pub mod table;
 
 pub use camera::{CameraFiles, CameraReport};
+pub use figure::Figure;
 pub use picture::{camera_false_colour_png, exr, false_colour_png, tone_mapped_png};
-pub use report::{Figure, PointReport, Report, Run, RunFacts, SensorReport, Summary, TermReport};
+pub use report::{PointReport, Report, Run, RunFacts, SensorReport, Summary, TermReport};
 pub use table::Style;

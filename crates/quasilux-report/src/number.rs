@@ -5,7 +5,7 @@
 //! leading ones lie below 355, one digit up to 949, and what is above is rounded to 1000, keeping
 //! two. The value is rounded to the same place.
 
-use crate::Figure;
+use crate::figure::Figure;
 pub use quasilux_drawing::number::brief;
 use quasilux_drawing::number::{decimal_exponent, to_place};
 

@@ -5,11 +5,12 @@
 //! warning says so.
 
 use crate::CameraReport;
+use crate::figure::{Figure, finite};
 use glam::DVec3;
 use quasilux_scene::{Grid, Scene, SensorShape};
 use quasilux_transport::{
-    Convergence, Decisions, Dimensions, Estimates, Explanation, FluxBalance, Interval,
-    SensorEstimates, Settings,
+    Convergence, Decisions, Dimensions, Estimates, Explanation, FluxBalance, SensorEstimates,
+    Settings,
 };
 
 /// What the program that ran the simulation knows and the simulation does not.
@@ -89,15 +90,6 @@ pub struct PointReport {
     pub direct_lx: Option<f64>,
     /// Indices used by each replicate for this point.
     pub samples: u64,
-}
-
-/// A finite value and half the width of its confidence interval, as far as they are known.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Figure {
-    /// The estimate; `None` where it is undefined.
-    pub value: Option<f64>,
-    /// Half the width of the interval; `None` without replicates.
-    pub half_width: Option<f64>,
 }
 
 /// Figures of all points of a sensor, their intervals from the replicates.
@@ -293,18 +285,6 @@ impl TermReport {
         };
         (0..terms).map(term).collect()
     }
-}
-
-impl From<Interval> for Figure {
-    /// Keeps what is finite.
-    fn from(interval: Interval) -> Self {
-        let value = finite(interval.value);
-        Self { value, half_width: value.and(interval.half_width).and_then(finite) }
-    }
-}
-
-fn finite(x: f64) -> Option<f64> {
-    x.is_finite().then_some(x)
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! A luminaire's intensities over gamma: the polar diagram of data sheets, and a Cartesian one.
 
+use super::curve::IntensityCurve;
 use super::drawing::{Drawing, Frame};
 use super::polar::{Extent, Polar, Zero};
-use super::style::{Anchor, GREY, Stroke, TextStyle};
+use super::style::{Anchor, GREY, TextStyle};
 use super::{Axis, Line, Panel, Scale};
 
 /// Intensities to be drawn.
@@ -21,18 +22,6 @@ pub struct Intensities<'a> {
     pub sides: [&'a str; 2],
     /// Which diagrams.
     pub diagram: Diagram,
-}
-
-/// The intensities of one plane.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IntensityCurve {
-    /// Its name in the legend.
-    pub name: String,
-    /// Points (gamma in degrees from -180 to 180, ascending; candela), joined by straight lines in
-    /// gamma. Two points at one gamma are a jump.
-    pub points: Vec<[f64; 2]>,
-    /// How it is drawn.
-    pub stroke: Stroke,
 }
 
 /// Which diagrams are drawn.

@@ -1,7 +1,8 @@
 //! Where a surface sends light: polar diagrams of scattering lobes in the plane of incidence, the side of the light up.
 
+use super::curve::IntensityCurve;
 use super::drawing::Drawing;
-use super::intensities::{HEAD_PX, IntensityCurve, LEGEND_PX, MARGIN_PX, draw_head, draw_legend};
+use super::intensities::{HEAD_PX, LEGEND_PX, MARGIN_PX, draw_head, draw_legend};
 use super::polar::{Polar, Zero};
 use super::style::{Anchor, Dash, GREY, Stroke, TextStyle};
 

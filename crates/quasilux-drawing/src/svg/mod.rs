@@ -5,6 +5,7 @@
 //! read aloud. Colours are [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
 
 mod axis;
+mod curve;
 mod drawing;
 mod figure;
 mod intensities;
@@ -15,9 +16,10 @@ mod scatter;
 mod style;
 
 pub use axis::{Axis, Scale, Tick};
+pub use curve::IntensityCurve;
 pub use drawing::{Drawing, Frame};
 pub use figure::{Figure, LegendEntry, figure};
-pub use intensities::{Diagram, Intensities, IntensityCurve, intensities};
+pub use intensities::{Diagram, Intensities, intensities};
 pub use lobes::{Lobe, LobeDiagram, lobes};
 pub use panel::{Line, Panel};
 pub use scatter::{Scatter, scatter, scatters};

@@ -1,8 +1,8 @@
 //! The polar diagram of luminous intensities, as European data sheets have it (EN 13032-2): gamma = 0
 //! points down, distance from the centre is the intensity.
 
+use super::curve::IntensityCurve;
 use super::drawing::{Drawing, Frame};
-use super::intensities::IntensityCurve;
 use super::style::{Anchor, GREY, INK, Stroke, TEXT_PX, TextStyle};
 use crate::ticks::Ticks;
 use std::f64::consts::PI;
