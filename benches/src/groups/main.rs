@@ -8,7 +8,7 @@
 use glam::DVec3;
 use quasilux_benches::meshes::{self, Scene};
 use quasilux_benches::{median, processor_time};
-use quasilux_bvh::{Hit, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, RayQuery, TriangleBvh};
 use quasilux_sampling::{CoherentGroups, PointSet, Randomization, Sequence};
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -65,8 +65,8 @@ fn measure(scene: &Scene) {
             let groups =
                 CoherentGroups::with_size(&points, count, &[0, 1], MEMBERS).expect("groups");
             let photon = |index| photon(scene.source, &points, index);
-            let natural: Vec<Shot> = (0..count).map(photon).collect();
-            let grouped: Vec<Shot> = groups.indices().map(photon).collect();
+            let natural: Vec<RayQuery> = (0..count).map(photon).collect();
+            let grouped: Vec<RayQuery> = groups.indices().map(photon).collect();
             let mut seconds = [const { Vec::new() }; 3];
             let mut hits = vec![None; ROUND];
             for round in 0..TURNS * natural.len() / ROUND {
@@ -98,15 +98,15 @@ fn measure(scene: &Scene) {
 
 /// A photon from a source that is equally bright in all directions.
 #[expect(clippy::disallowed_methods, reason = "the bits of a benchmark's rays do not matter")]
-fn photon(source: DVec3, points: &PointSet, index: u64) -> Shot {
+fn photon(source: DVec3, points: &PointSet, index: u64) -> RayQuery {
     let z = 1.0 - 2.0 * points.coordinate(index, 0);
     let (y, x) = (TAU * points.coordinate(index, 1)).sin_cos();
     let s = (1.0 - z * z).sqrt();
     let ray = Ray::new(source, DVec3::new(s * x, s * y, z).normalize());
-    Shot { ray, excluded: [Shot::NONE; 2] }
+    RayQuery { ray, excluded: [RayQuery::NONE; 2] }
 }
 
-fn one_by_one(bvh: &TriangleBvh, shots: &[Shot], hits: &mut [Option<Hit>]) {
+fn one_by_one(bvh: &TriangleBvh, shots: &[RayQuery], hits: &mut [Option<Hit>]) {
     for (shot, hit) in shots.iter().zip(&mut *hits) {
         *hit = bvh.closest_hit(&shot.ray, &shot.excluded);
     }

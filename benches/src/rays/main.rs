@@ -9,10 +9,10 @@
 mod builds;
 mod photons;
 
-use photons::{Shot, photon_rays};
+use photons::{RayQuery, photon_rays};
 use quasilux_benches::meshes::{self, Scene};
 use quasilux_benches::{median, processor_time};
-use quasilux_bvh::{Shot as BvhShot, TriangleBvh};
+use quasilux_bvh::{RayQuery as BvhShot, TriangleBvh};
 use quasilux_foreign::{Embree, Mesh, Quality, RayHit};
 use std::hint::black_box;
 use std::time::Instant;
@@ -70,7 +70,7 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
     let narrow = scene.narrow();
     let shots: Vec<RayHit> = rays
         .iter()
-        .map(|Shot { ray, .. }| {
+        .map(|RayQuery { ray, .. }| {
             RayHit::new(ray.origin.as_vec3().to_array(), ray.direction.as_vec3().to_array())
         })
         .collect();
@@ -112,8 +112,8 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
     }
 }
 
-fn shoot(bvh: &TriangleBvh, shots: &[Shot]) {
-    for Shot { ray, from } in shots {
+fn shoot(bvh: &TriangleBvh, shots: &[RayQuery]) {
+    for RayQuery { ray, from } in shots {
         black_box(bvh.closest_hit(ray, &[*from]));
     }
 }

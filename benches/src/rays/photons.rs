@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 const BOUNCES: usize = 5;
 
 /// A ray, and the triangle that it leaves, `u32::MAX` where it leaves none.
-pub(crate) struct Shot {
+pub(crate) struct RayQuery {
     pub(crate) ray: Ray,
     pub(crate) from: u32,
 }
@@ -17,7 +17,7 @@ pub(crate) struct Shot {
 /// The first `count` rays of photons that leave the scene's inner point in all directions and
 /// bounce diffusely, one photon after the other.
 #[expect(clippy::disallowed_methods, reason = "the bits of a benchmark's rays do not matter")]
-pub(crate) fn photon_rays(scene: &Scene, bvh: &TriangleBvh, count: usize) -> Vec<Shot> {
+pub(crate) fn photon_rays(scene: &Scene, bvh: &TriangleBvh, count: usize) -> Vec<RayQuery> {
     let numbers = &mut Numbers(5);
     let mut rays = Vec::with_capacity(count);
     while rays.len() < count {
@@ -27,7 +27,7 @@ pub(crate) fn photon_rays(scene: &Scene, bvh: &TriangleBvh, count: usize) -> Vec
         let mut from = u32::MAX;
         let mut ray = Ray::new(scene.source, DVec3::new(s * x, s * y, z).normalize());
         for bounce in 0..=BOUNCES {
-            rays.push(Shot { ray, from });
+            rays.push(RayQuery { ray, from });
             if rays.len() == count || bounce == BOUNCES {
                 break;
             }

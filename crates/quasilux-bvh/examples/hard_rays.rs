@@ -10,7 +10,7 @@ mod meshes;
 mod rays;
 
 use meshes::{NamedMesh, Numbers, Triangles, hard_meshes};
-use quasilux_bvh::{Hit, Shot, SimdLevel, TriangleBvh};
+use quasilux_bvh::{Hit, RayQuery, SimdLevel, TriangleBvh};
 use rayon::prelude::*;
 use rays::{BATCHES, HardQuery, bits, hard_query, hard_shots};
 
@@ -94,7 +94,7 @@ impl Case {
                     (hits, occluded)
                 })
                 .collect();
-            for (i, Shot { ray, excluded }) in shots.iter().enumerate() {
+            for (i, RayQuery { ray, excluded }) in shots.iter().enumerate() {
                 let slow = self.bvhs[0].closest_hit_by_brute_force(ray, excluded);
                 let same = answers.iter().all(|(hits, occluded)| {
                     bits(hits[i]) == bits(slow) && occluded[i] == slow.is_some()

@@ -3,7 +3,7 @@
 //! The share of the upper hemisphere that points of a street see between two walls, by one batch of
 //! occlusion rays a point. Compares with the exact view in the street's cross-section.
 
-use quasilux_bvh::{DVec3, Ray, Shot, TriangleBvh};
+use quasilux_bvh::{DVec3, Ray, RayQuery, TriangleBvh};
 
 const HEIGHT_M: f64 = 10.0;
 const HALF_WIDTH_M: f64 = 5.0;
@@ -32,8 +32,11 @@ fn main() {
     println!("{:>6}  {:>8}  {:>8}", "x in m", "traced", "exact");
     for x in [0.0, 1.0, 2.0, 3.0, 4.0] {
         let origin = DVec3::new(x, 0.0, 0.0);
-        let shot = |direction| Shot { ray: Ray::new(origin, direction), excluded: [Shot::NONE; 2] };
-        let shots: Vec<Shot> = directions().map(shot).collect();
+        let shot = |direction| RayQuery {
+            ray: Ray::new(origin, direction),
+            excluded: [RayQuery::NONE; 2],
+        };
+        let shots: Vec<RayQuery> = directions().map(shot).collect();
         let mut occluded = vec![false; shots.len()];
         bvh.occluded_batch(&shots, &mut occluded);
         let seen = occluded.iter().filter(|occluded| !**occluded).count();

@@ -5,7 +5,7 @@ use crate::group::{Answers, Diverged, GroupSize, GroupTracer, RayGroup, RayRun};
 use crate::intersect::intersect_with;
 use crate::lanes::Quad;
 use crate::stream::{ActiveRay, RaySource};
-use crate::{Hit, PreparedRay, Shot, TriangleBvh};
+use crate::{Hit, PreparedRay, RayQuery, TriangleBvh};
 
 impl TriangleBvh {
     /// [`Self::closest_hit`] of each of `shots`, in their order.
@@ -15,7 +15,7 @@ impl TriangleBvh {
     ///
     /// # Panics
     /// If there are not as many `hits` as `shots`, or more than 2^32 of them.
-    pub fn closest_hit_batch(&self, shots: &[Shot], hits: &mut [Option<Hit>]) {
+    pub fn closest_hit_batch(&self, shots: &[RayQuery], hits: &mut [Option<Hit>]) {
         self.answer(shots, hits);
     }
 
@@ -23,12 +23,12 @@ impl TriangleBvh {
     ///
     /// # Panics
     /// If there are not as many answers as `shots`, or more than 2^32 of them.
-    pub fn occluded_batch(&self, shots: &[Shot], occluded: &mut [bool]) {
+    pub fn occluded_batch(&self, shots: &[RayQuery], occluded: &mut [bool]) {
         self.answer(shots, occluded);
     }
 
     /// Answers runs of shots that belong together as groups, and all others alone.
-    fn answer<A: Answer>(&self, mut shots: &[Shot], mut answers: &mut [A]) {
+    fn answer<A: Answer>(&self, mut shots: &[RayQuery], mut answers: &mut [A]) {
         assert_eq!(shots.len(), answers.len(), "as many answers as questions");
         let mut tracer = GroupTracer::new();
         let mut group_size = GroupSize::new();
@@ -60,7 +60,7 @@ impl TriangleBvh {
 /// Rays that fly alone, and where their answers go.
 struct SingleRays<'a, A> {
     bvh: &'a TriangleBvh,
-    shots: &'a [Shot],
+    shots: &'a [RayQuery],
     answers: &'a mut [A],
     next: u32,
 }
@@ -71,7 +71,7 @@ trait Answer: Copy {
     const MISS: Self;
 
     /// The answer of a ray by itself.
-    fn trace_one(bvh: &TriangleBvh, shot: &Shot) -> Self;
+    fn trace_one(bvh: &TriangleBvh, shot: &RayQuery) -> Self;
 
     /// Where the answers of a group go.
     fn for_group(answers: &mut [Self]) -> Answers<'_>;
@@ -84,7 +84,7 @@ trait Answer: Copy {
 }
 
 impl<'a, A: Answer> SingleRays<'a, A> {
-    fn new(bvh: &'a TriangleBvh, shots: &'a [Shot], answers: &'a mut [A]) -> Self {
+    fn new(bvh: &'a TriangleBvh, shots: &'a [RayQuery], answers: &'a mut [A]) -> Self {
         assert!(u32::try_from(shots.len()).is_ok(), "too many rays for 32-bit indices");
         Self { bvh, shots, answers, next: 0 }
     }
@@ -139,7 +139,7 @@ impl<A: Answer> RaySource for SingleRays<'_, A> {
 impl Answer for Option<Hit> {
     const MISS: Self = None;
 
-    fn trace_one(bvh: &TriangleBvh, shot: &Shot) -> Self {
+    fn trace_one(bvh: &TriangleBvh, shot: &RayQuery) -> Self {
         bvh.closest_hit(&shot.ray, &shot.excluded)
     }
 
@@ -165,7 +165,7 @@ impl Answer for Option<Hit> {
 impl Answer for bool {
     const MISS: Self = false;
 
-    fn trace_one(bvh: &TriangleBvh, shot: &Shot) -> Self {
+    fn trace_one(bvh: &TriangleBvh, shot: &RayQuery) -> Self {
         bvh.is_occluded(&shot.ray, &shot.excluded)
     }
 

@@ -53,6 +53,6 @@ mod validate;
 
 pub use glam::DVec3;
 pub use intersect::{Corners, Hit, PreparedRay, intersect};
-pub use ray::{Ray, Shot};
+pub use ray::{Ray, RayQuery};
 pub use simd_level::SimdLevel;
 pub use triangle_bvh::TriangleBvh;

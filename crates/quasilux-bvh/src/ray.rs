@@ -35,14 +35,14 @@ impl Ray {
 
 /// A ray with the triangles that it cannot hit, one of many that are traced together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot {
+pub struct RayQuery {
     /// The ray.
     pub ray: Ray,
     /// Indices of triangles that do not count; [`Self::NONE`] for none.
     pub excluded: [u32; 2],
 }
 
-impl Shot {
+impl RayQuery {
     /// No triangle.
     pub const NONE: u32 = u32::MAX;
 }

@@ -19,7 +19,7 @@ pub enum Step {
     Emission,
     /// From rays to places on facets.
     Traversal,
-    /// Counting flights and landings.
+    /// PhotonEstimator flights and landings.
     Tally,
     /// Survival and the next direction.
     Scattering,
@@ -32,7 +32,7 @@ pub trait Stopwatch: Sync {
 }
 
 /// A scene made ready for one simulation.
-pub(crate) struct Stage<'a, S> {
+pub(crate) struct Context<'a, S> {
     pub(crate) world: World<S>,
     pub(crate) lights: Lights<'a>,
     /// Of the point-like lights, in mirrors.
@@ -68,15 +68,15 @@ pub(crate) enum Stream {
     /// Photons that show whether steering pays where they are counted.
     SteeringPilots,
     /// Photons that look for what paths cannot find.
-    HiddenPhotons,
+    CausticPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
     Survey(u64),
     /// Photons that are joined to a group of sensor points.
-    JoinedPhotons(u64),
+    ConnectedPhotons(u64),
     /// Photons that are counted by the cell they land in.
-    CoarsePhotons,
+    CellPhotons,
     /// Places in the cells of a group that photons are joined to, in dimensions that photons leave alone.
-    JoinedPlaces(u64),
+    ConnectionPlaces(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
     /// Paths through one pixel of one camera.
@@ -97,11 +97,11 @@ impl Stream {
             Self::MapPilots => 1 << 62,
             Self::FirstShotPilots => 1 << 62 | 1,
             Self::SteeringPilots => u64::MAX - 65,
-            Self::HiddenPhotons => u64::MAX,
+            Self::CausticPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
-            Self::JoinedPhotons(group) => (1 << 62) + 2 + 2 * group,
-            Self::CoarsePhotons => u64::MAX - 64,
-            Self::JoinedPlaces(group) => (1 << 62) + 3 + 2 * group,
+            Self::ConnectedPhotons(group) => (1 << 62) + 2 + 2 * group,
+            Self::CellPhotons => u64::MAX - 64,
+            Self::ConnectionPlaces(group) => (1 << 62) + 3 + 2 * group,
             Self::Paths(point) => 2 + point,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }
@@ -110,18 +110,18 @@ impl Stream {
     /// The sequence of its points in a run with this one.
     pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
         match (self, of_run) {
-            (Self::JoinedPlaces(_), Sequence::Independent) => Sequence::Independent,
+            (Self::ConnectionPlaces(_), Sequence::Independent) => Sequence::Independent,
             // Their dimensions are high ones, where other sequences are no good.
-            (Self::JoinedPlaces(_), _) => Sequence::Sobol,
+            (Self::ConnectionPlaces(_), _) => Sequence::Sobol,
             // A plan has its own number of photons.
             (
                 Self::PlanPhotons
                 | Self::MapPilots
                 | Self::FirstShotPilots
                 | Self::SteeringPilots
-                | Self::HiddenPhotons
-                | Self::JoinedPhotons(_)
-                | Self::CoarsePhotons
+                | Self::CausticPhotons
+                | Self::ConnectedPhotons(_)
+                | Self::CellPhotons
                 | Self::Survey(_),
                 Sequence::Hammersley { .. },
             ) => Sequence::Halton,
@@ -130,7 +130,7 @@ impl Stream {
     }
 }
 
-impl<'a, S: Spectrum> Stage<'a, S> {
+impl<'a, S: Spectrum> Context<'a, S> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
         Self::on(SimdLevel::fastest(), scene, settings)
     }
@@ -211,18 +211,18 @@ mod tests {
     #[test]
     fn streams_have_numbers_of_their_own() {
         use Stream::{
-            CoarsePhotons, FirstShotPilots, HiddenPhotons, JoinedPhotons, JoinedPlaces, MapPilots,
-            Paths, Photons, PlanPhotons, SteeringPilots, Survey,
+            CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, FirstShotPilots,
+            MapPilots, Paths, Photons, PlanPhotons, SteeringPilots, Survey,
         };
         let single =
-            [Photons, PlanPhotons, MapPilots, FirstShotPilots, SteeringPilots, HiddenPhotons];
+            [Photons, PlanPhotons, MapPilots, FirstShotPilots, SteeringPilots, CausticPhotons];
         let pixels = numbers(1 << 20).flat_map(|camera| {
             numbers(1 << 32)
                 .map(move |pixel| Stream::Pixel { camera: camera as u32, pixel: pixel as u32 })
         });
         let numbered = numbers(1 << 40)
-            .flat_map(|number| [JoinedPhotons(number), JoinedPlaces(number), Paths(number)]);
-        let streams = single.into_iter().chain([CoarsePhotons]).chain(numbered);
+            .flat_map(|number| [ConnectedPhotons(number), ConnectionPlaces(number), Paths(number)]);
+        let streams = single.into_iter().chain([CellPhotons]).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();
         let count = ids.len();

@@ -48,7 +48,7 @@ pub enum Purpose {
         surface: u32,
     },
     /// Where in cells of grids a photon is joined, and which joins are left to chance.
-    Joins,
+    Connections,
 }
 
 /// Which dimensions were drawn for what, how often.
@@ -123,7 +123,9 @@ impl fmt::Display for Purpose {
             Self::Emission => return f.write_str("light, and direction or place on it"),
             Self::EmissionOfArea => return f.write_str("direction from, or place on, an area"),
             Self::Cell => return f.write_str("place in the cell"),
-            Self::Joins => return f.write_str("chance of joins, and place in the sensor's cell"),
+            Self::Connections => {
+                return f.write_str("chance of joins, and place in the sensor's cell");
+            }
             Self::FirstDirection => return f.write_str("direction from the sensor"),
             Self::AreaLight { surface } => ("place on an area light", surface),
             Self::AreaLuminaire { surface } => ("luminaire and place on it", surface),

@@ -102,7 +102,7 @@ pub struct Settings {
     pub sequence: Sequence,
     /// How replicates are made independent.
     pub randomization: Randomization,
-    /// Wanted half-width of the interval over the value; 0 where none is wanted.
+    /// ErrorTarget half-width of the interval over the value; 0 where none is wanted.
     pub rel_tol: f64,
     /// Half-width in lx that is enough whatever the value; 0 where none is. Without either tolerance
     /// nothing but a limit ends the run.
@@ -171,7 +171,7 @@ impl Settings {
     /// Whether [`EstimatorKind::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
     /// that are to leave lit places, or to be left out, are those of maps; those that are to be steered are joined.
     #[must_use]
-    pub fn joins(&self) -> Option<bool> {
+    pub fn connections(&self) -> Option<bool> {
         let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();
         match self.connections {
             Switch::On => Some(true),

@@ -1,6 +1,6 @@
 //! Detection of coherent runs in a batch of rays.
 
-use crate::Shot;
+use crate::RayQuery;
 use crate::frame::Frame;
 use crate::group::rays::MAX_GROUP;
 use crate::intersect::longest_axis;
@@ -46,14 +46,14 @@ pub(crate) struct RayGroup<'a> {
     pub(crate) tree: &'a Tree,
     pub(crate) frame: &'a Frame,
     pub(crate) heading: Heading,
-    pub(crate) shots: &'a [Shot],
+    pub(crate) shots: &'a [RayQuery],
 }
 
 impl RayRun {
     /// The first run among `shots`, of which there is at least one; at most `most` of them belong
     /// together.
     #[inline]
-    pub(crate) fn first(shots: &[Shot], frame: &Frame, most: usize) -> Self {
+    pub(crate) fn first(shots: &[RayQuery], frame: &Frame, most: usize) -> Self {
         let mut start = 0;
         while start < shots.len() {
             let count = together(&shots[start..], frame, most.min(MAX_GROUP));
@@ -85,9 +85,9 @@ impl Heading {
 
 /// How many of the first shots are close to the very first; 1 if they are too few to matter.
 #[inline(always)]
-fn together(shots: &[Shot], frame: &Frame, most: usize) -> usize {
+fn together(shots: &[RayQuery], frame: &Frame, most: usize) -> usize {
     let first = &shots[0].ray;
-    let near = |shot: &Shot| {
+    let near = |shot: &RayQuery| {
         (MIN_COSINE..LARGE).contains(&first.direction.dot(shot.ray.direction))
             && (shot.ray.origin == first.origin || near_by(frame, shot.ray.origin, first.origin))
     };

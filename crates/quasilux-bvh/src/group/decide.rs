@@ -9,7 +9,7 @@ use crate::group::rays::Rays;
 use crate::intersect::least_area;
 use crate::lanes::Quad;
 use crate::node::{NONE, WIDTH};
-use crate::{Corners, Hit, PreparedRay, Shot, intersect};
+use crate::{Corners, Hit, PreparedRay, RayQuery, intersect};
 use glam::DVec3;
 
 /// Rays decided at once.
@@ -65,7 +65,7 @@ impl GroupCandidates {
 }
 
 #[inline(never)]
-fn decide(corners: &[Corners], shot: &Shot, triangle: u32) -> Option<Hit> {
+fn decide(corners: &[Corners], shot: &RayQuery, triangle: u32) -> Option<Hit> {
     if triangle == NONE {
         return None;
     }
@@ -78,7 +78,7 @@ fn decide(corners: &[Corners], shot: &Shot, triangle: u32) -> Option<Hit> {
 fn decide_four<Q: Quad>(
     heading: Heading,
     corners: &[Corners],
-    shots: &[Shot; FOUR],
+    shots: &[RayQuery; FOUR],
     triangles: &[u32; FOUR],
     hits: &mut [Option<Hit>; FOUR],
 ) -> bool {

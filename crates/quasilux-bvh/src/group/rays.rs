@@ -1,6 +1,6 @@
 //! The rays of a group as a structure of arrays, eight to a vector.
 
-use crate::Shot;
+use crate::RayQuery;
 use crate::frame::Frame;
 use crate::lanes::Lanes;
 use crate::node::WIDTH;
@@ -49,7 +49,7 @@ impl Rays {
 
     /// Takes in the rays of a run.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, frame: &Frame, shots: &[Shot]) {
+    pub(crate) fn fill(&mut self, frame: &Frame, shots: &[RayQuery]) {
         debug_assert!(!shots.is_empty() && shots.len() <= MAX_GROUP);
         self.vectors = shots.len().div_ceil(WIDTH);
         self.excludes = false;
@@ -69,7 +69,7 @@ impl Rays {
                 self.end[k][lane] = if is_there { end } else { f32::NEG_INFINITY };
                 self.excluded[0][k][lane] = shot.excluded[0];
                 self.excluded[1][k][lane] = shot.excluded[1];
-                self.excludes |= shot.excluded != [Shot::NONE; 2];
+                self.excludes |= shot.excluded != [RayQuery::NONE; 2];
                 self.one_origin &= shot.ray.origin == first;
             }
             for (by_ray, x) in self.origin.iter_mut().zip(origin) {
@@ -82,7 +82,7 @@ impl Rays {
     }
 
     #[inline(never)]
-    fn fill_origins(&mut self, frame: &Frame, shots: &[Shot]) {
+    fn fill_origins(&mut self, frame: &Frame, shots: &[RayQuery]) {
         for i in 0..self.vectors * WIDTH {
             let origin = frame.point(shots[i.min(shots.len() - 1)].ray.origin).as_vec3a();
             for (by_ray, x) in self.origin.iter_mut().zip(origin.to_array()) {

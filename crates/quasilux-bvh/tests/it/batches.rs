@@ -3,7 +3,7 @@
 use crate::meshes::{NamedMesh, Numbers, Triangles, hard_meshes};
 use crate::rays::{BATCHES, bits, hard_shots};
 use glam::DVec3;
-use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, RayQuery, SimdLevel, TriangleBvh};
 
 #[test]
 fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
@@ -15,7 +15,8 @@ fn batches_of_all_sizes_are_answered_as_by_the_slow_twin() {
         let bvhs: Vec<_> = SimdLevel::all().into_iter().map(build).collect();
         for count in BATCHES {
             let shots = hard_shots(&mesh, count, numbers);
-            let slow = |shot: &Shot| bvhs[0].closest_hit_by_brute_force(&shot.ray, &shot.excluded);
+            let slow =
+                |shot: &RayQuery| bvhs[0].closest_hit_by_brute_force(&shot.ray, &shot.excluded);
             let wanted: Vec<_> = shots.iter().map(slow).collect();
             for bvh in &bvhs {
                 let (mut hits, mut occluded) =
@@ -48,11 +49,11 @@ fn nothing_is_hit_where_nothing_is() {
 fn rays_that_need_more_room_are_answered_too() {
     let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let mesh: Triangles = vec![face; 60_000];
-    let shots: Vec<Shot> = (0..40)
+    let shots: Vec<RayQuery> = (0..40)
         .map(|i| {
             let x = 0.01 * f64::from(i);
             let ray = Ray::new(DVec3::new(x, 0.4, 1.0), DVec3::NEG_Z);
-            Shot { ray, excluded: [i as u32 % 3, 1] }
+            RayQuery { ray, excluded: [i as u32 % 3, 1] }
         })
         .collect();
     for simd in SimdLevel::all() {
@@ -60,7 +61,7 @@ fn rays_that_need_more_room_are_answered_too() {
         let (mut hits, mut occluded) = ([None; 40], [false; 40]);
         bvh.closest_hit_batch(&shots, &mut hits);
         bvh.occluded_batch(&shots, &mut occluded);
-        for (Shot { ray, excluded }, hit) in shots.iter().zip(hits) {
+        for (RayQuery { ray, excluded }, hit) in shots.iter().zip(hits) {
             assert_eq!(bits(hit), bits(bvh.closest_hit(ray, excluded)), "{ray:?}");
         }
         assert!(!occluded.contains(&false));

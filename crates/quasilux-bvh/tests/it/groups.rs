@@ -3,7 +3,7 @@
 use crate::meshes::{NamedMesh, Numbers, Triangles, ball, hard_meshes};
 use crate::rays::unit;
 use glam::DVec3;
-use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, RayQuery, SimdLevel, TriangleBvh};
 
 /// Runs of rays at each mesh, and rays of a run.
 const RUNS: usize = 240;
@@ -106,7 +106,7 @@ fn runs_are_answered_as_ray_by_ray() {
 
 /// The rays, some short of or just beyond what they hit, some that cannot hit that or another
 /// triangle.
-fn shots(bvh: &TriangleBvh, rays: &[Ray], run: usize, numbers: &mut Numbers) -> Vec<Shot> {
+fn shots(bvh: &TriangleBvh, rays: &[Ray], run: usize, numbers: &mut Numbers) -> Vec<RayQuery> {
     let shot = |(i, &ray): (usize, &Ray)| {
         let hit = bvh.closest_hit(&ray, &[]);
         let distance = hit.map_or(f64::INFINITY, |hit| hit.distance);
@@ -118,14 +118,14 @@ fn shots(bvh: &TriangleBvh, rays: &[Ray], run: usize, numbers: &mut Numbers) -> 
             _ => distance * 1.5,
         };
         let any = (numbers.next() * bvh.len() as f64) as u32;
-        let nearest = hit.map_or(Shot::NONE, |hit| hit.triangle);
+        let nearest = hit.map_or(RayQuery::NONE, |hit| hit.triangle);
         let excluded = match (run / KINDS.len() % 3, i % 3) {
-            (0, _) => [Shot::NONE; 2],
+            (0, _) => [RayQuery::NONE; 2],
             (1, 0) => [nearest, any],
-            (1, _) => [any, Shot::NONE],
+            (1, _) => [any, RayQuery::NONE],
             _ => [any, nearest],
         };
-        Shot { ray: ray.up_to(t_max), excluded }
+        RayQuery { ray: ray.up_to(t_max), excluded }
     };
     rays.iter().enumerate().map(shot).collect()
 }
@@ -139,15 +139,15 @@ fn no_ray_of_a_run_leaves_a_closed_mesh() {
             let bvh = TriangleBvh::build_for(mesh.clone(), simd);
             for part in mesh.chunks(20) {
                 let origin = centre + numbers.direction() * (0.5 * radius);
-                let shots: Vec<Shot> = part
+                let shots: Vec<RayQuery> = part
                     .iter()
                     .flat_map(|&[a, b, c]| {
                         let along_edge = a + (b - a) * numbers.next();
                         [a, 0.5 * (a + b), along_edge, (a + b + c) / 3.0]
                     })
-                    .map(|target| Shot {
+                    .map(|target| RayQuery {
                         ray: Ray::new(origin, (target - origin).normalize()),
-                        excluded: [Shot::NONE; 2],
+                        excluded: [RayQuery::NONE; 2],
                     })
                     .collect();
                 let mut hits = vec![None; shots.len()];
@@ -166,7 +166,7 @@ fn no_ray_of_a_run_leaves_a_closed_mesh() {
 fn no_rays_are_no_trouble() {
     let bvh = TriangleBvh::build(Vec::new());
     bvh.closest_hit_batch(&[], &mut []);
-    let shot = Shot { ray: Ray::new(DVec3::ZERO, DVec3::Z), excluded: [Shot::NONE; 2] };
+    let shot = RayQuery { ray: Ray::new(DVec3::ZERO, DVec3::Z), excluded: [RayQuery::NONE; 2] };
     let mut hits = [None; 20];
     bvh.closest_hit_batch(&[shot; 20], &mut hits);
     assert_eq!(hits, [None; 20]);

@@ -4,7 +4,7 @@
 use crate::meshes::{Numbers, Triangles, ball, prism};
 use crate::rays::unit;
 use glam::DVec3;
-use quasilux_bvh::{Ray, Shot, TriangleBvh};
+use quasilux_bvh::{Ray, RayQuery, TriangleBvh};
 
 /// Scales of meshes, from a micrometre to more than planets.
 const SCALES: [f64; 6] = [1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9];
@@ -55,8 +55,8 @@ fn rays_from(mesh: &Triangles, inside: &[DVec3], numbers: &mut Numbers) -> Vec<R
 
 /// How many of the rays meet nothing, one by one, in a batch, and blocked by nothing.
 fn leaks(bvh: &TriangleBvh, rays: &[Ray]) -> [usize; 4] {
-    let shots: Vec<Shot> =
-        rays.iter().map(|&ray| Shot { ray, excluded: [Shot::NONE; 2] }).collect();
+    let shots: Vec<RayQuery> =
+        rays.iter().map(|&ray| RayQuery { ray, excluded: [RayQuery::NONE; 2] }).collect();
     let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
     bvh.closest_hit_batch(&shots, &mut hits);
     bvh.occluded_batch(&shots, &mut occluded);

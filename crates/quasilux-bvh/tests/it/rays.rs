@@ -2,7 +2,7 @@
 
 use crate::meshes::{Numbers, Triangles};
 use glam::DVec3;
-use quasilux_bvh::{Hit, Ray, Shot};
+use quasilux_bvh::{Hit, Ray, RayQuery};
 
 /// A ray at a mesh, its first part, and what it shall not hit.
 #[derive(Clone, Debug)]
@@ -59,7 +59,7 @@ pub(crate) fn hard_query(mesh: &Triangles, number: usize, numbers: &mut Numbers)
 }
 
 /// Runs of rays that stay close together, and hard rays between them, some of them short.
-pub(crate) fn hard_shots(mesh: &Triangles, count: usize, numbers: &mut Numbers) -> Vec<Shot> {
+pub(crate) fn hard_shots(mesh: &Triangles, count: usize, numbers: &mut Numbers) -> Vec<RayQuery> {
     let Extent { size, .. } = extent(mesh);
     let mut shots = Vec::with_capacity(count);
     while shots.len() < count {
@@ -73,8 +73,8 @@ pub(crate) fn hard_shots(mesh: &Triangles, count: usize, numbers: &mut Numbers) 
                 ray.direction = unit(ray.direction + numbers.direction() * spread);
                 ray.origin += size * numbers.point(-shift, shift);
             }
-            let excluded = |at: usize| excluded.get(at).copied().unwrap_or(Shot::NONE);
-            shots.push(Shot { ray, excluded: [excluded(0), excluded(1)] });
+            let excluded = |at: usize| excluded.get(at).copied().unwrap_or(RayQuery::NONE);
+            shots.push(RayQuery { ray, excluded: [excluded(0), excluded(1)] });
         }
     }
     shots

@@ -3,7 +3,7 @@
 use crate::meshes::{Numbers, Triangles, ball, soup};
 use crate::rays::bits;
 use glam::DVec3;
-use quasilux_bvh::{Ray, Shot, SimdLevel, TriangleBvh};
+use quasilux_bvh::{Ray, RayQuery, SimdLevel, TriangleBvh};
 
 /// So many of the same ray are traced as a group, and one alone.
 const BATCHES: [usize; 2] = [1, 24];
@@ -32,7 +32,7 @@ fn answers(bvh: &TriangleBvh, ray: Ray) -> Vec<(Option<[u64; 5]>, bool)> {
     let alone = (bits(bvh.closest_hit(&ray, &[])), bvh.is_occluded(&ray, &[]));
     let mut all = vec![(bits(slow), slow.is_some()), alone];
     for count in BATCHES {
-        let shots = vec![Shot { ray, excluded: [Shot::NONE; 2] }; count];
+        let shots = vec![RayQuery { ray, excluded: [RayQuery::NONE; 2] }; count];
         let (mut hits, mut occluded) = (vec![None; count], vec![false; count]);
         bvh.closest_hit_batch(&shots, &mut hits);
         bvh.occluded_batch(&shots, &mut occluded);
@@ -93,10 +93,13 @@ fn directions_of_many_lengths_come_to_an_end() {
         for first in lengths {
             let shot = |i: usize| {
                 let direction = DVec3::Z * if i == 0 { first } else { lengths[i % 4] };
-                Shot { ray: Ray::new(DVec3::splat(0.1), direction), excluded: [Shot::NONE; 2] }
+                RayQuery {
+                    ray: Ray::new(DVec3::splat(0.1), direction),
+                    excluded: [RayQuery::NONE; 2],
+                }
             };
             for start in 0..4 {
-                let shots: Vec<Shot> = (start..40).map(shot).collect();
+                let shots: Vec<RayQuery> = (start..40).map(shot).collect();
                 bvh.closest_hit_batch(&shots, &mut vec![None; shots.len()]);
             }
         }

@@ -5,7 +5,7 @@
 //! photons that stand beside paths, so many for each path.
 
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Beside, Block, Gain, Share, WalkKind};
+use quasilux_transport::explain::{Beside, Block, Gain, Share, SampleKind};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -69,12 +69,12 @@ impl<'a> ExplanationEntry<'a> {
         let deviation = explanation.relative_deviation;
         Self {
             samples_are: match explanation.walk {
-                WalkKind::Photons => "photons",
-                WalkKind::Paths => "paths",
-                WalkKind::PathsOnMap => "paths that end on a map",
-                WalkKind::PathsBesidePhotons => "paths beside connected photons",
-                WalkKind::CountedPhotons => "photons counted by cells, beside paths",
-                WalkKind::JoinedPhotons => "photons connected to sensors, beside paths",
+                SampleKind::Photons => "photons",
+                SampleKind::Paths => "paths",
+                SampleKind::PathsOnMap => "paths that end on a map",
+                SampleKind::PathsBesidePhotons => "paths beside connected photons",
+                SampleKind::CountedPhotons => "photons counted by cells, beside paths",
+                SampleKind::ConnectedPhotons => "photons connected to sensors, beside paths",
             },
             targets: explanation.targets,
             samples: explanation.samples,

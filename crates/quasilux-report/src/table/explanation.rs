@@ -3,7 +3,7 @@
 use super::{Column, Emphasis, Style, lines};
 use crate::number::{brief, count};
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Beside, Block, Gain, Share, WalkKind};
+use quasilux_transport::explain::{Beside, Block, Gain, Share, SampleKind};
 use std::fmt::Write;
 
 /// A smaller factor between errors makes no difference to speak of.
@@ -63,23 +63,23 @@ fn sampled(explanation: &Explanation) -> String {
         explanation;
     let (samples, targets) = (count(*samples), count(*targets as u64));
     let (pilot, one) = match walk {
-        WalkKind::Photons => (format!("{samples} photons for {targets} sensors"), "photon"),
-        WalkKind::Paths => (format!("{samples} paths from each of {targets} points"), "path"),
-        WalkKind::PathsOnMap => {
+        SampleKind::Photons => (format!("{samples} photons for {targets} sensors"), "photon"),
+        SampleKind::Paths => (format!("{samples} paths from each of {targets} points"), "path"),
+        SampleKind::PathsOnMap => {
             (format!("{samples} paths to one map from each of {targets} points"), "path")
         }
-        WalkKind::PathsBesidePhotons => {
+        SampleKind::PathsBesidePhotons => {
             (format!("{samples} paths beside photons from each of {targets} points"), "path")
         }
-        WalkKind::CountedPhotons => {
+        SampleKind::CountedPhotons => {
             (format!("{samples} photons counted by cells that {targets} points see"), "photon")
         }
-        WalkKind::JoinedPhotons => {
+        SampleKind::ConnectedPhotons => {
             (format!("{samples} photons connected to {targets} points"), "photon")
         }
     };
     let whole = match walk {
-        WalkKind::CountedPhotons | WalkKind::JoinedPhotons => "all the light there",
+        SampleKind::CountedPhotons | SampleKind::ConnectedPhotons => "all the light there",
         _ => "the mean",
     };
     format!(
@@ -143,7 +143,7 @@ fn together(explanation: &Explanation) -> String {
     let percent = |deviation: f64| format!("{} %", brief(100.0 * deviation, 2));
     let photons = explanation.beside.iter().map(|Beside { for_each_path, explanation }| {
         let are = match explanation.walk {
-            WalkKind::CountedPhotons => "counted",
+            SampleKind::CountedPhotons => "counted",
             _ => "connected",
         };
         let photons = if *for_each_path == 1 { "photon" } else { "photons" };
@@ -202,7 +202,7 @@ mod tests {
         let mut dimensions = DimensionHistogram::new();
         [4, 6].into_iter().for_each(|used| dimensions.record(used));
         Explanation {
-            walk: WalkKind::Paths,
+            walk: SampleKind::Paths,
             targets: 8,
             samples: 1024,
             rays: 1_000_000,
@@ -243,9 +243,9 @@ mod tests {
 
     #[test]
     fn photons_beside_paths_are_told() {
-        let counted = Explanation { walk: WalkKind::CountedPhotons, ..example() };
+        let counted = Explanation { walk: SampleKind::CountedPhotons, ..example() };
         let beside = vec![Beside { for_each_path: 64, explanation: counted }];
-        let paths = Explanation { walk: WalkKind::PathsBesidePhotons, beside, ..example() };
+        let paths = Explanation { walk: SampleKind::PathsBesidePhotons, beside, ..example() };
         let text = explanation(&paths, Style::Plain);
         for words in [
             "1 024 paths beside photons from each of 8 points",

@@ -8,16 +8,18 @@
 //! f_more = R (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
 //! ```
 //!
-//! Caught light was reflected once and is reflected again; then the share `E` (the mean) leaves and the
+//! MultipleScattering light was reflected once and is reflected again; then the share `E` (the mean) leaves and the
 //! rest is caught again. Each time the mean Fresnel factor `F` is kept, so that of the caught light
 //! `R = F^2 E (1 + F (1 - E) + ...) = F^2 E / (1 - F (1 - E))` comes out. With `F0 = 1`, R = 1.
 
 use super::BsdfSample;
 use super::albedo_curve::AlbedoCurve;
-use super::caught::{Caught, pdf_caught, sample_caught};
 use super::fresnel::schlick;
 use super::ggx::{Ggx, pdf_reflection, sample_reflection};
 use super::lobes::Lobes;
+use super::multiple_scattering::{
+    MultipleScattering, pdf_multiple_scattering, sample_multiple_scattering,
+};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 use quasilux_sampling::Sampler;
@@ -36,7 +38,7 @@ pub(crate) struct Conductor<S> {
     full: AlbedoCurve,
     /// Single reflection by facets that reflect Schlick's `(1 - cos)^5`.
     rising: AlbedoCurve,
-    caught: Caught,
+    multiple_scattering: MultipleScattering,
     /// `R` of the module.
     repeated: S,
 }
@@ -51,8 +53,8 @@ impl<S: Spectrum> Conductor<S> {
             let mean = mix(reflectance.channel(channel), MEAN_SCHLICK);
             mean * mean * escaping / (1.0 - mean * (1.0 - escaping))
         });
-        let caught = Caught::new(&full);
-        Self { reflectance, ggx, full, rising, caught, repeated }
+        let multiple_scattering = MultipleScattering::new(&full);
+        Self { reflectance, ggx, full, rising, multiple_scattering, repeated }
     }
 
     /// The share of light from `wo` that goes on.
@@ -63,7 +65,9 @@ impl<S: Spectrum> Conductor<S> {
     pub(super) fn sample(&self, wo: DVec3, sampler: &mut Sampler<'_>) -> Option<BsdfSample<S>> {
         let lobes = self.lobes(wo);
         let once = |u| sample_reflection(self.ggx, wo, u);
-        let wi = lobes.sample(sampler, once, |u| sample_caught(&self.caught, &self.full, u))?;
+        let wi = lobes.sample(sampler, once, |u| {
+            sample_multiple_scattering(&self.multiple_scattering, &self.full, u)
+        })?;
         Some(BsdfSample::reflected(wi, self.evaluate(wo, wi), self.pdf_of(lobes, wo, wi)))
     }
 
@@ -73,8 +77,8 @@ impl<S: Spectrum> Conductor<S> {
         }
         let risen = schlick(wi.dot((wo + wi).normalize()));
         let single = self.ggx.evaluate(wo, wi);
-        let caught = (1.0 - self.full.at(wo.z)) * (1.0 - self.full.at(wi.z));
-        let diffuse = FRAC_1_PI * caught / (1.0 - self.full.mean());
+        let multiple_scattering = (1.0 - self.full.at(wo.z)) * (1.0 - self.full.at(wi.z));
+        let diffuse = FRAC_1_PI * multiple_scattering / (1.0 - self.full.mean());
         S::from_channels(|channel| {
             let fresnel = mix(self.reflectance.channel(channel), risen);
             fresnel * single + self.repeated.channel(channel) * diffuse
@@ -86,7 +90,7 @@ impl<S: Spectrum> Conductor<S> {
     }
 
     fn pdf_of(&self, lobes: Lobes, wo: DVec3, wi: DVec3) -> f64 {
-        let broad = pdf_caught(&self.caught, &self.full, wi);
+        let broad = pdf_multiple_scattering(&self.multiple_scattering, &self.full, wi);
         lobes.pdf(pdf_reflection(self.ggx, wo, wi), broad)
     }
 

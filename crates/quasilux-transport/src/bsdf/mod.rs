@@ -6,7 +6,6 @@
 //! reciprocal but for the square of the index of refraction, which [`Mode`] tells apart.
 
 mod albedo_curve;
-mod caught;
 mod conductor;
 mod dielectric;
 mod diffuse;
@@ -15,6 +14,7 @@ mod ggx;
 mod lobes;
 mod measured;
 mod mirror;
+mod multiple_scattering;
 mod pane;
 mod plastic;
 #[cfg(test)]
@@ -107,8 +107,8 @@ impl<S: Spectrum> Bsdf<S> {
                 Self::Mirror(Mirror { reflectance: S::from_rgb(*reflectance) })
             }
             In::Translucent(sheet) => {
-                let shares = [sheet.reflectance, sheet.transmittance].map(S::from_rgb);
-                Self::Translucent(Translucent::new(shares[0], shares[1]))
+                let weights_of_paths = [sheet.reflectance, sheet.transmittance].map(S::from_rgb);
+                Self::Translucent(Translucent::new(weights_of_paths[0], weights_of_paths[1]))
             }
             In::Dielectric(scene::Dielectric { eta }) => Self::Dielectric(Dielectric::new(*eta)),
             In::Pane(pane) => Self::Pane(Pane::new(pane)),

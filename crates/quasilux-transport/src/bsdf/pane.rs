@@ -138,8 +138,8 @@ mod tests {
 
     #[test]
     fn samples_share_light_as_the_tables_say() {
-        let table = |shares: [f64; 2]| {
-            let nodes = [0.0, FRAC_PI_2].into_iter().zip(shares);
+        let table = |weights_of_paths: [f64; 2]| {
+            let nodes = [0.0, FRAC_PI_2].into_iter().zip(weights_of_paths);
             let node = |(theta_rad, share)| AngularNode { theta_rad, share };
             AngularTable::new(nodes.map(node).collect()).unwrap()
         };

@@ -11,7 +11,7 @@ impl Stored for DimensionHistogram {
         out.u32(self.largest());
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let counts: Result<Vec<u64>, StateError> =
             (0..from.length(size_of::<u64>())?).map(|_| from.u64()).collect();
         let (counts, coordinates) = (counts?, from.i128()?.cast_unsigned());

@@ -35,7 +35,7 @@ pub(crate) trait Stored {
 
     /// Adds what was put out. What it is added to has the same shape, and may be half changed after an
     /// error.
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 }
 
 /// The same number of things on both sides, each added to its like.
@@ -45,8 +45,8 @@ impl<T: Stored> Stored for [T] {
         self.iter().for_each(|thing| thing.put(out));
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         from.expect_length(self.len())?;
-        self.iter_mut().try_for_each(|thing| thing.take_in(from))
+        self.iter_mut().try_for_each(|thing| thing.merge_from(from))
     }
 }

@@ -1,10 +1,10 @@
 //! Direct light of the point-like lights at sensor points, computed without sampling.
 
-use crate::context::Stage;
+use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Asker, Shadows};
+use crate::world::visibility::{Receiver, ShadowQueue};
 use rayon::prelude::*;
 
 /// Targets whose light from the point-like lights is computed together.
@@ -48,27 +48,27 @@ impl Exact {
 /// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of them
 /// tested.
 pub(crate) fn exact<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     targets: &[Target],
     rays: &mut u64,
 ) -> Vec<Exact> {
-    let mut exact = vec![Exact::new(stage.listed_terms); targets.len()];
+    let mut exact = vec![Exact::new(context.listed_terms); targets.len()];
     let light = |(targets, exact): (&[Target], &mut [Exact])| {
-        let asker = |(who, target): (u32, &Target)| match *target {
+        let receiver = |(who, target): (u32, &Target)| match *target {
             Target::Point { position, normal: n } => {
-                let from = stage.world.vantage_of_sensor(position, n);
-                Some(Asker { who, vertex: Vertex::sensor(from, n) })
+                let from = context.world.ray_origin_of_sensor(position, n);
+                Some(Receiver { who, vertex: Vertex::sensor(from, n) })
             }
             Target::Cell { .. } => None,
         };
-        let askers: Vec<Asker<'_, S>> = (0..).zip(targets).filter_map(asker).collect();
-        let mut shadows = Shadows::default();
-        shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
+        let receivers: Vec<Receiver<'_, S>> = (0..).zip(targets).filter_map(receiver).collect();
+        let mut shadows = ShadowQueue::default();
+        shadows.most_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let mut receive =
             |who: u32, lx: S, bounces: u32| exact[who as usize].add(bounces, lx.luminance());
-        let pointlikes = &stage.lights.pointlikes;
-        pointlikes.all(&stage.world, &askers, &mut shadows, &mut receive);
-        stage.images.all(&stage.world, pointlikes, &askers, &mut shadows, &mut receive);
+        let pointlikes = &context.lights.pointlikes;
+        pointlikes.all(&context.world, &receivers, &mut shadows, &mut receive);
+        context.images.all(&context.world, pointlikes, &receivers, &mut shadows, &mut receive);
         shadows.rays
     };
     let chunks = targets.par_chunks(TARGETS).zip(exact.par_chunks_mut(TARGETS));

@@ -3,15 +3,15 @@
 pub(crate) mod connection;
 pub(crate) mod control_variate;
 pub(crate) mod exact;
-pub(crate) mod paths;
-pub(crate) mod photons;
+pub(crate) mod path_estimator;
+pub(crate) mod photon_estimator;
 pub(crate) mod pilot;
 pub(crate) mod selection;
 
 use crate::codec::{Reader, StateError, Writer};
-use crate::context::Stage;
-use crate::estimator::paths::Gathering;
-use crate::estimator::photons::Counting;
+use crate::context::Context;
+use crate::estimator::path_estimator::PathEstimator;
+use crate::estimator::photon_estimator::PhotonEstimator;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
@@ -21,7 +21,7 @@ use quasilux_scene::Scene;
 use std::ops::Range;
 
 /// An estimator at work: one variant of [`EstimatorKind`] or several close ones.
-pub(crate) trait Estimation {
+pub(crate) trait Estimator {
     /// Adds the indices up to `samples` to all replicates; `false` when the observer stopped it
     /// half-way, which leaves it unusable.
     #[must_use]
@@ -35,7 +35,7 @@ pub(crate) trait Estimation {
 
     /// Takes that in before the first sample, so that [`Self::advance`] to the checkpoint `coming` does
     /// what is left.
-    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
+    fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
 
     /// Before the first sample: traces the indices of a part of a run of so many `samples`, and what
     /// serves all of them; `false` when the observer stopped it.
@@ -43,16 +43,16 @@ pub(crate) trait Estimation {
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool;
 
     /// Puts out what serves all indices, as far as estimates need it: the same in all parts.
-    fn put_served(&self, out: &mut Writer);
+    fn put_shared(&self, out: &mut Writer);
 
     /// Takes that in, once.
-    fn take_in_served(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+    fn merge_shared(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 
     /// Puts out what belongs to the indices of a part.
     fn put_part(&self, out: &mut Writer);
 
     /// Adds that.
-    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+    fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 
     /// Takes it that all indices before `samples` were added.
     fn complete_at(&mut self, samples: u64);
@@ -62,7 +62,7 @@ pub(crate) trait Estimation {
 
     /// Leaves it at that for the targets that are `done`, and samples the others alone from now on; `false`
     /// where samples are for all targets.
-    fn settle(&mut self, _done: &[bool]) -> bool {
+    fn freeze_converged(&mut self, _done: &[bool]) -> bool {
         false
     }
 
@@ -72,15 +72,15 @@ pub(crate) trait Estimation {
 
 /// The estimator of the settings, its surveys and pilots done.
 pub(crate) fn estimation<'a, S: Spectrum>(
-    stage: &'a Stage<'a, S>,
+    context: &'a Context<'a, S>,
     scene: &'a Scene,
     settings: &Settings,
     watch: &mut Watch<'_>,
-) -> Box<dyn Estimation + 'a> {
+) -> Box<dyn Estimator + 'a> {
     match settings.estimator {
-        EstimatorKind::Photon => Box::new(Counting::new(stage, scene, settings)),
+        EstimatorKind::Photon => Box::new(PhotonEstimator::new(context, scene, settings)),
         EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
-            Box::new(Gathering::new(stage, scene, settings, watch))
+            Box::new(PathEstimator::new(context, scene, settings, watch))
         }
     }
 }

@@ -3,15 +3,15 @@
 //! It has three ways. Paths go alone to their ends; or they end on a frozen map, which some of them correct
 //! ([`crate::estimator::control_variate`]); or photons are joined to the targets and share the light with them ([`crate::estimator::connection`]). All
 //! three have the right mean, so any choice is right, and the cheapest is best: by the rays of the whole run,
-//! foreseen from variances and rays of trials ([`Wanted`]). Trials themselves cost rays, most of all those of joined photons, for
+//! foreseen from variances and rays of trials ([`ErrorTarget`]). Trials themselves cost rays, most of all those of joined photons, for
 //! which the scene is surveyed. So a few paths are tried first, and a map of a few photons; photons are only joined where what is
 //! best without them takes many rays, or where paths do not find the light that photons do.
 
-use crate::context::Stage;
-use crate::estimator::connection::{self, Alone, Joined};
+use crate::context::Context;
+use crate::estimator::connection::{self, Alone, LightVertexConnections};
 use crate::estimator::control_variate::{Choice, FrozenMap, Outcome};
 use crate::estimator::exact::Exact;
-use crate::estimator::pilot::{PathTrial, Promise, Sample, Wanted, looks};
+use crate::estimator::pilot::{ErrorTarget, PathTrial, PilotCost, Sample, short_looks};
 use crate::photon::counts::PhotonCounts;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
@@ -28,7 +28,7 @@ const LATER: f64 = 0.5;
 
 /// What was decided, and what it took. Without joined photons and map, paths go alone.
 pub(crate) struct Decision<S> {
-    pub(crate) joined: Option<Joined>,
+    pub(crate) light_vertices: Option<LightVertexConnections>,
     /// With its photons.
     pub(crate) frozen: Option<(FrozenMap<S>, PhotonCounts)>,
     /// Photons of a map that was not taken, if they left the lights.
@@ -39,13 +39,13 @@ pub(crate) struct Decision<S> {
 
 impl<S> Default for Decision<S> {
     fn default() -> Self {
-        Self { joined: None, frozen: None, photons: None, rays: 0 }
+        Self { light_vertices: None, frozen: None, photons: None, rays: 0 }
     }
 }
 
 /// Tries what the settings leave open, and decides, for so many replicates.
 pub(crate) fn decide<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     (settings, replicates): (&Settings, u32),
     (targets, exact): (&[Target], &[Exact]),
     quantum: Quantum,
@@ -57,32 +57,34 @@ pub(crate) fn decide<S: Spectrum>(
     if !is_possible {
         return Decision::default();
     }
-    let joins = settings.joins();
-    let tried = Tried::new(stage, settings, (targets, exact), quantum);
+    let connections = settings.connections();
+    let tried = Tried::new(context, settings, (targets, exact), quantum);
     let mut rays = tried.paths.trial.rays as u64;
-    let tries_map = joins != Some(true);
-    let choice = if tries_map { tried.map(stage, settings, watch) } else { None };
+    let tries_map = connections != Some(true);
+    let choice = if tries_map { tried.map(context, settings, watch) } else { None };
     let of_plain = tried.rays(&tried.plain());
-    let of_map = choice.as_ref().map_or(f64::INFINITY, |choice| tried.rays(&choice.promise()));
+    let of_map = choice.as_ref().map_or(f64::INFINITY, |choice| tried.rays(&choice.pilot_cost()));
     let best = of_plain.min(of_map);
     let misses_light = choice.as_ref().is_some_and(|choice| choice.misses_light);
     let finds_light = tried.paths.finds_light && !misses_light;
-    if joins.unwrap_or(best > TRYING_TO_JOIN || !finds_light) {
+    if connections.unwrap_or(best > TRYING_TO_JOIN || !finds_light) {
         let given = (targets, exact, &tried.sample);
-        let ways = connection::Ways::try_all(stage, settings, given, quantum, watch);
+        let ways = connection::Ways::try_all(context, settings, given, quantum, watch);
         rays += ways.rays;
         let alone = Alone { trial: &tried.paths.trial, part: tried.part(best), finds_light };
         let kept = (quantum, replicates);
-        if let Some(joined) = ways.choose(stage, settings, &tried.sample, &alone, (targets, kept)) {
-            rays += joined.rays;
+        if let Some(light_vertices) =
+            ways.choose(context, settings, &tried.sample, &alone, (targets, kept))
+        {
+            rays += light_vertices.rays;
             let photons = choice.and_then(|choice| choice.give_up(&mut rays));
-            return Decision { joined: Some(joined), frozen: None, photons, rays };
+            return Decision { light_vertices: Some(light_vertices), frozen: None, photons, rays };
         }
     }
     match choice {
-        Some(choice) if joins == Some(false) || of_map < of_plain => {
-            let worth = tried.worth_per_lx(stage, (targets, exact), quantum, &mut rays);
-            let frozen = choice.freeze(stage, worth, watch);
+        Some(choice) if connections == Some(false) || of_map < of_plain => {
+            let importance = tried.importance_per_lx(context, (targets, exact), quantum, &mut rays);
+            let frozen = choice.freeze(context, importance, watch);
             Decision { frozen: Some(frozen), rays, ..Decision::default() }
         }
         unused => {
@@ -92,11 +94,11 @@ pub(crate) fn decide<S: Spectrum>(
     }
 }
 
-/// A trial of paths that hardly end, and what it foretells of those that do.
+/// A trial of paths that hardly end, and what it predicts of those that do.
 struct Tried<S> {
     sample: Sample,
     paths: PathTrial<S>,
-    wanted: Wanted,
+    wanted: ErrorTarget,
     /// Variances of these paths in a run.
     noted: Vec<f64>,
     /// Of paths alone, and their rays in a trial.
@@ -105,17 +107,17 @@ struct Tried<S> {
 
 impl<S: Spectrum> Tried<S> {
     fn new(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         settings: &Settings,
         (targets, exact): (&[Target], &[Exact]),
         quantum: Quantum,
     ) -> Self {
         let sample = Sample::new(targets, exact);
-        let paths = PathTrial::new(stage, &sample, quantum);
+        let paths = PathTrial::new(context, &sample, quantum);
         let trial = &paths.trial;
         let found_lx = |(target, exact_lx): (usize, &f64)| exact_lx + trial.moments(target).mean;
         let means_lx = sample.exact_lx.iter().enumerate().map(found_lx).collect();
-        let wanted = Wanted::new(settings, &sample, means_lx);
+        let wanted = ErrorTarget::new(settings, &sample, means_lx);
         let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
         let noted: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
         let Outcome { of_chances, rays } = paths.walks.alone(&wanted);
@@ -123,28 +125,28 @@ impl<S: Spectrum> Tried<S> {
         Self { sample, paths, wanted, noted, plain: (plain, rays) }
     }
 
-    fn noted(&self) -> Promise<'_> {
-        Promise::of_paths(&self.noted, self.paths.trial.rays)
+    fn noted(&self) -> PilotCost<'_> {
+        PilotCost::of_paths(&self.noted, self.paths.trial.rays)
     }
 
-    fn plain(&self) -> Promise<'_> {
-        Promise::of_paths(&self.plain.0, self.plain.1)
+    fn plain(&self) -> PilotCost<'_> {
+        PilotCost::of_paths(&self.plain.0, self.plain.1)
     }
 
     /// Of a run that keeps a promise.
-    fn rays(&self, promise: &Promise<'_>) -> f64 {
-        self.wanted.rays(&self.plain(), promise)
+    fn rays(&self, pilot_cost: &PilotCost<'_>) -> f64 {
+        self.wanted.rays(&self.plain(), pilot_cost)
     }
 
     /// A map that these paths would end on.
     fn map(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         settings: &Settings,
         watch: &mut Watch<'_>,
     ) -> Option<Choice<S>> {
         let promises = (&self.paths.walks, &self.noted(), &self.plain());
-        Choice::new(stage, settings, promises, &self.wanted, watch)
+        Choice::new(context, settings, promises, &self.wanted, watch)
     }
 
     /// So many rays over those of paths like these.
@@ -154,19 +156,21 @@ impl<S: Spectrum> Tried<S> {
     }
 
     /// What a lux counts at each target, by a short look at those that are not in the trial.
-    fn worth_per_lx(
+    fn importance_per_lx(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         (targets, exact): (&[Target], &[Exact]),
         quantum: Quantum,
         rays: &mut u64,
     ) -> Vec<f64> {
         if self.sample.step == 1 {
-            return (0..targets.len()).map(|target| self.wanted.worth_per_lx(target)).collect();
+            return (0..targets.len())
+                .map(|target| self.wanted.importance_per_lx(target))
+                .collect();
         }
-        let (looks_lx, of_looks) = looks(stage, targets, quantum);
+        let (looks_lx, of_looks) = short_looks(context, targets, quantum);
         *rays += of_looks;
         let found = exact.iter().zip(&looks_lx);
-        found.map(|(exact, lx)| self.wanted.worth_of(exact.sum_lx() + lx)).collect()
+        found.map(|(exact, lx)| self.wanted.importance_of(exact.sum_lx() + lx)).collect()
     }
 }

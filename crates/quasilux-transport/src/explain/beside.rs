@@ -2,9 +2,9 @@
 //!
 //! What steered photons split off draws coordinates that belong to no block.
 
-use super::{Pilot, Points, Walk, WalkKind};
-use crate::context::{Stage, Stream};
-use crate::estimator::connection::Joined;
+use super::{Pilot, Points, SampleKind, SampleSource};
+use crate::context::{Context, Stream};
+use crate::estimator::connection::LightVertexConnections;
 use crate::spectrum::Spectrum;
 use quasilux_sampling::Sampler;
 
@@ -17,32 +17,32 @@ pub(super) enum Role {
     /// To be counted by the cell they land in.
     Counted,
     /// To be joined to the sensor points.
-    Joined,
+    LightVertexConnections,
 }
 
-pub(super) struct BesideWalk<'w, S> {
-    pub(super) stage: &'w Stage<'w, S>,
-    pub(super) joined: &'w Joined,
+pub(super) struct BesideSource<'w, S> {
+    pub(super) context: &'w Context<'w, S>,
+    pub(super) light_vertices: &'w LightVertexConnections,
     pub(super) role: Role,
     /// Illuminance of each target, from all that there is.
     pub(super) whole_lx: Vec<f64>,
 }
 
-impl<S: Spectrum> BesideWalk<'_, S> {
+impl<S: Spectrum> BesideSource<'_, S> {
     /// How many of them go with a path.
     pub(super) fn for_each_path(&self) -> u64 {
         match self.role {
-            Role::Counted => self.joined.joining.coarse_photons(),
-            Role::Joined => self.joined.joining.photons(),
+            Role::Counted => self.light_vertices.connection.cell_photons(),
+            Role::LightVertexConnections => self.light_vertices.connection.photons(),
         }
     }
 }
 
-impl<S: Spectrum> Walk for BesideWalk<'_, S> {
-    fn kind(&self) -> WalkKind {
+impl<S: Spectrum> SampleSource for BesideSource<'_, S> {
+    fn kind(&self) -> SampleKind {
         match self.role {
-            Role::Counted => WalkKind::CountedPhotons,
-            Role::Joined => WalkKind::JoinedPhotons,
+            Role::Counted => SampleKind::CountedPhotons,
+            Role::LightVertexConnections => SampleKind::ConnectedPhotons,
         }
     }
 
@@ -55,16 +55,17 @@ impl<S: Spectrum> Walk for BesideWalk<'_, S> {
     }
 
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot {
-        let [counted, joined, places] =
-            [Stream::CoarsePhotons, Stream::JoinedPhotons(0), Stream::JoinedPlaces(0)].map(points);
+        let [counted, light_vertices, places] =
+            [Stream::CellPhotons, Stream::ConnectedPhotons(0), Stream::ConnectionPlaces(0)]
+                .map(points);
         Pilot::of_photons(samples, self.whole_lx.len(), |index, counts| match self.role {
             Role::Counted => {
                 let sampler = Sampler::new(&counted, index);
-                self.joined.of_counted_lx(self.stage, sampler, counts)
+                self.light_vertices.of_counted_lx(self.context, sampler, counts)
             }
-            Role::Joined => {
-                let sampler = Sampler::new(&joined, index);
-                self.joined.of_joined_lx(self.stage, sampler, places, counts)
+            Role::LightVertexConnections => {
+                let sampler = Sampler::new(&light_vertices, index);
+                self.light_vertices.of_connected_lx(self.context, sampler, places, counts)
             }
         })
     }

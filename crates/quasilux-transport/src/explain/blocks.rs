@@ -12,12 +12,13 @@ const MIN_REACHED: f64 = 1.0 / 64.0;
 /// The blocks of `samples` samples that drew these dimensions. What decides over joins has a block of its own, for its
 /// dimensions are far from all others.
 pub(super) fn of(uses: BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
-    let (joins, others): (BTreeMap<_, _>, BTreeMap<_, _>) =
-        uses.into_iter().partition(|((_, purpose), _)| *purpose == Purpose::Joins);
+    let (connections, others): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        uses.into_iter().partition(|((_, purpose), _)| *purpose == Purpose::Connections);
     let mut blocks = in_order(&others, samples);
-    if let (Some(last), Some(((first, _), _))) = (blocks.last_mut(), joins.first_key_value()) {
+    if let (Some(last), Some(((first, _), _))) = (blocks.last_mut(), connections.first_key_value())
+    {
         last.dimensions.end = *first;
-        blocks.extend(in_order(&joins, samples));
+        blocks.extend(in_order(&connections, samples));
     }
     blocks
 }

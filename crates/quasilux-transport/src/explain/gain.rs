@@ -1,7 +1,7 @@
 //! What the sequence of a run is worth: errors of independent replicates.
 
 use super::shares::{Spread, power};
-use super::{FIRST_OF_GAIN, Gain, Walk};
+use super::{FIRST_OF_GAIN, Gain, SampleSource};
 use crate::context::Stream;
 use crate::settings::Settings;
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
@@ -13,7 +13,7 @@ const RATIO: u64 = 16;
 
 /// The gain over pseudo-random points, whose error follows from the spread of single samples.
 pub(super) fn gain(
-    walk: &dyn Walk,
+    walk: &dyn SampleSource,
     settings: &Settings,
     spread: &Spread<'_>,
     rays: &mut u64,

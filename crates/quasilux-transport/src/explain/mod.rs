@@ -4,7 +4,7 @@
 //! which coordinates feed which decision, as the code that draws them says ([`crate::purpose`]).
 //! Neighbouring coordinates that feed the same decision make a block. The pilot is then repeated with
 //! one block exchanged at a time, which gives the block's share of the variance (`shares`), and with
-//! one block moved a little, which tells jumps from slopes. Shares are of the variance of one path or
+//! one block moved a little, which tells jumps from slopes. PartitionWeights are of the variance of one path or
 //! photon: what is even in few coordinates, and smooth, quasi-random points integrate fast (Caflisch,
 //! Morokoff and Owen 1997). What they are worth here is measured, too: independent replicates of the
 //! sequence of the run against the variance of the pilot.
@@ -18,14 +18,14 @@ mod paths;
 mod photons;
 mod shares;
 
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;
 use crate::purpose::{Ledger, Purpose, PurposeRecorder};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use gain::gain;
-use paths::PathWalk;
-use photons::PhotonWalk;
+use paths::PathSource;
+use photons::PhotonSource;
 use quasilux_sampling::{DimensionHistogram, PointSet, Randomization, Sequence, stream_key};
 use quasilux_scene::{Rgb, Scene};
 use rayon::prelude::*;
@@ -41,14 +41,14 @@ const FIRST_OF_GAIN: u32 = u32::MAX - 1000;
 const PHOTONS_A_PIECE: u64 = 1 << 8;
 /// Steps by which blocks are moved, to see how fast the difference falls.
 const STEPS: [f64; 2] = [1.0 / 16.0, 1.0 / 64.0];
-/// Shares of less are not looked at for jumps.
+/// PartitionWeights of less are not looked at for jumps.
 const MIN_SHARE: f64 = 0.01;
 
 /// Where the variance of an estimate comes from, by coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     /// What was traced.
-    pub walk: WalkKind,
+    pub walk: SampleKind,
     /// Sensor points whose paths were looked at, with the photons beside them, or sensors whose average photons were.
     pub targets: usize,
     /// Pilot samples, of each target where they are paths.
@@ -85,7 +85,7 @@ pub struct Beside {
 
 /// What a pilot traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WalkKind {
+pub enum SampleKind {
     /// Photons from the lights that sensors count.
     Photons,
     /// Paths from the sensors.
@@ -97,14 +97,14 @@ pub enum WalkKind {
     /// Photons beside these paths that are counted by the cells they land in.
     CountedPhotons,
     /// Photons beside these paths that are joined to the sensors, beyond what is expected of them.
-    JoinedPhotons,
+    ConnectedPhotons,
 }
 
-impl WalkKind {
+impl SampleKind {
     /// How many samples of their own so many targets have for each index: photons serve all, paths one each.
     fn samples_an_index(self, targets: usize) -> usize {
         match self {
-            Self::Photons | Self::CountedPhotons | Self::JoinedPhotons => 1,
+            Self::Photons | Self::CountedPhotons | Self::ConnectedPhotons => 1,
             Self::Paths | Self::PathsOnMap | Self::PathsBesidePhotons => targets,
         }
     }
@@ -173,14 +173,14 @@ pub fn explain(scene: &Scene, settings: &Settings) -> Explanation {
 
 fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     let ledger = Ledger::default();
-    let mut stage = Stage::<S>::new(scene, settings);
-    stage.purposes = PurposeRecorder::recording(&ledger);
+    let mut context = Context::<S>::new(scene, settings);
+    context.purposes = PurposeRecorder::recording(&ledger);
     match settings.estimator {
         EstimatorKind::Photon => {
-            look_into(&PhotonWalk::new(&stage, scene, settings), &ledger, settings).explanation
+            look_into(&PhotonSource::new(&context, scene, settings), &ledger, settings).explanation
         }
         EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
-            let walk = PathWalk::new(&stage, scene, settings);
+            let walk = PathSource::new(&context, scene, settings);
             let Look { explanation, means_lx } = look_into(&walk, &ledger, settings);
             let beside = walk.beside(&means_lx).map(|walk| Beside {
                 for_each_path: walk.for_each_path(),
@@ -232,8 +232,8 @@ impl Pilot {
 type Points<'p> = dyn Fn(Stream) -> PointSet + Sync + 'p;
 
 /// Samples whose values can be had with any coordinates.
-trait Walk: Sync {
-    fn kind(&self) -> WalkKind;
+trait SampleSource: Sync {
+    fn kind(&self) -> SampleKind;
     /// How many samples make a pilot.
     fn samples(&self) -> u64;
     /// What deviations of each target are measured by, where that is not the mean of its values.
@@ -251,7 +251,7 @@ struct Look {
     means_lx: Vec<f64>,
 }
 
-fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Look {
+fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> Look {
     let samples = walk.samples();
     let key = |replicate: u32, stream: Stream| stream_key(settings.seed, replicate, stream.id());
     let random = |key| PointSet::new(Sequence::Independent, Randomization::None, key);
@@ -281,7 +281,8 @@ fn look_into(walk: &dyn Walk, ledger: &Ledger, settings: &Settings) -> Look {
         block.alone = spread.alone(&exchanged);
         block.total = spread.total(&exchanged);
         let carries = |share: Option<Share>, least| share.is_some_and(|share| share.value > least);
-        let follows = number > 0 && block.uses.iter().all(|used| used.purpose != Purpose::Joins);
+        let follows =
+            number > 0 && block.uses.iter().all(|used| used.purpose != Purpose::Connections);
         if truncation_dimension.is_none() && follows {
             let tail = spread.total(&exchange(first..u32::MAX));
             truncation_dimension = (!carries(tail, 0.01)).then_some(first);

@@ -1,15 +1,15 @@
 //! Paths as a pilot sees them: what each finds at some of the sensor points.
 
-use super::beside::{BesideWalk, Role};
-use super::{Pilot, Points, Walk, WalkKind};
-use crate::context::{Stage, Stream};
-use crate::estimator::connection::Joined;
+use super::beside::{BesideSource, Role};
+use super::{Pilot, Points, SampleKind, SampleSource};
+use crate::context::{Context, Stream};
+use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::exact;
 use crate::estimator::selection::{Decision, decide};
 use crate::path::end::PathEnd;
 use crate::path::sections::Section;
 use crate::path::wave::{PathWave, WAVE};
-use crate::photon::caustics::HiddenLight;
+use crate::photon::caustics::CausticMap;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
@@ -28,14 +28,14 @@ const JOINED_SAMPLES: u64 = 1 << 6;
 /// Photons on the map where it grows with the run.
 const MAP_PHOTONS: u64 = 1 << 14;
 
-pub(super) struct PathWalk<'s, S> {
-    stage: &'s Stage<'s, S>,
+pub(super) struct PathSource<'s, S> {
+    context: &'s Context<'s, S>,
     targets: Vec<PathTarget>,
     end: PathEnd<S>,
-    hidden: Option<HiddenLight<S>>,
+    caustics: Option<CausticMap<S>>,
     /// Photons that find a part of the light, for these targets.
-    joined: Option<Joined>,
-    kind: WalkKind,
+    light_vertices: Option<LightVertexConnections>,
+    kind: SampleKind,
 }
 
 struct PathTarget {
@@ -53,8 +53,8 @@ struct Piece {
     dimensions: DimensionHistogram,
 }
 
-impl<'s, S: Spectrum> PathWalk<'s, S> {
-    pub(super) fn new(stage: &'s Stage<'s, S>, scene: &Scene, settings: &Settings) -> Self {
+impl<'s, S: Spectrum> PathSource<'s, S> {
+    pub(super) fn new(context: &'s Context<'s, S>, scene: &Scene, settings: &Settings) -> Self {
         let all = targets(scene);
         let count = all.len().min(TARGETS);
         let number = |i| (2 * i + 1) * all.len() / (2 * count);
@@ -62,68 +62,69 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
-        let exact = exact(stage, &all, &mut 0);
-        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let Decision { joined, frozen, .. } =
-            decide(stage, (settings, 1), (&all, &exact), quantum, &mut watch);
-        let mut joined = joined.map(|joined| joined.of_some(stage, looked_at()));
-        if let Some(joined) = &mut joined {
+        let exact = exact(context, &all, &mut 0);
+        let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
+        let Decision { light_vertices, frozen, .. } =
+            decide(context, (settings, 1), (&all, &exact), quantum, &mut watch);
+        let mut light_vertices =
+            light_vertices.map(|light_vertices| light_vertices.of_some(context, looked_at()));
+        if let Some(light_vertices) = &mut light_vertices {
             // As many photons as say how much light they find.
-            joined.grow(stage, JOINED_SAMPLES, &mut watch);
+            light_vertices.grow(context, JOINED_SAMPLES, &mut watch);
         }
         let targets = looked_at().enumerate().map(|(i, (number, target))| PathTarget {
             number: number as u64,
             target,
             given_lx: exact[number].sum_lx()
-                + joined.as_ref().map_or(0.0, |joined| joined.lx(0, i)),
+                + light_vertices.as_ref().map_or(0.0, |light_vertices| light_vertices.lx(0, i)),
         });
         let mut targets: Vec<PathTarget> = targets.collect();
-        let (mut end, _) = PathEnd::prepare(stage, &one, &all, (frozen, None), &mut watch);
+        let (mut end, _) = PathEnd::prepare(context, &one, &all, (frozen, None), &mut watch);
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
-        end.grow(stage, photons, |_| None, &mut watch);
-        let hidden = Self::hidden(stage, &one, &targets, &mut watch);
+        end.grow(context, photons, |_| None, &mut watch);
+        let caustics = Self::caustics(context, &one, &targets, &mut watch);
         for (i, target) in targets.iter_mut().enumerate() {
-            target.given_lx += hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(0, i));
+            target.given_lx += caustics.as_ref().map_or(0.0, |caustics| caustics.target_lx(0, i));
         }
         let kind = match settings.estimator {
-            EstimatorKind::Path => WalkKind::Paths,
-            _ if joined.is_some() => WalkKind::PathsBesidePhotons,
-            _ if matches!(end, PathEnd::Nothing) => WalkKind::Paths,
-            _ => WalkKind::PathsOnMap,
+            EstimatorKind::Path => SampleKind::Paths,
+            _ if light_vertices.is_some() => SampleKind::PathsBesidePhotons,
+            _ if matches!(end, PathEnd::Nothing) => SampleKind::Paths,
+            _ => SampleKind::PathsOnMap,
         };
-        Self { stage, targets, end, hidden, joined, kind }
+        Self { context, targets, end, caustics, light_vertices, kind }
     }
 
     /// The photons that find a part of the light, as walks of their own, where the targets get this much in all.
-    pub(super) fn beside(&self, whole_lx: &[f64]) -> impl Iterator<Item = BesideWalk<'_, S>> {
-        let walks = self.joined.iter().flat_map(move |joined| {
-            // Of a target that is nearly dark, little is known but what was foretold.
-            let known = whole_lx.iter().zip(joined.foretold_lx());
-            let whole_lx: Vec<f64> = known.map(|(lx, foretold)| lx.max(0.5 * foretold)).collect();
-            [Role::Counted, Role::Joined].map(|role| {
+    pub(super) fn beside(&self, whole_lx: &[f64]) -> impl Iterator<Item = BesideSource<'_, S>> {
+        let walks = self.light_vertices.iter().flat_map(move |light_vertices| {
+            // Of a target that is nearly dark, little is known but what was predicted.
+            let known = whole_lx.iter().zip(light_vertices.foretold_lx());
+            let whole_lx: Vec<f64> = known.map(|(lx, predicted)| lx.max(0.5 * predicted)).collect();
+            [Role::Counted, Role::LightVertexConnections].map(|role| {
                 let whole_lx = whole_lx.clone();
-                BesideWalk { stage: self.stage, joined, role, whole_lx }
+                BesideSource { context: self.context, light_vertices, role, whole_lx }
             })
         });
         walks.filter(|walk| walk.for_each_path() > 0)
     }
 
     /// Light that only photons find, as far as paths read it.
-    fn hidden(
-        stage: &Stage<'_, S>,
+    fn caustics(
+        context: &Context<'_, S>,
         settings: &Settings,
         targets: &[PathTarget],
         watch: &mut Watch<'_>,
-    ) -> Option<HiddenLight<S>> {
+    ) -> Option<CausticMap<S>> {
         let targets: Vec<Target> = targets.iter().map(|target| target.target).collect();
-        let mut hidden = HiddenLight::new(stage, settings, &targets)?;
-        hidden.grow(stage, hidden.photons_for(SAMPLES), watch)?;
-        hidden.show(stage);
-        Some(hidden)
+        let mut caustics = CausticMap::new(context, settings, &targets)?;
+        caustics.grow(context, caustics.photons_for(SAMPLES), watch)?;
+        caustics.show(context);
+        Some(caustics)
     }
 
     fn piece(&self, wave: &mut PathWave<S>, section: &Section<'_, S>, given_lx: f64) -> Piece {
-        let paths = wave.trace(self.stage, section.starts(self.stage));
+        let paths = wave.trace(self.context, section.starts(self.context));
         let rays = wave.take_rays();
         let mut piece = Piece { values: Vec::new(), rays, dimensions: DimensionHistogram::new() };
         for path in paths {
@@ -137,8 +138,8 @@ impl<'s, S: Spectrum> PathWalk<'s, S> {
     }
 }
 
-impl<S: Spectrum> Walk for PathWalk<'_, S> {
-    fn kind(&self) -> WalkKind {
+impl<S: Spectrum> SampleSource for PathSource<'_, S> {
+    fn kind(&self) -> SampleKind {
         self.kind
     }
 
@@ -155,9 +156,12 @@ impl<S: Spectrum> Walk for PathWalk<'_, S> {
                 number: 0,
                 target: target.target,
                 points: points(Stream::Paths(target.number)),
-                rest: self.end.rest(self.stage, 0, target.number as usize),
-                partition: self.joined.as_ref().map(|joined| &joined.joining.partition),
-                hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(0)),
+                rest: self.end.rest(self.context, 0, target.number as usize),
+                partition: self
+                    .light_vertices
+                    .as_ref()
+                    .map(|light_vertices| &light_vertices.connection.partition),
+                caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(0)),
                 indices: first..(first + WAVE).min(samples),
             };
             self.piece(wave, &section, target.given_lx)

@@ -2,10 +2,10 @@
 //!
 //! Steered photons split; what they split off draws coordinates that belong to no block.
 
-use super::{Pilot, Points, Walk, WalkKind};
-use crate::context::{Stage, Stream};
-use crate::estimator::photons::{self, Receivers};
-use crate::importance::Windows;
+use super::{Pilot, Points, SampleKind, SampleSource};
+use crate::context::{Context, Stream};
+use crate::estimator::photon_estimator::{self, Receivers};
+use crate::importance::WeightWindows;
 use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::Settings;
@@ -18,10 +18,10 @@ use quasilux_scene::Scene;
 /// Photons.
 const SAMPLES: u64 = 1 << 14;
 
-pub(super) struct PhotonWalk<'s, S> {
-    stage: &'s Stage<'s, S>,
+pub(super) struct PhotonSource<'s, S> {
+    context: &'s Context<'s, S>,
     receivers: Receivers,
-    windows: Option<Windows>,
+    windows: Option<WeightWindows>,
     /// What a photon at each counter is worth.
     readings: Vec<Vec<Reading>>,
     sensors: usize,
@@ -40,26 +40,26 @@ struct Found<'w> {
     lx: Vec<f64>,
 }
 
-impl<'s, S: Spectrum> PhotonWalk<'s, S> {
-    pub(super) fn new(stage: &'s Stage<'s, S>, scene: &Scene, settings: &Settings) -> Self {
-        let receivers = Receivers::new(&stage.world, scene, settings);
+impl<'s, S: Spectrum> PhotonSource<'s, S> {
+    pub(super) fn new(context: &'s Context<'s, S>, scene: &Scene, settings: &Settings) -> Self {
+        let receivers = Receivers::new(&context.world, scene, settings);
         let mut readings: Vec<Vec<Reading>> = Vec::new();
         readings.resize_with(receivers.counters, Vec::new);
         let sensors = scene.sensors.iter().enumerate();
         let sensors =
             sensors.flat_map(|(number, s)| std::iter::repeat_n((number, s.len()), s.len()));
         for ((sensor, points), &(counter, area_m2)) in sensors.zip(&receivers.targets) {
-            let lx = stage.lights.flux_lm / (area_m2 * points as f64);
+            let lx = context.lights.flux_lm / (area_m2 * points as f64);
             readings[counter as usize].push(Reading { sensor, lx });
         }
-        let windows = photons::plan(stage, scene, &receivers, settings).windows;
-        Self { stage, receivers, windows, readings, sensors: scene.sensors.len() }
+        let windows = photon_estimator::plan(context, scene, &receivers, settings).windows;
+        Self { context, receivers, windows, readings, sensors: scene.sensors.len() }
     }
 }
 
-impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
-    fn kind(&self) -> WalkKind {
-        WalkKind::Photons
+impl<S: Spectrum> SampleSource for PhotonSource<'_, S> {
+    fn kind(&self) -> SampleKind {
+        SampleKind::Photons
     }
 
     fn samples(&self) -> u64 {
@@ -73,7 +73,7 @@ impl<S: Spectrum> Walk for PhotonWalk<'_, S> {
             let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
             let sampler = Sampler::new(&points, index);
             let lead = Lead::by_chance(Source::Lights, self.windows.as_ref());
-            trace_photon(self.stage, lead, sampler, &mut found, counts);
+            trace_photon(self.context, lead, sampler, &mut found, counts);
             found.lx
         })
     }

@@ -1,4 +1,4 @@
-//! Shares against the closed form of a known integrand.
+//! PartitionWeights against the closed form of a known integrand.
 
 use super::*;
 use quasilux_sampling::Sampler;
@@ -11,9 +11,9 @@ struct Ishigami<'l> {
     step: f64,
 }
 
-impl Walk for Ishigami<'_> {
-    fn kind(&self) -> WalkKind {
-        WalkKind::Paths
+impl SampleSource for Ishigami<'_> {
+    fn kind(&self) -> SampleKind {
+        SampleKind::Paths
     }
 
     fn samples(&self) -> u64 {

@@ -1,11 +1,11 @@
-//! What a survey foretells of a run: where photons will land, and how much light sensors will get.
+//! What a survey predicts of a run: where photons will land, and how much light sensors will get.
 //!
 //! Whoever shares work between photons and paths goes by it; a wrong forecast costs effort and never
 //! bias.
 
 use crate::codec::Writer;
-use crate::importance::balance::Balance;
 use crate::importance::cells::{Around, Regions};
+use crate::importance::flux_and_importance::FluxAndImportance;
 use crate::importance::survey::Survey;
 use crate::world::Interaction;
 use glam::DVec3;
@@ -46,7 +46,7 @@ impl Forecast {
     pub(super) fn new(
         survey: &Survey,
         regions: Arc<Regions>,
-        balance: &Balance,
+        balance: &FluxAndImportance,
         areas_m2: &[f64],
         weights: &[f64],
     ) -> Self {
@@ -74,7 +74,7 @@ impl Forecast {
 /// Flux that lands on a square metre of each surveyed cell, as a share of what all lights emit. Few of the
 /// steps that the balance is made of end in any one cell; many cells are seen from it, so what comes
 /// after a bounce is gathered from there.
-fn lit_per_m2(survey: &Survey, balance: &Balance, areas_m2: &[f64]) -> Vec<f64> {
+fn lit_per_m2(survey: &Survey, balance: &FluxAndImportance, areas_m2: &[f64]) -> Vec<f64> {
     let per_m2 = |flux: &[f64]| -> Vec<f64> {
         flux.iter().zip(areas_m2).map(|(flux, area_m2)| flux / area_m2).collect()
     };

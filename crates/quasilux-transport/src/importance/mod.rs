@@ -4,28 +4,28 @@
 //! [`survey`] of the scene says, by linear algebra ([`balance`]), how much light there is and what it
 //! is worth to the sensors; [`windows`] then say how many photons should follow each that lands, and
 //! [`guide`] in which directions. The survey has pilot rays of its own, their number is fixed and their
-//! coordinates serve nothing else: whatever it says, the estimate has the same mean. It also foretells
+//! coordinates serve nothing else: whatever it says, the estimate has the same mean. It also predicts
 //! what steering saves; where that is little, as in a plain room, photons are left alone.
 
-mod balance;
 mod cells;
+mod flux_and_importance;
 mod forecast;
-mod guide;
+mod guiding_tree;
 mod survey;
 #[cfg(test)]
 mod tests;
-mod windows;
+mod weight_windows;
 
 pub(crate) use cells::Around;
 pub(crate) use forecast::{Density, Forecast, Landings};
-pub(crate) use guide::{Fork, Guide, MAX_FORKS};
-pub(crate) use windows::{Performance, Split, Windows};
+pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
+pub(crate) use weight_windows::{Performance, Split, WeightWindows};
 
-use crate::context::Stage;
+use crate::context::Context;
 use crate::settings::Switch;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
-use balance::Balance;
+use flux_and_importance::FluxAndImportance;
 use std::sync::Arc;
 use survey::Survey;
 
@@ -40,12 +40,12 @@ const LOOKS: u32 = 2;
 #[derive(Default)]
 pub(crate) struct Plan {
     /// `None` where photons are left alone.
-    pub(crate) windows: Option<Windows>,
+    pub(crate) windows: Option<WeightWindows>,
     /// What to expect then; `None` where the survey found no light on its way to sensors.
     pub(crate) forecast: Option<Forecast>,
     /// Of photons that are steered.
     pub(crate) steered: Option<Performance>,
-    /// Times that the same error costs fewer rays where photons are steered, as foretold before the closer look.
+    /// Times that the same error costs fewer rays where photons are steered, as predicted before the closer look.
     pub(crate) gain: f64,
     /// Rays of the survey.
     pub(crate) rays: u64,
@@ -53,24 +53,24 @@ pub(crate) struct Plan {
 
 /// Surveys the scene, if `importance` asks for it, and decides.
 pub(crate) fn plan<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     targets: &[Target],
     importance: Switch,
 ) -> Plan {
     match importance {
         Switch::Off => Plan::default(),
-        Switch::Auto | Switch::On => foresee(stage, targets, importance),
+        Switch::Auto | Switch::On => foresee(context, targets, importance),
     }
 }
 
 /// Surveys the scene, whether photons are to be steered or not, and decides.
 pub(crate) fn foresee<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     targets: &[Target],
     importance: Switch,
 ) -> Plan {
-    let Some(mut survey) = Survey::new(stage, targets) else { return Plan::default() };
-    let Some((mut balance, mut areas_m2)) = look_far(stage, &mut survey, 1) else {
+    let Some(mut survey) = Survey::new(context, targets) else { return Plan::default() };
+    let Some((mut balance, mut areas_m2)) = look_far(context, &mut survey, 1) else {
         return Plan { rays: survey.rays, ..Plan::default() };
     };
     let plain = Performance::plain(&survey, &balance);
@@ -81,17 +81,18 @@ pub(crate) fn foresee<S: Spectrum>(
         Switch::Off => false,
     };
     if uses_importance {
-        survey.refine(stage);
-        let Some(refined) = look_far(stage, &mut survey, LOOKS) else {
+        survey.refine(context);
+        let Some(refined) = look_far(context, &mut survey, LOOKS) else {
             return Plan { rays: survey.rays, ..Plan::default() };
         };
         (balance, areas_m2) = refined;
     }
     let regions = Arc::new(survey.regions());
-    let windows = uses_importance.then(|| Windows::new(&survey, Arc::clone(&regions), &balance));
+    let windows =
+        uses_importance.then(|| WeightWindows::new(&survey, Arc::clone(&regions), &balance));
     let steered = windows.as_ref().map(|windows| windows.performance(&survey, &balance));
     let steered = steered.map(|of_all| of_all.of_each_sensor(&survey));
-    let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], Windows::weights);
+    let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], WeightWindows::weights);
     let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
     Plan { windows, forecast: Some(forecast), steered, gain, rays: survey.rays }
 }
@@ -99,23 +100,23 @@ pub(crate) fn foresee<S: Spectrum>(
 /// Connects cells over distances, to where light is worth most by what is known so far; what follows
 /// from all of it, and the cells' areas in m^2.
 fn look_far<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     survey: &mut Survey,
-    looks: u32,
-) -> Option<(Balance, Vec<f64>)> {
-    let flux_lm = stage.lights.flux_lm;
-    let areas_m2 = areas_m2(stage, survey);
-    for _ in 0..looks {
-        let balance = Balance::new(survey, &areas_m2, flux_lm)?;
-        survey.connect(stage, &areas_m2, &balance.landed_worth);
+    short_looks: u32,
+) -> Option<(FluxAndImportance, Vec<f64>)> {
+    let flux_lm = context.lights.flux_lm;
+    let areas_m2 = areas_m2(context, survey);
+    for _ in 0..short_looks {
+        let balance = FluxAndImportance::new(survey, &areas_m2, flux_lm)?;
+        survey.connect(context, &areas_m2, &balance.landed_importance);
     }
-    Some((Balance::new(survey, &areas_m2, flux_lm)?, areas_m2))
+    Some((FluxAndImportance::new(survey, &areas_m2, flux_lm)?, areas_m2))
 }
 
 /// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets the
 /// least that another has.
-fn areas_m2<S: Spectrum>(stage: &Stage<'_, S>, survey: &Survey) -> Vec<f64> {
-    let of_cell = survey.cells.areas_m2(&stage.world);
+fn areas_m2<S: Spectrum>(context: &Context<'_, S>, survey: &Survey) -> Vec<f64> {
+    let of_cell = survey.cells.areas_m2(&context.world);
     let least = of_cell.iter().copied().filter(|area| *area > 0.0).fold(f64::INFINITY, f64::min);
     let mut areas_m2 = vec![least; survey.known.len()];
     for (number, area_m2) in survey.number_of_cell.iter().zip(of_cell) {

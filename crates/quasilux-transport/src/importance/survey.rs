@@ -3,10 +3,10 @@
 //!
 //! A pilot of whole photons never sees the far end of a corridor. A survey of single steps does: each
 //! cell sends as many rays as any other, however little light comes to it, and chains of steps are
-//! left to linear algebra ([`crate::importance::balance`]). Cells are discovered as rays land in them.
+//! left to linear algebra ([`crate::importance::flux_and_importance`]). Cells are discovered as rays land in them.
 
 use crate::bsdf::Mode;
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::importance::cells::{Cells, Regions};
 use crate::lights::Emission;
 use crate::spectrum::Spectrum;
@@ -14,7 +14,7 @@ use crate::stats::targets::Target;
 use crate::world::Interaction;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Asker, Shadows};
+use crate::world::visibility::{Receiver, ShadowQueue};
 use glam::DVec3;
 use quasilux_sampling::warp::{invert_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_sampling::{Discrete, PointSet, Sampler};
@@ -46,7 +46,7 @@ pub(crate) struct Survey {
     pub(crate) cells: Cells,
     /// Number of each cell, [`Regions::UNKNOWN`] for none.
     pub(crate) number_of_cell: Vec<u32>,
-    pub(crate) known: Vec<Known>,
+    pub(crate) known: Vec<SurveyCell>,
     pub(crate) sensors: Vec<Surveyed>,
     /// Every so many targets one was surveyed.
     pub(crate) sensor_step: usize,
@@ -58,7 +58,7 @@ pub(crate) struct Survey {
 }
 
 /// A cell that rays have found.
-pub(crate) struct Known {
+pub(crate) struct SurveyCell {
     pub(crate) cell: usize,
     pub(crate) places: Vec<Interaction>,
     /// Luminance of the albedo, mean over the places.
@@ -66,23 +66,23 @@ pub(crate) struct Known {
     /// Rays sent on from here.
     pub(crate) rays: u32,
     /// Where they landed.
-    landings: Vec<Landing>,
+    landings: Vec<Transition>,
     /// Far places that light goes to, as many times tried as rays had left by then.
-    connections: Vec<Landing>,
+    connections: Vec<Transition>,
 }
 
-impl Known {
+impl SurveyCell {
     /// Where light goes that leaves here.
-    pub(crate) fn steps(&self) -> impl Iterator<Item = Landing> {
+    pub(crate) fn steps(&self) -> impl Iterator<Item = Transition> {
         let of_each = 1.0 / f64::from(self.rays.max(1));
         let steps = self.landings.iter().chain(&self.connections);
-        steps.map(move |step| Landing { share: step.share * of_each, ..*step })
+        steps.map(move |step| Transition { share: step.share * of_each, ..*step })
     }
 }
 
 /// A ray's end in a cell, or a place that one may end.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Landing {
+pub(crate) struct Transition {
     /// Number of the cell.
     pub(crate) cell: u32,
     /// The part of all rays that it stands for; while it is kept, the rays.
@@ -101,7 +101,7 @@ pub(crate) struct Surveyed {
     /// Illuminance straight from the point-like lights, in lx.
     pub(crate) direct_lx: f64,
     pub(crate) rays: u64,
-    pub(crate) landings: Vec<Landing>,
+    pub(crate) landings: Vec<Transition>,
 }
 
 /// A ray's end on a surface that keeps illuminance.
@@ -114,7 +114,7 @@ struct Found {
 
 /// What became of a ray that may have passed specular surfaces.
 struct Flown {
-    /// See [`Landing`].
+    /// See [`Transition`].
     u: [f32; 2],
     far_per_m2: f32,
     found: Option<Found>,
@@ -127,8 +127,8 @@ impl Flown {
 
 impl Survey {
     /// Looks around from all lights and from some of the targets; `None` where there is nothing.
-    pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target]) -> Option<Self> {
-        let cells = Cells::new(&stage.world)?;
+    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Option<Self> {
+        let cells = Cells::new(&context.world)?;
         let mut survey = Self {
             number_of_cell: vec![Regions::UNKNOWN; cells.len()],
             cells,
@@ -139,9 +139,9 @@ impl Survey {
             rays: 0,
             sent: 0,
         };
-        survey.look_from_lights(stage);
-        survey.look_from_sensors(stage, targets);
-        survey.explore(stage, CELL_RAYS);
+        survey.look_from_lights(context);
+        survey.look_from_sensors(context, targets);
+        survey.explore(context, CELL_RAYS);
         Some(survey)
     }
 
@@ -151,12 +151,12 @@ impl Survey {
     }
 
     /// Looks closer.
-    pub(crate) fn refine<S: Spectrum>(&mut self, stage: &Stage<'_, S>) {
-        self.explore(stage, MORE_CELL_RAYS);
+    pub(crate) fn refine<S: Spectrum>(&mut self, context: &Context<'_, S>) {
+        self.explore(context, MORE_CELL_RAYS);
     }
 
     /// Connects each cell to far ones that matter, as many times as rays left it: these are chosen in
-    /// proportion to `worths`. Rays find such ways so seldom that a survey by rays alone takes a dark
+    /// proportion to `importances`. Rays find such ways so seldom that a survey by rays alone takes a dark
     /// end for darker, and a chance to get there at once for none.
     ///
     /// From a place with normal n the share of the light that goes to one with n' in a cell of area A
@@ -165,13 +165,13 @@ impl Survey {
     /// the light that goes elsewhere to the rays.
     pub(crate) fn connect<S: Spectrum>(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         areas_m2: &[f64],
-        worths: &[f64],
+        importances: &[f64],
     ) {
-        let weights: Vec<f64> = areas_m2.iter().zip(worths).map(|(a, w)| a * w).collect();
+        let weights: Vec<f64> = areas_m2.iter().zip(importances).map(|(a, w)| a * w).collect();
         let Some(choices) = Discrete::new(&weights) else { return };
-        let points = stage.points(0, Stream::Survey(3));
+        let points = context.points(0, Stream::Survey(3));
         let counted = |far_per_m2: f32, cell: usize| {
             let p = f64::from(far_per_m2) * areas_m2[cell];
             p / (p + choices.pdf(cell))
@@ -195,11 +195,11 @@ impl Survey {
                 if !(distance_m > far_m && cos > 0.0 && cos_end > 0.0) {
                     return None;
                 }
-                let vantage = stage.world.vantage(start);
-                let lit = stage.world.is_visible(vantage, direction, distance_m, end.facet);
+                let ray_origin = context.world.ray_origin(start);
+                let lit = context.world.is_visible(ray_origin, direction, distance_m, end.facet);
                 let far_per_m2 = (cos * cos_end / (PI * distance_m * distance_m)) as f32;
-                let local = stage.world.frame(start).to_local(direction);
-                let connection = Landing {
+                let local = context.world.frame(start).to_local(direction);
+                let connection = Transition {
                     cell: choice.index as u32,
                     share: counted(far_per_m2, choice.index),
                     weight: 1.0,
@@ -210,7 +210,7 @@ impl Survey {
             };
             (0..from.rays).filter_map(try_one).collect::<Vec<_>>()
         };
-        let found: Vec<Vec<(bool, Landing)>> =
+        let found: Vec<Vec<(bool, Transition)>> =
             (0..known.len()).into_par_iter().map(connect).collect();
         for (cell, found) in self.known.iter_mut().zip(found) {
             self.rays += found.len() as u64;
@@ -221,46 +221,48 @@ impl Survey {
         }
     }
 
-    fn look_from_lights<S: Spectrum>(&mut self, stage: &Stage<'_, S>) {
-        let points = stage.points(0, Stream::Survey(0));
+    fn look_from_lights<S: Spectrum>(&mut self, context: &Context<'_, S>) {
+        let points = context.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut sampler = Sampler::new(&points, index);
-            let start = stage.lights.emit(&stage.world, stage.purposes, &mut sampler)?.emission;
-            Some(fly(stage, start, &mut sampler))
+            let start =
+                context.lights.emit(&context.world, context.purposes, &mut sampler)?.emission;
+            Some(fly(context, start, &mut sampler))
         };
         let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();
         for flown in flown.into_iter().flatten() {
-            if let Some(Landing { cell, weight, .. }) = self.enter(stage, flown) {
+            if let Some(Transition { cell, weight, .. }) = self.enter(context, flown) {
                 self.first_landings.resize(self.known.len(), 0.0);
                 self.first_landings[cell as usize] += weight / PHOTONS as f64;
             }
         }
     }
 
-    fn look_from_sensors<S: Spectrum>(&mut self, stage: &Stage<'_, S>, targets: &[Target]) {
+    fn look_from_sensors<S: Spectrum>(&mut self, context: &Context<'_, S>, targets: &[Target]) {
         let asked = targets.iter().step_by(self.sensor_step).map(centre);
         let asked: Vec<(DVec3, DVec3)> = asked.collect();
         let rays = (SENSOR_RAYS / asked.len().max(1) as u64).max(MIN_SENSOR_RAYS);
-        let points = stage.points(0, Stream::Survey(1));
-        let direct_lx = direct_lx(stage, &asked);
+        let points = context.points(0, Stream::Survey(1));
+        let direct_lx = direct_lx(context, &asked);
         for (number, (&(position, n), direct_lx)) in (0..).zip(asked.iter().zip(direct_lx)) {
-            let from = stage.world.vantage_of_sensor(position, n);
+            let from = context.world.ray_origin_of_sensor(position, n);
             let frame = Frame::around(n);
             let look = |index: u64| {
                 let mut sampler = Sampler::new(&points, number * rays + index);
                 let wi = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
                 let start = Emission { from, direction: frame.to_world(wi) };
-                fly(stage, start, &mut sampler)
+                fly(context, start, &mut sampler)
             };
             let flown: Vec<Flown> = (0..rays).into_par_iter().map(look).collect();
-            let landings = flown.into_iter().filter_map(|flown| self.enter(stage, flown)).collect();
+            let landings =
+                flown.into_iter().filter_map(|flown| self.enter(context, flown)).collect();
             self.sensors.push(Surveyed { direct_lx, rays, landings });
         }
     }
 
     /// Sends rays on from every known cell, and from those that they find.
-    fn explore<S: Spectrum>(&mut self, stage: &Stage<'_, S>, rays_each: u32) {
-        let points = stage.points(0, Stream::Survey(2));
+    fn explore<S: Spectrum>(&mut self, context: &Context<'_, S>, rays_each: u32) {
+        let points = context.points(0, Stream::Survey(2));
         loop {
             let unfinished = (0..self.known.len()).filter(|&c| self.known[c].rays < rays_each);
             let round: Vec<usize> = unfinished.collect();
@@ -277,13 +279,13 @@ impl Survey {
             self.sent += jobs.len() as u64;
             let (known, far_m) = (&self.known, self.cells.far_m());
             let send = |&(index, cell, ray): &(u64, usize, u32)| {
-                let Known { places, rays, .. } = &known[cell];
+                let SurveyCell { places, rays, .. } = &known[cell];
                 let at = &places[(rays + ray) as usize % places.len()];
-                go_on(stage, &points, index, at, far_m)
+                go_on(context, &points, index, at, far_m)
             };
             let flown: Vec<Option<Flown>> = jobs.par_iter().map(send).collect();
             for ((_, cell, _), flown) in jobs.into_iter().zip(flown) {
-                let landing = flown.and_then(|flown| self.enter(stage, flown));
+                let landing = flown.and_then(|flown| self.enter(context, flown));
                 self.known[cell].rays += 1;
                 self.known[cell].landings.extend(landing);
             }
@@ -291,14 +293,14 @@ impl Survey {
     }
 
     /// Numbers of a known cell and of those around it.
-    pub(crate) fn numbers_around(&self, known: &Known) -> impl Iterator<Item = usize> {
+    pub(crate) fn numbers_around(&self, known: &SurveyCell) -> impl Iterator<Item = usize> {
         let numbers = self.cells.around(known.cell).map(|cell| self.number_of_cell[cell]);
         numbers.filter(|number| *number != Regions::UNKNOWN).map(|number| number as usize)
     }
 
     /// Counts a flight's rays and takes its end to its cell, which may be new; `None` where it ended
     /// nowhere, or there is no room for new cells.
-    fn enter<S: Spectrum>(&mut self, stage: &Stage<'_, S>, flown: Flown) -> Option<Landing> {
+    fn enter<S: Spectrum>(&mut self, context: &Context<'_, S>, flown: Flown) -> Option<Transition> {
         self.rays += flown.rays;
         let Found { at, weight, .. } = flown.found?;
         let place = self.cells.cell(&at);
@@ -308,7 +310,7 @@ impl Survey {
                 return None;
             }
             *number = self.known.len() as u32;
-            self.known.push(Known {
+            self.known.push(SurveyCell {
                 cell: place,
                 places: Vec::new(),
                 albedo: 0.0,
@@ -320,12 +322,12 @@ impl Survey {
         let cell = *number;
         let known = &mut self.known[cell as usize];
         if known.places.len() < PLACES {
-            let albedo = stage.world.bsdf(&at).albedo(DVec3::Z, at.front, Mode::Flux).luminance();
+            let albedo = context.world.bsdf(&at).albedo(DVec3::Z, at.front, Mode::Flux).luminance();
             known.albedo += (albedo - known.albedo) / (known.places.len() + 1) as f64;
             known.places.push(at);
         }
         let Flown { u, far_per_m2, .. } = flown;
-        Some(Landing { cell, share: 1.0, weight, far_per_m2, u })
+        Some(Transition { cell, share: 1.0, weight, far_per_m2, u })
     }
 }
 
@@ -338,33 +340,33 @@ fn centre(target: &Target) -> (DVec3, DVec3) {
 }
 
 /// Illuminance straight from the point-like lights, in lx.
-fn direct_lx<S: Spectrum>(stage: &Stage<'_, S>, asked: &[(DVec3, DVec3)]) -> Vec<f64> {
+fn direct_lx<S: Spectrum>(context: &Context<'_, S>, asked: &[(DVec3, DVec3)]) -> Vec<f64> {
     let mut direct_lx = vec![0.0; asked.len()];
-    let askers = (0..).zip(asked).map(|(who, &(position, n))| {
-        let from = stage.world.vantage_of_sensor(position, n);
-        Asker { who, vertex: Vertex::sensor(from, n) }
+    let receivers = (0..).zip(asked).map(|(who, &(position, n))| {
+        let from = context.world.ray_origin_of_sensor(position, n);
+        Receiver { who, vertex: Vertex::sensor(from, n) }
     });
-    let askers: Vec<Asker<'_, S>> = askers.collect();
+    let receivers: Vec<Receiver<'_, S>> = receivers.collect();
     let receive = |who: u32, lx: S, _| direct_lx[who as usize] += lx.luminance();
-    stage.lights.pointlikes.all(&stage.world, &askers, &mut Shadows::default(), receive);
+    context.lights.pointlikes.all(&context.world, &receivers, &mut ShadowQueue::default(), receive);
     direct_lx
 }
 
 /// A ray on from a place whose albedo is counted elsewhere.
 fn go_on<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     points: &PointSet,
     index: u64,
     at: &Interaction,
     far_m: f64,
 ) -> Option<Flown> {
     let mut sampler = Sampler::new(points, index);
-    let wi = stage.world.bsdf(at).sample(DVec3::Z, at.front, Mode::Flux, &mut sampler)?.wi;
-    let world = &stage.world;
+    let wi = context.world.bsdf(at).sample(DVec3::Z, at.front, Mode::Flux, &mut sampler)?.wi;
+    let world = &context.world;
     let u = invert_cosine_hemisphere(wi.abs().to_array()).map(|u| u as f32);
-    let from = if wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+    let from = if wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
     let start = Emission { from, direction: world.frame(at).to_world(wi) };
-    let flown = fly(stage, start, &mut sampler);
+    let flown = fly(context, start, &mut sampler);
     let far_per_m2 = match &flown.found {
         Some(Found { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
             (wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)) as f32
@@ -375,8 +377,8 @@ fn go_on<S: Spectrum>(
 }
 
 /// Flies to the first surface that keeps illuminance.
-fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, sampler: &mut Sampler<'_>) -> Flown {
-    let world = &stage.world;
+fn fly<S: Spectrum>(context: &Context<'_, S>, start: Emission, sampler: &mut Sampler<'_>) -> Flown {
+    let world = &context.world;
     let Emission { mut from, mut direction } = start;
     let mut weight = 1.0;
     for passed in 0..MAX_PASSED {
@@ -391,7 +393,7 @@ fn fly<S: Spectrum>(stage: &Stage<'_, S>, start: Emission, sampler: &mut Sampler
         let wo = frame.to_local(-direction);
         let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, sampler) else { return nothing };
         weight *= next.weight.luminance();
-        from = if next.wi.z > 0.0 { world.vantage(&at) } else { world.vantage_behind(&at) };
+        from = if next.wi.z > 0.0 { world.ray_origin(&at) } else { world.ray_origin_behind(&at) };
         direction = frame.to_world(next.wi);
     }
     Flown { rays: u64::from(MAX_PASSED), ..Flown::NOWHERE }

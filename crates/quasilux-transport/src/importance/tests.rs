@@ -15,16 +15,16 @@ fn rays_and_connections_share_all_light() {
     scene.lights.push(point_light(DVec3::new(0.5, 0.4, 0.6), 100.0));
     scene.sensors.push(level_grid(DVec3::ZERO, [12.0, 1.0], [12, 1]));
     let settings = Settings::default();
-    let stage = Stage::<f64>::new(&scene, &settings);
-    let mut survey = Survey::new(&stage, &targets(&scene)).expect("a room");
-    let areas_m2 = areas_m2(&stage, &survey);
+    let context = Context::<f64>::new(&scene, &settings);
+    let mut survey = Survey::new(&context, &targets(&scene)).expect("a room");
+    let areas_m2 = areas_m2(&context, &survey);
     let all = |survey: &Survey| {
         let cells = survey.known.iter();
-        let shares = cells.flat_map(|cell| cell.steps().map(|step| step.share));
-        shares.sum::<f64>() / survey.known.len() as f64
+        let weights_of_paths = cells.flat_map(|cell| cell.steps().map(|step| step.share));
+        weights_of_paths.sum::<f64>() / survey.known.len() as f64
     };
     for look in 0..4 {
-        let worth = |(number, cell): (usize, &survey::Known)| {
+        let importance = |(number, cell): (usize, &survey::SurveyCell)| {
             let is_at_the_end = cell.places[0].position.x > 11.0;
             match look {
                 0 => f64::from(u8::from(number == 0)),
@@ -33,11 +33,11 @@ fn rays_and_connections_share_all_light() {
                 _ => 1.0,
             }
         };
-        let worths: Vec<f64> = survey.known.iter().enumerate().map(worth).collect();
-        survey.connect(&stage, &areas_m2, &worths);
+        let importances: Vec<f64> = survey.known.iter().enumerate().map(importance).collect();
+        survey.connect(&context, &areas_m2, &importances);
         let connected = all(&survey);
         assert!((connected - 1.0).abs() < 0.01, "{look}: {connected}");
-        survey.refine(&stage);
+        survey.refine(&context);
         let refined = all(&survey);
         assert!((refined - 1.0).abs() < 0.01, "{look}: {refined}");
     }

@@ -14,7 +14,7 @@
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::Offer;
+use crate::world::visibility::LightSample;
 use glam::DVec3;
 use quasilux_photometry::SurfacePoint;
 use quasilux_sampling::choose_weights;
@@ -69,20 +69,20 @@ impl<'a> AreaLuminaires<'a> {
 
     /// An estimate of what all of them give: what one place on one of them offers. `weights` is
     /// working space.
-    pub(crate) fn offer<S: Spectrum>(
+    pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
         u: [f64; 2],
         weights: &mut Vec<f64>,
-    ) -> Option<Offer<S>> {
+    ) -> Option<LightSample<S>> {
         let (position, side) = (vertex.position(), vertex.only_side());
         weights.clear();
         weights.extend(self.0.iter().map(|light| light.importance_lx(position, side)));
         let Some(choice) = choose_weights(u[0], weights.iter().copied()) else {
-            return Offer::without_choice(weights.iter().sum());
+            return LightSample::without_choice(weights.iter().sum());
         };
-        let offer = self.0[choice.index].offer(vertex, [choice.u_remapped, u[1]])?;
-        Some(Offer { light: offer.light * (1.0 / choice.pdf), ..offer })
+        let light_sample = self.0[choice.index].light_sample(vertex, [choice.u_remapped, u[1]])?;
+        Some(LightSample { light: light_sample.light * (1.0 / choice.pdf), ..light_sample })
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their light
@@ -110,7 +110,11 @@ impl AreaLuminaire<'_> {
     }
 
     /// One place on the shape, with the estimator at the head of this module.
-    fn offer<S: Spectrum>(&self, vertex: &Vertex<'_, S>, u: [f64; 2]) -> Option<Offer<S>> {
+    fn light_sample<S: Spectrum>(
+        &self,
+        vertex: &Vertex<'_, S>,
+        u: [f64; 2],
+    ) -> Option<LightSample<S>> {
         let position = vertex.position();
         let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
         let luminaire_from_world = world_from_luminaire.transpose();
@@ -129,7 +133,7 @@ impl AreaLuminaire<'_> {
         let ratio = share / shape.pdf_silhouette(centre_direction, &place);
         let intensity_cd = self.luminaire.intensity_cd(-direction);
         let illuminance_lx = intensity_cd * ratio * cos / (distance_m * distance_m);
-        Offer::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
+        LightSample::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
     }
 }
 
@@ -146,7 +150,7 @@ fn is_cut<S: Spectrum>(luminaire: &Luminaire, world: &World<S>) -> bool {
         let [low_m, high_m] =
             [-axis, axis].map(|toward| place_m(luminaire, &shape.sample_silhouette(toward, u)));
         let direction = (high_m - low_m).normalize_or(DVec3::Z);
-        let from = world.vantage_of_light(low_m, direction);
+        let from = world.ray_origin_of_light(low_m, direction);
         // As far from the end as from the start.
         let distance_m = (high_m - low_m).length() - 2.0 * (from.position() - low_m).length();
         distance_m <= 0.0 || world.is_visible(from, direction, distance_m, u32::MAX)

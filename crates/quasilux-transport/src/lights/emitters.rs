@@ -7,7 +7,7 @@
 
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::Offer;
+use crate::world::visibility::LightSample;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_sampling::Discrete;
@@ -68,12 +68,12 @@ impl Emitters {
 
     /// What one point on the lights gives, weighted against the direction in which the path goes on;
     /// `None` from behind either.
-    pub(crate) fn offer<S: Spectrum>(
+    pub(crate) fn light_sample<S: Spectrum>(
         &self,
         world: &World<S>,
         vertex: &Vertex<'_, S>,
         u: [f64; 2],
-    ) -> Option<Offer<S>> {
+    ) -> Option<LightSample<S>> {
         let place = self.place(world, u);
         let facet = &world.facets[place.facet as usize];
         let toward = place.position - vertex.position();
@@ -88,8 +88,8 @@ impl Emitters {
         let pdf_light = self.pdf_sr(facet.emitted_cd_m2, distance_m, cos_light);
         let illuminance_lx = facet.emitted_cd_m2 * cos / (pdf_light + vertex.pdf_sr(direction));
         let light = vertex.weight(direction) * illuminance_lx;
-        let offer = Offer { direction, distance_m, facet: place.facet, light };
-        (light.luminance() != 0.0).then_some(offer)
+        let light_sample = LightSample { direction, distance_m, facet: place.facet, light };
+        (light.luminance() != 0.0).then_some(light_sample)
     }
 
     /// The weight of light found by a direction of this density in sr^-1.

@@ -9,11 +9,11 @@ pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
 pub(crate) use pointlike::{Incidence, PointLikes};
 
-use crate::lights::images::Trail;
+use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
-use crate::world::{Vantage, World};
+use crate::world::{RayOrigin, World};
 use area_luminaires::place_m;
 use glam::DVec3;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
@@ -37,13 +37,13 @@ pub(crate) struct Lights<'a> {
 /// A photon that has just left its light.
 pub(crate) struct Emitted {
     pub(crate) emission: Emission,
-    pub(crate) trail: Trail,
+    pub(crate) path_class: LightPathClass,
 }
 
 /// A photon at the moment it leaves its light, or a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct Emission {
-    pub(crate) from: Vantage,
+    pub(crate) from: RayOrigin,
     /// Unit direction.
     pub(crate) direction: DVec3,
 }
@@ -137,25 +137,25 @@ impl<'a> Lights<'a> {
                 }
                 Light::Area(_) => return None,
             };
-            let from = world.vantage_of_light(position, direction);
-            let trail = Trail::Shown(number as u32);
-            return Some(Emitted { emission: Emission { from, direction }, trail });
+            let from = world.ray_origin_of_light(position, direction);
+            let path_class = LightPathClass::Shown(number as u32);
+            return Some(Emitted { emission: Emission { from, direction }, path_class });
         }
         if let Some(luminaire) = self.area_luminaires.get(number - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
             let place = luminaire.shape.sample_silhouette(towards, more());
             let direction = luminaire.world_from_luminaire * towards;
-            let from = world.vantage_of_light(place_m(luminaire, &place), direction);
+            let from = world.ray_origin_of_light(place_m(luminaire, &place), direction);
             return Some(Emitted {
                 emission: Emission { from, direction },
-                trail: Trail::Straight,
+                path_class: LightPathClass::Straight,
             });
         }
         let place = self.emitters.as_ref()?.place(world, u);
         let n = world.facets[place.facet as usize].front_normal;
         let local = DVec3::from_array(sample_cosine_hemisphere(more()));
         let direction = Frame::around(n).to_world(local);
-        let from = world.vantage_on_front(place.facet, place.position);
-        Some(Emitted { emission: Emission { from, direction }, trail: Trail::Found })
+        let from = world.ray_origin_on_front(place.facet, place.position);
+        Some(Emitted { emission: Emission { from, direction }, path_class: LightPathClass::Found })
     }
 }

@@ -3,7 +3,7 @@
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Asker, Offer, Shadows};
+use crate::world::visibility::{LightSample, Receiver, ShadowQueue};
 use glam::DVec3;
 use quasilux_sampling::choose_weights;
 use quasilux_scene::{Light, Scene};
@@ -63,14 +63,14 @@ impl<'a> PointLikes<'a> {
     pub(crate) fn all<S: Spectrum>(
         &self,
         world: &World<S>,
-        askers: &[Asker<'_, S>],
-        shadows: &mut Shadows<S>,
+        receivers: &[Receiver<'_, S>],
+        shadows: &mut ShadowQueue<S>,
         mut receive: impl FnMut(u32, S, u32),
     ) {
         for light in &self.0 {
-            for Asker { who, vertex } in askers {
-                if let Some(offer) = offer(light, vertex) {
-                    shadows.ask(*who, vertex, &offer);
+            for Receiver { who, vertex } in receivers {
+                if let Some(light_sample) = light_sample(light, vertex) {
+                    shadows.ask(*who, vertex, &light_sample);
                 }
             }
             shadows.answer(world, &mut receive);
@@ -78,21 +78,21 @@ impl<'a> PointLikes<'a> {
     }
 
     /// An estimate of what all of them give from one light, chosen with `u` in proportion to what it
-    /// would give unshadowed: its only variance comes from shadows. `offers` is working space.
-    pub(crate) fn offer<S: Spectrum>(
+    /// would give unshadowed: its only variance comes from shadows. `light_samples` is working space.
+    pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
         u: f64,
-        offers: &mut Vec<Offer<S>>,
-    ) -> Option<Offer<S>> {
-        offers.clear();
-        offers.extend(self.0.iter().filter_map(|light| offer(light, vertex)));
-        let weights = offers.iter().map(|offer| offer.light.luminance());
+        light_samples: &mut Vec<LightSample<S>>,
+    ) -> Option<LightSample<S>> {
+        light_samples.clear();
+        light_samples.extend(self.0.iter().filter_map(|light| light_sample(light, vertex)));
+        let weights = light_samples.iter().map(|light_sample| light_sample.light.luminance());
         let Some(choice) = choose_weights(u, weights.clone()) else {
-            return Offer::without_choice(weights.sum());
+            return LightSample::without_choice(weights.sum());
         };
-        let chosen = offers[choice.index];
-        Some(Offer { light: chosen.light * (1.0 / choice.pdf), ..chosen })
+        let chosen = light_samples[choice.index];
+        Some(LightSample { light: chosen.light * (1.0 / choice.pdf), ..chosen })
     }
 }
 
@@ -124,7 +124,7 @@ impl Incidence {
 }
 
 /// E = I cos / d^2; `None` from behind.
-fn offer<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Offer<S>> {
+fn light_sample<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<LightSample<S>> {
     let toward = self::position(light) - vertex.position();
     let distance_m = toward.length();
     let direction = toward / distance_m;
@@ -133,7 +133,7 @@ fn offer<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Offer<S>>
         return None;
     }
     let illuminance_lx = intensity_cd(light, -direction) * cos / (distance_m * distance_m);
-    Offer::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
+    LightSample::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
 }
 
 /// Luminous intensity in cd along a unit direction.

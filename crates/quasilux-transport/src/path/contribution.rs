@@ -5,7 +5,7 @@ use crate::spectrum::Spectrum;
 
 /// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Gathered<S> {
+pub(crate) struct PathContribution<S> {
     /// Straight from the lights; of the point-like ones only where the start asks for it.
     pub(crate) direct: S,
     /// After at least one bounce; may be negative where a map is corrected.
@@ -20,7 +20,7 @@ pub(crate) struct Gathered<S> {
     pub(crate) lobes: Lobes,
 }
 
-impl<S: Spectrum> Gathered<S> {
+impl<S: Spectrum> PathContribution<S> {
     /// Adds light that arrives at the vertex after `bounces` reflections, or that the ray from there
     /// runs into.
     pub(crate) fn add(&mut self, bounces: u32, light: S) {

@@ -1,9 +1,9 @@
 //! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::estimator::control_variate::{FrozenEnd, FrozenMap, of_plan};
-use crate::importance::{self, Plan, Windows};
+use crate::importance::{self, Plan, WeightWindows};
 use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
@@ -37,7 +37,7 @@ pub(crate) enum PathEnd<S> {
         /// Where photons leave from instead of the point-like lights.
         lit_cells: Option<LitCells>,
         /// What steers their photons.
-        windows: Option<Windows>,
+        windows: Option<WeightWindows>,
     },
 }
 
@@ -80,11 +80,11 @@ pub(crate) struct GrowingMaps<'m, S> {
 
 impl<S: Spectrum> GrowingMaps<'_, S> {
     /// Illuminance in lx by light that bounced, at a target that lies on a surface with a map.
-    pub(crate) fn illuminance_lx(&self, stage: &Stage<'_, S>, target: &Target) -> Option<f64> {
+    pub(crate) fn illuminance_lx(&self, context: &Context<'_, S>, target: &Target) -> Option<f64> {
         let Target::Point { position, normal } = *target else { return None };
-        let at = stage.world.facet_under(position, normal)?;
+        let at = context.world.facet_under(position, normal)?;
         // With a limit, the map leaves out light that has no bounce left for the way to a sensor.
-        if !stage.world.bsdf(&at).keeps_illuminance() || stage.max_bounces.is_some() {
+        if !context.world.bsdf(&at).keeps_illuminance() || context.max_bounces.is_some() {
             return None;
         }
         let place = self.layout.locate(&at);
@@ -98,7 +98,7 @@ impl<S: Spectrum> PathEnd<S> {
     /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the photons that come
     /// before all paths, if there are none yet that say where the flux goes.
     pub(crate) fn prepare(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         settings: &Settings,
         targets: &[Target],
         (frozen, photons): (Option<(FrozenMap<S>, PhotonCounts)>, Option<PhotonCounts>),
@@ -108,7 +108,7 @@ impl<S: Spectrum> PathEnd<S> {
         let balance = |watch: &mut Watch<'_>| {
             let batch = of_plan(Source::Lights, 0..BALANCE_PHOTONS);
             let none: Option<MapReceiver<'_, S>> = None;
-            trace_photons(stage, &batch, |_| none, watch).unwrap_or_default()
+            trace_photons(context, &batch, |_| none, watch).unwrap_or_default()
         };
         if let Some((map, mut counts)) = frozen {
             if map.facts().first_shot {
@@ -122,19 +122,19 @@ impl<S: Spectrum> PathEnd<S> {
             return (Self::Nothing, photons.unwrap_or_else(|| balance(watch)));
         }
         let mut counts = PhotonCounts::default();
-        let lit_cells = decide(stage, settings, u64::MAX, &mut counts);
+        let lit_cells = decide(context, settings, u64::MAX, &mut counts);
         if lit_cells.is_some() {
             counts += balance(watch);
         }
         let source = Source::of(lit_cells.as_ref());
-        let (layout, pilots) = refined(stage, settings, watch);
+        let (layout, pilots) = refined(context, settings, watch);
         counts += pilots;
-        let Plan { windows, rays, .. } = importance::plan(stage, targets, settings.importance);
+        let Plan { windows, rays, .. } = importance::plan(context, targets, settings.importance);
         counts.rays += rays;
-        let lightest = windows.as_ref().map_or(source.usual_weight(), Windows::lightest);
+        let lightest = windows.as_ref().map_or(source.usual_weight(), WeightWindows::lightest);
         let replicates = 0..settings.effective_replicates();
         // Light of b bounces on the map has b + 1 at the sensor.
-        let layers = stage.listed_terms.saturating_sub(1).max(1);
+        let layers = context.listed_terms.saturating_sub(1).max(1);
         let tallies = replicates.map(|_| MapTally::new(&layout, lightest, layers)).collect();
         let photons_per_path = u64::from(settings.map_photons.max(1));
         let own = Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
@@ -182,7 +182,7 @@ impl<S: Spectrum> PathEnd<S> {
     /// stopped it.
     pub(crate) fn grow(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         end: u64,
         look: impl Fn(&GrowingMaps<'_, S>) -> Option<Snapshot>,
         watch: &mut Watch<'_>,
@@ -191,7 +191,7 @@ impl<S: Spectrum> PathEnd<S> {
             return Some(PhotonCounts::default());
         };
         let indices = *photons..end;
-        let receiver = |r: u32| Some(MapReceiver::new(stage, layout, &tallies[r as usize]));
+        let receiver = |r: u32| Some(MapReceiver::new(context, layout, &tallies[r as usize]));
         let source = Source::of(lit_cells.as_ref());
         let batch = PhotonBatch {
             stream: Stream::Photons,
@@ -202,21 +202,26 @@ impl<S: Spectrum> PathEnd<S> {
         };
         let before = batch.indices.start * tallies.len() as u64;
         let look = |emitted: u64| {
-            let photon_lm = stage.lights.flux_lm / (before + emitted) as f64;
+            let photon_lm = context.lights.flux_lm / (before + emitted) as f64;
             look(&GrowingMaps { layout, tallies, photon_lm })
         };
-        let counts = trace_photons_in_view(stage, &batch, receiver, look, watch)?;
+        let counts = trace_photons_in_view(context, &batch, receiver, look, watch)?;
         *photons = end;
         Some(source.counted(counts))
     }
 
     /// Where the paths of one target in one replicate end.
-    pub(crate) fn rest(&self, stage: &Stage<'_, S>, replicate: u32, target: usize) -> Rest<'_, S> {
+    pub(crate) fn rest(
+        &self,
+        context: &Context<'_, S>,
+        replicate: u32,
+        target: usize,
+    ) -> Rest<'_, S> {
         match self {
             Self::Nothing => Rest::Path,
             Self::Frozen(map) => Rest::Frozen(map.end(target)),
             Self::Own { layout, tallies, photons, .. } => {
-                let flux_lm = stage.lights.flux_lm / *photons as f64;
+                let flux_lm = context.lights.flux_lm / *photons as f64;
                 let map = tallies[replicate as usize].read(flux_lm);
                 Rest::Map(MapEnd { layout, map })
             }
@@ -233,12 +238,12 @@ impl<S> Stored for PathEnd<S> {
         }
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         match self {
             Self::Nothing | Self::Frozen(_) => Ok(()),
             Self::Own { tallies, photons, .. } => {
                 from.add_u64(photons)?;
-                tallies.as_mut_slice().take_in(from)
+                tallies.as_mut_slice().merge_from(from)
             }
         }
     }

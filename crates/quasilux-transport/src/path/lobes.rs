@@ -132,9 +132,9 @@ impl Stored for LobeSums {
         even.put(out);
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let Self { surfaces, sharpness, even } = self;
         [surfaces, sharpness].into_iter().try_for_each(|count| from.add_u64(count))?;
-        even.take_in(from)
+        even.merge_from(from)
     }
 }

@@ -32,14 +32,14 @@ pub(crate) struct Partition {
 
 /// Weights in [0, 1] of what paths find of the light that comes to a sensor by one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Shares {
+pub(crate) struct PartitionWeights {
     /// Of what comes there straight from the lights.
     pub(crate) first: f64,
     /// Of all other light.
     pub(crate) rest: f64,
 }
 
-impl Shares {
+impl PartitionWeights {
     /// Paths find everything.
     pub(crate) const ALL: Self = Self { first: 1.0, rest: 1.0 };
 }
@@ -52,10 +52,10 @@ impl Partition {
 
     /// The weights of paths whose first hits have the density `pdf_m2`, in m^-2, where landings have
     /// this one.
-    pub(crate) fn path_shares(&self, pdf_m2: f64, density: Density) -> Shares {
+    pub(crate) fn path_weights(&self, pdf_m2: f64, density: Density) -> PartitionWeights {
         let [first, rest] =
             [density.first, density.rest].map(|per_m2| per_m2 * self.photons as f64);
         let left = if self.is_guided { 0.0 } else { (1.0 - CLAMP * rest / pdf_m2).max(0.0) };
-        Shares { first: pdf_m2 / (pdf_m2 + first), rest: left }
+        PartitionWeights { first: pdf_m2 / (pdf_m2 + first), rest: left }
     }
 }

@@ -1,14 +1,14 @@
 //! Paths of several targets and replicates that travel together, and what each of these gets of them.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::context::Stage;
-use crate::path::contribution::Gathered;
+use crate::context::Context;
+use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
 use crate::path::lobes::LobeSums;
 use crate::path::partition::Partition;
-use crate::path::trace::{Ended, Seeks, Start};
+use crate::path::trace::{Measurement, PathResult, Start};
 use crate::path::wave::PathWave;
-use crate::photon::caustics::HiddenEnd;
+use crate::photon::caustics::CausticLookup;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
@@ -21,7 +21,7 @@ use std::ops::{AddAssign, Range};
 pub(crate) struct PathSums {
     pub(crate) direct: Sum,
     pub(crate) indirect: Sum,
-    /// Both by the number of bounces, as [`Gathered::terms`].
+    /// Both by the number of bounces, as [`PathContribution::terms`].
     pub(crate) terms: Vec<Sum>,
     /// Paths that came to a surface that reflects.
     pub(crate) reflected: u64,
@@ -44,7 +44,7 @@ pub(crate) struct Section<'g, S> {
     pub(crate) target: Target,
     pub(crate) points: PointSet,
     pub(crate) rest: Rest<'g, S>,
-    pub(crate) hidden: Option<HiddenEnd<'g, S>>,
+    pub(crate) caustics: Option<CausticLookup<'g, S>>,
     /// What photons that are joined to the target leave to the paths.
     pub(crate) partition: Option<&'g Partition>,
     pub(crate) indices: Range<u64>,
@@ -61,24 +61,24 @@ pub(crate) struct Piece {
 
 /// Traces the paths of at least one section together; the numbers of sections follow each other.
 pub(crate) fn trace_sections<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     sections: &[Section<'_, S>],
     quantum: Quantum,
     wave: &mut PathWave<S>,
 ) -> Piece {
-    trace_and_look(stage, sections, quantum, wave, |_| ())
+    trace_and_look(context, sections, quantum, wave, |_| ())
 }
 
 /// The same, and shows each path that is over.
 pub(crate) fn trace_and_look<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     sections: &[Section<'_, S>],
     quantum: Quantum,
     wave: &mut PathWave<S>,
-    mut look: impl FnMut(&mut Ended<S>),
+    mut look: impl FnMut(&mut PathResult<S>),
 ) -> Piece {
-    let starts = sections.iter().flat_map(|section| section.starts(stage));
-    let mut paths = wave.trace(stage, starts).into_iter();
+    let starts = sections.iter().flat_map(|section| section.starts(context));
+    let mut paths = wave.trace(context, starts).into_iter();
     let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
     let mut add = |section: &Section<'_, S>| {
         let mut sums = PathSums::default();
@@ -100,23 +100,26 @@ impl<S: Spectrum> Section<'_, S> {
     }
 
     /// Where its paths start.
-    pub(crate) fn starts<'s>(&'s self, stage: &Stage<'_, S>) -> impl Iterator<Item = Start<'s, S>> {
+    pub(crate) fn starts<'s>(
+        &'s self,
+        context: &Context<'_, S>,
+    ) -> impl Iterator<Item = Start<'s, S>> {
         self.indices.clone().map(|index| {
             let mut sampler = Sampler::new(&self.points, index);
             let (position, n, tests_pointlikes) = match self.target {
                 Target::Point { position, normal } => (position, normal, false),
                 Target::Cell { grid, cell } => {
-                    let u = stage.draw(&mut sampler, Purpose::Cell, Sampler::next_2d);
+                    let u = context.draw(&mut sampler, Purpose::Cell, Sampler::next_2d);
                     (grid.point_in_cell(cell, u), grid.normal, true)
                 }
             };
-            let from = stage.world.vantage_of_sensor(position, n);
-            let seeks = Seeks::Illuminance { n, tests_pointlikes };
+            let from = context.world.ray_origin_of_sensor(position, n);
+            let measurement = Measurement::Illuminance { n, tests_pointlikes };
             Start {
                 from,
-                seeks,
+                measurement,
                 rest: &self.rest,
-                hidden: self.hidden,
+                caustics: self.caustics,
                 partition: self.partition,
                 sampler,
             }
@@ -125,7 +128,7 @@ impl<S: Spectrum> Section<'_, S> {
 }
 
 impl PathSums {
-    fn add<S: Spectrum>(&mut self, Ended { found, .. }: &Ended<S>, quantum: Quantum) {
+    fn add<S: Spectrum>(&mut self, PathResult { found, .. }: &PathResult<S>, quantum: Quantum) {
         self.direct.add(found.direct.luminance(), quantum);
         self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
@@ -133,7 +136,7 @@ impl PathSums {
         self.add_terms(found, quantum);
     }
 
-    fn add_terms<S: Spectrum>(&mut self, found: &Gathered<S>, quantum: Quantum) {
+    fn add_terms<S: Spectrum>(&mut self, found: &PathContribution<S>, quantum: Quantum) {
         self.terms.resize(found.terms.len(), Sum::default());
         for (sum, light) in self.terms.iter_mut().zip(&found.terms) {
             sum.add_signed(light.luminance(), quantum);
@@ -161,7 +164,7 @@ impl AddAssign for PathSums {
 
 impl WorkCounts {
     /// Counts one path; its rays are counted where they are traced.
-    pub(crate) fn add<S>(&mut self, path: &Ended<S>) {
+    pub(crate) fn add<S>(&mut self, path: &PathResult<S>) {
         self.paths += 1;
         self.dimensions.record(path.dimensions);
         self.endless += u64::from(path.found.endless);
@@ -187,12 +190,12 @@ impl Stored for PathSums {
         terms.as_slice().put(out);
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let Self { direct, indirect, terms, reflected, lobes } = self;
-        direct.take_in(from)?;
-        indirect.take_in(from)?;
+        direct.merge_from(from)?;
+        indirect.merge_from(from)?;
         from.add_u64(reflected)?;
-        lobes.take_in(from)?;
+        lobes.merge_from(from)?;
         let listed = from.length(Sum::BYTES)?;
         if terms.is_empty() {
             // Before its first path a target has none.
@@ -201,7 +204,7 @@ impl Stored for PathSums {
         if listed != 0 && listed != terms.len() {
             return Err(StateError::Unfit("a list of terms"));
         }
-        terms.iter_mut().take(listed).try_for_each(|term| term.take_in(from))
+        terms.iter_mut().take(listed).try_for_each(|term| term.merge_from(from))
     }
 }
 
@@ -212,9 +215,9 @@ impl Stored for WorkCounts {
         dimensions.put(out);
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let Self { paths, rays, dimensions, endless } = self;
         [paths, rays, endless].into_iter().try_for_each(|count| from.add_u64(count))?;
-        dimensions.take_in(from)
+        dimensions.merge_from(from)
     }
 }

@@ -10,27 +10,27 @@
 //!
 //! Read on at `asking` for what lights are asked.
 
-mod asking;
+mod direct_light;
 
 use crate::bsdf::Mode;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::estimator::control_variate::{FrozenEnd, Note, bounces_left};
-use crate::lights::images::ImageOffers;
-use crate::path::contribution::Gathered;
+use crate::lights::images::ImageSamples;
+use crate::path::contribution::PathContribution;
 use crate::path::end::{MapEnd, Rest};
 use crate::path::lobes::{self, Met};
-use crate::path::partition::{Partition, Shares};
-use crate::photon::caustics::HiddenEnd;
+use crate::path::partition::{Partition, PartitionWeights};
+use crate::photon::caustics::CausticLookup;
 use crate::photon::map::{IlluminationMap, Place};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Offer, Shadows};
-use crate::world::{Interaction, Vantage};
+use crate::world::visibility::{LightSample, ShadowQueue};
+use crate::world::{Interaction, RayOrigin};
 use glam::DVec3;
-use quasilux_bvh::Shot;
+use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -43,8 +43,8 @@ const NOTED: f64 = 1.0 / 32.0;
 const MAX_NOTES: usize = 32;
 
 /// A path that is over.
-pub(crate) struct Ended<S> {
-    pub(crate) found: Gathered<S>,
+pub(crate) struct PathResult<S> {
+    pub(crate) found: PathContribution<S>,
     /// How many coordinates it used.
     pub(crate) dimensions: u32,
     /// Where it might have ended on a map, if it was to note that.
@@ -55,11 +55,11 @@ pub(crate) struct Ended<S> {
 
 /// Where a path starts, and on what.
 pub(crate) struct Start<'p, S> {
-    pub(crate) from: Vantage,
-    pub(crate) seeks: Seeks,
+    pub(crate) from: RayOrigin,
+    pub(crate) measurement: Measurement,
     pub(crate) rest: &'p Rest<'p, S>,
     /// Light that it cannot find by itself.
-    pub(crate) hidden: Option<HiddenEnd<'p, S>>,
+    pub(crate) caustics: Option<CausticLookup<'p, S>>,
     /// What photons leave to it.
     pub(crate) partition: Option<&'p Partition>,
     pub(crate) sampler: Sampler<'p>,
@@ -67,7 +67,7 @@ pub(crate) struct Start<'p, S> {
 
 /// What a path is to find.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Seeks {
+pub(crate) enum Measurement {
     /// The illuminance on the side `n`.
     Illuminance {
         n: DVec3,
@@ -83,12 +83,12 @@ pub(crate) struct Path<'p, S> {
     /// Its number among those that travel together.
     number: u32,
     rest: &'p Rest<'p, S>,
-    hidden: Option<HiddenEnd<'p, S>>,
+    caustics: Option<CausticLookup<'p, S>>,
     partition: Option<&'p Partition>,
     /// The parts that it is to find of the light at its first surface.
-    shares: Shares,
+    weights_of_paths: PartitionWeights,
     sampler: Sampler<'p>,
-    from: Vantage,
+    from: RayOrigin,
     /// Unit direction in which it goes on.
     direction: DVec3,
     /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
@@ -104,16 +104,16 @@ pub(crate) struct Path<'p, S> {
     arrived: S,
     /// From the point-like lights at its start.
     pointlikes: S,
-    found: Gathered<S>,
+    found: PathContribution<S>,
     notes: Vec<Note<S>>,
     flights: u32,
 }
 
 /// What the paths that travel together ask of the lights, with working space.
 pub(crate) struct PathWork<S> {
-    pub(crate) shadows: Shadows<S>,
-    offers: Vec<Offer<S>>,
-    images: ImageOffers<S>,
+    pub(crate) shadows: ShadowQueue<S>,
+    light_samples: Vec<LightSample<S>>,
+    images: ImageSamples<S>,
     weights: Vec<f64>,
 }
 
@@ -128,8 +128,10 @@ struct Onward {
 impl<S: Spectrum> Start<'_, S> {
     /// The start where it wants all point-like lights tested.
     pub(crate) fn vertex_that_tests_pointlikes(&self) -> Option<Vertex<'static, S>> {
-        match self.seeks {
-            Seeks::Illuminance { n, tests_pointlikes: true } => Some(Vertex::sensor(self.from, n)),
+        match self.measurement {
+            Measurement::Illuminance { n, tests_pointlikes: true } => {
+                Some(Vertex::sensor(self.from, n))
+            }
             _ => None,
         }
     }
@@ -139,27 +141,27 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// The path number `number`; where it seeks illuminance it asks for the light of the area lights
     /// and the luminaires with an area at its start.
     pub(crate) fn start(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         number: u32,
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, seeks, rest, hidden, partition, mut sampler } = start;
-        let (direction, pdf_sr, beta) = match seeks {
-            Seeks::Illuminance { n, .. } => {
-                let u = stage.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
+        let Start { from, measurement, rest, caustics, partition, mut sampler } = start;
+        let (direction, pdf_sr, beta) = match measurement {
+            Measurement::Illuminance { n, .. } => {
+                let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
                 let first = DVec3::from_array(sample_cosine_hemisphere(u));
                 let direction = Frame::around(n).to_world(first);
                 (direction, Some(first.z * FRAC_1_PI), S::white() * PI)
             }
-            Seeks::Luminance { direction } => (direction, None, S::white()),
+            Measurement::Luminance { direction } => (direction, None, S::white()),
         };
         let mut path = Self {
             number,
             rest,
-            hidden,
+            caustics,
             partition,
-            shares: Shares::ALL,
+            weights_of_paths: PartitionWeights::ALL,
             sampler,
             from,
             direction,
@@ -170,34 +172,35 @@ impl<'p, S: Spectrum> Path<'p, S> {
             gain: Gain::NONE,
             arrived: S::black(),
             pointlikes: S::black(),
-            found: Gathered::default(),
+            found: PathContribution::default(),
             notes: Vec::new(),
             flights: 0,
         };
-        if let Seeks::Illuminance { n, tests_pointlikes } = seeks {
-            path.found.list_terms(stage.listed_terms);
+        if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
+            path.found.list_terms(context.listed_terms);
             let vertex = Vertex::sensor(from, n);
-            work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
+            work.shadows.most_bounces = context.max_bounces.unwrap_or(u32::MAX);
             if tests_pointlikes {
-                path.ask_images(stage, &vertex, work);
+                path.sample_direct_images(context, &vertex, work);
             }
-            path.ask_emitters(stage, &vertex, work);
-            path.ask_area_luminaires(stage, &vertex, work);
+            path.sample_direct_emitters(context, &vertex, work);
+            path.sample_direct_area_luminaires(context, &vertex, work);
         }
         path
     }
 
     /// The ray along which it goes on.
-    pub(crate) fn shot(&self) -> Shot {
-        self.from.shot(self.direction)
+    pub(crate) fn query(&self) -> RayQuery {
+        self.from.query(self.direction)
     }
 
     /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
     pub(crate) fn receive(&mut self, light: S, bounces: u32) {
         if bounces == 0 {
-            self.arrived += light * if self.bounces_asked == 1 { self.shares.first } else { 1.0 };
+            self.arrived +=
+                light * if self.bounces_asked == 1 { self.weights_of_paths.first } else { 1.0 };
         } else {
-            let share = if self.bounces_asked == 1 { self.shares.rest } else { 1.0 };
+            let share = if self.bounces_asked == 1 { self.weights_of_paths.rest } else { 1.0 };
             self.found.add(self.bounces_asked + bounces, light * share);
         }
     }
@@ -215,7 +218,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// the path goes on. All that it asked for before must have arrived.
     pub(crate) fn arrive(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         bounces: u32,
         at: Option<&Interaction>,
         work: &mut PathWork<S>,
@@ -224,33 +227,33 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.flights += 1;
         let before = self.found.indirect;
         if let Some(at) = at {
-            self.add_emitted(stage, bounces, at);
+            self.add_emitted(context, bounces, at);
         }
         if let Some(note) = self.notes.last_mut() {
             note.begin([before, self.found.indirect]);
         }
         let Some(at) = at else { return false };
-        let bsdf = stage.world.bsdf(at);
-        let frame = stage.world.frame(at);
+        let bsdf = context.world.bsdf(at);
+        let frame = context.world.frame(at);
         let wo = frame.to_local(-self.direction);
         let goes_on = self.beta * bsdf.albedo(wo, at.front, Mode::Radiance);
-        let is_last = stage.max_bounces.is_some_and(|most| bounces >= most);
+        let is_last = context.max_bounces.is_some_and(|most| bounces >= most);
         if is_last || goes_on.max_channel() == 0.0 {
             return false;
         }
         // Past mirrors alone, paths find nothing but facets that emit.
-        self.found.reflected |= !bsdf.is_specular() || stage.lights.emitters.is_some();
+        self.found.reflected |= !bsdf.is_specular() || context.lights.emitters.is_some();
         self.bounces_asked = bounces + 1;
         if let (0, Some(partition)) = (bounces, self.partition)
             && bsdf.keeps_illuminance()
         {
-            self.shares = self.shares_at(partition, at);
+            self.weights_of_paths = self.weights_at(partition, at);
         }
         if !bsdf.is_specular() {
-            self.ask_all(stage, bounces + 1, at, work);
+            self.sample_direct_all(context, bounces + 1, at, work);
         }
         if bsdf.keeps_illuminance() {
-            self.add_hidden(stage, bounces, at);
+            self.add_caustics(context, bounces, at);
         }
         let albedo = goes_on.max_channel() / self.beta.max_channel();
         if !self.gain.grow(albedo, bounces) {
@@ -258,29 +261,29 @@ impl<'p, S: Spectrum> Path<'p, S> {
             return false;
         }
         let from_map = match self.rest {
-            Rest::Map(end) if bsdf.keeps_illuminance() => self.end_on(end, stage, bounces, at),
+            Rest::Map(end) if bsdf.keeps_illuminance() => self.end_on(end, context, bounces, at),
             Rest::Frozen(end) if bsdf.keeps_illuminance() => {
-                self.end_on_frozen(end, stage, bounces, at)
+                self.end_on_frozen(end, context, bounces, at)
             }
             Rest::Noted if self.gain.left() > NOTED && self.notes.len() < MAX_NOTES => {
-                self.note(stage, bounces, at, albedo);
+                self.note(context, bounces, at, albedo);
                 Some(Onward { emitted: 1.0, everything: 1.0 })
             }
             Rest::Path | Rest::Noted | Rest::Map(_) | Rest::Frozen(_) => None,
         };
-        let onward = from_map.unwrap_or_else(|| self.survive(stage, bounces, albedo));
-        let seeks_emitters = onward.emitted != 0.0 && stage.lights.emitters.is_some();
+        let onward = from_map.unwrap_or_else(|| self.russian_roulette(context, bounces, albedo));
+        let seeks_emitters = onward.emitted != 0.0 && context.lights.emitters.is_some();
         if onward.everything == 0.0 && !seeks_emitters {
             return false;
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
-        let next = stage.draw(&mut self.sampler, bounce, |sampler| {
+        let next = context.draw(&mut self.sampler, bounce, |sampler| {
             bsdf.sample(wo, at.front, Mode::Radiance, sampler)
         });
         let Some(next) = next else { return false };
         if let (false, Some(pdf_sr)) = (bsdf.keeps_illuminance(), next.pdf_sr) {
             self.found.lobes.meet(
-                &stage.lights.pointlikes,
+                &context.lights.pointlikes,
                 &Met {
                     at,
                     transmits: bsdf.transmits(),
@@ -289,8 +292,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 },
             );
         }
-        let world = &stage.world;
-        self.from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+        let world = &context.world;
+        self.from =
+            if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
         self.direction = frame.to_world(next.wi);
         self.pdf_sr = next.pdf_sr;
         let beta = self.beta * next.weight;
@@ -300,13 +304,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// What it found. All that it asked for must have arrived.
-    pub(crate) fn end(mut self) -> Ended<S> {
+    pub(crate) fn end(mut self) -> PathResult<S> {
         self.add_arrived();
         self.found.add(0, self.pointlikes);
         for note in &mut self.notes {
             note.end(self.found.indirect);
         }
-        Ended {
+        PathResult {
             found: self.found,
             dimensions: self.sampler.used(),
             notes: self.notes,
@@ -320,11 +324,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// Notes that it might have ended here.
-    fn note(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction, albedo: f64) {
-        let keeps_illuminance = stage.world.bsdf(at).keeps_illuminance();
+    fn note(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction, albedo: f64) {
+        let keeps_illuminance = context.world.bsdf(at).keeps_illuminance();
         self.notes.push(Note {
             at: *at,
-            weight: keeps_illuminance.then(|| self.weight(stage, at)),
+            weight: keeps_illuminance.then(|| self.weight(context, at)),
             alone: if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) },
             bounces,
             flights: self.flights,
@@ -334,23 +338,23 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// What a lux at a diffuse surface that it meets counts at its start.
-    fn weight(&self, stage: &Stage<'_, S>, at: &Interaction) -> S {
-        Vertex::surface(&stage.world, at, self.direction, self.beta).weight(at.n)
+    fn weight(&self, context: &Context<'_, S>, at: &Interaction) -> S {
+        Vertex::surface(&context.world, at, self.direction, self.beta).weight(at.n)
     }
 
     /// Ends it on the light that a map keeps here, where it may.
     fn end_on(
         &mut self,
         end: &MapEnd<'_, S>,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         bounces: u32,
         at: &Interaction,
     ) -> Option<Onward> {
-        if stage.max_bounces.is_some() && bounces > 0 {
+        if context.max_bounces.is_some() && bounces > 0 {
             // The light on the map has more bounces than are left.
             return None;
         }
-        let (place, weight) = (end.layout.locate(at), self.weight(stage, at));
+        let (place, weight) = (end.layout.locate(at), self.weight(context, at));
         self.found.indirect += weight * end.map.illuminance_lx(&place, u32::MAX);
         self.take_terms(&end.map, &place, (bounces, u32::MAX), weight);
         // The direction to a light that the next surface emits is part of the direct light here, so
@@ -363,18 +367,19 @@ impl<'p, S: Spectrum> Path<'p, S> {
     fn end_on_frozen(
         &mut self,
         end: &FrozenEnd<'_, S>,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         bounces: u32,
         at: &Interaction,
     ) -> Option<Onward> {
-        let most_bounces = bounces_left(stage.max_bounces, bounces, end.layout.len() as u64)?;
-        let weight = self.weight(stage, at);
+        let most_bounces = bounces_left(context.max_bounces, bounces, end.layout.len() as u64)?;
+        let weight = self.weight(context, at);
         let place = end.layout.locate(at);
         let lx = end.map.illuminance_lx(&place, most_bounces);
         let chance = end.chance(&place, weight.luminance(), (weight * lx).luminance())?;
         let correction = Purpose::Correction { surface: bounces + 1 };
-        let everything =
-            stage.draw(&mut self.sampler, correction, |sampler| survival_factor(chance, sampler));
+        let everything = context.draw(&mut self.sampler, correction, |sampler| {
+            russian_roulette_factor(chance, sampler)
+        });
         let weight = weight * (1.0 - everything);
         self.found.indirect += weight * lx;
         self.take_terms(&end.map, &place, (bounces, most_bounces), weight);
@@ -398,40 +403,40 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// The parts of the light at its first surface that it is to find beside photons.
-    fn shares_at(&self, partition: &Partition, at: &Interaction) -> Shares {
+    fn weights_at(&self, partition: &Partition, at: &Interaction) -> PartitionWeights {
         let cos_there = -at.n.dot(self.direction);
         let pdf_m2 = |pdf_sr| pdf_sr * cos_there / (at.distance_m * at.distance_m);
         let share =
-            |pdf_sr| partition.path_shares(pdf_m2(pdf_sr), partition.density(at.position, at.n));
-        self.pdf_sr.map_or(Shares::ALL, share)
+            |pdf_sr| partition.path_weights(pdf_m2(pdf_sr), partition.density(at.position, at.n));
+        self.pdf_sr.map_or(PartitionWeights::ALL, share)
     }
 
     /// Adds the light at a surface that no path finds.
-    fn add_hidden(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
-        let Some(hidden) = self.hidden else { return };
-        let most = stage.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
-        let to_start = self.weight(stage, at);
-        let share = if bounces == 0 { self.shares.rest } else { 1.0 };
-        for (hidden_bounces, lx) in hidden.illuminances_lx(&stage.world, at, most) {
+    fn add_caustics(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction) {
+        let Some(caustics) = self.caustics else { return };
+        let most = context.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
+        let to_start = self.weight(context, at);
+        let share = if bounces == 0 { self.weights_of_paths.rest } else { 1.0 };
+        for (caustic_bounces, lx) in caustics.illuminances_lx(&context.world, at, most) {
             let lx = lx * share;
-            self.found.add(bounces + 1 + hidden_bounces, to_start * lx);
+            self.found.add(bounces + 1 + caustic_bounces, to_start * lx);
         }
     }
 
     /// Where photons are joined to the sensor, it takes along from its first surface what they leave to it.
     /// Else Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
-    fn survive(&mut self, stage: &Stage<'_, S>, bounces: u32, albedo: f64) -> Onward {
-        if bounces == 0 && self.shares != Shares::ALL {
-            let Shares { first, rest } = self.shares;
+    fn russian_roulette(&mut self, context: &Context<'_, S>, bounces: u32, albedo: f64) -> Onward {
+        if bounces == 0 && self.weights_of_paths != PartitionWeights::ALL {
+            let PartitionWeights { first, rest } = self.weights_of_paths;
             return Onward { emitted: first, everything: rest };
         }
         if bounces < CERTAIN_BOUNCES {
             return Onward { emitted: 1.0, everything: 1.0 };
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
-        let factor =
-            stage.draw(&mut self.sampler, bounce, |sampler| survival_factor(albedo, sampler));
+        let factor = context
+            .draw(&mut self.sampler, bounce, |sampler| russian_roulette_factor(albedo, sampler));
         Onward { emitted: factor, everything: factor }
     }
 
@@ -441,10 +446,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// Adds the light that the place where the ray ends emits itself.
-    fn add_emitted(&mut self, stage: &Stage<'_, S>, bounces: u32, at: &Interaction) {
-        let emitted_cd_m2 = stage.world.emitted_cd_m2(at);
-        if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &stage.lights.emitters) {
-            let shared = |pdf| emitters.weight_of_direction(&stage.world, at, self.direction, pdf);
+    fn add_emitted(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction) {
+        let emitted_cd_m2 = context.world.emitted_cd_m2(at);
+        if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &context.lights.emitters) {
+            let shared =
+                |pdf| emitters.weight_of_direction(&context.world, at, self.direction, pdf);
             let weight = self.pdf_sr.map_or(1.0, shared);
             self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
         }
@@ -452,16 +458,16 @@ impl<'p, S: Spectrum> Path<'p, S> {
 }
 
 /// What goes on counts so many times: 0, or more than once for those that do not.
-pub(crate) fn survival_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
+pub(crate) fn russian_roulette_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
     if sampler.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
 }
 
 impl<S> Default for PathWork<S> {
     fn default() -> Self {
         Self {
-            shadows: Shadows::default(),
-            offers: Vec::new(),
-            images: ImageOffers::default(),
+            shadows: ShadowQueue::default(),
+            light_samples: Vec::new(),
+            images: ImageSamples::default(),
             weights: Vec::new(),
         }
     }

@@ -3,13 +3,13 @@
 //! All rays of one bounce are traced together, then all that the paths ask of the lights. Every path
 //! takes its coordinates and adds its contributions in the order in which it would alone.
 
-use crate::context::Stage;
+use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;
 use crate::path::trace::{Path, PathWork, Start};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use crate::world::visibility::Asker;
-use quasilux_bvh::{Hit, Shot};
+use crate::world::visibility::Receiver;
+use quasilux_bvh::{Hit, RayQuery};
 use std::mem::take;
 
 /// So many paths should travel together: the kernel has rays enough, and what they need fits into a
@@ -20,10 +20,10 @@ pub(crate) const WAVE: u64 = 512;
 pub(crate) struct PathWave<S: 'static> {
     work: PathWork<S>,
     /// Starts where all point-like lights are tested.
-    askers: Vec<Asker<'static, S>>,
+    receivers: Vec<Receiver<'static, S>>,
     /// Numbers of the paths that are on their way.
     travelling: Vec<u32>,
-    shots: Vec<Shot>,
+    queries: Vec<RayQuery>,
     hits: Vec<Option<Hit>>,
     arrivals: Vec<Option<Interaction>>,
     rays: u64,
@@ -33,9 +33,9 @@ impl<S: 'static> Default for PathWave<S> {
     fn default() -> Self {
         Self {
             work: PathWork::default(),
-            askers: Vec::new(),
+            receivers: Vec::new(),
             travelling: Vec::new(),
-            shots: Vec::new(),
+            queries: Vec::new(),
             hits: Vec::new(),
             arrivals: Vec::new(),
             rays: 0,
@@ -47,26 +47,26 @@ impl<S: Spectrum> PathWave<S> {
     /// Traces paths to their ends, in the order of `starts`.
     pub(crate) fn trace<'p>(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         starts: impl Iterator<Item = Start<'p, S>>,
     ) -> Vec<Path<'p, S>> {
         let mut paths = Vec::with_capacity(WAVE as usize);
-        self.askers.clear();
+        self.receivers.clear();
         for (number, start) in (0..).zip(starts) {
             let vertex = start.vertex_that_tests_pointlikes();
-            self.askers.extend(vertex.map(|vertex| Asker { who: number, vertex }));
-            paths.push(Path::start(stage, number, start, &mut self.work));
+            self.receivers.extend(vertex.map(|vertex| Receiver { who: number, vertex }));
+            paths.push(Path::start(context, number, start, &mut self.work));
         }
-        self.answer(stage, &mut paths);
-        self.test_pointlikes(stage, &mut paths);
+        self.answer(context, &mut paths);
+        self.test_pointlikes(context, &mut paths);
         self.travelling.clear();
         self.travelling.extend(0..paths.len() as u32);
         for bounces in 0..MAX_EVENTS {
             if self.travelling.is_empty() {
                 break;
             }
-            self.advance(stage, bounces, &mut paths);
-            self.answer(stage, &mut paths);
+            self.advance(context, bounces, &mut paths);
+            self.answer(context, &mut paths);
         }
         self.travelling.iter().for_each(|&number| paths[number as usize].cut());
         paths
@@ -78,31 +78,31 @@ impl<S: Spectrum> PathWave<S> {
     }
 
     /// Gives the starts that want it the direct light of the point-like lights.
-    fn test_pointlikes(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
+    fn test_pointlikes(&mut self, context: &Context<'_, S>, paths: &mut [Path<'_, S>]) {
         let receive =
             |who: u32, light: S, panes| paths[who as usize].receive_at_start(light, panes);
-        let Stage { world, lights, .. } = stage;
-        self.work.shadows.most_bounces = stage.max_bounces.unwrap_or(u32::MAX);
-        lights.pointlikes.all(world, &self.askers, &mut self.work.shadows, receive);
+        let Context { world, lights, .. } = context;
+        self.work.shadows.most_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        lights.pointlikes.all(world, &self.receivers, &mut self.work.shadows, receive);
     }
 
     /// Takes all paths that are on their way to their next vertex.
-    fn advance(&mut self, stage: &Stage<'_, S>, bounces: u32, paths: &mut [Path<'_, S>]) {
-        let Self { work, travelling, shots, hits, arrivals, rays, .. } = self;
-        shots.clear();
-        shots.extend(travelling.iter().map(|&number| paths[number as usize].shot()));
-        stage.world.trace_all(shots, hits, arrivals);
-        *rays += shots.len() as u64;
+    fn advance(&mut self, context: &Context<'_, S>, bounces: u32, paths: &mut [Path<'_, S>]) {
+        let Self { work, travelling, queries, hits, arrivals, rays, .. } = self;
+        queries.clear();
+        queries.extend(travelling.iter().map(|&number| paths[number as usize].query()));
+        context.world.trace_all(queries, hits, arrivals);
+        *rays += queries.len() as u64;
         let mut arrivals = arrivals.iter();
         travelling.retain(|&number| {
             let at = arrivals.next().and_then(Option::as_ref);
-            paths[number as usize].arrive(stage, bounces, at, work)
+            paths[number as usize].arrive(context, bounces, at, work)
         });
     }
 
     /// Gives the paths the light that they asked for.
-    fn answer(&mut self, stage: &Stage<'_, S>, paths: &mut [Path<'_, S>]) {
+    fn answer(&mut self, context: &Context<'_, S>, paths: &mut [Path<'_, S>]) {
         let receive = |who: u32, light: S, mirrors| paths[who as usize].receive(light, mirrors);
-        self.work.shadows.answer(&stage.world, receive);
+        self.work.shadows.answer(&context.world, receive);
     }
 }

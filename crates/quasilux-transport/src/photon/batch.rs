@@ -1,6 +1,6 @@
 //! Many photons at once: ranges of indices of all replicates, shared between threads.
 
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{WAVES_PER_FIELD, Waves, Way};
@@ -31,18 +31,18 @@ pub(crate) struct PhotonBatch<'w> {
 /// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer
 /// stopped it.
 pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     batch: &PhotonBatch<'_>,
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    trace_photons_in_view(stage, batch, receiver, |_| None, watch)
+    trace_photons_in_view(context, batch, receiver, |_| None, watch)
 }
 
 /// The same where `look` tells what the sensors show, when so many of the photons were emitted and
 /// none of them flies.
 pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     batch: &PhotonBatch<'_>,
     receiver: impl Fn(u32) -> R + Sync,
     look: impl Fn(u64) -> Option<Snapshot>,
@@ -50,11 +50,11 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
 ) -> Option<PhotonCounts> {
     let PhotonBatch { stream, replicates, indices, way, lead } = batch;
     let lead = *lead;
-    let points: Vec<PointSet> = replicates.clone().map(|r| stage.points(r, *stream)).collect();
+    let points: Vec<PointSet> = replicates.clone().map(|r| context.points(r, *stream)).collect();
     let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
     let close_in = match way {
         Way::OneByOne | Way::Waves => 0,
-        Way::CoherentWaves => stage.lights.leading_dimensions(),
+        Way::CoherentWaves => context.lights.leading_dimensions(),
     };
     let waves_each = Waves::new(leading, indices.clone(), close_in);
     let waves = waves_each.len() * points.len() as u64;
@@ -70,16 +70,16 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
         if *way == Way::OneByOne {
             for index in indices {
                 let sampler = Sampler::new(points, index);
-                trace_photon(stage, lead, sampler, &mut receiver, &mut counts);
+                trace_photon(context, lead, sampler, &mut receiver, &mut counts);
             }
         } else {
             let thread = rayon::current_thread_index().unwrap_or(0);
             let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
             let wave = Wave { points, indices, lead };
-            space.trace(stage, wave, &mut receiver, &mut counts);
+            space.trace(context, wave, &mut receiver, &mut counts);
         }
-        counts.joins = receiver.finish();
-        counts.rays += counts.joins;
+        counts.connections = receiver.finish();
+        counts.rays += counts.connections;
         counts
     };
     let mut counts = PhotonCounts::default();

@@ -9,8 +9,8 @@
 //! photons so far.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::context::{Stage, Stream};
-use crate::lights::images::Trail;
+use crate::context::{Context, Stream};
+use crate::lights::images::LightPathClass;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::map::QUANTA_PER_PHOTON;
 use crate::photon::order::Way;
@@ -39,7 +39,7 @@ const ELEMENTS_ACROSS: f64 = 64.0;
 const MAX_PARTS: f64 = 16384.0;
 
 /// The photons of all replicates.
-pub(crate) struct HiddenLight<S> {
+pub(crate) struct CausticMap<S> {
     element_m: f64,
     receivers: Receivers,
     tallies: Vec<Tally>,
@@ -54,7 +54,7 @@ pub(crate) struct HiddenLight<S> {
     facets: usize,
 }
 
-/// Hidden illuminance on map elements, in one replicate.
+/// Caustic illuminance on map elements, in one replicate.
 pub(crate) struct HiddenMap<S> {
     /// By element and number of bounces.
     illuminance_lx: Vec<(Key, S)>,
@@ -109,30 +109,30 @@ struct HiddenReceiver<'a, S> {
     tells_bounces: bool,
 }
 
-impl<S: Spectrum> HiddenLight<S> {
+impl<S: Spectrum> CausticMap<S> {
     /// `None` where images show all of it, or where no bounces are wanted: it takes one at least.
     pub(crate) fn new(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         settings: &Settings,
         targets: &[Target],
     ) -> Option<Self> {
-        stage.hides.as_ref().filter(|_| stage.max_bounces != Some(0))?;
-        let element_m = settings.map_element_m.unwrap_or(stage.world.size_m() / ELEMENTS_ACROSS);
-        let receivers = Receivers::new(stage, targets, element_m);
+        context.hides.as_ref().filter(|_| context.max_bounces != Some(0))?;
+        let element_m = settings.map_element_m.unwrap_or(context.world.size_m() / ELEMENTS_ACROSS);
+        let receivers = Receivers::new(context, targets, element_m);
         let replicates = settings.effective_replicates();
         let [least, most] = PHOTONS_PER_PATH;
         Some(Self {
             element_m,
             receivers,
             tallies: (0..replicates)
-                .map(|_| Tally::new(targets.len(), stage.listed_terms))
+                .map(|_| Tally::new(targets.len(), context.listed_terms))
                 .collect(),
             maps: Vec::new(),
             photons_per_path: (targets.len() as u64 / TARGETS_PER_PHOTON).clamp(least, most),
             photons: 0,
-            flux_lm: stage.lights.flux_lm,
+            flux_lm: context.lights.flux_lm,
             ends: vec![None; targets.len()],
-            facets: stage.world.facets.len(),
+            facets: context.world.facets.len(),
         })
     }
 
@@ -155,32 +155,32 @@ impl<S: Spectrum> HiddenLight<S> {
     /// Paths see them after [`Self::show`].
     pub(crate) fn grow(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         end: u64,
         watch: &mut Watch<'_>,
     ) -> Option<u64> {
         let Self { element_m, receivers, tallies, ends, .. } = &*self;
-        let tells_bounces = stage.max_bounces.is_some() || stage.listed_terms > 0;
+        let tells_bounces = context.max_bounces.is_some() || context.listed_terms > 0;
         let receiver = |r: u32| {
             let tally = &tallies[r as usize];
-            let (world, element_m) = (&stage.world, *element_m);
+            let (world, element_m) = (&context.world, *element_m);
             HiddenReceiver { world, element_m, receivers, ends, tally, tells_bounces }
         };
         let batch = PhotonBatch {
-            stream: Stream::HiddenPhotons,
+            stream: Stream::CausticPhotons,
             replicates: 0..tallies.len() as u32,
             indices: self.photons..end,
             way: Way::CoherentWaves,
             lead: Lead::by_chance(Source::Lights, None),
         };
-        let counts = trace_photons(stage, &batch, receiver, watch)?;
+        let counts = trace_photons(context, &batch, receiver, watch)?;
         self.photons = end;
         Some(counts.rays)
     }
 
     /// Lets paths see all photons so far.
-    pub(crate) fn show(&mut self, stage: &Stage<'_, S>) {
-        self.maps = self.tallies.iter().map(|tally| self.read(&stage.world, tally)).collect();
+    pub(crate) fn show(&mut self, context: &Context<'_, S>) {
+        self.maps = self.tallies.iter().map(|tally| self.read(&context.world, tally)).collect();
     }
 
     /// Puts out what the photons gave to the targets, without what paths see of them.
@@ -201,7 +201,7 @@ impl<S: Spectrum> HiddenLight<S> {
     }
 
     /// Counts no more for targets that end with so many paths; the maps go on.
-    pub(crate) fn settle(&mut self, ends: &[Option<u64>]) {
+    pub(crate) fn freeze_converged(&mut self, ends: &[Option<u64>]) {
         self.ends = ends.iter().map(|end| end.map(|paths| self.photons_for(paths))).collect();
     }
 
@@ -230,9 +230,9 @@ impl<S: Spectrum> HiddenLight<S> {
     }
 
     /// What the paths of one replicate read.
-    pub(crate) fn map(&self, replicate: u32) -> Option<HiddenEnd<'_, S>> {
+    pub(crate) fn map(&self, replicate: u32) -> Option<CausticLookup<'_, S>> {
         let map = self.maps.get(replicate as usize)?;
-        Some(HiddenEnd { map, element_m: self.element_m })
+        Some(CausticLookup { map, element_m: self.element_m })
     }
 
     /// What a target gets in one replicate, in lx.
@@ -250,7 +250,7 @@ impl<S: Spectrum> HiddenLight<S> {
 }
 
 /// Everything, landings included.
-impl<S: Spectrum> Stored for HiddenLight<S> {
+impl<S: Spectrum> Stored for CausticMap<S> {
     fn put(&self, out: &mut Writer) {
         self.put_targets(out);
         for tally in &self.tallies {
@@ -263,7 +263,7 @@ impl<S: Spectrum> Stored for HiddenLight<S> {
         }
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.take_targets(from)?;
         for tally in &mut self.tallies {
             let landings = tally.landings.get_mut().unwrap_or_else(PoisonError::into_inner);
@@ -282,12 +282,12 @@ impl<S: Spectrum> Stored for HiddenLight<S> {
 
 /// The map of one replicate, as its paths read it.
 #[derive(Clone, Copy)]
-pub(crate) struct HiddenEnd<'a, S> {
+pub(crate) struct CausticLookup<'a, S> {
     map: &'a HiddenMap<S>,
     element_m: f64,
 }
 
-impl<S: Spectrum> HiddenEnd<'_, S> {
+impl<S: Spectrum> CausticLookup<'_, S> {
     /// Illuminances in lx at a place, of light that took at most `most_bounces`, by their number; all in
     /// one where it does not matter.
     pub(crate) fn illuminances_lx(
@@ -325,20 +325,20 @@ fn parts<S: Spectrum>(world: &World<S>, facet: u32, element_m: f64) -> f64 {
 }
 
 impl Receivers {
-    fn new<S: Spectrum>(stage: &Stage<'_, S>, targets: &[Target], radius_m: f64) -> Self {
+    fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target], radius_m: f64) -> Self {
         let mut receivers = Self { planes: Vec::new(), discs: Vec::new(), areas_m2: Vec::new() };
         for (number, target) in targets.iter().enumerate() {
             match target {
                 Target::Point { position, normal } => {
                     receivers.discs.push(Disc {
                         target: number,
-                        centre: stage.world.vantage_of_sensor(*position, *normal).position(),
+                        centre: context.world.ray_origin_of_sensor(*position, *normal).position(),
                         normal: *normal,
                         square_radius_m2: radius_m * radius_m,
                     });
                     receivers.areas_m2.push(PI * radius_m * radius_m);
                 }
-                Target::Cell { grid, cell } => receivers.add_cell(stage, number, grid, *cell),
+                Target::Cell { grid, cell } => receivers.add_cell(context, number, grid, *cell),
             }
         }
         receivers
@@ -347,12 +347,12 @@ impl Receivers {
     /// Cells of a grid follow each other, but cells may be asked for without those before.
     fn add_cell<S: Spectrum>(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         number: usize,
         grid: &quasilux_scene::sensor::Grid,
         cell: usize,
     ) {
-        let plane = GridPlane::new(&stage.world, grid);
+        let plane = GridPlane::new(&context.world, grid);
         self.areas_m2.push(plane.cell_area_m2());
         match self.planes.last_mut() {
             Some(last) if cell != 0 && cell == last.cells.end => last.cells.end = cell + 1,
@@ -410,8 +410,14 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
 
     fn landing(&mut self, _: &Interaction, _: S, _: u32) {}
 
-    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
-        if trail != Trail::Hidden {
+    fn specular_flight(
+        &mut self,
+        flight: &Flight,
+        weight: S,
+        bounces: u32,
+        path_class: LightPathClass,
+    ) {
+        if path_class != LightPathClass::Caustic {
             return;
         }
         for CellReceiver { plane, behind, first_target, cells } in &self.receivers.planes {
@@ -427,8 +433,14 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
         }
     }
 
-    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
-        if trail != Trail::Hidden {
+    fn specular_landing(
+        &mut self,
+        at: &Interaction,
+        weight: S,
+        bounces: u32,
+        path_class: LightPathClass,
+    ) {
+        if path_class != LightPathClass::Caustic {
             return;
         }
         let bounces = if self.tells_bounces { bounces } else { 0 };

@@ -25,7 +25,7 @@ pub(crate) struct PhotonCounts {
     pub(crate) trapped: u64,
     pub(crate) rays: u64,
     /// Rays among them that join photons to sensors.
-    pub(crate) joins: u64,
+    pub(crate) connections: u64,
     /// Surfaces that photons came to.
     pub(crate) events: u64,
     /// Coordinates that each of them used, children of splits by themselves.
@@ -36,8 +36,8 @@ impl PhotonCounts {
     /// What they cost, without where their flux went: those from lit cells do not carry all of it.
     pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
-        let Self { begun, rays, joins, events, dimensions, .. } = self;
-        Self { begun, trapped, rays, joins, events, dimensions, ..Self::default() }
+        let Self { begun, rays, connections, events, dimensions, .. } = self;
+        Self { begun, trapped, rays, connections, events, dimensions, ..Self::default() }
     }
 
     /// Flux of some quanta, as a share of all that was emitted.
@@ -56,7 +56,7 @@ impl AddAssign for PhotonCounts {
         self.endless += other.endless;
         self.trapped += other.trapped;
         self.rays += other.rays;
-        self.joins += other.joins;
+        self.connections += other.connections;
         self.events += other.events;
         self.dimensions.merge(&other.dimensions);
     }
@@ -73,18 +73,18 @@ impl Stored for PhotonCounts {
             endless,
             trapped,
             rays,
-            joins,
+            connections,
             events,
             dimensions,
         } = self;
-        [emitted, begun, endless, trapped, rays, joins, events]
+        [emitted, begun, endless, trapped, rays, connections, events]
             .into_iter()
             .for_each(|count| out.u64(*count));
         [absorbed, lost, cut].into_iter().for_each(|quanta| out.i64(*quanta));
         dimensions.put(out);
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let Self {
             emitted,
             begun,
@@ -94,13 +94,13 @@ impl Stored for PhotonCounts {
             endless,
             trapped,
             rays,
-            joins,
+            connections,
             events,
             dimensions,
         } = self;
-        let counts = [emitted, begun, endless, trapped, rays, joins, events];
+        let counts = [emitted, begun, endless, trapped, rays, connections, events];
         counts.into_iter().try_for_each(|count| from.add_u64(count))?;
         [absorbed, lost, cut].into_iter().try_for_each(|quanta| from.add_i64(quanta))?;
-        dimensions.take_in(from)
+        dimensions.merge_from(from)
     }
 }

@@ -7,7 +7,7 @@
 //! Those from lit places lie more evenly, and few of their weights are far from the others, next to the
 //! lights where it matters to few: see [`EVENNESS`].
 
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::lit_cells::LitCells;
 use crate::photon::receiver::PhotonReceiver;
@@ -37,7 +37,7 @@ struct Weights {
 /// The lit cells that photons leave from where that is asked for, or pays and should not take many more rays than these to
 /// find out; adds what it took.
 pub(crate) fn decide<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     settings: &Settings,
     most_rays: u64,
     counts: &mut PhotonCounts,
@@ -48,21 +48,25 @@ pub(crate) fn decide<S: Spectrum>(
     if settings.first_shot == Switch::Off || most_rays < of_pilots {
         return None;
     }
-    let cells = LitCells::new(stage, most_rays - of_pilots)?;
+    let cells = LitCells::new(context, most_rays - of_pilots)?;
     counts.rays += cells.rays;
     let pays = is_asked_for
-        || work(stage, Source::LitCells(&cells), counts)
-            < EVENNESS * work(stage, Source::Lights, counts);
+        || work(context, Source::LitCells(&cells), counts)
+            < EVENNESS * work(context, Source::Lights, counts);
     pays.then_some(cells)
 }
 
 /// Rays for one good photon; infinite where none leaves a surface.
-fn work<S: Spectrum>(stage: &Stage<'_, S>, source: Source<'_>, counts: &mut PhotonCounts) -> f64 {
-    let points = stage.points(0, Stream::FirstShotPilots);
+fn work<S: Spectrum>(
+    context: &Context<'_, S>,
+    source: Source<'_>,
+    counts: &mut PhotonCounts,
+) -> f64 {
+    let points = context.points(0, Stream::FirstShotPilots);
     let (mut weights, mut of_pilots) = (Weights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
         let sampler = Sampler::new(&points, index);
-        trace_photon(stage, Lead::by_chance(source, None), sampler, &mut weights, &mut of_pilots);
+        trace_photon(context, Lead::by_chance(source, None), sampler, &mut weights, &mut of_pilots);
     }
     counts.rays += of_pilots.rays;
     let Weights { sum, squares } = weights;

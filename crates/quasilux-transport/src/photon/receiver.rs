@@ -1,6 +1,6 @@
 //! What sees photons on their way: sensors, maps, connections.
 
-use crate::lights::images::Trail;
+use crate::lights::images::LightPathClass;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use glam::DVec3;
@@ -8,7 +8,7 @@ use quasilux_sampling::Sampler;
 
 /// What sees photons on their way.
 pub(crate) trait PhotonReceiver<S> {
-    /// Whether photons end where [`Trail::Found`] begins: nobody looks at them further.
+    /// Whether photons end where [`LightPathClass::Found`] begins: nobody looks at them further.
     const SPECULAR_ONLY: bool = false;
 
     /// All that it sees from here on is of the photon whose coordinates come from there.
@@ -25,14 +25,26 @@ pub(crate) trait PhotonReceiver<S> {
 
     /// The flight of a photon that came by specular surfaces alone from a light that nothing runs
     /// into; a flight like others unless somebody sees such light in another way.
-    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
-        let _ = trail;
+    fn specular_flight(
+        &mut self,
+        flight: &Flight,
+        weight: S,
+        bounces: u32,
+        path_class: LightPathClass,
+    ) {
+        let _ = path_class;
         self.flight(flight, weight, bounces);
     }
 
     /// The landing of such a photon.
-    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
-        let _ = trail;
+    fn specular_landing(
+        &mut self,
+        at: &Interaction,
+        weight: S,
+        bounces: u32,
+        path_class: LightPathClass,
+    ) {
+        let _ = path_class;
         self.landing(at, weight, bounces);
     }
 
@@ -78,15 +90,27 @@ impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
         }
     }
 
-    fn specular_flight(&mut self, flight: &Flight, weight: S, bounces: u32, trail: Trail) {
+    fn specular_flight(
+        &mut self,
+        flight: &Flight,
+        weight: S,
+        bounces: u32,
+        path_class: LightPathClass,
+    ) {
         if let Some(receiver) = self {
-            receiver.specular_flight(flight, weight, bounces, trail);
+            receiver.specular_flight(flight, weight, bounces, path_class);
         }
     }
 
-    fn specular_landing(&mut self, at: &Interaction, weight: S, bounces: u32, trail: Trail) {
+    fn specular_landing(
+        &mut self,
+        at: &Interaction,
+        weight: S,
+        bounces: u32,
+        path_class: LightPathClass,
+    ) {
         if let Some(receiver) = self {
-            receiver.specular_landing(at, weight, bounces, trail);
+            receiver.specular_landing(at, weight, bounces, path_class);
         }
     }
 

@@ -9,10 +9,10 @@
 //! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::Mode;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
-use crate::importance::{Guide, Split, Windows};
-use crate::lights::images::Trail;
+use crate::importance::{GuidingTree, Split, WeightWindows};
+use crate::lights::images::LightPathClass;
 use crate::lights::{Chosen, Emission, Emitted};
 use crate::photon::counts::{PhotonCounts, QUANTA_PER_PHOTON};
 use crate::photon::lit_cells::{Drawn, LitCells, LitPlace};
@@ -29,7 +29,7 @@ pub(crate) struct Photon<'p, S> {
     pub(crate) sampler: Sampler<'p>,
     /// Its colour: the flux that it carries, as a share of that of one photon of all lights.
     pub(crate) weight: S,
-    pub(crate) trail: Trail,
+    pub(crate) path_class: LightPathClass,
     /// Whether it ends where paths find it.
     specular_only: bool,
     /// Bounces behind it before its first flight.
@@ -50,7 +50,7 @@ pub(crate) enum Source<'s> {
 #[derive(Clone, Copy)]
 pub(crate) struct Lead<'s> {
     pub(crate) source: Source<'s>,
-    pub(crate) windows: Option<&'s Windows>,
+    pub(crate) windows: Option<&'s WeightWindows>,
     /// Where nothing steers them, photons go on for certain with what absorption leaves, if that is so much
     /// of what the first of them carry.
     pub(crate) certain_weight: f64,
@@ -58,7 +58,7 @@ pub(crate) struct Lead<'s> {
 
 impl<'s> Lead<'s> {
     /// Photons that survive by chance at each surface, unless something steers them.
-    pub(crate) fn by_chance(source: Source<'s>, windows: Option<&'s Windows>) -> Self {
+    pub(crate) fn by_chance(source: Source<'s>, windows: Option<&'s WeightWindows>) -> Self {
         Self { source, windows, certain_weight: f64::INFINITY }
     }
 }
@@ -103,7 +103,7 @@ pub(crate) struct Departure<'p, S> {
 /// Traces the photon of one index by itself, with all that it is split into: the slow twin of
 /// [`crate::photon::wave::PhotonWave`].
 pub(crate) fn trace_photon<'p, S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     lead: Lead<'_>,
     sampler: Sampler<'p>,
     receiver: &mut impl PhotonReceiver<S>,
@@ -113,15 +113,15 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
     counts.emitted += 1;
     counts.begun += 1;
     let mut generation: Vec<Departure<'p, S>> = Vec::new();
-    match photon.begin(stage, lead.source) {
+    match photon.begin(context, lead.source) {
         Some(Beginning::Flies(start)) => generation.push(Departure { photon, start }),
         Some(Beginning::IfLit(place)) => {
             counts.rays += 1;
-            if !place.is_lit(stage) {
+            if !place.is_lit(context) {
                 return counts.end(&photon);
             }
             photon.receive(&place);
-            photon.scatter(stage, lead, &place.arrival(), counts, |next| generation.push(next));
+            photon.scatter(context, lead, &place.arrival(), counts, |next| generation.push(next));
         }
         None => return counts.end(&photon),
     }
@@ -129,10 +129,10 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
         let mut next = Vec::new();
         for Departure { photon, start: Emission { from, direction } } in generation {
             counts.rays += 1;
-            let found = stage.world.trace(from, direction);
-            photon.show(stage, from.position(), direction, found.as_ref(), bounces, receiver);
+            let found = context.world.trace(from, direction);
+            photon.show(context, from.position(), direction, found.as_ref(), bounces, receiver);
             let arrival = Arrival { direction, found: found.as_ref(), bounces, is_drawn: false };
-            photon.scatter(stage, lead, &arrival, counts, |departure| next.push(departure));
+            photon.scatter(context, lead, &arrival, counts, |departure| next.push(departure));
         }
         if next.is_empty() {
             return;
@@ -148,7 +148,7 @@ struct Door<'a> {
     at: &'a Interaction,
     /// Where the light came from.
     wo: DVec3,
-    guide: Option<&'a Guide>,
+    guide: Option<&'a GuidingTree>,
 }
 
 impl<'p, S: Spectrum> Photon<'p, S> {
@@ -157,7 +157,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         Self {
             sampler,
             weight: S::white(),
-            trail: Trail::Found,
+            path_class: LightPathClass::Found,
             specular_only: false,
             bounces: 0,
             gain: Gain::NONE,
@@ -170,33 +170,37 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     }
 
     /// Draws its beginning; `None` where nothing emits, or where no light can land.
-    pub(crate) fn begin(&mut self, stage: &Stage<'_, S>, source: Source<'_>) -> Option<Beginning> {
-        let lights = &stage.lights;
-        let Emitted { emission, trail } = match source {
-            Source::Lights => lights.emit(&stage.world, stage.purposes, &mut self.sampler)?,
-            Source::LitCells(cells) => match cells.draw(stage, &mut self.sampler)? {
+    pub(crate) fn begin(
+        &mut self,
+        context: &Context<'_, S>,
+        source: Source<'_>,
+    ) -> Option<Beginning> {
+        let lights = &context.lights;
+        let Emitted { emission, path_class } = match source {
+            Source::Lights => lights.emit(&context.world, context.purposes, &mut self.sampler)?,
+            Source::LitCells(cells) => match cells.draw(context, &mut self.sampler)? {
                 Drawn::Place(place) => return Some(Beginning::IfLit(place)),
                 Drawn::Light { number, u, flux_share } => {
                     self.weight = S::white() * flux_share;
                     let chosen = Chosen { number, u };
-                    lights.emit_from(chosen, &stage.world, stage.purposes, &mut self.sampler)?
+                    lights.emit_from(chosen, &context.world, context.purposes, &mut self.sampler)?
                 }
             },
         };
-        self.trail = trail;
+        self.path_class = path_class;
         Some(Beginning::Flies(emission))
     }
 
     /// Takes the light that comes to a place.
     pub(crate) fn receive(&mut self, place: &LitPlace) {
-        self.trail = Trail::Shown(place.light);
+        self.path_class = LightPathClass::Shown(place.light);
         self.weight = S::white() * place.flux_share;
     }
 
     /// Shows a flight to the receiver, and where it landed.
     pub(crate) fn show(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         from: DVec3,
         direction: DVec3,
         found: Option<&Interaction>,
@@ -207,16 +211,16 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         receiver.follow(&self.sampler);
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from, direction, length_m };
-        let landing = found.filter(|at| stage.world.bsdf(at).keeps_illuminance());
-        if self.trail == Trail::Found || bounces == 0 {
+        let landing = found.filter(|at| context.world.bsdf(at).keeps_illuminance());
+        if self.path_class == LightPathClass::Found || bounces == 0 {
             receiver.flight(&flight, self.weight, bounces);
             if let Some(at) = landing {
                 receiver.landing(at, self.weight, bounces);
             }
         } else {
-            receiver.specular_flight(&flight, self.weight, bounces, self.trail);
+            receiver.specular_flight(&flight, self.weight, bounces, self.path_class);
             if let Some(at) = landing {
-                receiver.specular_landing(at, self.weight, bounces, self.trail);
+                receiver.specular_landing(at, self.weight, bounces, self.path_class);
             }
         }
     }
@@ -224,7 +228,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     /// Goes on after a flight, alone or with children, or does not; `depart` gets all that go on.
     pub(crate) fn scatter(
         mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         lead: Lead<'_>,
         arrival: &Arrival<'_>,
         counts: &mut PhotonCounts,
@@ -235,7 +239,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             return counts.end(&self);
         };
         counts.events += 1;
-        let (bsdf, frame) = (stage.world.bsdf(at), stage.world.frame(at));
+        let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
         let left = (self.weight * bsdf.albedo(wo, at.front, Mode::Flux)).luminance();
@@ -249,7 +253,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let split = Split::new(left, window.map_or(survivor, |window| window.weight));
         let whole = split.expected.floor();
         let bounce = Purpose::Bounce { surface: arrival.bounces + self.bounces + 1 };
-        let one_more = stage
+        let one_more = context
             .draw(&mut self.sampler, bounce, |sampler| sampler.choose_bool(split.expected - whole));
         let count = whole as u32 + u32::from(one_more);
         let arrived = self.quanta();
@@ -257,7 +261,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         if count == 0 {
             return counts.end(&self);
         }
-        if stage.max_bounces.is_some_and(|most| arrival.bounces + self.bounces >= most) {
+        if context.max_bounces.is_some_and(|most| arrival.bounces + self.bounces >= most) {
             let goes_on = i64::from(count) * quanta(split.weight);
             counts.absorbed -= goes_on;
             counts.cut += goes_on;
@@ -266,13 +270,13 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let children: Vec<Sampler<'p>> =
             (1..count).map(|child| self.sampler.child(child)).collect();
         self.bounces += u32::from(arrival.is_drawn);
-        let Self { weight, trail, specular_only, bounces, gain, .. } = self;
-        let child = |sampler| Self { sampler, weight, trail, specular_only, bounces, gain };
+        let Self { weight, path_class, specular_only, bounces, gain, .. } = self;
+        let child = |sampler| Self { sampler, weight, path_class, specular_only, bounces, gain };
         for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
             let guide = window.map(|window| &window.guide);
             let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);
-            match photon.leave(stage, bounce, &door, share) {
-                Some(_) if photon.specular_only && photon.trail == Trail::Found => {
+            match photon.leave(context, bounce, &door, share) {
+                Some(_) if photon.specular_only && photon.path_class == LightPathClass::Found => {
                     counts.absorbed -= photon.quanta();
                     counts.cut += photon.quanta();
                     counts.end(&photon);
@@ -289,14 +293,14 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     /// Takes a direction away from a surface, and its share of what leaves there.
     fn leave(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         bounce: Purpose,
         door: &Door<'_>,
         share: f64,
     ) -> Option<Emission> {
         let Door { at, wo, guide } = *door;
-        let (world, bsdf) = (&stage.world, stage.world.bsdf(at));
-        let (next, share) = stage.draw(&mut self.sampler, bounce, |sampler| match guide {
+        let (world, bsdf) = (&context.world, context.world.bsdf(at));
+        let (next, share) = context.draw(&mut self.sampler, bounce, |sampler| match guide {
             Some(guide) if bsdf.is_lambertian() => {
                 let guided = guide.sample([sampler.remapped_1d(), sampler.next_1d()]);
                 Some((bsdf.sample_lambertian(guided.u)?, share / guided.density))
@@ -307,8 +311,8 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         if self.weight.luminance() <= 0.0 {
             return None;
         }
-        self.trail = self.trail.after(&stage.images, bsdf, at.facet, next.wi.z > 0.0);
-        let from = if next.wi.z > 0.0 { world.vantage(at) } else { world.vantage_behind(at) };
+        self.path_class = self.path_class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
+        let from = if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
         Some(Emission { from, direction: world.frame(at).to_world(next.wi) })
     }
 

@@ -7,14 +7,14 @@
 //! index and its ancestors alone, never on its company: a wave gives what
 //! [`crate::photon::trace::trace_photon`] gives.
 
-use crate::context::{Stage, Step};
+use crate::context::{Context, Step};
 use crate::cutoff::MAX_EVENTS;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::{Arrival, PhotonReceiver};
 use crate::photon::trace::{Beginning, Lead, Photon};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use quasilux_bvh::{Hit, Shot};
+use quasilux_bvh::{Hit, RayQuery};
 use quasilux_sampling::{PointSet, Sampler};
 
 /// Photons that fly together are cut in two when there are more.
@@ -32,9 +32,9 @@ pub(crate) struct Wave<'p, 'w, I> {
 pub(crate) struct PhotonWave<'p, S> {
     photons: Vec<Photon<'p, S>>,
     /// The ray of each photon.
-    shots: Vec<Shot>,
+    queries: Vec<RayQuery>,
     /// Those that have scattered.
-    departed: (Vec<Photon<'p, S>>, Vec<Shot>),
+    departed: (Vec<Photon<'p, S>>, Vec<RayQuery>),
     waiting: Vec<Waiting<'p, S>>,
     hits: Vec<Option<Hit>>,
     /// Where it meets a surface.
@@ -51,14 +51,14 @@ pub(crate) struct PhotonWave<'p, S> {
 struct Waiting<'p, S> {
     bounces: u32,
     photons: Vec<Photon<'p, S>>,
-    shots: Vec<Shot>,
+    queries: Vec<RayQuery>,
 }
 
 impl<'p, S: Spectrum> PhotonWave<'p, S> {
     pub(crate) fn new() -> Self {
         Self {
             photons: Vec::new(),
-            shots: Vec::new(),
+            queries: Vec::new(),
             departed: (Vec::new(), Vec::new()),
             waiting: Vec::new(),
             hits: Vec::new(),
@@ -73,12 +73,12 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     /// Traces photons, and what they are split into, to their ends.
     pub(crate) fn trace(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         wave: Wave<'p, '_, impl Iterator<Item = u64>>,
         receiver: &mut impl PhotonReceiver<S>,
         counts: &mut PhotonCounts,
     ) {
-        let lap = |step| stage.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
+        let lap = |step| context.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
         let Wave { points, indices, lead } = wave;
         self.photons.clear();
         self.photons.extend(
@@ -88,9 +88,9 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         lap(Step::Sampling);
         counts.emitted += self.photons.len() as u64;
         counts.begun += self.photons.len() as u64;
-        self.begin(stage, lead, counts);
-        self.look_for_light(stage, points, counts);
-        self.depart(stage, lead, counts);
+        self.begin(context, lead, counts);
+        self.look_for_light(context, points, counts);
+        self.depart(context, lead, counts);
         lap(Step::Emission);
         let mut bounces = 0;
         while let Some(reached) = self.muster(bounces) {
@@ -99,14 +99,14 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
                 self.photons.drain(..).for_each(|photon| counts.give_up(&photon));
                 continue;
             }
-            counts.rays += self.shots.len() as u64;
-            stage.world.trace_all(&self.shots, &mut self.hits, &mut self.found);
+            counts.rays += self.queries.len() as u64;
+            context.world.trace_all(&self.queries, &mut self.hits, &mut self.found);
             lap(Step::Traversal);
-            self.show(stage, bounces, receiver);
+            self.show(context, bounces, receiver);
             lap(Step::Tally);
             self.supply(points);
             lap(Step::Sampling);
-            self.scatter(stage, lead, bounces, counts);
+            self.scatter(context, lead, bounces, counts);
             bounces += 1;
             lap(Step::Scattering);
         }
@@ -118,22 +118,22 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         while self.photons.len() > LONGEST {
             let rest = self.photons.len() - LONGEST;
             let photons = self.photons.split_off(rest);
-            let shots = self.shots.split_off(rest);
-            self.waiting.push(Waiting { bounces, photons, shots });
+            let queries = self.queries.split_off(rest);
+            self.waiting.push(Waiting { bounces, photons, queries });
         }
         if !self.photons.is_empty() {
             return Some(bounces);
         }
-        let Waiting { bounces, photons, shots } = self.waiting.pop()?;
-        (self.photons, self.shots) = (photons, shots);
+        let Waiting { bounces, photons, queries } = self.waiting.pop()?;
+        (self.photons, self.queries) = (photons, queries);
         Some(bounces)
     }
 
     /// Draws all beginnings.
-    fn begin(&mut self, stage: &Stage<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+    fn begin(&mut self, context: &Context<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
         self.beginnings.clear();
         self.photons.retain_mut(|photon| {
-            let beginning = photon.begin(stage, lead.source);
+            let beginning = photon.begin(context, lead.source);
             if beginning.is_none() {
                 counts.end(photon);
             }
@@ -146,37 +146,37 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     /// Finds out to which of the places that photons begin at light comes.
     fn look_for_light(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         points: &PointSet,
         counts: &mut PhotonCounts,
     ) {
-        self.shots.clear();
-        self.shots.extend(self.beginnings.iter().filter_map(|beginning| match beginning {
+        self.queries.clear();
+        self.queries.extend(self.beginnings.iter().filter_map(|beginning| match beginning {
             Beginning::Flies(_) => None,
-            Beginning::IfLit(place) => Some(place.sight(stage)),
+            Beginning::IfLit(place) => Some(place.shadow_ray(context)),
         }));
-        counts.rays += self.shots.len() as u64;
-        stage.world.are_visible(&self.shots, &mut self.is_lit);
-        if !self.shots.is_empty() {
+        counts.rays += self.queries.len() as u64;
+        context.world.are_visible(&self.queries, &mut self.is_lit);
+        if !self.queries.is_empty() {
             self.supply(points);
         }
-        self.shots.clear();
+        self.queries.clear();
     }
 
     /// Lets all photons fly that leave a light, or a place that light comes to.
-    fn depart(&mut self, stage: &Stage<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
-        let (photons, shots) = &mut self.departed;
+    fn depart(&mut self, context: &Context<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+        let (photons, queries) = &mut self.departed;
         let mut is_lit = self.is_lit.iter();
         for (mut photon, beginning) in self.photons.drain(..).zip(&self.beginnings) {
             match beginning {
                 Beginning::Flies(start) => {
-                    shots.push(start.from.shot(start.direction));
+                    queries.push(start.from.query(start.direction));
                     photons.push(photon);
                 }
                 Beginning::IfLit(place) if is_lit.next() == Some(&true) => {
                     photon.receive(place);
-                    photon.scatter(stage, lead, &place.arrival(), counts, |departure| {
-                        shots.push(departure.start.from.shot(departure.start.direction));
+                    photon.scatter(context, lead, &place.arrival(), counts, |departure| {
+                        queries.push(departure.start.from.query(departure.start.direction));
                         photons.push(departure.photon);
                     });
                 }
@@ -184,7 +184,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
             }
         }
         std::mem::swap(&mut self.photons, photons);
-        std::mem::swap(&mut self.shots, shots);
+        std::mem::swap(&mut self.queries, queries);
     }
 
     /// Makes the next two coordinates of all photons at once. Those that are elsewhere in their
@@ -208,37 +208,37 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         }
     }
 
-    fn show(&self, stage: &Stage<'_, S>, bounces: u32, receiver: &mut impl PhotonReceiver<S>) {
-        for ((photon, shot), found) in self.photons.iter().zip(&self.shots).zip(&self.found) {
-            let (from, direction) = (shot.ray.origin, shot.ray.direction);
-            photon.show(stage, from, direction, found.as_ref(), bounces, receiver);
+    fn show(&self, context: &Context<'_, S>, bounces: u32, receiver: &mut impl PhotonReceiver<S>) {
+        for ((photon, query), found) in self.photons.iter().zip(&self.queries).zip(&self.found) {
+            let (from, direction) = (query.ray.origin, query.ray.direction);
+            photon.show(context, from, direction, found.as_ref(), bounces, receiver);
         }
     }
 
     /// Scatters all photons; those that go on keep their order, children come after their elders.
     fn scatter(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         lead: Lead<'_>,
         bounces: u32,
         counts: &mut PhotonCounts,
     ) {
-        let (photons, shots) = &mut self.departed;
-        let arrivals = self.shots.iter().zip(&self.found);
-        for (photon, (shot, found)) in self.photons.drain(..).zip(arrivals) {
+        let (photons, queries) = &mut self.departed;
+        let arrivals = self.queries.iter().zip(&self.found);
+        for (photon, (query, found)) in self.photons.drain(..).zip(arrivals) {
             let arrival = Arrival {
-                direction: shot.ray.direction,
+                direction: query.ray.direction,
                 found: found.as_ref(),
                 bounces,
                 is_drawn: false,
             };
-            photon.scatter(stage, lead, &arrival, counts, |departure| {
-                shots.push(departure.start.from.shot(departure.start.direction));
+            photon.scatter(context, lead, &arrival, counts, |departure| {
+                queries.push(departure.start.from.query(departure.start.direction));
                 photons.push(departure.photon);
             });
         }
-        self.shots.clear();
+        self.queries.clear();
         std::mem::swap(&mut self.photons, photons);
-        std::mem::swap(&mut self.shots, shots);
+        std::mem::swap(&mut self.queries, queries);
     }
 }

@@ -60,7 +60,7 @@ pub enum CheckError {
         /// What else keeps photons from being joined.
         why: &'static str,
     },
-    /// Joined photons leave the lights.
+    /// LightVertexConnections photons leave the lights.
     #[error(
         "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" leaves none"
     )]
@@ -101,7 +101,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     let has_map = match settings.estimator {
         EstimatorKind::Path | EstimatorKind::Photon => false,
-        EstimatorKind::Bidirectional => settings.joins() != Some(true),
+        EstimatorKind::Bidirectional => settings.connections() != Some(true),
         EstimatorKind::BidirectionalMap => true,
     };
     if settings.map_dimensions.is_some() && !has_map {
@@ -112,7 +112,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     }
     let is_steerable = match settings.estimator {
         EstimatorKind::Path => false,
-        EstimatorKind::Bidirectional => settings.joins() != Some(false),
+        EstimatorKind::Bidirectional => settings.connections() != Some(false),
         EstimatorKind::Photon | EstimatorKind::BidirectionalMap => true,
     };
     if settings.importance == Switch::On && !is_steerable {

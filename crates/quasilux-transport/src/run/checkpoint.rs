@@ -138,10 +138,10 @@ fn read_estimates(
         rays: from.option(Reader::u64)?,
         against_prediction: from.option(Reader::f64)?,
     };
-    estimates.dimensions.photon.take_in(from)?;
+    estimates.dimensions.photon.merge_from(from)?;
     estimates.dimensions.photons = from.u64()?;
     estimates.dimensions.photon_events = from.u64()?;
-    estimates.dimensions.path.take_in(from)?;
+    estimates.dimensions.path.merge_from(from)?;
     let warnings = from.length(size_of::<u64>())?;
     estimates.warnings = (0..warnings).map(|_| from.text()).collect::<Result<_, _>>()?;
     Ok(estimates)

@@ -1,11 +1,11 @@
-//! How much memory a run takes, foretold from counts alone: of triangles, sensor points, pixels and samples.
+//! How much memory a run takes, predicted from counts alone: of triangles, sensor points, pixels and samples.
 //! `docs/memory.md` has the measurements behind the figures.
 //!
 //! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
 //! element of its own, cells of surveys as if all were there.
 
 use crate::estimator::control_variate::{self, MAX_PHOTONS};
-use crate::importance::{Fork, MAX_FORKS};
+use crate::importance::{MAX_NODES, Node};
 use crate::path::sections::PathSums;
 use crate::photon::map::{
     COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS,
@@ -24,7 +24,7 @@ const VALUE_BYTES: u64 = 4 * size_of::<f64>() as u64;
 const PIXEL_BYTES: u64 = 48;
 /// Cells of a survey at most, and what guides photons in each of them.
 const CELLS: u64 = 1 << 13;
-const GUIDE_BYTES: u64 = (MAX_FORKS * size_of::<Fork>()) as u64;
+const GUIDE_BYTES: u64 = (MAX_NODES * size_of::<Node>()) as u64;
 /// Light that leaves a cell: its sum and its mean, straight and other.
 const LEAVING_BYTES: u64 = 96;
 /// What a sensor point sees of a cell, and the most of all of that.
@@ -72,7 +72,7 @@ impl MemoryNeed {
         };
         let maps = match settings.estimator {
             EstimatorKind::BidirectionalMap => u64::from(settings.effective_replicates()),
-            EstimatorKind::Bidirectional if settings.joins() != Some(true) => 1,
+            EstimatorKind::Bidirectional if settings.connections() != Some(true) => 1,
             EstimatorKind::Photon | EstimatorKind::Path | EstimatorKind::Bidirectional => {
                 return need;
             }
@@ -144,7 +144,7 @@ fn cells_bytes(settings: &Settings, points: u64) -> u64 {
     let photons = settings.estimator != EstimatorKind::Path;
     let guides =
         if photons && settings.importance != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
-    if settings.estimator != EstimatorKind::Bidirectional || settings.joins() == Some(false) {
+    if settings.estimator != EstimatorKind::Bidirectional || settings.connections() == Some(false) {
         return guides;
     }
     let slots = 1 + u64::from(settings.list_terms.max(1));

@@ -13,13 +13,13 @@
 //! No sums are kept for a picture: a run of pixels is traced in all replicates, then summarised, and 24
 //! bytes a pixel stay.
 
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::path::end::Rest;
 use crate::path::sections::WorkCounts;
-use crate::path::trace::{Seeks, Start};
+use crate::path::trace::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
-use crate::photon::caustics::HiddenLight;
+use crate::photon::caustics::CausticMap;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::Estimates;
@@ -47,7 +47,7 @@ const RGB: usize = 3;
 
 /// Takes the pictures of all cameras and adds them to what the sensors know.
 pub(crate) fn add_pictures<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
     estimates: &mut Estimates,
@@ -58,15 +58,15 @@ pub(crate) fn add_pictures<S: Spectrum>(
     let mut complete = true;
     for (number, camera) in (0..).zip(&scene.cameras) {
         let mut darkroom = Darkroom {
-            stage,
+            context,
             number,
             view: camera.view(),
             width: camera.resolution[0] as usize,
             replicates: settings.effective_replicates(),
             samples: 0,
             miss_probability: 1.0 - settings.confidence,
-            quantum: Quantum::for_reference(stage.lights.reference_lx(&stage.world)),
-            hidden: HiddenLight::new(stage, settings, &[]),
+            quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
+            caustics: CausticMap::new(context, settings, &[]),
         };
         let mut picture: Option<Exposure> = None;
         // Part of a set whose number of points is fixed would leave part of its lights out.
@@ -105,7 +105,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
 
 /// Where the picture of one camera is made.
 struct Darkroom<'a, S> {
-    stage: &'a Stage<'a, S>,
+    context: &'a Context<'a, S>,
     number: u32,
     view: View,
     width: usize,
@@ -115,7 +115,7 @@ struct Darkroom<'a, S> {
     miss_probability: f64,
     quantum: Quantum,
     /// Light that no path finds.
-    hidden: Option<HiddenLight<S>>,
+    caustics: Option<CausticMap<S>>,
 }
 
 /// A picture, and how many contributions are not in it.
@@ -149,15 +149,15 @@ impl<S: Spectrum> Darkroom<'_, S> {
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> bool {
-        let Some(hidden) = &mut self.hidden else { return true };
+        let Some(caustics) = &mut self.caustics else { return true };
         let photons = self.samples.saturating_mul(HIDDEN_PHOTONS);
         let mut nobody = ();
         let rays = match may_stop {
-            true => hidden.grow(self.stage, photons, watch),
-            false => hidden.grow(self.stage, photons, &mut Watch::new(&mut nobody)),
+            true => caustics.grow(self.context, photons, watch),
+            false => caustics.grow(self.context, photons, &mut Watch::new(&mut nobody)),
         };
         work.rays += rays.unwrap_or_default();
-        hidden.show(self.stage);
+        caustics.show(self.context);
         rays.is_some()
     }
 
@@ -215,7 +215,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
             .flat_map(|pixel| (0..self.replicates).map(move |replicate| (pixel, replicate)))
             .map(|(pixel, replicate)| {
                 let stream = Stream::Pixel { camera: self.number, pixel: pixel as u32 };
-                self.stage.points(replicate, stream)
+                self.context.points(replicate, stream)
             })
             .collect();
         let mut sums = vec![PixelSums::default(); points.len()];
@@ -228,7 +228,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
                 let (pixel, replicate) = (row / replicates, row % replicates);
                 self.start(pixels.start + pixel, replicate as u32, &points[row], index)
             });
-            for (path, ended) in numbers.clone().zip(wave.trace(self.stage, starts)) {
+            for (path, ended) in numbers.clone().zip(wave.trace(self.context, starts)) {
                 let ended = ended.end();
                 let light = ended.found.direct + ended.found.indirect;
                 let sums = &mut sums[(path / self.samples) as usize];
@@ -261,10 +261,10 @@ impl<S: Spectrum> Darkroom<'_, S> {
         let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
-            hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
+            caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
             partition: None,
-            from: self.stage.world.vantage_of_sensor(self.view.position, direction),
-            seeks: Seeks::Luminance { direction },
+            from: self.context.world.ray_origin_of_sensor(self.view.position, direction),
+            measurement: Measurement::Luminance { direction },
             rest: &Rest::Path,
             sampler,
         }

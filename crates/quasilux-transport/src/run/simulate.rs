@@ -1,8 +1,8 @@
 //! From a scene to estimates: the loop over checkpoints.
 
 use crate::codec::{Reader, StateError};
-use crate::context::Stage;
-use crate::estimator::{Estimation, estimation};
+use crate::context::Context;
+use crate::estimator::{Estimator, estimation};
 use crate::run::check::{caveats, is_biased};
 use crate::run::checkpoint::Course;
 use crate::run::pixels::add_pictures;
@@ -43,9 +43,9 @@ pub(crate) fn simulate_on(
     observer: &mut dyn Observer,
 ) -> Estimates {
     let estimates = if is_grey(scene) {
-        run(&Stage::<f64>::on(simd, scene, settings), scene, settings, None, observer)
+        run(&Context::<f64>::on(simd, scene, settings), scene, settings, None, observer)
     } else {
-        run(&Stage::<Rgb>::on(simd, scene, settings), scene, settings, None, observer)
+        run(&Context::<Rgb>::on(simd, scene, settings), scene, settings, None, observer)
     };
     estimates.expect("a run from the start needs no state")
 }
@@ -62,9 +62,9 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Estimates, StateError> {
     if is_grey(scene) {
-        run(&Stage::<f64>::new(scene, settings), scene, settings, Some(state), observer)
+        run(&Context::<f64>::new(scene, settings), scene, settings, Some(state), observer)
     } else {
-        run(&Stage::<Rgb>::new(scene, settings), scene, settings, Some(state), observer)
+        run(&Context::<Rgb>::new(scene, settings), scene, settings, Some(state), observer)
     }
 }
 
@@ -77,7 +77,7 @@ pub fn is_over(state: &[u8]) -> bool {
 }
 
 fn run<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
     state: Option<&[u8]>,
@@ -85,7 +85,7 @@ fn run<S: Spectrum>(
 ) -> Result<Estimates, StateError> {
     let mut watch = Watch::new(observer);
     watch.limit_rays(settings.max_rays);
-    let mut estimation = estimation(stage, scene, settings, &mut watch);
+    let mut estimation = estimation(context, scene, settings, &mut watch);
     let first = estimation.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
@@ -99,7 +99,7 @@ fn run<S: Spectrum>(
         }
         course.read(scene, settings, &mut from)?;
         watch.read(&mut from)?;
-        estimation.take_in(course.schedule.next_checkpoint(), &mut from)?;
+        estimation.merge_from(course.schedule.next_checkpoint(), &mut from)?;
         from.end()?;
         if let Some(last) = &course.last {
             watch.begin_at(last, Standing::of(last, settings).largest());
@@ -127,12 +127,12 @@ fn run<S: Spectrum>(
             break;
         }
         let (mut estimates, standing) =
-            look(stage, scene, settings, estimation.as_ref(), miss_probability);
+            look(context, scene, settings, estimation.as_ref(), miss_probability);
         estimates.decisions = decisions.clone();
         let is_look = may_end && course.schedule.is_look();
         let is_enough = is_look && standing.may_end;
         if is_look && !is_enough {
-            course.is_adaptive = estimation.settle(&standing.done);
+            course.is_adaptive = estimation.freeze_converged(&standing.done);
         }
         let is_adaptive = course.is_adaptive;
         estimates.convergence =
@@ -151,7 +151,7 @@ fn run<S: Spectrum>(
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     // The last checkpoint may have come from a state.
     estimates.decisions = decisions;
-    add_pictures(stage, scene, settings, &mut estimates, &mut watch);
+    add_pictures(context, scene, settings, &mut estimates, &mut watch);
     Ok(estimates)
 }
 
@@ -164,10 +164,10 @@ fn expected_rays(last: &Estimates, settings: &Settings) -> Option<u64> {
 
 /// What is known at a checkpoint, and how all targets stand there.
 pub(crate) fn look<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
-    estimation: &(dyn Estimation + '_),
+    estimation: &(dyn Estimator + '_),
     miss_probability: f64,
 ) -> (Estimates, Standing) {
     let mut estimates = estimation.estimates();
@@ -175,10 +175,10 @@ pub(crate) fn look<S: Spectrum>(
     estimates.miss_probability = miss_probability;
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
-    estimates.warnings.extend(stage.warning.clone());
+    estimates.warnings.extend(context.warning.clone());
     let sees_hidden =
         settings.estimator != EstimatorKind::Photon && settings.max_bounces != Some(0);
-    if let (Some(ways), true) = (&stage.hides, sees_hidden) {
+    if let (Some(ways), true) = (&context.hides, sees_hidden) {
         estimates.biased = true;
         estimates.warnings.push(format!(
             "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \

@@ -9,8 +9,8 @@ pub use quasilux_bvh::SimdLevel;
 pub use crate::context::{Step, Stopwatch};
 pub use crate::photon::order::Way;
 
-use crate::context::Stage;
-use crate::estimator::photons::Counting;
+use crate::context::Context;
+use crate::estimator::photon_estimator::PhotonEstimator;
 use crate::run::simulate::simulate_on;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
@@ -64,12 +64,12 @@ fn set_up<S: Spectrum>(
     stopwatch: Option<&dyn Stopwatch>,
     measure: impl FnOnce(&mut dyn PhotonTrial),
 ) {
-    let mut stage = Stage::<S>::new(scene, settings);
-    stage.stopwatch = stopwatch;
-    measure(&mut Counting::new(&stage, scene, settings));
+    let mut context = Context::<S>::new(scene, settings);
+    context.stopwatch = stopwatch;
+    measure(&mut PhotonEstimator::new(&context, scene, settings));
 }
 
-impl<S: Spectrum> PhotonTrial for Counting<'_, S> {
+impl<S: Spectrum> PhotonTrial for PhotonEstimator<'_, S> {
     fn trace(&mut self, way: Way, indices: Range<u64>) -> Traced {
         let counts = self.count(way, indices, &mut Watch::new(&mut ())).unwrap_or_default();
         Traced { photons: counts.emitted, rays: counts.rays }

@@ -1,4 +1,4 @@
-//! How fast half-widths shrink, and what that foretells.
+//! How fast half-widths shrink, and what that predicts.
 //!
 //! Half-widths of independent samples shrink like N^(-1/2); those of quasi-random points faster, as far as
 //! the values let them. The exponent is measured while a run goes. Points that are done get no more
@@ -13,7 +13,7 @@
 //! be compared: there are none before anything is found.
 //!
 //! A half-width from R replicates has a logarithm with the variance v = 1 / (2 (R - 1)), so few checkpoints tell
-//! little of a slope: its variance is s^2 = v / sum (ln N_k - mean)^2 where targets err together. What is foretold
+//! little of a slope: its variance is s^2 = v / sum (ln N_k - mean)^2 where targets err together. What is predicted
 //! therefore uses the mean of the measured slope and of -1/2, weighted by the inverse of s^2 and of P^2, the
 //! variance of slopes among scenes (the posterior mean where all are normal).
 //!
@@ -38,7 +38,7 @@ const LATER: usize = 2;
 const EXPECTED_SLOPE: f64 = -0.5;
 /// P: how far slopes of scenes lie from that, a standard deviation.
 const SPREAD_OF_SLOPES: f64 = 0.25;
-/// What is foretold with lies in here.
+/// What is predicted with lies in here.
 const SLOPES: std::ops::RangeInclusive<f64> = -1.5..=-0.4;
 
 /// The checkpoints of a run so far.
@@ -59,11 +59,11 @@ struct Checkpoint {
     samples: u64,
     /// exp y: half-widths in units of those at the first checkpoint.
     width: f64,
-    /// What later half-widths were foretold with; `None` before a slope was measured.
+    /// What later half-widths were predicted with; `None` before a slope was measured.
     exponent: Option<f64>,
 }
 
-/// Logarithms of half-widths over what was foretold for them.
+/// Logarithms of half-widths over what was predicted for them.
 #[derive(Clone, Debug, Default)]
 struct Outcomes {
     targets: f64,
@@ -154,7 +154,7 @@ impl History {
 
     /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one that has not begun begins here, and
     /// one that has is at its end: what others told stands for targets that had nothing before. `noise` is the
-    /// variance of logarithms of half-widths by chance. The exponent that is foretold with from now on.
+    /// variance of logarithms of half-widths by chance. The exponent that is predicted with from now on.
     fn chain(&mut self, now: &[(Option<f64>, u64)], samples: u64, noise: f64) -> Option<f64> {
         let change = self.change(now, noise);
         let width = match (&change, self.checkpoints.last()) {
@@ -217,7 +217,7 @@ impl History {
         fit.map(|line| line.exponent)
     }
 
-    /// The exponent to foretell with where this slope was measured.
+    /// The exponent to predict with where this slope was measured.
     fn foretold_with(&self, slope: f64, noise: f64) -> f64 {
         let mut places = Moments::default();
         self.checkpoints.iter().for_each(|at| places.add(libm::log(at.samples as f64)));
@@ -227,7 +227,7 @@ impl History {
         exponent.clamp(*SLOPES.start(), *SLOPES.end())
     }
 
-    /// The logarithm of the next checkpoint's half-widths over what was foretold for them.
+    /// The logarithm of the next checkpoint's half-widths over what was predicted for them.
     fn against_prediction(&self, samples: u64, width: f64) -> Option<f64> {
         let then = self.checkpoints.iter().rev().nth(LATER - 1)?;
         let more = samples as f64 / then.samples as f64;
@@ -236,7 +236,7 @@ impl History {
 }
 
 impl Outcomes {
-    /// The mean of half-widths over what was foretold; `None` where nothing was.
+    /// The mean of half-widths over what was predicted; `None` where nothing was.
     fn ratio(&self) -> Option<f64> {
         (self.targets > 0.0).then(|| libm::exp(self.sum / self.targets))
     }
@@ -327,7 +327,7 @@ mod tests {
                 known(slope, [0.5 * scale, 4.0 * scale], 128, 512);
             // Half-widths without noise: a little is taken for luck.
             assert!((got.unwrap() - slope).abs() < 0.02, "{got:?}");
-            // At first a slope is half believed, so what is steep does better than foretold.
+            // At first a slope is half believed, so what is steep does better than predicted.
             let least = if slope == -0.5 { 0.95 } else { 0.75 };
             let ratio = against_prediction.unwrap();
             assert!((least..=1.05).contains(&ratio), "{slope}: {ratio}");
@@ -395,8 +395,8 @@ mod tests {
         let at = |last| known(-0.5, [scale, 8.0 * scale], 64, last).rays.unwrap();
         let all = at(4096);
         for last in [64, 256, 1024] {
-            let foretold = at(last) as f64;
-            assert!((foretold / all as f64 - 1.0).abs() < 0.1, "{last}: {foretold} {all}");
+            let predicted = at(last) as f64;
+            assert!((predicted / all as f64 - 1.0).abs() < 0.1, "{last}: {predicted} {all}");
         }
     }
 }

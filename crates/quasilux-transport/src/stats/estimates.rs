@@ -2,7 +2,7 @@
 
 use crate::stats::decisions::Decisions;
 use crate::stats::interval::{Interval, t_quantile_for};
-use crate::stats::minimum::{lowest, ratios};
+use crate::stats::minimum::{interval_of_minimum, ratios};
 use crate::stats::picture::CameraEstimates;
 use quasilux_sampling::DimensionHistogram;
 use std::ops::Range;
@@ -138,8 +138,9 @@ impl Estimates {
     /// smallest, which need not be the one that seems to be.
     #[must_use]
     pub fn minimum(&self, sensor: usize) -> Interval {
-        let lowest = lowest(&self.sensors[sensor].replicate_lx, self.miss_probability);
-        self.where_resolved(sensor, lowest)
+        let interval_of_minimum =
+            interval_of_minimum(&self.sensors[sensor].replicate_lx, self.miss_probability);
+        self.where_resolved(sensor, interval_of_minimum)
     }
 
     /// The interval of the largest value of one sensor, in lx.
@@ -148,15 +149,16 @@ impl Estimates {
         let rows = &self.sensors[sensor].replicate_lx;
         let negative: Vec<Vec<f64>> =
             rows.iter().map(|row| row.iter().map(|lx| -lx).collect()).collect();
-        let Interval { value, half_width } = lowest(&negative, self.miss_probability);
+        let Interval { value, half_width } = interval_of_minimum(&negative, self.miss_probability);
         self.where_resolved(sensor, Interval { value: -value, half_width })
     }
 
     /// The interval of the smallest value over the mean of one sensor.
     #[must_use]
     pub fn uniformity(&self, sensor: usize) -> Interval {
-        let lowest = lowest(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability);
-        self.where_resolved(sensor, lowest)
+        let interval_of_minimum =
+            interval_of_minimum(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability);
+        self.where_resolved(sensor, interval_of_minimum)
     }
 
     /// The intervals of all points of one sensor, in lx; no half-width where nothing was found.
@@ -228,7 +230,7 @@ pub struct Convergence {
     pub samples: Option<u64>,
     /// Rays of the whole run up to there.
     pub rays: Option<u64>,
-    /// Half-widths over what was foretold for them two checkpoints before with a measured slope: the geometric mean
+    /// Half-widths over what was predicted for them two checkpoints before with a measured slope: the geometric mean
     /// over checkpoints, each as often as it had targets with one before and after that grew.
     pub against_prediction: Option<f64>,
 }

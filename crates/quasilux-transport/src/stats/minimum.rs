@@ -33,16 +33,16 @@ const MAX_ROWS: usize = 256;
 
 /// Mean and standard error of one point.
 #[derive(Clone, Copy)]
-struct Known {
+struct SurveyCell {
     mean: f64,
     error: f64,
 }
 
 /// The interval of the smallest of several means; `rows` has one row of values a replicate. Not a number
 /// where a value is none, or there are no values.
-pub(crate) fn lowest(rows: &[Vec<f64>], miss_probability: f64) -> Interval {
+pub(crate) fn interval_of_minimum(rows: &[Vec<f64>], miss_probability: f64) -> Interval {
     let columns = rows.first().map_or(0, Vec::len);
-    let points: Vec<Known> = (0..columns).map(|column| Known::of(rows, column)).collect();
+    let points: Vec<SurveyCell> = (0..columns).map(|column| SurveyCell::of(rows, column)).collect();
     let is_number = points.iter().all(|point| !point.mean.is_nan());
     let seeming = points.iter().copied().reduce(|a, b| if b.mean < a.mean { b } else { a });
     let Some(seeming) = seeming.filter(|_| is_number) else {
@@ -83,7 +83,7 @@ pub(crate) fn ratios(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     rows.iter().map(linear).collect()
 }
 
-impl Known {
+impl SurveyCell {
     fn of(rows: &[Vec<f64>], column: usize) -> Self {
         let values = rows.iter().map(|row| row[column]);
         let interval = Interval::of_mean(values, (rows.len() >= 2).then_some(1.0));
@@ -92,7 +92,7 @@ impl Known {
 }
 
 /// To how many independent points some points amount.
-fn independent(rows: &[Vec<f64>], points: &[Known], chosen: &[usize]) -> f64 {
+fn independent(rows: &[Vec<f64>], points: &[SurveyCell], chosen: &[usize]) -> f64 {
     let n = chosen.len() as f64;
     let rows = &rows[..rows.len().min(MAX_ROWS)];
     let degrees = rows.len() as f64 - 1.0;
@@ -150,7 +150,7 @@ mod tests {
                 truth.iter().enumerate().map(value).collect()
             };
             let rows: Vec<Vec<f64>> = (0..REPLICATES).map(row).collect();
-            let interval = lowest(&rows, 0.05);
+            let interval = interval_of_minimum(&rows, 0.05);
             interval.value.abs() <= interval.half_width.unwrap()
         });
         covered.count() as f64 / runs as f64
@@ -197,7 +197,7 @@ mod tests {
         let rows: Vec<Vec<f64>> = [3.0, 5.0, 4.0, 8.0].map(|x| vec![x]).to_vec();
         let t = t_quantile_for(4, 0.05);
         let wanted = Interval::of_mean([3.0, 5.0, 4.0, 8.0].into_iter(), t);
-        let got = lowest(&rows, 0.05);
+        let got = interval_of_minimum(&rows, 0.05);
         assert!((got.value - wanted.value).abs() < 1e-12);
         assert!((got.half_width.unwrap() - wanted.half_width.unwrap()).abs() < 1e-9);
     }
@@ -212,9 +212,9 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_no_minimum() {
-        assert!(lowest(&[vec![1.0, f64::NAN], vec![1.0, 2.0]], 0.05).value.is_nan());
-        assert!(lowest(&[Vec::new(), Vec::new()], 0.05).value.is_nan());
+        assert!(interval_of_minimum(&[vec![1.0, f64::NAN], vec![1.0, 2.0]], 0.05).value.is_nan());
+        assert!(interval_of_minimum(&[Vec::new(), Vec::new()], 0.05).value.is_nan());
         let alone = Interval { value: 1.0, half_width: None };
-        assert_eq!(lowest(&[vec![1.0, 2.0]], 0.05), alone);
+        assert_eq!(interval_of_minimum(&[vec![1.0, 2.0]], 0.05), alone);
     }
 }

@@ -93,7 +93,7 @@ impl Stored for Sum {
         out.u64(self.invalid);
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let quanta = self.quanta.checked_add(from.i128()?);
         self.quanta = quanta.ok_or(StateError::Unfit("a sum"))?;
         from.add_u64(&mut self.invalid)

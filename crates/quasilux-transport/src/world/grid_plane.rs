@@ -30,7 +30,7 @@ impl GridPlane {
         };
         Self {
             grid: *grid,
-            origin: world.vantage_of_sensor(grid.origin, normal).position(),
+            origin: world.ray_origin_of_sensor(grid.origin, normal).position(),
             normal,
             dual: [dual(grid.u, grid.v), dual(grid.v, grid.u)],
         }

@@ -11,7 +11,7 @@ use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use glam::DVec3;
-use quasilux_bvh::{Hit, Ray, Shot, SimdLevel, TriangleBvh};
+use quasilux_bvh::{Hit, Ray, RayQuery, SimdLevel, TriangleBvh};
 use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::{Light, Scene};
 
@@ -55,7 +55,7 @@ pub(crate) struct Interaction {
 
 /// Where rays leave from: a surface, or a free point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Vantage {
+pub(crate) struct RayOrigin {
     position: DVec3,
     /// The facet that rays from here never hit; `u32::MAX` for none.
     facet: u32,
@@ -65,7 +65,7 @@ pub(crate) struct Vantage {
 pub(crate) struct BeyondPane<S> {
     /// The share of light that the pane lets through.
     pub(crate) transmitted: S,
-    pub(crate) shot: Shot,
+    pub(crate) query: RayQuery,
 }
 
 /// The scene as rays see it.
@@ -179,8 +179,8 @@ impl<S: Spectrum> World<S> {
     }
 
     /// The first facet that a ray from `from` along the unit vector `direction` meets.
-    pub(crate) fn trace(&self, from: Vantage, direction: DVec3) -> Option<Interaction> {
-        let Shot { ray, excluded } = from.shot(direction);
+    pub(crate) fn trace(&self, from: RayOrigin, direction: DVec3) -> Option<Interaction> {
+        let RayQuery { ray, excluded } = from.query(direction);
         let hit = self.bvh.closest_hit(&ray, &excluded)?;
         let hit = self.unless_flush(hit, &ray, from.facet);
         Some(self.interaction(&hit, direction))
@@ -190,56 +190,59 @@ impl<S: Spectrum> World<S> {
     /// `target` is the facet the point lies on, `u32::MAX` for none.
     pub(crate) fn is_visible(
         &self,
-        from: Vantage,
+        from: RayOrigin,
         direction: DVec3,
         distance_m: f64,
         target: u32,
     ) -> bool {
-        let Shot { ray, excluded } = from.sight(direction, distance_m, target);
+        let RayQuery { ray, excluded } = from.shadow_ray(direction, distance_m, target);
         !self.bvh.is_occluded(&ray, &excluded)
     }
 
-    /// [`Self::trace`] of many rays made by [`Vantage::shot`], in their order.
+    /// [`Self::trace`] of many rays made by [`RayOrigin::shot`], in their order.
     pub(crate) fn trace_all(
         &self,
-        shots: &[Shot],
+        queries: &[RayQuery],
         hits: &mut Vec<Option<Hit>>,
         found: &mut Vec<Option<Interaction>>,
     ) {
         hits.clear();
-        hits.resize(shots.len(), None);
-        self.bvh.closest_hit_batch(shots, hits);
+        hits.resize(queries.len(), None);
+        self.bvh.closest_hit_batch(queries, hits);
         found.clear();
-        found.extend(shots.iter().zip(hits).map(|(shot, hit)| {
-            let hit = self.unless_flush((*hit)?, &shot.ray, shot.excluded[0]);
-            Some(self.interaction(&hit, shot.ray.direction))
+        found.extend(queries.iter().zip(hits).map(|(query, hit)| {
+            let hit = self.unless_flush((*hit)?, &query.ray, query.excluded[0]);
+            Some(self.interaction(&hit, query.ray.direction))
         }));
     }
 
-    /// [`Self::is_visible`] of many rays made by [`Vantage::sight`], in their order.
-    pub(crate) fn are_visible(&self, sights: &[Shot], visible: &mut Vec<bool>) {
+    /// [`Self::is_visible`] of many rays made by [`RayOrigin::sight`], in their order.
+    pub(crate) fn are_visible(&self, shadow_rays: &[RayQuery], visible: &mut Vec<bool>) {
         visible.clear();
-        visible.resize(sights.len(), false);
-        self.bvh.occluded_batch(sights, visible);
+        visible.resize(shadow_rays.len(), false);
+        self.bvh.occluded_batch(shadow_rays, visible);
         visible.iter_mut().for_each(|visible| *visible = !*visible);
     }
 
     /// The first facets that many rays meet, in their order.
-    pub(crate) fn closest_hit_batch(&self, shots: &[Shot], hits: &mut Vec<Option<Hit>>) {
+    pub(crate) fn closest_hit_batch(&self, queries: &[RayQuery], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
-        hits.resize(shots.len(), None);
-        self.bvh.closest_hit_batch(shots, hits);
+        hits.resize(queries.len(), None);
+        self.bvh.closest_hit_batch(queries, hits);
     }
 
     /// Where a ray goes on behind the pane that it meets; `None` where it meets something else.
-    pub(crate) fn beyond_pane(&self, shot: &Shot, hit: &Hit) -> Option<BeyondPane<S>> {
-        let Shot { ray, excluded } = shot;
+    pub(crate) fn beyond_pane(&self, query: &RayQuery, hit: &Hit) -> Option<BeyondPane<S>> {
+        let RayQuery { ray, excluded } = query;
         let facet = &self.facets[hit.triangle as usize];
         let cos = facet.front_normal.dot(ray.direction);
         let transmitted = self.bsdf_of(facet).straight_transmittance(cos.abs())?;
         let origin = ray.at(hit.distance) + facet.front_normal * (self.offset_m * cos.signum());
         let ray = Ray::new(origin, ray.direction).up_to(ray.t_max - hit.distance);
-        Some(BeyondPane { transmitted, shot: Shot { ray, excluded: [hit.triangle, excluded[1]] } })
+        Some(BeyondPane {
+            transmitted,
+            query: RayQuery { ray, excluded: [hit.triangle, excluded[1]] },
+        })
     }
 
     /// Whether there are panes.
@@ -279,41 +282,41 @@ impl<S: Spectrum> World<S> {
     }
 
     /// Where rays leave from that go on from a hit on the side it was hit from.
-    pub(crate) fn vantage(&self, at: &Interaction) -> Vantage {
-        Vantage { position: at.position + at.n * self.offset_m, facet: at.facet }
+    pub(crate) fn ray_origin(&self, at: &Interaction) -> RayOrigin {
+        RayOrigin { position: at.position + at.n * self.offset_m, facet: at.facet }
     }
 
     /// Where rays leave from that go on from a hit on the other side.
-    pub(crate) fn vantage_behind(&self, at: &Interaction) -> Vantage {
-        Vantage { position: at.position - at.n * self.offset_m, facet: at.facet }
+    pub(crate) fn ray_origin_behind(&self, at: &Interaction) -> RayOrigin {
+        RayOrigin { position: at.position - at.n * self.offset_m, facet: at.facet }
     }
 
     /// Where rays leave from a facet's front side.
-    pub(crate) fn vantage_on_front(&self, facet: u32, position: DVec3) -> Vantage {
+    pub(crate) fn ray_origin_on_front(&self, facet: u32, position: DVec3) -> RayOrigin {
         let n = self.facets[facet as usize].front_normal;
-        Vantage { position: position + n * self.offset_m, facet }
+        RayOrigin { position: position + n * self.offset_m, facet }
     }
 
     /// Where rays leave from a point of a facet, on the side `n`.
-    pub(crate) fn vantage_before(&self, facet: u32, position: DVec3, n: DVec3) -> Vantage {
-        Vantage { position: position + n * self.offset_m, facet }
+    pub(crate) fn vantage_before(&self, facet: u32, position: DVec3, n: DVec3) -> RayOrigin {
+        RayOrigin { position: position + n * self.offset_m, facet }
     }
 
     /// Where rays leave from a sensor point: a hair in front of it.
-    pub(crate) fn vantage_of_sensor(&self, position: DVec3, normal: DVec3) -> Vantage {
-        Vantage { position: position + normal * self.hair_m, facet: u32::MAX }
+    pub(crate) fn ray_origin_of_sensor(&self, position: DVec3, normal: DVec3) -> RayOrigin {
+        RayOrigin { position: position + normal * self.hair_m, facet: u32::MAX }
     }
 
     /// Where rays leave from a point-like light along `direction`: it may lie on a surface.
-    pub(crate) fn vantage_of_light(&self, position: DVec3, direction: DVec3) -> Vantage {
-        Vantage { position: position + direction * self.hair_m, facet: u32::MAX }
+    pub(crate) fn ray_origin_of_light(&self, position: DVec3, direction: DVec3) -> RayOrigin {
+        RayOrigin { position: position + direction * self.hair_m, facet: u32::MAX }
     }
 
     /// The facet nearest to a point that a sensor with this normal can lie on, within a hair;
     /// among several the one that faces the normal most.
     pub(crate) fn facet_under(&self, position: DVec3, normal: DVec3) -> Option<Interaction> {
         let reach = 4.0 * self.hair_m;
-        let from = Vantage { position: position + normal * reach, facet: u32::MAX };
+        let from = RayOrigin { position: position + normal * reach, facet: u32::MAX };
         let ray = Ray::new(from.position, -normal).up_to(2.0 * reach);
         let hit = self.bvh.closest_hit(&ray, &[])?;
         Some(self.interaction(&hit, -normal))
@@ -371,21 +374,21 @@ impl Facet {
     }
 }
 
-impl Vantage {
+impl RayOrigin {
     /// The starting point in m.
     pub(crate) fn position(&self) -> DVec3 {
         self.position
     }
 
     /// The ray from here along a unit vector.
-    pub(crate) fn shot(&self, direction: DVec3) -> Shot {
-        Shot { ray: Ray::new(self.position, direction), excluded: [self.facet, Shot::NONE] }
+    pub(crate) fn query(&self, direction: DVec3) -> RayQuery {
+        RayQuery { ray: Ray::new(self.position, direction), excluded: [self.facet, RayQuery::NONE] }
     }
 
     /// The ray from here to the point at `distance_m` along `direction`, which lies on the facet
     /// `target`, `u32::MAX` for none.
-    pub(crate) fn sight(&self, direction: DVec3, distance_m: f64, target: u32) -> Shot {
+    pub(crate) fn shadow_ray(&self, direction: DVec3, distance_m: f64, target: u32) -> RayQuery {
         let ray = Ray::new(self.position, direction).up_to(distance_m * (1.0 - SHORTENING));
-        Shot { ray, excluded: [self.facet, target] }
+        RayQuery { ray, excluded: [self.facet, target] }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::spectrum::Spectrum;
 use crate::world::World;
-use quasilux_bvh::{Hit, Shot};
+use quasilux_bvh::{Hit, RayQuery};
 
 /// What comes of light along a ray that panes alone stand in.
 #[derive(Clone, Copy, Debug)]
@@ -23,23 +23,23 @@ impl<S: Spectrum> Passage<S> {
 /// Looks along rays to their ends, in their order; `None` where one meets something else than a pane.
 pub(crate) fn look_through<S: Spectrum>(
     world: &World<S>,
-    sights: &[Shot],
+    shadow_rays: &[RayQuery],
     passages: &mut Vec<Option<Passage<S>>>,
 ) {
     passages.clear();
-    passages.resize(sights.len(), Some(Passage { transmitted: S::white(), panes: 0 }));
-    let mut shots = sights.to_vec();
-    let mut numbers: Vec<usize> = (0..sights.len()).collect();
+    passages.resize(shadow_rays.len(), Some(Passage { transmitted: S::white(), panes: 0 }));
+    let mut queries = shadow_rays.to_vec();
+    let mut numbers: Vec<usize> = (0..shadow_rays.len()).collect();
     let mut hits: Vec<Option<Hit>> = Vec::new();
-    while !shots.is_empty() {
-        world.closest_hit_batch(&shots, &mut hits);
+    while !queries.is_empty() {
+        world.closest_hit_batch(&queries, &mut hits);
         let mut left = 0;
         for (i, hit) in hits.iter().enumerate() {
             let Some(hit) = hit else { continue };
             let passage = &mut passages[numbers[i]];
-            let beyond = world.beyond_pane(&shots[i], hit);
+            let beyond = world.beyond_pane(&queries[i], hit);
             *passage = passage.zip(beyond).map(|(Passage { transmitted, panes }, beyond)| {
-                shots[left] = beyond.shot;
+                queries[left] = beyond.query;
                 Passage { transmitted: transmitted * beyond.transmitted, panes: panes + 1 }
             });
             if passage.is_some() {
@@ -47,7 +47,7 @@ pub(crate) fn look_through<S: Spectrum>(
                 left += 1;
             }
         }
-        shots.truncate(left);
+        queries.truncate(left);
         numbers.truncate(left);
     }
 }

@@ -3,14 +3,14 @@
 use crate::bsdf::{Bsdf, Mode};
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
-use crate::world::{Interaction, Vantage, World};
+use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
 
 /// A place of a path as lights see it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex<'w, S> {
-    from: Vantage,
+    from: RayOrigin,
     n: DVec3,
     /// What light that arrives here counts where the path starts, but for the scattering here.
     beta: S,
@@ -25,12 +25,12 @@ struct Surface<'w, S> {
     wo: DVec3,
     front: bool,
     /// Where light from the other side passes through.
-    behind: Option<Vantage>,
+    behind: Option<RayOrigin>,
 }
 
 impl<'w, S: Spectrum> Vertex<'w, S> {
     /// The start of a path: a sensor point with the side `n`, where a lux counts as one.
-    pub(crate) fn sensor(from: Vantage, n: DVec3) -> Self {
+    pub(crate) fn sensor(from: RayOrigin, n: DVec3) -> Self {
         Self { from, n, beta: S::white(), surface: None }
     }
 
@@ -42,10 +42,10 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         beta: S,
     ) -> Self {
         let (bsdf, frame) = (world.bsdf(at), world.frame(at));
-        let behind = bsdf.transmits().then(|| world.vantage_behind(at));
+        let behind = bsdf.transmits().then(|| world.ray_origin_behind(at));
         let wo = frame.to_local(-direction);
         let surface = Surface { bsdf, frame, wo, front: at.front, behind };
-        Self { from: world.vantage(at), n: at.n, beta, surface: Some(surface) }
+        Self { from: world.ray_origin(at), n: at.n, beta, surface: Some(surface) }
     }
 
     pub(crate) fn position(&self) -> DVec3 {
@@ -91,7 +91,7 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
     }
 
     /// Where a ray leaves from along `direction`.
-    pub(crate) fn vantage(&self, direction: DVec3) -> Vantage {
+    pub(crate) fn ray_origin(&self, direction: DVec3) -> RayOrigin {
         let behind = self.surface.and_then(|surface| surface.behind);
         behind.filter(|_| self.n.dot(direction) < 0.0).unwrap_or(self.from)
     }

@@ -1,6 +1,6 @@
 //! Light that waits for its visibility: many questions are asked first and answered together.
 //!
-//! Whoever may get light from a place says so with an [`Offer`] and goes on with what does not depend on
+//! Whoever may get light from a place says so with an [`LightSample`] and goes on with what does not depend on
 //! it. The rays toward all these places are traced at once, in the order they were asked for.
 
 use crate::spectrum::Spectrum;
@@ -8,15 +8,15 @@ use crate::world::World;
 use crate::world::panes::{Passage, look_through};
 use crate::world::vertex::Vertex;
 use glam::DVec3;
-use quasilux_bvh::Shot;
+use quasilux_bvh::RayQuery;
 
 /// What a light gives to a place unless something stands in the way.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Offer<S> {
+pub(crate) struct LightSample<S> {
     /// Unit direction to the place on the light.
     pub(crate) direction: DVec3,
     pub(crate) distance_m: f64,
-    /// The facet that the place lies on, [`Shot::NONE`] for none.
+    /// The facet that the place lies on, [`RayQuery::NONE`] for none.
     pub(crate) facet: u32,
     /// The part of an estimate of what the path finds that hangs on the visibility.
     pub(crate) light: S,
@@ -24,16 +24,16 @@ pub(crate) struct Offer<S> {
 
 /// Somebody who asks for light at a place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Asker<'w, S> {
+pub(crate) struct Receiver<'w, S> {
     pub(crate) who: u32,
     pub(crate) vertex: Vertex<'w, S>,
 }
 
 /// Questions that are open, and working space for their answers.
-pub(crate) struct Shadows<S> {
+pub(crate) struct ShadowQueue<S> {
     /// Rays traced so far.
     pub(crate) rays: u64,
-    sights: Vec<Shot>,
+    shadow_rays: Vec<RayQuery>,
     questions: Vec<Question<S>>,
     visible: Vec<bool>,
     passages: Vec<Option<Passage<S>>>,
@@ -46,19 +46,19 @@ struct Question<S> {
     who: u32,
     light: S,
     /// How many of the rays, in their order, look along the way.
-    sights: u32,
+    shadow_rays: u32,
     /// How many mirrors the way leads over.
     mirrors: u32,
     /// So many panes may stand in it, all together.
     most_panes: u32,
 }
 
-impl<S: Spectrum> Offer<S> {
+impl<S: Spectrum> LightSample<S> {
     /// The offer of a place in the open; `None` where it is nothing.
     pub(crate) fn unless_dark(direction: DVec3, distance_m: f64, light: S) -> Option<Self> {
-        let offer = Self { direction, distance_m, facet: Shot::NONE, light };
+        let light_sample = Self { direction, distance_m, facet: RayQuery::NONE, light };
         // What is not a number counts: the tally must refuse it.
-        (light.luminance() != 0.0).then_some(offer)
+        (light.luminance() != 0.0).then_some(light_sample)
     }
 
     /// The offer where no light could be chosen: nothing shines here, or a distance of zero made a
@@ -67,17 +67,17 @@ impl<S: Spectrum> Offer<S> {
         (total != 0.0).then_some(Self {
             direction: DVec3::Z,
             distance_m: 0.0,
-            facet: Shot::NONE,
+            facet: RayQuery::NONE,
             light: S::white() * f64::NAN,
         })
     }
 }
 
-impl<S> Default for Shadows<S> {
+impl<S> Default for ShadowQueue<S> {
     fn default() -> Self {
         Self {
             rays: 0,
-            sights: Vec::new(),
+            shadow_rays: Vec::new(),
             questions: Vec::new(),
             visible: Vec::new(),
             passages: Vec::new(),
@@ -86,43 +86,48 @@ impl<S> Default for Shadows<S> {
     }
 }
 
-impl<S: Spectrum> Shadows<S> {
+impl<S: Spectrum> ShadowQueue<S> {
     /// Notes that `who`, at `vertex`, gets the offer if nothing stands in the way.
-    pub(crate) fn ask(&mut self, who: u32, vertex: &Vertex<'_, S>, offer: &Offer<S>) {
-        let from = vertex.vantage(offer.direction);
-        self.sights.push(from.sight(offer.direction, offer.distance_m, offer.facet));
+    pub(crate) fn ask(&mut self, who: u32, vertex: &Vertex<'_, S>, light_sample: &LightSample<S>) {
+        let from = vertex.ray_origin(light_sample.direction);
+        self.shadow_rays.push(from.shadow_ray(
+            light_sample.direction,
+            light_sample.distance_m,
+            light_sample.facet,
+        ));
         // Paths run into facets that emit, behind panes too: only light of other places is let through.
-        let most_panes = if offer.facet == Shot::NONE { self.most_bounces } else { 0 };
-        let question = Question { who, light: offer.light, sights: 1, mirrors: 0, most_panes };
+        let most_panes = if light_sample.facet == RayQuery::NONE { self.most_bounces } else { 0 };
+        let question =
+            Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, most_panes };
         self.questions.push(question);
     }
 
     /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as they
     /// follow a way over this many mirrors.
-    pub(crate) fn ask_way(
+    pub(crate) fn push_polyline(
         &mut self,
         who: u32,
         light: S,
         mirrors: u32,
-        look: impl FnOnce(&mut Vec<Shot>),
+        look: impl FnOnce(&mut Vec<RayQuery>),
     ) {
-        let before = self.sights.len();
-        look(&mut self.sights);
-        let sights = (self.sights.len() - before) as u32;
+        let before = self.shadow_rays.len();
+        look(&mut self.shadow_rays);
+        let shadow_rays = (self.shadow_rays.len() - before) as u32;
         let most_panes = self.most_bounces.saturating_sub(mirrors);
-        self.questions.push(Question { who, light, sights, mirrors, most_panes });
+        self.questions.push(Question { who, light, shadow_rays, mirrors, most_panes });
     }
 
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
     /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
-        self.rays += self.sights.len() as u64;
+        self.rays += self.shadow_rays.len() as u64;
         if world.has_panes() {
-            look_through(world, &self.sights, &mut self.passages);
+            look_through(world, &self.shadow_rays, &mut self.passages);
             let mut passages = self.passages.iter();
             for question in &self.questions {
                 let open = Some(Passage { transmitted: question.light, panes: 0 });
-                let own = passages.by_ref().take(question.sights as usize);
+                let own = passages.by_ref().take(question.shadow_rays as usize);
                 let passage = own.fold(open, |way, next| way.zip(*next).map(|(a, b)| a.and(b)));
                 if let Some(Passage { transmitted, panes }) = passage
                     && panes <= question.most_panes
@@ -131,16 +136,16 @@ impl<S: Spectrum> Shadows<S> {
                 }
             }
         } else {
-            world.are_visible(&self.sights, &mut self.visible);
+            world.are_visible(&self.shadow_rays, &mut self.visible);
             let mut visible = self.visible.iter();
             for question in &self.questions {
-                let own = visible.by_ref().take(question.sights as usize);
+                let own = visible.by_ref().take(question.shadow_rays as usize);
                 if own.filter(|visible| !**visible).count() == 0 {
                     receive(question.who, question.light, question.mirrors);
                 }
             }
         }
-        self.sights.clear();
+        self.shadow_rays.clear();
         self.questions.clear();
     }
 }

@@ -14,18 +14,18 @@ const POINTS: usize = 30;
 
 /// What another program says of a cell.
 #[derive(Debug)]
-struct Known {
+struct SurveyCell {
     value_lx: f64,
     standard_error_lx: f64,
 }
 
 /// All cells, by a photon tracer that shares no code with this project.
-fn reference() -> Vec<Known> {
+fn reference() -> Vec<SurveyCell> {
     let table = include_str!("../../../../examples/corridor/reference.csv");
     let known = |line: &str| {
         let numbers: Vec<f64> = line.split(',').map(|number| number.parse().unwrap()).collect();
         let [_, value_lx, percent] = numbers[..] else { panic!("{line}") };
-        Known { value_lx, standard_error_lx: 0.01 * percent * value_lx }
+        SurveyCell { value_lx, standard_error_lx: 0.01 * percent * value_lx }
     };
     table.lines().skip(1).map(known).collect()
 }
@@ -121,7 +121,7 @@ fn joined_photons_know_all_of_four_orders_of_magnitude() {
     let values = || found.iter().map(|interval| interval.value);
     let (largest, smallest) = (values().fold(0.0, f64::max), values().fold(f64::MAX, f64::min));
     assert!(largest / smallest > 1e4, "{largest} to {smallest}");
-    let by_value = |a: &&Known, b: &&Known| a.value_lx.total_cmp(&b.value_lx);
+    let by_value = |a: &&SurveyCell, b: &&SurveyCell| a.value_lx.total_cmp(&b.value_lx);
     let (most, least) = (reference.iter().max_by(by_value), reference.iter().min_by(by_value));
     let [most, least] = [most, least].map(|cell| cell.expect("thirty cells"));
     let surely_most = most.value_lx - 3.0 * most.standard_error_lx;

@@ -56,10 +56,10 @@ fn counted_photons_agree_with_paths_in_the_mean() {
     };
     let (photons, paths) = (run(EstimatorKind::Photon), run(EstimatorKind::Path));
     assert!(photons.tolerance_reached && !photons.biased);
-    for (counted, gathered) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
-        let allowed = 1.5 * (counted.half_width.unwrap() + gathered.half_width.unwrap());
-        let found = format!("{counted:?} against {gathered:?}");
-        assert!((counted.value - gathered.value).abs() < allowed, "{found}");
+    for (counted, contribution) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
+        let allowed = 1.5 * (counted.half_width.unwrap() + contribution.half_width.unwrap());
+        let found = format!("{counted:?} against {contribution:?}");
+        assert!((counted.value - contribution.value).abs() < allowed, "{found}");
     }
     let average = photons.interval_of(0, |lx| lx.iter().sum::<f64>() / lx.len() as f64);
     let wanted = 4.0 * PI * 50_000.0 / 200.0;

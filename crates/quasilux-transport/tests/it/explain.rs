@@ -7,7 +7,7 @@ use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Material, Scene};
-use quasilux_transport::explain::{Beside, Block, Share, WalkKind};
+use quasilux_transport::explain::{Beside, Block, SampleKind, Share};
 use quasilux_transport::purpose::Purpose;
 use quasilux_transport::{EstimatorKind, Explanation, Settings, Switch, explain, simulate};
 
@@ -31,7 +31,7 @@ fn uses(explanation: &Explanation) -> Vec<Purpose> {
     explanation.blocks.iter().map(|block| block.uses[0].purpose).collect()
 }
 
-fn shares(block: &Block) -> [Share; 2] {
+fn weights_of_paths(block: &Block) -> [Share; 2] {
     [block.alone.expect("it varies"), block.total.expect("it varies")]
 }
 
@@ -41,12 +41,12 @@ fn shares(block: &Block) -> [Share; 2] {
 #[test]
 fn direct_light_is_a_sum_of_two_blocks() {
     let explanation = explain(&black_room_under_a_ceiling(), &Settings::default());
-    assert_eq!(explanation.walk, WalkKind::Paths);
+    assert_eq!(explanation.walk, SampleKind::Paths);
     assert_eq!(uses(&explanation), [Purpose::FirstDirection, Purpose::AreaLight { surface: 0 }]);
     assert_eq!(explanation.dimensions.counts(), [0, 0, 0, 0, explanation.samples]);
     let mut sum = 0.0;
     for block in &explanation.blocks {
-        let [alone, total] = shares(block);
+        let [alone, total] = weights_of_paths(block);
         let error = libm::hypot(alone.standard_error, total.standard_error);
         assert!((alone.value - total.value).abs() < 4.0 * error, "{block:?}");
         assert!(total.standard_error < 0.06 && total.value > 0.1, "{block:?}");
@@ -98,7 +98,7 @@ fn the_parts_tell_the_error_of_a_run() {
     let of_part =
         |part: &Beside| part.explanation.relative_deviation / (part.for_each_path as f64).sqrt();
     let deviations = parts.map(of_part).chain([explanation.relative_deviation]);
-    let foretold = deviations.map(|d| d * d).sum::<f64>().sqrt() / (INDICES as f64).sqrt();
+    let predicted = deviations.map(|d| d * d).sum::<f64>().sqrt() / (INDICES as f64).sqrt();
     let estimates = simulate(&scene, &settings, &mut ());
     let of_replicate = &estimates.sensors[0].replicate_lx;
     let square = |target: usize| {
@@ -108,7 +108,7 @@ fn the_parts_tell_the_error_of_a_run() {
         squares / (f64::from(REPLICATES - 1) * mean * mean)
     };
     let found = ((0..3).map(square).sum::<f64>() / 3.0).sqrt();
-    assert!((found / foretold - 1.0).abs() < 0.08, "{found}, foretold {foretold}");
+    assert!((found / predicted - 1.0).abs() < 0.08, "{found}, foretold {predicted}");
 }
 
 /// The mean that deviations are measured by has all light, also what comes by a mirror that no images are followed in:
@@ -149,13 +149,13 @@ fn coordinates_are_named_in_their_order() {
     let [on_map, beside] = [Switch::Off, Switch::On].map(|connections| {
         explain(&scene, &Settings { estimator, connections, ..Settings::default() })
     });
-    assert_eq!(beside.walk, WalkKind::PathsBesidePhotons);
+    assert_eq!(beside.walk, SampleKind::PathsBesidePhotons);
     assert_eq!(uses(&beside)[..4], [place, Purpose::FirstDirection, lit0, seen1]);
-    let [counted, joined] = &beside.beside[..] else { panic!("{beside:?}") };
-    assert_eq!(counted.explanation.walk, WalkKind::CountedPhotons);
-    assert_eq!(joined.explanation.walk, WalkKind::JoinedPhotons);
-    assert!(counted.for_each_path > 0 && joined.for_each_path > 0);
-    for photons in [counted, joined] {
+    let [counted, light_vertices] = &beside.beside[..] else { panic!("{beside:?}") };
+    assert_eq!(counted.explanation.walk, SampleKind::CountedPhotons);
+    assert_eq!(light_vertices.explanation.walk, SampleKind::ConnectedPhotons);
+    assert!(counted.for_each_path > 0 && light_vertices.for_each_path > 0);
+    for photons in [counted, light_vertices] {
         let explanation = &photons.explanation;
         assert_eq!(uses(explanation)[..4], [leaves, across, on1, on2]);
         assert_eq!(explanation.targets, beside.targets);
@@ -163,9 +163,12 @@ fn coordinates_are_named_in_their_order() {
         assert_eq!(explanation.blocks[0].reached, 1.0, "{explanation:?}");
     }
     // Every photon draws for its joins, far behind all others.
-    let last = joined.explanation.blocks.last().expect("blocks");
-    assert_eq!((last.uses[0].purpose, last.uses.len(), last.reached), (Purpose::Joins, 1, 1.0));
-    assert_eq!(on_map.walk, WalkKind::PathsOnMap);
+    let last = light_vertices.explanation.blocks.last().expect("blocks");
+    assert_eq!(
+        (last.uses[0].purpose, last.uses.len(), last.reached),
+        (Purpose::Connections, 1, 1.0)
+    );
+    assert_eq!(on_map.walk, SampleKind::PathsOnMap);
     assert!(on_map.beside.is_empty());
     let mut named = on_map.blocks.iter().flat_map(|block| &block.uses);
     let is_correction = |purpose| matches!(purpose, Purpose::Correction { .. });

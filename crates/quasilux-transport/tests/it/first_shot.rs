@@ -152,12 +152,12 @@ fn estimators_without_maps_refuse_it() {
         let estimator = estimator.name();
         assert_eq!(check(&scene, &settings), Err(CheckError::FirstShotWithoutMap { estimator }));
     }
-    let joined = Settings {
+    let light_vertices = Settings {
         estimator: EstimatorKind::Bidirectional,
         connections: Switch::On,
         ..map(Switch::On, 1)
     };
-    assert_eq!(check(&scene, &joined), Err(CheckError::FirstShotOfJoined));
+    assert_eq!(check(&scene, &light_vertices), Err(CheckError::FirstShotOfJoined));
 }
 
 /// A switch that is on is heeded or refused.

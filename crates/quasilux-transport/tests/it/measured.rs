@@ -62,10 +62,10 @@ pub(crate) fn measured(tables: impl IntoIterator<Item = (Side, Way, Distribution
 }
 
 pub(crate) fn estimates(scene: &Scene, estimator: EstimatorKind, samples: u64) -> Vec<Mean> {
-    let is_joined = estimator == EstimatorKind::Bidirectional;
+    let is_connected = estimator == EstimatorKind::Bidirectional;
     let settings = Settings {
         estimator,
-        connections: if is_joined { Switch::On } else { Switch::Auto },
+        connections: if is_connected { Switch::On } else { Switch::Auto },
         replicates: REPLICATES,
         max_samples: Some(samples),
         rel_tol: 0.0,

@@ -86,8 +86,8 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     });
     let mut with_points = coloured.clone();
     with_points.sensors.push(points("points", &[(DVec3::new(1.0, 2.0, 0.7), DVec3::Z)]));
-    let mut hidden = glass_ball();
-    hidden.lights.push(point_light(DVec3::new(1.3, 1.1, 1.9), 300.0));
+    let mut caustics = glass_ball();
+    caustics.lights.push(point_light(DVec3::new(1.3, 1.1, 1.9), 300.0));
     let settings = |estimator| Settings {
         estimator,
         replicates: 4,
@@ -104,7 +104,8 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     };
     let steered = Settings { importance: Switch::On, ..photon.clone() };
     let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
-    let joined = Settings { connections: Switch::On, ..listing(EstimatorKind::Bidirectional) };
+    let light_vertices =
+        Settings { connections: Switch::On, ..listing(EstimatorKind::Bidirectional) };
     let mapped = Settings { connections: Switch::Off, ..settings(EstimatorKind::Bidirectional) };
     let grown = Settings {
         map_adaptive: false,
@@ -118,10 +119,10 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         ("photon", coloured.clone(), photon),
         (STEERED, coloured, steered),
         ("path", with_points.clone(), listing(EstimatorKind::Path)),
-        ("joined", with_points.clone(), joined),
+        ("joined", with_points.clone(), light_vertices),
         ("on a frozen map", with_points.clone(), mapped),
         ("on maps that grow", with_points, grown),
-        ("hidden light", hidden, of_hidden),
+        ("hidden light", caustics, of_hidden),
     ]
 }
 
@@ -169,7 +170,7 @@ fn a_run_that_is_stopped_loses_nothing() {
     }
 }
 
-/// Points that were done before the run was stopped stay as they are, the others go on; and what is foretold, and
+/// Points that were done before the run was stopped stay as they are, the others go on; and what is predicted, and
 /// where a limit on rays ends the run, hangs on all that came before.
 #[test]
 fn points_that_are_done_stay_done() {
@@ -184,10 +185,10 @@ fn points_that_are_done_stay_done() {
         ..Settings::default()
     };
     let own = settings(EstimatorKind::Bidirectional);
-    let joined = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
+    let light_vertices = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
     for (name, scene, settings) in [
         ("hidden light", mirrored, settings(EstimatorKind::Path)),
-        ("joined", screened(), joined),
+        ("joined", screened(), light_vertices),
         ("on maps that grow", screened(), settings(EstimatorKind::BidirectionalMap)),
     ] {
         let whole = simulate(&scene, &settings, &mut ());
@@ -266,7 +267,7 @@ fn parts_make_the_same_run_however_it_is_cut() {
         }
         let plain = simulate(&scene, &settings, &mut ());
         let mut values = whole.sensors.iter().zip(&plain.sensors);
-        // Hidden light is read from photons so far: a run that stops on its way reads fewer.
+        // Caustic light is read from photons so far: a run that stops on its way reads fewer.
         assert!(name == "hidden light" || values.all(|(a, b)| a == b), "{name}");
     }
 }

@@ -22,7 +22,7 @@
 //! and w = 0. The densities are interpolated, so that shares are continuous: each jump in what is summed
 //! costs quasi-random points some of their advantage.
 //!
-//! Joining is dear: a photon flies a few rays and asks for one to each sensor. Most photons are therefore only
+//! ConnectionPlan is dear: a photon flies a few rays and asks for one to each sensor. Most photons are therefore only
 //! counted, by the survey's cells around where they land (`coarse`), and give each sensor what it is expected to see
 //! of these cells, which was found out before (`outlook`) and is interpolated, so that it has no jumps. Few are
 //! joined, and tell how much more or less than that they give. With A and B independent photons,
@@ -37,21 +37,21 @@
 //!
 //! How many photons of each kind come on a path, and whether any, is found out by trials ([`ways`]).
 
-mod coarse;
-mod joined;
-mod leaving;
-mod outlook;
+mod candidates;
+mod cell_tally;
+mod cell_transfer;
+mod exitant_flux;
+mod light_vertices;
 mod receiver;
+mod receiver_element;
 mod single;
-mod spot;
 mod view;
-mod ways;
 
-pub(crate) use joined::Joined;
-pub(crate) use ways::{Alone, Ways};
+pub(crate) use candidates::{Alone, Ways};
+pub(crate) use light_vertices::LightVertexConnections;
 
 use crate::codec::Writer;
-use crate::importance::Windows;
+use crate::importance::WeightWindows;
 use crate::path::partition::Partition;
 use crate::photon::trace::{Lead, Source};
 use crate::stats::tally::Sum;
@@ -63,30 +63,30 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// How photons are joined to sensors.
-pub(crate) struct Joining {
+pub(crate) struct ConnectionPlan {
     /// What paths leave to them.
     pub(crate) partition: Partition,
     /// What steers them.
-    windows: Option<Windows>,
+    windows: Option<WeightWindows>,
     /// Photons for each path, that are only counted by the cell they land in.
-    coarse_photons: u64,
+    cell_photons: u64,
     /// What deviates from the foreseen by less than this part of what a sensor gets in all is left to chance.
     small: f64,
     /// Some places in each cell of the survey.
     places: Arc<[Vec<Interaction>]>,
 }
 
-impl Joining {
+impl ConnectionPlan {
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
-        let Self { partition, windows, coarse_photons, small, places } = self;
+        let Self { partition, windows, cell_photons, small, places } = self;
         partition.landings.put(out);
         out.bool(windows.is_some());
         if let Some(windows) = windows {
             windows.put(out);
         }
         out.u64(partition.photons);
-        out.u64(*coarse_photons);
+        out.u64(*cell_photons);
         out.f64(*small);
         let places = places.iter().flatten().flat_map(|at| at.position.to_array());
         places.for_each(|x| out.f64(x));
@@ -104,8 +104,8 @@ impl Joining {
     }
 
     /// Photons for each path that are only counted.
-    pub(crate) fn coarse_photons(&self) -> u64 {
-        self.coarse_photons
+    pub(crate) fn cell_photons(&self) -> u64 {
+        self.cell_photons
     }
 
     /// Whether they are steered.

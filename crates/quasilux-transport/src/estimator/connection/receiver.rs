@@ -1,19 +1,19 @@
 //! What joins each landing of a photon to the sensors that see it.
 
-use super::Joining;
-use super::leaving::Leaving;
+use super::ConnectionPlan;
+use super::cell_transfer::CellTransfer;
+use super::exitant_flux::ExitantFlux;
 use super::lock;
-use super::outlook::Outlook;
-use super::spot::Spot;
+use super::receiver_element::ReceiverElement;
 use super::view::View;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::importance::Density;
 use crate::photon::receiver::PhotonReceiver;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
 use crate::world::flight::Flight;
-use quasilux_bvh::Shot;
+use quasilux_bvh::RayQuery;
 use quasilux_sampling::{PointSet, Sampler};
 use std::f64::consts::PI;
 use std::sync::Mutex;
@@ -37,21 +37,21 @@ const MAX_JOINS: f64 = 16.0;
 /// Some targets that photons are joined to.
 #[derive(Clone, Copy)]
 pub(super) struct Group<'a> {
-    pub(super) spots: &'a [Spot],
+    pub(super) spots: &'a [ReceiverElement],
     /// Illuminance to expect at each, in lx.
     pub(super) expected_lx: &'a [f64],
     /// What photons are taken to give by the cell they land in.
-    pub(super) outlook: Option<&'a Outlook>,
+    pub(super) outlook: Option<&'a CellTransfer>,
     /// Those with an end get no more.
     pub(super) ends: &'a [Option<u64>],
     /// Terms of the Neumann series that are told apart.
     pub(super) terms: usize,
 }
 
-/// Joins the photons of one wave to all targets of a group.
-pub(super) struct JoinReceiver<'a, S> {
-    stage: &'a Stage<'a, S>,
-    joining: &'a Joining,
+/// Connections the photons of one wave to all targets of a group.
+pub(super) struct ConnectionReceiver<'a, S> {
+    context: &'a Context<'a, S>,
+    connection: &'a ConnectionPlan,
     group: Group<'a>,
     quantum: Quantum,
     /// Where what this wave found is added in the end.
@@ -64,8 +64,8 @@ pub(super) struct JoinReceiver<'a, S> {
     landings: [Density; 2],
     /// What each target is taken to get in any case.
     foreseen_lx: Vec<f64>,
-    sights: Vec<Shot>,
-    offers: Vec<Offer>,
+    shadow_rays: Vec<RayQuery>,
+    light_samples: Vec<LightSample>,
     visible: Vec<bool>,
     rays: u64,
 }
@@ -79,7 +79,7 @@ pub(super) struct Seen {
 }
 
 /// What a target gets if nothing stands in the way, beside what it is taken to get in any case.
-struct Offer {
+struct LightSample {
     /// Number of the sum.
     sum: usize,
     lx: f64,
@@ -97,17 +97,17 @@ impl Seen {
     }
 }
 
-impl<'a, S: Spectrum> JoinReceiver<'a, S> {
+impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
     pub(super) fn new(
-        stage: &'a Stage<'a, S>,
-        joining: &'a Joining,
+        context: &'a Context<'a, S>,
+        connection: &'a ConnectionPlan,
         group: Group<'a>,
         (points, quantum): (PointSet, Quantum),
         sums: &'a Mutex<Vec<Sum>>,
     ) -> Self {
         Self {
-            stage,
-            joining,
+            context,
+            connection,
             group,
             quantum,
             sums,
@@ -116,71 +116,73 @@ impl<'a, S: Spectrum> JoinReceiver<'a, S> {
             photon: None,
             landings: [Density::default(); 2],
             foreseen_lx: vec![0.0; group.spots.len()],
-            sights: Vec::new(),
-            offers: Vec::new(),
+            shadow_rays: Vec::new(),
+            light_samples: Vec::new(),
             visible: Vec::new(),
             rays: 0,
         }
     }
 
     /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
-    fn ask(&mut self, number: usize, at: &Interaction, leaving: &Leaving, bounces: u32) {
+    fn ask(&mut self, number: usize, at: &Interaction, leaving: &ExitantFlux, bounces: u32) {
         let Some(Seen { in_cell, chance }) = self.photon else { return };
         let (foreseen_lx, spot) = (self.foreseen_lx[number], &self.group.spots[number]);
-        let certain_lx = self.joining.small * self.group.expected_lx[number];
+        let certain_lx = self.connection.small * self.group.expected_lx[number];
         let chance = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
         let most_lx = leaving.lm_sr() * spot.most_lx_sr_lm(at);
         let is_surely_left = |lx: f64| (1.0 + DOUBT) * lx <= fraction(chance) * certain_lx;
         if is_surely_left(most_lx) && is_surely_left(foreseen_lx) {
             return;
         }
-        let joins = if foreseen_lx > certain_lx && !spot.is_point() {
+        let connections = if foreseen_lx > certain_lx && !spot.is_point() {
             (foreseen_lx / certain_lx).ceil().min(MAX_JOINS)
         } else {
             1.0
         };
-        for join in (0..MAX_JOINS as u32).map(f64::from).take_while(|join| *join < joins) {
+        for join in (0..MAX_JOINS as u32).map(f64::from).take_while(|join| *join < connections) {
             let place = [0, 1].map(|axis| fraction(in_cell[axis] + join * STEPS[axis]));
             let u = fraction(chance + join * STEP);
-            let view = View::of(&self.stage.world, spot, at, place);
+            let view = View::of(&self.context.world, spot, at, place);
             let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
-            let asked =
-                ((lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx)) / (joins * certain_lx);
+            let asked = ((lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx))
+                / (connections * certain_lx);
             if asked <= u {
                 continue;
             }
-            let factor = if asked < 1.0 { 1.0 / (joins * asked) } else { 1.0 / joins };
+            let factor = if asked < 1.0 { 1.0 / (connections * asked) } else { 1.0 / connections };
             let term = (bounces as usize + 1).min(self.group.terms - 1);
             let sum = number * self.group.terms + term;
-            let offer = Offer { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
+            let light_sample =
+                LightSample { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
             match view {
                 // What is not a number counts: the tally must refuse it.
                 Some(view) if lx != 0.0 => {
-                    self.sights.push(view.sight());
-                    self.offers.push(offer);
+                    self.shadow_rays.push(view.shadow_ray());
+                    self.light_samples.push(light_sample);
                 }
-                _ => self.own[sum].add_signed(-offer.foreseen_lx, self.quantum),
+                _ => self.own[sum].add_signed(-light_sample.foreseen_lx, self.quantum),
             }
         }
     }
 
     /// What a target gets if nothing stands in the way.
-    fn unshadowed_lx(&self, view: &View, leaving: &Leaving, bounces: u32) -> f64 {
+    fn unshadowed_lx(&self, view: &View, leaving: &ExitantFlux, bounces: u32) -> f64 {
         let side = usize::from(view.behind);
-        let shares = self.joining.partition.path_shares(view.pdf_m2, self.landings[side]);
-        let share = if bounces == 0 { shares.first } else { shares.rest };
+        let weights_of_paths =
+            self.connection.partition.path_weights(view.pdf_m2, self.landings[side]);
+        let share = if bounces == 0 { weights_of_paths.first } else { weights_of_paths.rest };
         leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
     }
 
     /// Traces the rays that wait.
     fn answer(&mut self) {
-        self.rays += self.sights.len() as u64;
-        self.stage.world.are_visible(&self.sights, &mut self.visible);
-        for (offer, visible) in self.offers.drain(..).zip(&self.visible) {
-            let lx = if *visible { offer.lx } else { 0.0 };
-            self.own[offer.sum].add_signed(lx - offer.foreseen_lx, self.quantum);
+        self.rays += self.shadow_rays.len() as u64;
+        self.context.world.are_visible(&self.shadow_rays, &mut self.visible);
+        for (light_sample, visible) in self.light_samples.drain(..).zip(&self.visible) {
+            let lx = if *visible { light_sample.lx } else { 0.0 };
+            self.own[light_sample.sum].add_signed(lx - light_sample.foreseen_lx, self.quantum);
         }
-        self.sights.clear();
+        self.shadow_rays.clear();
     }
 }
 
@@ -189,7 +191,7 @@ fn fraction(x: f64) -> f64 {
     x - (x as u64) as f64
 }
 
-impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
+impl<S: Spectrum> PhotonReceiver<S> for ConnectionReceiver<'_, S> {
     fn follow(&mut self, sampler: &Sampler<'_>) {
         self.photon = Some(Seen::draw(&mut Seen::sampler(sampler, &self.points)));
     }
@@ -197,10 +199,10 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
+        let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.landings =
-            leaving.sides.map(|side| self.joining.partition.landings.density(&side.around));
+            leaving.sides.map(|side| self.connection.partition.landings.density(&side.around));
         if let Some(outlook) = self.group.outlook {
             outlook.foresee(&leaving, bounces == 0, &mut self.foreseen_lx);
         }
@@ -209,7 +211,7 @@ impl<S: Spectrum> PhotonReceiver<S> for JoinReceiver<'_, S> {
                 self.ask(number, at, &leaving, bounces);
             }
         }
-        if self.sights.len() >= RAYS {
+        if self.shadow_rays.len() >= RAYS {
             self.answer();
         }
     }

@@ -1,12 +1,12 @@
 //! What one photon by itself gives, for those who look into the variance.
 
-use super::Joining;
-use super::joined::Joined;
-use super::leaving::Leaving;
+use super::ConnectionPlan;
+use super::cell_transfer::CellTransfer;
+use super::exitant_flux::ExitantFlux;
+use super::light_vertices::LightVertexConnections;
 use super::lock;
-use super::outlook::Outlook;
-use super::receiver::{Group, JoinReceiver, Seen};
-use crate::context::Stage;
+use super::receiver::{ConnectionReceiver, Group, Seen};
+use crate::context::Context;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::trace_photon;
@@ -20,18 +20,18 @@ use std::sync::Mutex;
 
 /// Gathers what all targets of a group are expected to see of one photon, in lx.
 struct Expected<'a, S> {
-    stage: &'a Stage<'a, S>,
-    joining: &'a Joining,
-    outlook: &'a Outlook,
+    context: &'a Context<'a, S>,
+    connection: &'a ConnectionPlan,
+    outlook: &'a CellTransfer,
     at_once_lx: Vec<f64>,
     lx: Vec<f64>,
 }
 
-impl Joined {
+impl LightVertexConnections {
     /// What the targets of the first group get from a photon that is counted, in lx.
     pub(crate) fn of_counted_lx<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         sampler: Sampler<'_>,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
@@ -39,29 +39,30 @@ impl Joined {
         let zeros = vec![0.0; spots.len()];
         let Some(outlook) = outlook else { return zeros };
         let (at_once_lx, lx) = (zeros.clone(), zeros);
-        let mut receiver = Expected { stage, joining: &self.joining, outlook, at_once_lx, lx };
-        trace_photon(stage, self.joining.lead(), sampler, &mut receiver, counts);
+        let mut receiver =
+            Expected { context, connection: &self.connection, outlook, at_once_lx, lx };
+        trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         receiver.lx
     }
 
     /// What they get from a photon that is joined, in lx, beyond what was expected of it; `places` has the
     /// coordinates of its joins.
-    pub(crate) fn of_joined_lx<S: Spectrum>(
+    pub(crate) fn of_connected_lx<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         sampler: Sampler<'_>,
         places: PointSet,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
         // Noted here once: the receiver draws them anew for each flight.
-        if stage.purposes.is_recording() {
-            stage.draw(&mut Seen::sampler(&sampler, &places), Purpose::Joins, Seen::draw);
+        if context.purposes.is_recording() {
+            context.draw(&mut Seen::sampler(&sampler, &places), Purpose::Connections, Seen::draw);
         }
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.spots.len() * group.terms]);
         let places = (places, self.quantum);
-        let mut receiver = JoinReceiver::new(stage, &self.joining, group, places, &sums);
-        trace_photon(stage, self.joining.lead(), sampler, &mut receiver, counts);
+        let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, &sums);
+        trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish();
         let sums = lock(&sums);
         let of_target = |sums: &[Sum]| sums.iter().map(|sum| self.quantum.value(*sum)).sum();
@@ -73,7 +74,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Expected<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
+        let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.outlook.foresee(&leaving, bounces == 0, &mut self.at_once_lx);
         self.lx.iter_mut().zip(&self.at_once_lx).for_each(|(sum, lx)| *sum += lx);
@@ -102,42 +103,47 @@ mod tests {
         scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 0.1), [3.0, 2.0], [3, 2]));
         let (connections, estimator) = (Switch::On, EstimatorKind::Bidirectional);
         let settings = Settings { connections, estimator, ..Settings::default() };
-        let stage = Stage::<f64>::new(&scene, &settings);
+        let context = Context::<f64>::new(&scene, &settings);
         let all = targets(&scene);
-        let exact = exact(&stage, &all, &mut 0);
+        let exact = exact(&context, &all, &mut 0);
         let quantum = Quantum::for_reference(100.0);
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let given = (all.as_slice(), exact.as_slice());
-        let Decision { joined, .. } = decide(&stage, (&settings, 1), given, quantum, &mut watch);
-        let joined = joined.expect("it was asked for");
+        let Decision { light_vertices, .. } =
+            decide(&context, (&settings, 1), given, quantum, &mut watch);
+        let light_vertices = light_vertices.expect("it was asked for");
         let numbers = [0, 2, 5];
-        let mut joined = joined.of_some(&stage, numbers.map(|n| (n, all[n])).into_iter());
+        let mut light_vertices =
+            light_vertices.of_some(&context, numbers.map(|n| (n, all[n])).into_iter());
         let samples = 16;
-        let [of_joined, of_counted] = joined.grow(&stage, samples, &mut watch).expect("it ends");
+        let [of_connected, of_counted] =
+            light_vertices.grow(&context, samples, &mut watch).expect("it ends");
 
-        let points = |stream| stage.points(0, stream);
-        let [counted, fine] = [Stream::CoarsePhotons, Stream::JoinedPhotons(0)].map(points);
-        let places = points(Stream::JoinedPlaces(0));
-        let [mut counts, mut counts_of_joined] = [(); 2].map(|()| PhotonCounts::default());
-        let coarse_photons = joined.joining.coarse_photons() * samples;
-        let photons = joined.joining.photons() * samples;
+        let points = |stream| context.points(0, stream);
+        let [counted, fine] = [Stream::CellPhotons, Stream::ConnectedPhotons(0)].map(points);
+        let places = points(Stream::ConnectionPlaces(0));
+        let [mut counts, mut counts_of_connected] = [(); 2].map(|()| PhotonCounts::default());
+        let cell_photons = light_vertices.connection.cell_photons() * samples;
+        let photons = light_vertices.connection.photons() * samples;
         let mut means_lx = [[0.0; 2]; 3];
-        for index in 0..coarse_photons {
+        for index in 0..cell_photons {
             let sampler = Sampler::new(&counted, index);
-            let lx = joined.of_counted_lx(&stage, sampler, &mut counts);
+            let lx = light_vertices.of_counted_lx(&context, sampler, &mut counts);
             let means = means_lx.iter_mut().zip(lx);
-            means.for_each(|(mean, lx)| mean[0] += lx / coarse_photons as f64);
+            means.for_each(|(mean, lx)| mean[0] += lx / cell_photons as f64);
         }
         for index in 0..photons {
             let sampler = Sampler::new(&fine, index);
-            let lx = joined.of_joined_lx(&stage, sampler, places, &mut counts_of_joined);
+            let lx =
+                light_vertices.of_connected_lx(&context, sampler, places, &mut counts_of_connected);
             let means = means_lx.iter_mut().zip(lx);
             means.for_each(|(mean, lx)| mean[1] += lx / photons as f64);
         }
-        assert_eq!([counts_of_joined.rays, counts.rays], [of_joined.rays, of_counted.rays]);
+        assert_eq!([counts_of_connected.rays, counts.rays], [of_connected.rays, of_counted.rays]);
         for (target, [by_cells_lx, beyond_lx]) in means_lx.into_iter().enumerate() {
-            let all_at_once = [joined.coarse_lx(0, target, None), joined.fine_lx(0, target)];
+            let all_at_once =
+                [light_vertices.cells_lx(0, target, None), light_vertices.fine_lx(0, target)];
             assert!(all_at_once[0] > 1.0 && all_at_once[1] != 0.0, "{all_at_once:?}");
             for (one_by_one, at_once) in [by_cells_lx, beyond_lx].into_iter().zip(all_at_once) {
                 assert!((one_by_one - at_once).abs() < 1e-6, "{one_by_one}, at once {at_once}");

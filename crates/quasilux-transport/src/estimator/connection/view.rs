@@ -1,15 +1,15 @@
 //! A place where a photon landed, as a sensor sees it.
 
-use super::spot::{Place, Spot};
+use super::receiver_element::{Place, ReceiverElement};
 use crate::spectrum::Spectrum;
-use crate::world::{Interaction, Vantage, World};
+use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
-use quasilux_bvh::Shot;
+use quasilux_bvh::RayQuery;
 use std::f64::consts::FRAC_1_PI;
 
 /// The straight way from a sensor to a landing, if nothing stands in it.
 pub(super) struct View {
-    from: Vantage,
+    from: RayOrigin,
     facet: u32,
     way: DVec3,
     square_m2: f64,
@@ -26,12 +26,12 @@ impl View {
     /// chooses the place in a target that is a cell.
     pub(super) fn of<S: Spectrum>(
         world: &World<S>,
-        spot: &Spot,
+        spot: &ReceiverElement,
         at: &Interaction,
         in_cell: [f64; 2],
     ) -> Option<Self> {
         let Place { position, normal, weight } = spot.place(at.position, in_cell)?;
-        let from = world.vantage_of_sensor(position, normal);
+        let from = world.ray_origin_of_sensor(position, normal);
         let way = at.position - from.position();
         let (cos_d, cos_d_there) = (normal.dot(way), -at.n.dot(way));
         if cos_d <= 0.0 {
@@ -45,8 +45,8 @@ impl View {
     }
 
     /// The ray that asks whether anything stands in the way.
-    pub(super) fn sight(&self) -> Shot {
+    pub(super) fn shadow_ray(&self) -> RayQuery {
         let distance_m = self.square_m2.sqrt();
-        self.from.sight(self.way / distance_m, distance_m, self.facet)
+        self.from.shadow_ray(self.way / distance_m, distance_m, self.facet)
     }
 }

@@ -13,7 +13,7 @@
 //!
 //! so q should grow in proportion to `w |F - M|`, relative to what the path's start wants to know
 //! ([`survival`]). A trial traces paths that hardly end, and notes what they found beyond each surface ([`Note`]). By
-//! the two lines above each of them foretells what it would have cost with any q, and what it would have cost alone, with
+//! the two lines above each of them predicts what it would have cost with any q, and what it would have cost alone, with
 //! nothing in place of M and the albedo in place of q ([`walk`], [`trips`]). The noise of the map says what more photons
 //! would mend. The q and the number of photons are taken that promise the fewest rays in all ([`pilot`]).
 
@@ -49,7 +49,7 @@ pub(crate) struct FrozenMap<S> {
     first_shot: bool,
     survival: Survival,
     /// What a lux at each target counts: one over the error that matters there, 0 where that is not known.
-    worth_per_lx: Vec<f64>,
+    importance_per_lx: Vec<f64>,
 }
 
 /// How paths of one target end on it.
@@ -57,7 +57,7 @@ pub(crate) struct FrozenEnd<'m, S> {
     pub(crate) layout: &'m MapLayout,
     pub(crate) map: IlluminationMap<'m, S>,
     survival: &'m Survival,
-    worth_per_lx: f64,
+    importance_per_lx: f64,
 }
 
 /// What a path found beyond a surface.
@@ -93,9 +93,9 @@ impl<S: Spectrum> Note<S> {
 
 impl<S: Spectrum> FrozenMap<S> {
     pub(crate) fn end(&self, target: usize) -> FrozenEnd<'_, S> {
-        let Self { layout, tally, photon_lm, survival, worth_per_lx, .. } = self;
+        let Self { layout, tally, photon_lm, survival, importance_per_lx, .. } = self;
         let map = tally.read(*photon_lm);
-        FrozenEnd { layout, map, survival, worth_per_lx: worth_per_lx[target] }
+        FrozenEnd { layout, map, survival, importance_per_lx: importance_per_lx[target] }
     }
 
     pub(crate) fn facts(&self) -> MapFacts {
@@ -105,13 +105,13 @@ impl<S: Spectrum> FrozenMap<S> {
 
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
-        let Self { layout, tally, photon_lm, first_shot, survival, worth_per_lx } = self;
+        let Self { layout, tally, photon_lm, first_shot, survival, importance_per_lx } = self;
         layout.put(out);
         tally.put(out);
         out.f64(*photon_lm);
         out.bool(*first_shot);
         survival.put(out);
-        out.f64s(worth_per_lx);
+        out.f64s(importance_per_lx);
     }
 }
 
@@ -119,7 +119,7 @@ impl<S: Spectrum> FrozenEnd<'_, S> {
     /// With what probability a path goes on from a place where a lux counts `weight` at its start, and the map has
     /// so much `light` by that measure; `None` where nothing is known of that.
     pub(crate) fn chance(&self, place: &Place, weight: f64, light: f64) -> Option<f64> {
-        let [weight, light] = [weight, light].map(|lx| lx * self.worth_per_lx);
+        let [weight, light] = [weight, light].map(|lx| lx * self.importance_per_lx);
         self.survival.chance(place.element, weight, light)
     }
 }

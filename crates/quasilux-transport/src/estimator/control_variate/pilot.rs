@@ -1,12 +1,12 @@
 //! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all, by what a trial of
-//! paths foretells.
+//! paths predicts.
 
 use super::survival::{MIN, Survival};
 use super::trips::{Outcome, Trips};
 use super::walk::Ending;
 use super::{FrozenMap, Walks, bounces_left, layers};
-use crate::context::{Stage, Stream};
-use crate::estimator::pilot::{Promise, Wanted};
+use crate::context::{Context, Stream};
+use crate::estimator::pilot::{ErrorTarget, PilotCost};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
@@ -66,22 +66,22 @@ impl<S: Spectrum> Choice<S> {
     /// Tries a map on the paths of a trial, which promise `noted` as they are, and `alone` if they end as paths without a
     /// map do; `None` where too few bounces are wanted for any.
     pub(crate) fn new(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         settings: &Settings,
-        (walks, noted, alone): (&Walks<S>, &Promise<'_>, &Promise<'_>),
-        wanted: &Wanted,
+        (walks, noted, alone): (&Walks<S>, &PilotCost<'_>, &PilotCost<'_>),
+        wanted: &ErrorTarget,
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
         let affordable = wanted.rays(alone, alone) as u64;
-        let mut map = Growing::new(stage, settings, affordable / FIRST_SHOT_SHARE)?;
+        let mut map = Growing::new(context, settings, affordable / FIRST_SHOT_SHARE)?;
         let before = map.counts.rays;
         let pilots = PHOTONS_PER_ELEMENT * map.layout.len() as u64;
         let pilots = pilots.min(affordable / PHOTONS_SHARE);
         let pilots = pilots.clamp(PILOT_PHOTONS.0, PILOT_PHOTONS.1).next_power_of_two();
-        map.grow(stage, pilots, watch);
+        map.grow(context, pilots, watch);
         let rays_for_photon = (map.counts.rays - before) as f64 / pilots as f64;
-        let read = map.tally.read(map.photon_lm(stage));
-        let trips = walks.on(stage, (&map.layout, &read), wanted);
+        let read = map.tally.read(map.photon_lm(context));
+        let trips = walks.on(context, (&map.layout, &read), wanted);
         let survival = trips.survival();
         let noise_share = trips.noise_share();
         let mut best = None;
@@ -95,9 +95,13 @@ impl<S: Spectrum> Choice<S> {
                 let beforehand = (photons - pilots) as f64 * rays_for_photon;
                 let chances = of_chances.iter().zip(noted.variances);
                 let variances: Vec<f64> = chances.map(|(chance, v)| v + off * chance).collect();
-                let promise =
-                    Promise { variances: &variances, of_paths: rays, of_photons: 0.0, beforehand };
-                let in_all = wanted.rays(alone, &promise);
+                let pilot_cost = PilotCost {
+                    variances: &variances,
+                    of_paths: rays,
+                    of_photons: 0.0,
+                    beforehand,
+                };
+                let in_all = wanted.rays(alone, &pilot_cost);
                 if in_all < least {
                     least = in_all;
                     let survival = survival.clone();
@@ -110,8 +114,8 @@ impl<S: Spectrum> Choice<S> {
     }
 
     /// What it promises.
-    pub(crate) fn promise(&self) -> Promise<'_> {
-        self.use_of_it.promise()
+    pub(crate) fn pilot_cost(&self) -> PilotCost<'_> {
+        self.use_of_it.pilot_cost()
     }
 
     /// Its photons where it is not taken, if they left the lights and so say where the flux goes; of others it adds the rays.
@@ -126,24 +130,25 @@ impl<S: Spectrum> Choice<S> {
     /// The map with all its photons, for targets where a lux counts so much; and what it took from the start.
     pub(crate) fn freeze(
         mut self,
-        stage: &Stage<'_, S>,
-        worth_per_lx: Vec<f64>,
+        context: &Context<'_, S>,
+        importance_per_lx: Vec<f64>,
         watch: &mut Watch<'_>,
     ) -> (FrozenMap<S>, PhotonCounts) {
         let Use { survival, photons, .. } = self.use_of_it;
-        self.map.grow(stage, photons, watch);
-        let photon_lm = self.map.photon_lm(stage);
+        self.map.grow(context, photons, watch);
+        let photon_lm = self.map.photon_lm(context);
         let Growing { layout, tally, lit_cells, counts, .. } = self.map;
         let first_shot = lit_cells.is_some();
-        let frozen = FrozenMap { layout, tally, photon_lm, first_shot, survival, worth_per_lx };
+        let frozen =
+            FrozenMap { layout, tally, photon_lm, first_shot, survival, importance_per_lx };
         (frozen, counts)
     }
 }
 
 impl Use {
-    fn promise(&self) -> Promise<'_> {
+    fn pilot_cost(&self) -> PilotCost<'_> {
         let Self { variances, rays, beforehand, .. } = self;
-        Promise { variances, of_paths: *rays, of_photons: 0.0, beforehand: *beforehand }
+        PilotCost { variances, of_paths: *rays, of_photons: 0.0, beforehand: *beforehand }
     }
 }
 
@@ -156,33 +161,33 @@ fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
 }
 
 impl<S: Spectrum> Growing<S> {
-    fn new(stage: &Stage<'_, S>, settings: &Settings, most_rays: u64) -> Option<Self> {
-        let layout = MapLayout::coarsest(&stage.world, settings);
+    fn new(context: &Context<'_, S>, settings: &Settings, most_rays: u64) -> Option<Self> {
+        let layout = MapLayout::coarsest(&context.world, settings);
         let sides = layout.len() as u64;
-        let most_bounces = bounces_left(stage.max_bounces, 0, sides)?;
+        let most_bounces = bounces_left(context.max_bounces, 0, sides)?;
         let mut counts = PhotonCounts::default();
-        let lit_cells = decide(stage, settings, most_rays, &mut counts);
-        let layers = layers(stage.max_bounces, stage.listed_terms, sides);
+        let lit_cells = decide(context, settings, most_rays, &mut counts);
+        let layers = layers(context.max_bounces, context.listed_terms, sides);
         let lightest = Source::of(lit_cells.as_ref()).usual_weight();
         let tally = MapTally::new(&layout, lightest, layers);
         Some(Self { layout, tally, lit_cells, most_bounces, photons: 0, counts })
     }
 
     /// Adds photons up to this one.
-    fn grow(&mut self, stage: &Stage<'_, S>, photons: u64, watch: &mut Watch<'_>) {
+    fn grow(&mut self, context: &Context<'_, S>, photons: u64, watch: &mut Watch<'_>) {
         let Self { layout, tally, lit_cells, most_bounces, .. } = &*self;
         let source = Source::of(lit_cells.as_ref());
-        let receiver = MapReceiver::up_to(*most_bounces, stage.map_dimensions, layout, tally);
+        let receiver = MapReceiver::up_to(*most_bounces, context.map_dimensions, layout, tally);
         let batch = of_plan(source, self.photons..photons);
         // Before the first checkpoint the observer stops nothing, so there are always counts.
-        let counts = trace_photons(stage, &batch, |_| receiver, watch).unwrap_or_default();
+        let counts = trace_photons(context, &batch, |_| receiver, watch).unwrap_or_default();
         self.counts += source.counted(counts);
         self.photons = photons;
     }
 
     /// Flux of a photon.
-    fn photon_lm(&self, stage: &Stage<'_, S>) -> f64 {
-        stage.lights.flux_lm / self.photons as f64
+    fn photon_lm(&self, context: &Context<'_, S>) -> f64 {
+        context.lights.flux_lm / self.photons as f64
     }
 }
 

@@ -35,8 +35,9 @@ pub(super) struct Finding {
 
 impl Finding {
     /// For a start where a unit counts so much.
-    pub(super) fn worth(self, worth: f64) -> Self {
-        let [weight, light, beyond] = [self.weight, self.light, self.beyond].map(|x| x * worth);
+    pub(super) fn importance(self, importance: f64) -> Self {
+        let [weight, light, beyond] =
+            [self.weight, self.light, self.beyond].map(|x| x * importance);
         Self { weight, light, beyond, ..self }
     }
 }

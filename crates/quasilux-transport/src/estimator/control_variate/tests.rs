@@ -1,9 +1,9 @@
-//! What a trial foretells of paths that end by chance, against such paths.
+//! What a trial predicts of paths that end by chance, against such paths.
 
 use super::*;
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::estimator::exact::exact;
-use crate::estimator::pilot::{PathTrial, Promise, SAMPLES, Sample, Wanted};
+use crate::estimator::pilot::{ErrorTarget, PathTrial, PilotCost, SAMPLES, Sample};
 use crate::path::end::Rest;
 use crate::path::sections::{Section, trace_sections};
 use crate::path::wave::PathWave;
@@ -43,9 +43,9 @@ enum Paths<'m> {
 
 /// Paths of random points, whose variance falls with their number and by nothing else.
 struct Bench<'s> {
-    stage: &'s Stage<'s, f64>,
+    context: &'s Context<'s, f64>,
     targets: Vec<Target>,
-    wanted: Wanted,
+    wanted: ErrorTarget,
     quantum: Quantum,
 }
 
@@ -55,20 +55,21 @@ impl Bench<'_> {
         let (mut variances, mut rays) = (Vec::new(), 0);
         for (number, &target) in self.targets.iter().enumerate() {
             let mut value = |replicate: u32| {
-                let points = self.stage.points(replicate, Stream::Paths(number as u64));
+                let points = self.context.points(replicate, Stream::Paths(number as u64));
                 let rest = match paths {
                     Paths::Noted => Rest::Noted,
                     Paths::Alone => Rest::Path,
                     Paths::OnMap(map) => Rest::Frozen(map.end(number)),
                 };
-                let (hidden, partition, indices) = (None, None, 0..SAMPLES);
-                let section = Section { number, target, points, rest, hidden, partition, indices };
+                let (caustics, partition, indices) = (None, None, 0..SAMPLES);
+                let section =
+                    Section { number, target, points, rest, caustics, partition, indices };
                 let wave = &mut PathWave::default();
-                let piece = trace_sections(self.stage, &[section], self.quantum, wave);
+                let piece = trace_sections(self.context, &[section], self.quantum, wave);
                 rays += piece.work.rays;
                 let sums = &piece.sums[0];
                 let lx = self.quantum.value(sums.direct) + self.quantum.value(sums.indirect);
-                lx / SAMPLES as f64 * self.wanted.worth_per_lx(number)
+                lx / SAMPLES as f64 * self.wanted.importance_per_lx(number)
             };
             let values: Vec<f64> = (0..REPLICATES).map(&mut value).collect();
             let middle = mean(&values);
@@ -89,42 +90,43 @@ fn mean(values: &[f64]) -> f64 {
 fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let (sequence, randomization) = (Sequence::Independent, Randomization::None);
     let settings = Settings { sequence, randomization, max_bounces, ..Settings::default() };
-    let stage = Stage::<f64>::new(scene, &settings);
-    let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
+    let context = Context::<f64>::new(scene, &settings);
+    let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
     let targets = targets(scene);
-    let sample = Sample::new(&targets, &exact(&stage, &targets, &mut 0));
-    let PathTrial { trial, walks, finds_light } = PathTrial::new(&stage, &sample, quantum);
+    let sample = Sample::new(&targets, &exact(&context, &targets, &mut 0));
+    let PathTrial { trial, walks, finds_light } = PathTrial::new(&context, &sample, quantum);
     assert!(finds_light);
     let found_lx = |target: usize| sample.exact_lx[target] + trial.moments(target).mean;
-    let wanted = Wanted::new(&settings, &sample, (0..targets.len()).map(found_lx).collect());
-    let bench = Bench { stage: &stage, targets, wanted, quantum };
+    let wanted = ErrorTarget::new(&settings, &sample, (0..targets.len()).map(found_lx).collect());
+    let bench = Bench { context: &context, targets, wanted, quantum };
     let (of_noted, rays_noted) = bench.variance_and_rays(Paths::Noted);
     assert!((rays_noted / trial.rays - 1.0).abs() < 0.07, "{what}: {rays_noted} {}", trial.rays);
 
-    let assert_found = |who: &str, foretold: (f64, f64), (variance, rays): (f64, f64)| {
+    let assert_found = |who: &str, predicted: (f64, f64), (variance, rays): (f64, f64)| {
         // What chances add, apart from the spread of the paths themselves.
-        let ratios = [foretold.0 / (variance - of_noted), foretold.1 / rays];
+        let ratios = [predicted.0 / (variance - of_noted), predicted.1 / rays];
         println!("{what}, {who}: {ratios:?}");
         assert!((0.55..1.8).contains(&ratios[0]), "{what}, {who}: {ratios:?}");
         assert!((0.9..1.1).contains(&ratios[1]), "{what}, {who}: {ratios:?}");
     };
     let alone = walks.alone(&bench.wanted);
-    let foretold = (mean(&alone.of_chances), alone.rays);
-    assert_found("alone", foretold, bench.variance_and_rays(Paths::Alone));
+    let predicted = (mean(&alone.of_chances), alone.rays);
+    assert_found("alone", predicted, bench.variance_and_rays(Paths::Alone));
 
     let nothing = vec![0.0; bench.targets.len()];
-    let noted = Promise::of_paths(&nothing, trial.rays);
-    let plain = Promise::of_paths(&alone.of_chances, alone.rays);
+    let noted = PilotCost::of_paths(&nothing, trial.rays);
+    let plain = PilotCost::of_paths(&alone.of_chances, alone.rays);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);
     let promises = (&walks, &noted, &plain);
-    let choice = Choice::new(&stage, &settings, promises, &bench.wanted, &mut watch).unwrap();
+    let choice = Choice::new(&context, &settings, promises, &bench.wanted, &mut watch).unwrap();
     assert!(!choice.misses_light);
-    let promise = choice.promise();
-    let foretold = (mean(promise.variances), promise.of_paths);
-    let worth = (0..bench.targets.len()).map(|target| bench.wanted.worth_per_lx(target)).collect();
-    let (map, _) = choice.freeze(&stage, worth, &mut watch);
-    assert_found("on a map", foretold, bench.variance_and_rays(Paths::OnMap(&map)));
+    let pilot_cost = choice.pilot_cost();
+    let predicted = (mean(pilot_cost.variances), pilot_cost.of_paths);
+    let importance =
+        (0..bench.targets.len()).map(|target| bench.wanted.importance_per_lx(target)).collect();
+    let (map, _) = choice.freeze(&context, importance, &mut watch);
+    assert_found("on a map", predicted, bench.variance_and_rays(Paths::OnMap(&map)));
 }
 
 #[test]
@@ -156,16 +158,16 @@ fn a_trial_foretells_what_paths_cost_among_lights_and_mirrors() {
 fn paths_that_know_nothing_of_a_map_go_alone() {
     let scene = diffuse_cube(&[(0.0, 0.0)]);
     let settings = Settings { connections: crate::settings::Switch::Off, ..Settings::default() };
-    let stage = Stage::<f64>::new(&scene, &settings);
+    let context = Context::<f64>::new(&scene, &settings);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);
-    let sample = Sample::new(&targets(&scene), &exact(&stage, &targets(&scene), &mut 0));
-    let wanted = Wanted::new(&settings, &sample, vec![1000.0]);
-    let none = Promise::of_paths(&[], 0.0);
+    let sample = Sample::new(&targets(&scene), &exact(&context, &targets(&scene), &mut 0));
+    let wanted = ErrorTarget::new(&settings, &sample, vec![1000.0]);
+    let none = PilotCost::of_paths(&[], 0.0);
     let walks = Walks::default();
-    let choice = Choice::new(&stage, &settings, (&walks, &none, &none), &wanted, &mut watch);
-    let (map, _) = choice.unwrap().freeze(&stage, vec![0.0], &mut watch);
+    let choice = Choice::new(&context, &settings, (&walks, &none, &none), &wanted, &mut watch);
+    let (map, _) = choice.unwrap().freeze(&context, vec![0.0], &mut watch);
     let place =
-        map.layout.locate(&stage.world.facet_under(DVec3::new(0.0, 5.0, 5.0), DVec3::X).unwrap());
+        map.layout.locate(&context.world.facet_under(DVec3::new(0.0, 5.0, 5.0), DVec3::X).unwrap());
     assert_eq!(map.end(0).chance(&place, 1.0, 1.0), None);
 }

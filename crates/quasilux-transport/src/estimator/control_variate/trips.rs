@@ -1,11 +1,11 @@
 //! The paths of a trial, and what they say of a map.
 
 use super::survival::Finding;
-use super::walk::{Ending, Price, Step, Walk};
+use super::walk::{Ending, Price, SampleSource, Step};
 use super::{Note, Survival, bounces_left};
-use crate::context::Stage;
-use crate::estimator::pilot::{MUCH_MORE, SAMPLES, Wanted};
-use crate::path::trace::Ended;
+use crate::context::Context;
+use crate::estimator::pilot::{ErrorTarget, MUCH_MORE, SAMPLES};
+use crate::path::trace::PathResult;
 use crate::photon::map::{IlluminationMap, MapLayout};
 use crate::spectrum::Spectrum;
 use rayon::prelude::*;
@@ -50,7 +50,7 @@ pub(super) struct Trips {
 
 struct Trip {
     target: usize,
-    walk: Walk,
+    walk: SampleSource,
     /// Variance of the map by the noise of its photons, by what it counts at the start.
     noise: f64,
 }
@@ -70,7 +70,7 @@ impl<S> Default for Walks<S> {
 
 impl<S: Spectrum> Walks<S> {
     /// Remembers a path of one of the targets.
-    pub(crate) fn add(&mut self, target: usize, path: &mut Ended<S>) {
+    pub(crate) fn add(&mut self, target: usize, path: &mut PathResult<S>) {
         let notes = std::mem::take(&mut path.notes);
         self.paths.push(Path { target, notes, flights: path.flights });
     }
@@ -81,21 +81,21 @@ impl<S: Spectrum> Walks<S> {
     }
 
     /// With no map.
-    pub(crate) fn alone(&self, wanted: &Wanted) -> Outcome {
+    pub(crate) fn alone(&self, wanted: &ErrorTarget) -> Outcome {
         self.trips(wanted, |_| None).outcome(Ending::Alone, wanted)
     }
 
     /// On a map.
     pub(super) fn on(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         (layout, map): (&MapLayout, &IlluminationMap<'_, S>),
-        wanted: &Wanted,
+        wanted: &ErrorTarget,
     ) -> Trips {
         self.trips(wanted, |note| {
             let weight = note.weight?;
             let sides = layout.len() as u64;
-            let most_bounces = bounces_left(stage.max_bounces, note.bounces, sides)?;
+            let most_bounces = bounces_left(context.max_bounces, note.bounces, sides)?;
             let place = layout.locate(&note.at);
             let light = (weight * map.illuminance_lx(&place, most_bounces)).luminance();
             let noise = (weight * map.noise_lx(&place, most_bounces)).luminance();
@@ -103,8 +103,12 @@ impl<S: Spectrum> Walks<S> {
         })
     }
 
-    fn trips(&self, wanted: &Wanted, read: impl Fn(&Note<S>) -> Option<Reading> + Sync) -> Trips {
-        let trip = |path: &Path<S>| (wanted.worth_per_lx(path.target), path.trip(&read));
+    fn trips(
+        &self,
+        wanted: &ErrorTarget,
+        read: impl Fn(&Note<S>) -> Option<Reading> + Sync,
+    ) -> Trips {
+        let trip = |path: &Path<S>| (wanted.importance_per_lx(path.target), path.trip(&read));
         let flights: u64 = self.paths.iter().map(|path| u64::from(path.flights)).sum();
         let flights = flights.max(1) as f64;
         let RayCounts { all, at_start, .. } = self.rays;
@@ -146,7 +150,7 @@ impl<S: Spectrum> Path<S> {
         };
         let steps: Vec<Step> = self.notes.iter().zip(ends).map(step).collect();
         let flights = self.notes.first().map_or(self.flights, |note| note.flights);
-        Trip { target: self.target, walk: Walk { flights, steps }, noise: variance }
+        Trip { target: self.target, walk: SampleSource { flights, steps }, noise: variance }
     }
 }
 
@@ -161,14 +165,16 @@ impl Trips {
     /// How far off the map is.
     pub(super) fn survival(&self) -> Survival {
         let trips = self.trips.iter();
-        Survival::of(trips.flat_map(|(worth, trip)| trip.findings().map(|f| f.worth(*worth))))
+        Survival::of(
+            trips.flat_map(|(importance, trip)| trip.findings().map(|f| f.importance(*importance))),
+        )
     }
 
     /// What ending on the map at their first surface would cost the trips on average.
     pub(super) fn usual_loss(&self, survival: &Survival) -> f64 {
-        let loss = |(worth, trip): &(f64, Trip)| {
+        let loss = |(importance, trip): &(f64, Trip)| {
             let Finding { element, weight, light, .. } = trip.findings().next()?;
-            Some(survival.loss(element, worth * weight, worth * light))
+            Some(survival.loss(element, importance * weight, importance * light))
         };
         let losses: Vec<f64> = self.trips.iter().filter_map(loss).collect();
         losses.iter().sum::<f64>() / losses.len().max(1) as f64
@@ -176,15 +182,18 @@ impl Trips {
 
     /// The part of how far it is off that more photons would mend.
     pub(super) fn noise_share(&self) -> f64 {
-        let sums = self.trips.iter().fold([0.0, 0.0], |[noise, off], (worth, trip)| {
+        let sums = self.trips.iter().fold([0.0, 0.0], |[noise, off], (importance, trip)| {
             let squares = trip.findings().map(|f| (f.beyond - f.light) * (f.beyond - f.light));
-            [noise + worth * worth * trip.noise, off + worth * worth * squares.sum::<f64>()]
+            [
+                noise + importance * importance * trip.noise,
+                off + importance * importance * squares.sum::<f64>(),
+            ]
         });
         if sums[1] > 0.0 { (sums[0] / sums[1]).min(MAX_NOISE) } else { 0.0 }
     }
 
     /// Whether the map has much more light for some target than its paths found: light that is hard for them.
-    pub(super) fn miss_light(&self, wanted: &Wanted) -> bool {
+    pub(super) fn miss_light(&self, wanted: &ErrorTarget) -> bool {
         let mut sums = vec![[0.0; 2]; wanted.targets()];
         for (_, trip) in &self.trips {
             if let Some(first) = trip.findings().next() {
@@ -197,9 +206,9 @@ impl Trips {
     }
 
     /// With these chances.
-    pub(super) fn outcome(&self, ending: Ending<'_>, wanted: &Wanted) -> Outcome {
+    pub(super) fn outcome(&self, ending: Ending<'_>, wanted: &ErrorTarget) -> Outcome {
         let at_end = self.rays.at_end / self.rays_for_flight;
-        let price = |(worth, trip): &(f64, Trip)| trip.walk.price(ending, *worth, at_end);
+        let price = |(importance, trip): &(f64, Trip)| trip.walk.price(ending, *importance, at_end);
         let prices: Vec<Price> = self.trips.par_iter().map(price).collect();
         let mut sums = vec![(0.0, 0.0); wanted.targets()];
         for ((_, trip), price) in self.trips.iter().zip(&prices) {

@@ -5,7 +5,7 @@ use super::survival::Finding;
 
 /// A path as it was traced, and the surfaces where it might have ended.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Walk {
+pub(super) struct SampleSource {
     /// Rays up to the first of them.
     pub(super) flights: u32,
     pub(super) steps: Vec<Step>,
@@ -41,12 +41,12 @@ pub(super) struct Price {
     pub(super) flights: f64,
 }
 
-impl Walk {
+impl SampleSource {
     /// For a start where a unit is worth so much; what ends on the map takes so many rays more, as far as those are
     /// flights.
-    pub(super) fn price(&self, ending: Ending<'_>, worth: f64, at_end: f64) -> Price {
+    pub(super) fn price(&self, ending: Ending<'_>, importance: f64, at_end: f64) -> Price {
         // Those that are left count more and more.
-        let mut factor = worth;
+        let mut factor = importance;
         let chances: Vec<(f64, bool)> = self
             .steps
             .iter()
@@ -68,8 +68,8 @@ impl Walk {
             self.steps.iter().zip(chances).rev()
         {
             let (off, at_end) = match is_on_map {
-                true => (worth * (finding.beyond - finding.light), at_end),
-                false => (worth * missed, 0.0),
+                true => (importance * (finding.beyond - finding.light), at_end),
+                false => (importance * missed, 0.0),
             };
             price.variance = (price.variance + off * off * (1.0 - chance)) / chance;
             price.flights =
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     /// A walk of three surfaces, and what it finds with all chances played through: mean, variance and rays.
-    fn played(walk: &Walk, survival: &Survival, worth: f64) -> [f64; 3] {
+    fn played(walk: &SampleSource, survival: &Survival, importance: f64) -> [f64; 3] {
         // What it takes along to a surface is the part that counts there, of the light beyond all of them.
         fn on(
             steps: &[Step],
@@ -112,7 +112,7 @@ mod tests {
         let mut out = Vec::new();
         let first = walk.steps[0].finding.beyond;
         let begin = (1.0, 0.0, f64::from(walk.flights));
-        on(&walk.steps, first, worth, survival, &mut out, begin);
+        on(&walk.steps, first, importance, survival, &mut out, begin);
         let mean = |f: &dyn Fn(&[f64; 3]) -> f64| -> f64 { out.iter().map(|o| o[0] * f(o)).sum() };
         let value = mean(&|o| o[1]);
         [value, mean(&|o| (o[1] - value) * (o[1] - value)), mean(&|o| o[2])]
@@ -135,13 +135,13 @@ mod tests {
                 alone: 1.0,
             })
             .to_vec();
-        let walk = Walk { flights: 1, steps };
+        let walk = SampleSource { flights: 1, steps };
         let survival = Survival::of(walk.steps.iter().map(|step| step.finding));
-        for (sureness, worth) in [(0.5, 0.01), (2.0, 0.02), (1e-9, 1.0), (1e9, 1.0)] {
+        for (sureness, importance) in [(0.5, 0.01), (2.0, 0.02), (1e-9, 1.0), (1e9, 1.0)] {
             let survival = survival.with_sureness(sureness);
-            let price = walk.price(Ending::OnMap(&survival), worth, 0.0);
-            let [mean, variance, flights] = played(&walk, &survival, worth);
-            assert!((mean - worth * 41.0).abs() < 1e-9 * mean, "biased: {mean}");
+            let price = walk.price(Ending::OnMap(&survival), importance, 0.0);
+            let [mean, variance, flights] = played(&walk, &survival, importance);
+            assert!((mean - importance * 41.0).abs() < 1e-9 * mean, "biased: {mean}");
             assert!((price.variance - variance).abs() <= 1e-9 * variance, "{price:?} {variance}");
             assert!((price.flights - flights).abs() < 1e-9 * flights, "{price:?} {flights}");
         }

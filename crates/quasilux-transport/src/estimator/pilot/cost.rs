@@ -41,7 +41,7 @@ pub(crate) struct Budget {
 
 /// What a way to estimate promises, by a trial.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Promise<'v> {
+pub(crate) struct PilotCost<'v> {
     /// Of each target.
     pub(crate) variances: &'v [f64],
     /// Rays of a trial's paths, and of the photons beside them.
@@ -51,7 +51,7 @@ pub(crate) struct Promise<'v> {
     pub(crate) beforehand: f64,
 }
 
-impl<'v> Promise<'v> {
+impl<'v> PilotCost<'v> {
     /// Of paths that need nothing beforehand.
     pub(crate) fn of_paths(variances: &'v [f64], rays: f64) -> Self {
         Self { variances, of_paths: rays, of_photons: 0.0, beforehand: 0.0 }
@@ -84,24 +84,24 @@ impl Budget {
     }
 
     /// Squared error times rays, in units that all ways of one trial share.
-    pub(crate) fn effort(&self, promise: &Promise<'_>) -> f64 {
-        let Promise { variances, of_paths, of_photons, .. } = *promise;
+    pub(crate) fn effort(&self, pilot_cost: &PilotCost<'_>) -> f64 {
+        let PilotCost { variances, of_paths, of_photons, .. } = *pilot_cost;
         self.cost.rays(variances, of_paths, of_photons)
     }
 
     /// Rays to an error as small as the tolerance, or to that of plain paths.
-    pub(crate) fn rays(&self, plain: &Promise<'_>, promise: &Promise<'_>) -> f64 {
-        let each = promise.of_paths + promise.of_photons;
+    pub(crate) fn rays(&self, plain: &PilotCost<'_>, pilot_cost: &PilotCost<'_>) -> f64 {
+        let each = pilot_cost.of_paths + pilot_cost.of_photons;
         let sampled = if let Some(trials) = self.trials_for_variance {
             // Paths of different targets are independent, and photons are the same for many of them.
-            let averaged = if promise.of_photons > 0.0 { 1.0 } else { self.averaged };
-            (trials * self.effort(promise) / averaged).max(self.trials * each)
+            let averaged = if pilot_cost.of_photons > 0.0 { 1.0 } else { self.averaged };
+            (trials * self.effort(pilot_cost) / averaged).max(self.trials * each)
         } else {
             let [mean, of_plain] =
-                [promise, plain].map(|p| Cost::ForAll.rays(p.variances, 1.0, 0.0));
+                [pilot_cost, plain].map(|p| Cost::ForAll.rays(p.variances, 1.0, 0.0));
             self.trials * each * if of_plain > 0.0 { mean / of_plain } else { 1.0 }
         };
-        self.targets * sampled + promise.beforehand
+        self.targets * sampled + pilot_cost.beforehand
     }
 }
 
@@ -151,11 +151,11 @@ mod tests {
     fn a_run_is_as_long_as_its_settings_say() {
         let rays_for = |targets: f64, settings: &Settings, variance: f64| {
             let [plain, variances] = [[1000.0], [variance]];
-            let [plain, promise] = [&plain, &variances].map(|variances| Promise {
+            let [plain, pilot_cost] = [&plain, &variances].map(|variances| PilotCost {
                 beforehand: 1000.0,
-                ..Promise::of_paths(variances, 800.0)
+                ..PilotCost::of_paths(variances, 800.0)
             });
-            Budget::of(settings, (9, targets)).rays(&plain, &promise)
+            Budget::of(settings, (9, targets)).rays(&plain, &pilot_cost)
         };
         let rays = |settings: &Settings, variance: f64| rays_for(1.0, settings, variance);
         let open = Settings::default();

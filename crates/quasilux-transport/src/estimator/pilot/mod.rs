@@ -1,9 +1,9 @@
 //! Pilots: a few samples at some targets, and the rays that a whole run would take by what they find.
 
 mod cost;
+mod error_target;
 mod trial;
-mod wanted;
 
-pub(crate) use cost::Promise;
-pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial, looks};
-pub(crate) use wanted::{BY_CHANCE, MUCH_MORE, Wanted};
+pub(crate) use cost::PilotCost;
+pub(crate) use error_target::{BY_CHANCE, ErrorTarget, MUCH_MORE};
+pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial, short_looks};

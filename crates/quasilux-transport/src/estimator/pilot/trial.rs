@@ -1,6 +1,6 @@
 //! Trials: what a few samples in a few replicates find at some of the targets.
 
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::estimator::control_variate::{RayCounts, Walks};
 use crate::estimator::exact::Exact;
 use crate::path::end::Rest;
@@ -74,13 +74,13 @@ impl Sample {
 impl Trial {
     /// Of paths that leave to photons what is theirs.
     pub(crate) fn of_paths_beside<S: Spectrum>(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         sample: &Sample,
         partition: &Partition,
         quantum: Quantum,
     ) -> Self {
         let of_all = (&sample.targets[..], REPLICATES.len());
-        let pieces = trace(stage, of_all, false, (Some(partition), quantum));
+        let pieces = trace(context, of_all, false, (Some(partition), quantum));
         Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
     }
 
@@ -103,9 +103,9 @@ impl Trial {
 }
 
 impl<S: Spectrum> PathTrial<S> {
-    pub(crate) fn new(stage: &Stage<'_, S>, sample: &Sample, quantum: Quantum) -> Self {
+    pub(crate) fn new(context: &Context<'_, S>, sample: &Sample, quantum: Quantum) -> Self {
         let (pieces, walks): (Vec<Piece>, Vec<Walks<S>>) =
-            trace(stage, (&sample.targets, REPLICATES.len()), true, (None, quantum))
+            trace(context, (&sample.targets, REPLICATES.len()), true, (None, quantum))
                 .into_iter()
                 .unzip();
         let finds_light = pieces.chunks(REPLICATES.len()).all(|of_target| {
@@ -118,31 +118,31 @@ impl<S: Spectrum> PathTrial<S> {
         });
         let trial = Trial::of(pieces.iter(), quantum);
         let at_start: usize =
-            sample.targets.iter().map(|target| asked_at_start(stage, target)).sum();
+            sample.targets.iter().map(|target| asked_at_start(context, target)).sum();
         let rays = RayCounts {
             all: trial.rays,
             at_start: at_start as f64 * REPLICATES.len() as f64 * SAMPLES as f64,
             // It still looks for light that the next surface emits.
-            at_end: if stage.lights.emitters.is_some() { 1.0 } else { 0.0 },
+            at_end: if context.lights.emitters.is_some() { 1.0 } else { 0.0 },
         };
         Self { trial, walks: Walks::all(walks, rays), finds_light }
     }
 }
 
 /// What one short look finds at each target, in lx, by paths to their ends in one replicate; and its rays.
-pub(crate) fn looks<S: Spectrum>(
-    stage: &Stage<'_, S>,
+pub(crate) fn short_looks<S: Spectrum>(
+    context: &Context<'_, S>,
     targets: &[Target],
     quantum: Quantum,
 ) -> (Vec<f64>, u64) {
-    let pieces = trace(stage, (targets, 1), false, (None, quantum));
+    let pieces = trace(context, (targets, 1), false, (None, quantum));
     let Trial { lx, rays } = Trial::of(pieces.iter().map(|(piece, _)| piece), quantum);
     (lx, rays as u64)
 }
 
 /// Rays by which a path asks lights themselves where it starts, at most.
-fn asked_at_start<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> usize {
-    let lights = &stage.lights;
+fn asked_at_start<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> usize {
+    let lights = &context.lights;
     let areas = [lights.emitters.is_some(), !lights.area_luminaires.is_empty()];
     let areas = areas.into_iter().filter(|is_there| *is_there).count();
     match target {
@@ -154,7 +154,7 @@ fn asked_at_start<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> usize {
 /// Paths from these targets in so many replicates of a trial, in the order of [`Trial::lx`], which leave to photons what is
 /// theirs, and may note where they might have ended.
 fn trace<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     (targets, each): (&[Target], usize),
     is_noted: bool,
     (partition, quantum): (Option<&Partition>, Quantum),
@@ -165,15 +165,15 @@ fn trace<S: Spectrum>(
         let section = Section {
             number,
             target: targets[target],
-            points: stage.points_of_trial(replicate, Stream::Paths(target as u64)),
+            points: context.points_of_trial(replicate, Stream::Paths(target as u64)),
             rest: if is_noted { Rest::Noted } else { Rest::Path },
-            hidden: None,
+            caustics: None,
             partition,
             indices: 0..SAMPLES,
         };
         let mut walks = Walks::default();
         let piece =
-            trace_and_look(stage, &[section], quantum, wave, |path| walks.add(target, path));
+            trace_and_look(context, &[section], quantum, wave, |path| walks.add(target, path));
         (piece, walks)
     };
     let numbers = (0..targets.len() * each).into_par_iter();

@@ -11,9 +11,9 @@
 use super::planes::MirrorPlanes;
 use super::tree::Images;
 use crate::spectrum::Spectrum;
-use crate::world::{Vantage, World};
+use crate::world::{RayOrigin, World};
 use glam::DVec3;
-use quasilux_bvh::Shot;
+use quasilux_bvh::RayQuery;
 use std::ops::Range;
 
 /// Points in mirrors are drawn this many hairs toward the middle of their facet, so that rays do not
@@ -111,20 +111,20 @@ impl Links {
 
     /// The rays that see whether anything stands in a way from `from` over its mirrors to the light
     /// at `light`.
-    pub(crate) fn sights<S: Spectrum>(
+    pub(crate) fn shadow_rays<S: Spectrum>(
         &self,
         world: &World<S>,
         way: &Way<S>,
-        from: Vantage,
+        from: RayOrigin,
         light: DVec3,
-        sights: &mut Vec<Shot>,
+        shadow_rays: &mut Vec<RayQuery>,
     ) {
         let mut from = from;
         for link in &self.0[way.links.clone()] {
-            sights.extend(sight(from, link.inner, link.facet));
+            shadow_rays.extend(shadow_ray(from, link.inner, link.facet));
             from = world.vantage_before(link.facet, link.inner, link.n);
         }
-        sights.extend(sight(from, light, Shot::NONE));
+        shadow_rays.extend(shadow_ray(from, light, RayQuery::NONE));
     }
 
     /// Whether two ways are one, point by point.
@@ -136,8 +136,8 @@ impl Links {
 }
 
 /// The ray between two points; `None` where they are one.
-fn sight(from: Vantage, to: DVec3, target: u32) -> Option<Shot> {
+fn shadow_ray(from: RayOrigin, to: DVec3, target: u32) -> Option<RayQuery> {
     let toward = to - from.position();
     let distance_m = toward.length();
-    (distance_m > 0.0).then(|| from.sight(toward / distance_m, distance_m, target))
+    (distance_m > 0.0).then(|| from.shadow_ray(toward / distance_m, distance_m, target))
 }

@@ -1,7 +1,7 @@
 //! Point-like lights in plane mirrors: light that no sampling finds, since nothing runs into a point.
 //!
 //! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
-//! to a place, and `trail` which photons took such a way and are left out where images are counted.
+//! to a place, and `path_class` which photons took such a way and are left out where images are counted.
 //!
 //! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
 //! reflect, I in the direction in which the light really leaves.
@@ -10,21 +10,21 @@ mod chain;
 mod cone;
 #[cfg(test)]
 mod fixtures;
+mod light_path_class;
 mod planes;
-mod trail;
 mod tree;
 
 use crate::lights::{Lights, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Asker, Shadows};
+use crate::world::visibility::{Receiver, ShadowQueue};
 use crate::world::{Facet, World};
 use chain::{Links, Way};
 use planes::MirrorPlanes;
 use quasilux_sampling::choose_weights;
 use tree::Images;
 
-pub(crate) use trail::Trail;
+pub(crate) use light_path_class::LightPathClass;
 
 /// So many images at a vertex are all tested; of more one is chosen.
 const ALL_TESTED: usize = 8;
@@ -40,9 +40,9 @@ pub(crate) struct SpecularImages {
 }
 
 /// What images offer to one place, and working space.
-pub(crate) struct ImageOffers<S> {
+pub(crate) struct ImageSamples<S> {
     links: Links,
-    offers: Vec<ImageOffer<S>>,
+    light_samples: Vec<ImageSample<S>>,
 }
 
 /// Who asks images for light, and what stands around.
@@ -55,7 +55,7 @@ pub(crate) struct ImageQuery<'q, S> {
 }
 
 /// What one image gives to a place unless something stands in the way.
-struct ImageOffer<S> {
+struct ImageSample<S> {
     image: u32,
     way: Way<S>,
     light: S,
@@ -132,19 +132,19 @@ impl SpecularImages {
         &self,
         world: &World<S>,
         pointlikes: &PointLikes<'_>,
-        askers: &[Asker<'_, S>],
-        shadows: &mut Shadows<S>,
+        receivers: &[Receiver<'_, S>],
+        shadows: &mut ShadowQueue<S>,
         receive: impl FnMut(u32, S, u32),
     ) {
         if self.is_empty() {
             return;
         }
-        let mut found = ImageOffers::default();
-        for Asker { who, vertex } in askers {
+        let mut found = ImageSamples::default();
+        for Receiver { who, vertex } in receivers {
             let query = ImageQuery { world, pointlikes, who: *who, vertex };
             self.find(&query, shadows.most_bounces, Thinning::NONE, &mut found);
-            for offer in &found.offers {
-                self.ask(&query, offer, &found.links, shadows);
+            for light_sample in &found.light_samples {
+                self.ask(&query, light_sample, &found.links, shadows);
             }
         }
         shadows.answer(world, receive);
@@ -153,29 +153,29 @@ impl SpecularImages {
     /// Asks for the light that a path gets from images at a vertex, with the coordinate `u`: of all where they are few. Of very many, far ones are thinned out; of those that
     /// give anything unshadowed, one is chosen in proportion to what it gives where they are more than
     /// [`ALL_TESTED`].
-    pub(crate) fn ask_some<S: Spectrum>(
+    pub(crate) fn sample_direct<S: Spectrum>(
         &self,
         query: &ImageQuery<'_, S>,
         u: f64,
-        found: &mut ImageOffers<S>,
-        shadows: &mut Shadows<S>,
+        found: &mut ImageSamples<S>,
+        shadows: &mut ShadowQueue<S>,
     ) {
         let others = self.images.nodes.len().saturating_sub(self.images.lights + SURE);
         let stride = others.div_ceil(THINNED).max(1);
         self.find(query, shadows.most_bounces, Thinning { stride, phase: u }, found);
         let u = (u * stride as f64).fract();
-        let ImageOffers { links, offers } = found;
-        if offers.len() > ALL_TESTED {
-            let weights = offers.iter().map(|offer| offer.light.luminance());
+        let ImageSamples { links, light_samples } = found;
+        if light_samples.len() > ALL_TESTED {
+            let weights = light_samples.iter().map(|light_sample| light_sample.light.luminance());
             // Without a choice a figure is not finite: then the tally must see it.
             if let Some(choice) = choose_weights(u, weights) {
-                offers.swap(0, choice.index);
-                offers.truncate(1);
-                offers[0].light = offers[0].light * (1.0 / choice.pdf);
+                light_samples.swap(0, choice.index);
+                light_samples.truncate(1);
+                light_samples[0].light = light_samples[0].light * (1.0 / choice.pdf);
             }
         }
-        for offer in offers.iter() {
-            self.ask(query, offer, links, shadows);
+        for light_sample in light_samples.iter() {
+            self.ask(query, light_sample, links, shadows);
         }
     }
 
@@ -185,11 +185,11 @@ impl SpecularImages {
         query: &ImageQuery<'_, S>,
         max_bounces: u32,
         Thinning { stride, phase }: Thinning,
-        found: &mut ImageOffers<S>,
+        found: &mut ImageSamples<S>,
     ) {
-        let ImageOffers { links, offers } = found;
+        let ImageSamples { links, light_samples } = found;
         links.clear();
-        offers.clear();
+        light_samples.clear();
         let &ImageQuery { world, pointlikes, vertex, .. } = query;
         let place = vertex.position();
         for (count, number) in self.images.mirrored(SURE, stride, phase).enumerate() {
@@ -210,12 +210,12 @@ impl SpecularImages {
             let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
             let stands_for = if count < SURE { 1.0 } else { stride as f64 };
             let light = vertex.weight(direction) * way.reflected * (illuminance_lx * stands_for);
-            let is_known = |other: &ImageOffer<S>| {
+            let is_known = |other: &ImageSample<S>| {
                 self.images.nodes[other.image as usize].light == node.light
                     && links.are_same(&other.way, &way, world.hair_m())
             };
-            if light.luminance() != 0.0 && !offers.iter().any(is_known) {
-                offers.push(ImageOffer { image, way, light });
+            if light.luminance() != 0.0 && !light_samples.iter().any(is_known) {
+                light_samples.push(ImageSample { image, way, light });
             }
         }
     }
@@ -223,22 +223,22 @@ impl SpecularImages {
     fn ask<S: Spectrum>(
         &self,
         query: &ImageQuery<'_, S>,
-        offer: &ImageOffer<S>,
+        light_sample: &ImageSample<S>,
         links: &Links,
-        shadows: &mut Shadows<S>,
+        shadows: &mut ShadowQueue<S>,
     ) {
         let &ImageQuery { world, who, vertex, .. } = query;
-        let image = &self.images.nodes[offer.image as usize];
-        let from = vertex.vantage(image.position - vertex.position());
+        let image = &self.images.nodes[light_sample.image as usize];
+        let from = vertex.ray_origin(image.position - vertex.position());
         let light_m = self.images.nodes[image.light as usize].position;
-        shadows.ask_way(who, offer.light, image.depth, |sights| {
-            links.sights(world, &offer.way, from, light_m, sights);
+        shadows.push_polyline(who, light_sample.light, image.depth, |shadow_rays| {
+            links.shadow_rays(world, &light_sample.way, from, light_m, shadow_rays);
         });
     }
 }
 
-impl<S> Default for ImageOffers<S> {
+impl<S> Default for ImageSamples<S> {
     fn default() -> Self {
-        Self { links: Links::default(), offers: Vec::new() }
+        Self { links: Links::default(), light_samples: Vec::new() }
     }
 }

@@ -7,7 +7,7 @@
 
 use super::cell::Cell;
 use crate::bsdf::Mode;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::lights::{Incidence, PointLikes};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
@@ -31,7 +31,7 @@ const EVERYWHERE: f64 = 0.1;
 
 /// A light that looks at a facet.
 pub(super) struct Beam<'s, 'a, S> {
-    stage: &'s Stage<'a, S>,
+    context: &'s Context<'a, S>,
     /// Number among the point-like lights.
     number: u32,
     light: &'a Light,
@@ -78,8 +78,8 @@ struct View<'v, 's, 'a, S> {
 }
 
 impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
-    pub(super) fn all(stage: &'s Stage<'a, S>) -> Vec<Self> {
-        let lights: &PointLikes<'a> = &stage.lights.pointlikes;
+    pub(super) fn all(context: &'s Context<'a, S>) -> Vec<Self> {
+        let lights: &PointLikes<'a> = &context.lights.pointlikes;
         let all_lm = lights.iter().map(|(_, flux_lm)| flux_lm).sum();
         let beam = |(number, (position, flux_lm))| {
             let light = lights.get(number).expect("as many as there are");
@@ -92,7 +92,7 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
             };
             let has_beam = largest_cd > BEAM * mean_cd;
             Self {
-                stage,
+                context,
                 number: number as u32,
                 light,
                 position,
@@ -107,15 +107,15 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
 
     /// Which side of a facet the light is on; `None` in its plane, or where nothing goes on.
     pub(super) fn faces(&self, facet: u32) -> Option<bool> {
-        let own = &self.stage.world.facets[facet as usize];
+        let own = &self.context.world.facets[facet as usize];
         let height_m = own.front_normal.dot(self.position - own.point([1.0, 0.0, 0.0]));
-        (height_m.abs() > self.stage.world.hair_m()).then_some(height_m > 0.0)
+        (height_m.abs() > self.context.world.hair_m()).then_some(height_m > 0.0)
     }
 
     /// Cells of a facet in an order in which most are neighbours, and the number of rays that it took.
     pub(super) fn look_at(&self, facet: u32) -> (Vec<LitCell>, u64) {
         let Some(front) = self.faces(facet) else { return (Vec::new(), 0) };
-        let world = &self.stage.world;
+        let world = &self.context.world;
         let own = &world.facets[facet as usize];
         let n = if front { own.front_normal } else { -own.front_normal };
         let most_kept = world.most_kept_by(own);
@@ -135,8 +135,8 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         };
         let whole = Cell::WHOLE;
         let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let looks = corners.map(|corner| view.look(whole, corner));
-        view.cut(whole, looks, 0);
+        let short_looks = corners.map(|corner| view.look(whole, corner));
+        view.cut(whole, short_looks, 0);
         (view.found, view.rays)
     }
 }
@@ -148,8 +148,8 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         let middles = middles.map(|middle| self.look(cell, middle));
         let area_m2 = self.area_m2 * cell.area_share();
         if depth < DEEPEST && self.wants_cut(cell, area_m2, &corners, &middles) {
-            for (part, looks) in cell.parts().into_iter().zip(Cell::split(corners, middles)) {
-                self.cut(part, looks, depth + 1);
+            for (part, short_looks) in cell.parts().into_iter().zip(Cell::split(corners, middles)) {
+                self.cut(part, short_looks, depth + 1);
             }
             return;
         }
@@ -182,7 +182,7 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
     /// Whether much light may land between the looks.
     fn may_hide(&self, cell: Cell, area_m2: f64) -> bool {
         let Beam { position, largest_cd, largest_angle, all_lm, .. } = *self.beam;
-        let place = |weights| self.beam.stage.world.facets[self.facet as usize].point(weights);
+        let place = |weights| self.beam.context.world.facets[self.facet as usize].point(weights);
         let edge_m = self.edge_m * cell.area_share().sqrt();
         let to_light = position - place(cell.place([1.0 / 3.0; 3]));
         let height_m = self.n.dot(to_light);
@@ -194,9 +194,9 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
 
     fn look(&mut self, cell: Cell, weights: [f64; 3]) -> Look {
         let weights = cell.place(weights).map(|w| w + (1.0 / 3.0 - w) * INWARD);
-        let world = &self.beam.stage.world;
+        let world = &self.beam.context.world;
         let at = world.interaction_on(self.facet, self.front, weights);
-        let from = world.vantage(&at);
+        let from = world.ray_origin(&at);
         let Some(incidence) = Incidence::new(self.beam.light, from.position(), at.n) else {
             return Look::default();
         };

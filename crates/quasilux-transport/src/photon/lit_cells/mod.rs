@@ -24,7 +24,7 @@ mod lit;
 mod tests;
 
 use crate::codec::Writer;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::lights::{Incidence, Lights};
 use crate::photon::receiver::Arrival;
 use crate::purpose::Purpose;
@@ -32,7 +32,7 @@ use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use cell::Cell;
 use lit::{Beam, LitCell};
-use quasilux_bvh::Shot;
+use quasilux_bvh::RayQuery;
 use quasilux_sampling::warp::sample_linear_triangle;
 use quasilux_sampling::{Discrete, Sampler};
 use rayon::prelude::*;
@@ -90,9 +90,9 @@ pub(crate) struct LitPlace {
 
 impl LitPlace {
     /// The ray that finds out whether light comes here.
-    pub(crate) fn sight<S: Spectrum>(&self, stage: &Stage<'_, S>) -> Shot {
+    pub(crate) fn shadow_ray<S: Spectrum>(&self, context: &Context<'_, S>) -> RayQuery {
         let Incidence { direction, distance_m, .. } = self.incidence;
-        stage.world.vantage(&self.at).sight(direction, distance_m, Shot::NONE)
+        context.world.ray_origin(&self.at).shadow_ray(direction, distance_m, RayQuery::NONE)
     }
 
     /// The light that comes here.
@@ -102,18 +102,23 @@ impl LitPlace {
     }
 
     /// Whether it does.
-    pub(crate) fn is_lit<S: Spectrum>(&self, stage: &Stage<'_, S>) -> bool {
+    pub(crate) fn is_lit<S: Spectrum>(&self, context: &Context<'_, S>) -> bool {
         let Incidence { direction, distance_m, .. } = self.incidence;
-        stage.world.is_visible(stage.world.vantage(&self.at), direction, distance_m, Shot::NONE)
+        context.world.is_visible(
+            context.world.ray_origin(&self.at),
+            direction,
+            distance_m,
+            RayQuery::NONE,
+        )
     }
 }
 
 impl LitCells {
     /// Looks where the light lands; `None` where no point-like light's goes on, where first looks alone would take more
     /// rays than these, and for more than [`MAX_PAIRS`].
-    pub(crate) fn new<S: Spectrum>(stage: &Stage<'_, S>, most_rays: u64) -> Option<Self> {
-        let beams = Beam::all(stage);
-        let facets = 0..stage.world.facets.len() as u32;
+    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, most_rays: u64) -> Option<Self> {
+        let beams = Beam::all(context);
+        let facets = 0..context.world.facets.len() as u32;
         let facing = |beam: &Beam<'_, '_, S>| {
             facets.clone().filter(|&facet| beam.faces(facet).is_some()).count()
         };
@@ -123,14 +128,14 @@ impl LitCells {
         }
         let (mut lit, mut rays) = (Vec::new(), 0);
         for beam in &beams {
-            let looks: Vec<(Vec<LitCell>, u64)> =
+            let short_looks: Vec<(Vec<LitCell>, u64)> =
                 facets.clone().into_par_iter().map(|facet| beam.look_at(facet)).collect();
-            for (cells, of_facet) in looks {
+            for (cells, of_facet) in short_looks {
                 lit.extend(cells);
                 rays += of_facet;
             }
         }
-        Self::of(&lit, &stage.lights, rays)
+        Self::of(&lit, &context.lights, rays)
     }
 
     fn of(lit: &[LitCell], lights: &Lights<'_>, rays: u64) -> Option<Self> {
@@ -182,10 +187,10 @@ impl LitCells {
     /// give the place. `None` where no light can arrive.
     pub(crate) fn draw<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         sampler: &mut Sampler<'_>,
     ) -> Option<Drawn> {
-        let (choice, u) = stage.draw(sampler, Purpose::Emission, |sampler| {
+        let (choice, u) = context.draw(sampler, Purpose::Emission, |sampler| {
             (sampler.choose_leading(&self.by_flux), [sampler.remapped_1d(), sampler.next_1d()])
         });
         let Some(drawn) = self.cells.get(choice.index) else {
@@ -194,9 +199,9 @@ impl LitCells {
         };
         let weights = sample_linear_triangle(drawn.density, u);
         let density_lm_m2: f64 = drawn.density.iter().zip(weights).map(|(d, w)| d * w).sum();
-        let at = stage.world.interaction_on(drawn.facet, drawn.front, drawn.cell.place(weights));
-        let light = stage.lights.pointlikes.get(drawn.light as usize)?;
-        let incidence = Incidence::new(light, stage.world.vantage(&at).position(), at.n)?;
+        let at = context.world.interaction_on(drawn.facet, drawn.front, drawn.cell.place(weights));
+        let light = context.lights.pointlikes.get(drawn.light as usize)?;
+        let incidence = Incidence::new(light, context.world.ray_origin(&at).position(), at.n)?;
         // E over the density of the place (m^-2), which is density_lm_m2 over the sum of all fluxes.
         let flux_share = incidence.illuminance_lx / density_lm_m2 * self.flux_share;
         let arrives = flux_share > 0.0 && flux_share.is_finite();

@@ -123,7 +123,7 @@ fn room_with_glass() -> Scene {
 /// Flux on each of the seven surfaces after one, two and three bounces, over that of the lights; in
 /// `total` of all later ones together.
 struct Landed {
-    shares: [[f64; MAX_BOUNCES]; 7],
+    weights_of_paths: [[f64; MAX_BOUNCES]; 7],
     total: f64,
 }
 
@@ -135,13 +135,14 @@ impl<S: Spectrum> PhotonReceiver<S> for Landed {
             self.total += weight.luminance();
         }
         if (1..=MAX_BOUNCES as u32).contains(&bounces) {
-            self.shares[at.facet as usize / 2][bounces as usize - 1] += weight.luminance();
+            self.weights_of_paths[at.facet as usize / 2][bounces as usize - 1] +=
+                weight.luminance();
         }
     }
 }
 
 fn landed<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     source: Source<'_>,
     replicate: u32,
     photons: u64,
@@ -152,14 +153,14 @@ fn landed<S: Spectrum>(
         Source::LitCells(_) => Stream::Paths(0),
     };
     let lead = Lead::by_chance(source, None);
-    let points = stage.points(replicate, stream);
-    let mut landed = Landed { shares: [[0.0; MAX_BOUNCES]; 7], total: 0.0 };
+    let points = context.points(replicate, stream);
+    let mut landed = Landed { weights_of_paths: [[0.0; MAX_BOUNCES]; 7], total: 0.0 };
     for index in 0..photons {
         let sampler = Sampler::new(&points, index);
-        trace_photon(stage, lead, sampler, &mut landed, &mut PhotonCounts::default());
+        trace_photon(context, lead, sampler, &mut landed, &mut PhotonCounts::default());
     }
     let each = 1.0 / photons as f64;
-    landed.shares = landed.shares.map(|row| row.map(|share| share * each));
+    landed.weights_of_paths = landed.weights_of_paths.map(|row| row.map(|share| share * each));
     landed.total *= each;
     landed
 }
@@ -174,10 +175,10 @@ fn moments(values: &[f64]) -> [f64; 2] {
 
 fn assert_kinds_agree<S: Spectrum>(name: &str, scene: &Scene) {
     let settings = Settings::default();
-    let stage = Stage::<S>::new(scene, &settings);
-    let cells = LitCells::new(&stage, u64::MAX).expect("there is a point-like light");
+    let context = Context::<S>::new(scene, &settings);
+    let cells = LitCells::new(&context, u64::MAX).expect("there is a point-like light");
     let all = |source| -> Vec<Landed> {
-        (0..REPLICATES).map(|replicate| landed(&stage, source, replicate, PHOTONS)).collect()
+        (0..REPLICATES).map(|replicate| landed(&context, source, replicate, PHOTONS)).collect()
     };
     let (plain, first_shot) = (all(Source::Lights), all(Source::LitCells(&cells)));
     let significance = sidak(0.001, 6 * MAX_BOUNCES * 3);
@@ -185,7 +186,8 @@ fn assert_kinds_agree<S: Spectrum>(name: &str, scene: &Scene) {
     for surface in 0..7 {
         for bounce in 0..MAX_BOUNCES {
             let of = |rows: &[Landed]| {
-                let values: Vec<f64> = rows.iter().map(|row| row.shares[surface][bounce]).collect();
+                let values: Vec<f64> =
+                    rows.iter().map(|row| row.weights_of_paths[surface][bounce]).collect();
                 moments(&values)
             };
             let ([a, a_squared], [b, b_squared]) = (of(&plain), of(&first_shot));
@@ -225,10 +227,10 @@ fn the_cube_has_its_indirect_flux() {
     // Without the table, which would only hide the lamp from half of the cube.
     scene.mesh.triangles.truncate(12);
     let settings = Settings::default();
-    let stage = Stage::<f64>::new(&scene, &settings);
-    let cells = LitCells::new(&stage, u64::MAX).unwrap();
-    let Landed { shares, total } = landed(&stage, Source::LitCells(&cells), 0, 1 << 17);
-    let first: f64 = shares.iter().map(|row| row[0]).sum();
+    let context = Context::<f64>::new(&scene, &settings);
+    let cells = LitCells::new(&context, u64::MAX).unwrap();
+    let Landed { weights_of_paths, total } = landed(&context, Source::LitCells(&cells), 0, 1 << 17);
+    let first: f64 = weights_of_paths.iter().map(|row| row[0]).sum();
     assert!((first / rho - 1.0).abs() < 1e-3, "{first}");
     assert!((total * (1.0 - rho) / rho - 1.0).abs() < 0.007, "{total}");
 }
@@ -239,17 +241,17 @@ fn the_cube_has_its_indirect_flux() {
 fn weights_are_nearly_equal() {
     for (name, scene) in [("spotlights", spotlight_room()), ("near a wall", lamp_near_a_wall())] {
         let settings = Settings::default();
-        let stage = Stage::<f64>::new(&scene, &settings);
-        let cells = LitCells::new(&stage, u64::MAX).unwrap();
-        let points = stage.points(0, Stream::Photons);
+        let context = Context::<f64>::new(&scene, &settings);
+        let cells = LitCells::new(&context, u64::MAX).unwrap();
+        let points = context.points(0, Stream::Photons);
         let (mut sum, mut squares) = (0.0, 0.0);
         for index in 0..PHOTONS {
-            let drawn = cells.draw(&stage, &mut Sampler::new(&points, index));
+            let drawn = cells.draw(&context, &mut Sampler::new(&points, index));
             if let Some(Drawn::Place(place)) = drawn
-                && place.is_lit(&stage)
+                && place.is_lit(&context)
             {
                 let weight = place.flux_share
-                    * stage.world.bsdf(&place.at).albedo(DVec3::Z, true, Mode::Flux);
+                    * context.world.bsdf(&place.at).albedo(DVec3::Z, true, Mode::Flux);
                 sum += weight;
                 squares += weight * weight;
             }
@@ -271,8 +273,8 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
         }
     }
     let settings = Settings::default();
-    let stage = Stage::<f64>::new(scene, &settings);
-    let cells = LitCells::new(&stage, u64::MAX).unwrap();
+    let context = Context::<f64>::new(scene, &settings);
+    let cells = LitCells::new(&context, u64::MAX).unwrap();
     let batch = PhotonBatch {
         stream: Stream::Photons,
         replicates: 0..1,
@@ -283,7 +285,7 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
     let landed = Mutex::new(vec![0; 14]);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let counts = pool.install(|| {
-        trace_photons(&stage, &batch, |_| Quanta(&landed), &mut Watch::new(&mut ())).unwrap()
+        trace_photons(&context, &batch, |_| Quanta(&landed), &mut Watch::new(&mut ())).unwrap()
     });
     (landed.into_inner().unwrap(), counts)
 }

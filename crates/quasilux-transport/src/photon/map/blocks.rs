@@ -67,7 +67,7 @@ impl Stored for Blocks {
         }
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let read = |from: &mut Reader<'_>| -> Result<Vec<u64>, StateError> {
             (0..BLOCK).map(|_| Ok(u64::from(from.u32()?))).collect()
         };
@@ -126,10 +126,10 @@ mod tests {
             part.put(&mut out);
             let bytes = out.finish();
             let mut from = Reader::new(&bytes);
-            assert_eq!(all.take_in(&mut from).and_then(|()| from.end()), Ok(()));
+            assert_eq!(all.merge_from(&mut from).and_then(|()| from.end()), Ok(()));
             let cut = &bytes[..bytes.len() - 1];
-            assert!(Blocks::new(1000).take_in(&mut Reader::new(cut)).is_err());
-            assert!(Blocks::new(700).take_in(&mut Reader::new(&bytes)).is_err());
+            assert!(Blocks::new(1000).merge_from(&mut Reader::new(cut)).is_err());
+            assert!(Blocks::new(700).merge_from(&mut Reader::new(&bytes)).is_err());
         }
         let sums = counters.map(|counter| all.get(counter));
         assert_eq!(sums, [7, (1 << 40) + u64::from(u32::MAX), 7, 9]);

@@ -11,8 +11,8 @@ use super::blocks::Blocks;
 use super::layout::{MapLayout, Place};
 use super::subdivision::split;
 use super::tally::most_bounces;
-use crate::context::{Stage, Stream};
-use crate::lights::images::Trail;
+use crate::context::{Context, Stream};
+use crate::lights::images::LightPathClass;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
@@ -38,16 +38,16 @@ pub(crate) const MAX_NEW_ELEMENTS: u64 = 3 * 8 * (FIRST_PHOTONS << (ROUNDS - 1))
 /// The layout that the settings ask for, refined by pilot photons if they ask for that, and what
 /// these cost.
 pub(crate) fn refined<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     settings: &Settings,
     watch: &mut Watch<'_>,
 ) -> (MapLayout, PhotonCounts) {
     let mut counts = PhotonCounts::default();
-    let most_bounces = most_bounces(stage);
+    let most_bounces = most_bounces(context);
     if !settings.map_adaptive || most_bounces == 0 {
-        return (MapLayout::new(&stage.world, settings), counts);
+        return (MapLayout::new(&context.world, settings), counts);
     }
-    let mut layout = MapLayout::coarse(&stage.world, settings);
+    let mut layout = MapLayout::coarse(&context.world, settings);
     let mut indices = 0..FIRST_PHOTONS;
     for _ in 0..ROUNDS {
         let affordable = settings.map_elements.saturating_sub(layout.leaves() as u64) / 3;
@@ -56,7 +56,7 @@ pub(crate) fn refined<S: Spectrum>(
         }
         let parts = Blocks::new(layout.len() * PARTS);
         let pilot = Pilot { layout: &layout, parts: &parts, most_bounces };
-        counts += pilot.trace(stage, indices.clone(), watch);
+        counts += pilot.trace(context, indices.clone(), watch);
         let chosen = chosen(&layout, &parts, affordable as usize);
         if !chosen.is_empty() {
             layout = layout.split(|leaf| chosen.binary_search(&leaf).is_ok());
@@ -77,7 +77,7 @@ struct Pilot<'a> {
 impl Pilot<'_> {
     fn trace<S: Spectrum>(
         self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         indices: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> PhotonCounts {
@@ -90,7 +90,7 @@ impl Pilot<'_> {
             lead: Lead::by_chance(Source::Lights, None),
         };
         // Before the first checkpoint the observer stops nothing, so there are always counts.
-        trace_photons(stage, &batch, |_| self, watch).unwrap_or_default()
+        trace_photons(context, &batch, |_| self, watch).unwrap_or_default()
     }
 }
 
@@ -105,7 +105,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Pilot<'_> {
     }
 
     /// The map leaves it out, too.
-    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: Trail) {}
+    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: LightPathClass) {}
 }
 
 /// The part of its element that holds a place.

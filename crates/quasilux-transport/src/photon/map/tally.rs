@@ -3,8 +3,8 @@
 use super::blocks::Blocks;
 use super::layout::{MapLayout, Place};
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::context::Stage;
-use crate::lights::images::Trail;
+use crate::context::Context;
+use crate::lights::images::LightPathClass;
 use crate::photon::receiver::PhotonReceiver;
 use crate::settings::Reconstruction;
 use crate::spectrum::Spectrum;
@@ -100,8 +100,8 @@ impl<S> Stored for MapTally<S> {
         self.sums.put(out);
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.sums.take_in(from)
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.merge_from(from)
     }
 }
 
@@ -173,8 +173,12 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
 }
 
 impl<'a, S: Spectrum> MapReceiver<'a, S> {
-    pub(crate) fn new(stage: &Stage<'_, S>, layout: &'a MapLayout, tally: &'a MapTally<S>) -> Self {
-        Self::up_to(most_bounces(stage), stage.map_dimensions, layout, tally)
+    pub(crate) fn new(
+        context: &Context<'_, S>,
+        layout: &'a MapLayout,
+        tally: &'a MapTally<S>,
+    ) -> Self {
+        Self::up_to(most_bounces(context), context.map_dimensions, layout, tally)
     }
 
     /// Leaves out photons with more bounces than these, and landings after more coordinates.
@@ -190,8 +194,8 @@ impl<'a, S: Spectrum> MapReceiver<'a, S> {
 }
 
 /// Bounces of the photons whose light may come to a sensor after one more.
-pub(super) fn most_bounces<S>(stage: &Stage<'_, S>) -> u32 {
-    stage.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(1))
+pub(super) fn most_bounces<S>(context: &Context<'_, S>) -> u32 {
+    context.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(1))
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
@@ -209,7 +213,7 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
     }
 
     /// Paths count light that images show, and what none shows is added beside the map.
-    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: Trail) {}
+    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: LightPathClass) {}
 }
 
 #[cfg(test)]
@@ -254,7 +258,7 @@ mod tests {
     }
 
     /// Photons without order at random places of an element, in many tallies: the deviation of what they say of a place is
-    /// what one tally foretells, on average, whatever they weigh.
+    /// what one tally predicts, on average, whatever they weigh.
     #[test]
     fn noise_is_how_far_maps_are_off() {
         let (world, numbers) = (square(), &mut Numbers(5));
@@ -266,7 +270,7 @@ mod tests {
             let settings = Settings { map_reconstruction, ..Settings::default() };
             let layout = MapLayout::new(&world, &settings);
             let place = layout.locate(&at(&world, numbers));
-            let (mut foretold, mut values) = (0.0, Vec::new());
+            let (mut predicted, mut values) = (0.0, Vec::new());
             for _ in 0..2000 {
                 let tally = MapTally::<f64>::new(&layout, weight, 2);
                 // A number of photons that is itself by chance, 40 on average.
@@ -276,14 +280,14 @@ mod tests {
                 }
                 let map = tally.read(place.area_m2);
                 let noise = map.noise_lx(&place, 1);
-                foretold += noise * noise / 2000.0;
+                predicted += noise * noise / 2000.0;
                 values.push(map.illuminance_lx(&place, 1));
                 assert_eq!(map.noise_lx(&place, 0), 0.0);
             }
             let mean = values.iter().sum::<f64>() / 2000.0;
             let found = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 1999.0;
             // A binomial number varies 0.9 times as much as photons without order.
-            let ratio = foretold / found;
+            let ratio = predicted / found;
             assert!((0.9..1.25).contains(&ratio), "{map_reconstruction:?} {weight}: {ratio}");
         }
     }

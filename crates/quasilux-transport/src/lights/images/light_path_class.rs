@@ -7,19 +7,19 @@ use crate::spectrum::Spectrum;
 
 /// The way of a photon since its light, as those who gather see it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Trail {
+pub(crate) enum LightPathClass {
     /// By mirrors that show this image of its point-like light; at first the light itself.
     Shown(u32),
     /// From a luminous shape, straight or through panes: paths see it.
     Straight,
     /// From a light that nothing runs into, by specular surfaces alone, and in no image: paths cannot
     /// find it.
-    Hidden,
+    Caustic,
     /// Any other: paths find it where it was scattered last, or run into its light.
     Found,
 }
 
-impl Trail {
+impl LightPathClass {
     /// The trail after one more surface: `bsdf` on `facet`; `mirrored` where the photon stays on its
     /// side.
     pub(crate) fn after<S: Spectrum>(
@@ -35,9 +35,9 @@ impl Trail {
         match self {
             _ if !mirrored && bsdf.straight_transmittance(1.0).is_some() => self,
             Self::Shown(image) if mirrored => {
-                images.shown_by(image, facet).map_or(Self::Hidden, Self::Shown)
+                images.shown_by(image, facet).map_or(Self::Caustic, Self::Shown)
             }
-            _ => Self::Hidden,
+            _ => Self::Caustic,
         }
     }
 }

@@ -60,7 +60,7 @@ fn rooms() -> [(&'static str, Scene); 2] {
 #[test]
 fn photons_and_paths_share_the_light_of_every_term() {
     for (name, scene) in rooms() {
-        let [alone, joined] =
+        let [alone, light_vertices] =
             [EstimatorKind::Path, EstimatorKind::Bidirectional].map(|estimator| {
                 let max_samples =
                     Some(if estimator == EstimatorKind::Path { 1 << 12 } else { 1 << 10 });
@@ -68,8 +68,10 @@ fn photons_and_paths_share_the_light_of_every_term() {
             });
         for sensor in 0..scene.sensors.len() {
             for term in 1..=LISTED as usize {
-                let (a, b) =
-                    (alone.term_intervals(sensor, term), joined.term_intervals(sensor, term));
+                let (a, b) = (
+                    alone.term_intervals(sensor, term),
+                    light_vertices.term_intervals(sensor, term),
+                );
                 for (point, (a, b)) in a.iter().zip(&b).enumerate() {
                     let found = format!("{name}, {sensor}, {point}, term {term}: {a:?}, {b:?}");
                     // Half-widths are 2.13 standard errors.
@@ -103,10 +105,11 @@ fn bounces_are_cut_where_wanted() {
         let estimates = run(&scene, &settings);
         estimates.interval_of(0, |lx| lx.iter().sum())
     };
-    let (alone, joined) = (of_one(EstimatorKind::Path), of_one(EstimatorKind::Bidirectional));
-    let allowed = 1.5 * (alone.half_width.unwrap() + joined.half_width.unwrap());
-    assert!(allowed < 0.05 * alone.value, "{alone:?}, {joined:?}");
-    assert!((alone.value - joined.value).abs() < allowed, "{alone:?}, {joined:?}");
+    let (alone, light_vertices) =
+        (of_one(EstimatorKind::Path), of_one(EstimatorKind::Bidirectional));
+    let allowed = 1.5 * (alone.half_width.unwrap() + light_vertices.half_width.unwrap());
+    assert!(allowed < 0.05 * alone.value, "{alone:?}, {light_vertices:?}");
+    assert!((alone.value - light_vertices.value).abs() < allowed, "{alone:?}, {light_vertices:?}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ const BESIDE: f64 = 1.0;
 const CLOSE: f64 = 4.0;
 
 /// A target, as photons see it.
-pub(super) struct Spot {
+pub(super) struct ReceiverElement {
     centre: DVec3,
     normal: DVec3,
     /// No place that photons are joined to is further from the centre.
@@ -47,7 +47,7 @@ pub(super) struct Place {
     pub(super) weight: f64,
 }
 
-impl Spot {
+impl ReceiverElement {
     pub(super) fn new<S: Spectrum>(world: &World<S>, target: &Target) -> Self {
         // Rays leave a hair in front of a sensor.
         let hairs_m = 2.0 * world.hair_m();
@@ -156,7 +156,7 @@ mod tests {
             normal: DVec3::Z,
             quantity: Quantity::Mean,
         };
-        let spot = Spot::of_cell(&grid, 1, 0.0);
+        let spot = ReceiverElement::of_cell(&grid, 1, 0.0);
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 7);
         for from in [[2.5, 2.5, 1.0], [3.0, 2.1, 0.95], [2.2, 1.2, 0.9], [9.0, 2.0, 3.0]] {
             let from = DVec3::from_array(from);

@@ -8,10 +8,10 @@
 //! least; a photon at its light is worth as much as the mean of those that leave where it lands.
 
 use crate::codec::Writer;
-use crate::importance::balance::Balance;
 use crate::importance::cells::Regions;
-use crate::importance::guide::{Guide, Hint};
-use crate::importance::survey::{Known, Landing, Survey};
+use crate::importance::flux_and_importance::FluxAndImportance;
+use crate::importance::guiding_tree::{GuidingSample, GuidingTree};
+use crate::importance::survey::{Survey, SurveyCell, Transition};
 use crate::world::Interaction;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ const LIGHTEST: f64 = 1.0 / (1 << 16) as f64;
 const HEAVIEST: f64 = 8.0;
 
 /// What the survey says of the place that a photon has landed on.
-pub(crate) struct Windows {
+pub(crate) struct WeightWindows {
     regions: Arc<Regions>,
     /// By number of the cell.
     windows: Vec<Window>,
@@ -36,7 +36,7 @@ pub(crate) struct Window {
     /// Weight with which photons leave, on average over their directions.
     pub(crate) weight: f64,
     /// In which directions.
-    pub(crate) guide: Guide,
+    pub(crate) guide: GuidingTree,
 }
 
 /// What a plan of weights costs and gives, both for each emitted photon.
@@ -47,14 +47,14 @@ pub(crate) struct Performance {
     pub(crate) variance: f64,
 }
 
-impl Windows {
+impl WeightWindows {
     /// By worth.
-    pub(crate) fn new(survey: &Survey, regions: Arc<Regions>, balance: &Balance) -> Self {
+    pub(crate) fn new(survey: &Survey, regions: Arc<Regions>, balance: &FluxAndImportance) -> Self {
         Self { regions, windows: steered_windows(survey, balance) }
     }
 
     /// What they cost and give.
-    pub(crate) fn performance(&self, survey: &Survey, balance: &Balance) -> Performance {
+    pub(crate) fn performance(&self, survey: &Survey, balance: &FluxAndImportance) -> Performance {
         Performance::of(survey, balance, &self.windows)
     }
 
@@ -86,13 +86,13 @@ impl Windows {
 
 impl Performance {
     /// Of photons of equal weight.
-    pub(crate) fn plain(survey: &Survey, balance: &Balance) -> Self {
-        let even = Window { weight: 1.0, guide: Guide::even() };
+    pub(crate) fn plain(survey: &Survey, balance: &FluxAndImportance) -> Self {
+        let even = Window { weight: 1.0, guide: GuidingTree::even() };
         Self::of(survey, balance, &vec![even; survey.known.len()])
     }
 
     /// Of photons that are steered.
-    pub(crate) fn steered(survey: &Survey, balance: &Balance) -> Self {
+    pub(crate) fn steered(survey: &Survey, balance: &FluxAndImportance) -> Self {
         Self::of(survey, balance, &steered_windows(survey, balance))
     }
 
@@ -109,7 +109,7 @@ impl Performance {
     /// Sums over all landings of the variance that the decision there and the next step bring. From
     /// weight w come `m = w a / W` photons, n of them by chance; what one of them brings has mean d and
     /// mean square q: in all `W^2 (m (q - d^2) + Var n d^2)`.
-    fn of(survey: &Survey, balance: &Balance, windows: &[Window]) -> Self {
+    fn of(survey: &Survey, balance: &FluxAndImportance, windows: &[Window]) -> Self {
         let known = &survey.known;
         let guides = windows.iter().map(|window| &window.guide);
         let next_square = next_squares(survey, balance, guides);
@@ -162,7 +162,7 @@ impl Split {
 }
 
 /// What the survey says of each known cell.
-fn steered_windows(survey: &Survey, balance: &Balance) -> Vec<Window> {
+fn steered_windows(survey: &Survey, balance: &FluxAndImportance) -> Vec<Window> {
     let guides = guides(survey, balance);
     let weights = steered_weights(survey, balance, &guides);
     let windows = weights.into_iter().zip(guides);
@@ -170,18 +170,19 @@ fn steered_windows(survey: &Survey, balance: &Balance) -> Vec<Window> {
 }
 
 /// Directions from each known cell by what its rays, and those of the cells around it, were worth.
-fn guides(survey: &Survey, balance: &Balance) -> Vec<Guide> {
-    let hints = |cell: &Known| -> Vec<Hint> {
-        let hint = |step: Landing| {
-            let worth = step.share * step.weight * balance.landed_worth[step.cell as usize];
-            Hint::new(step.u.map(f64::from), worth)
+fn guides(survey: &Survey, balance: &FluxAndImportance) -> Vec<GuidingTree> {
+    let hints = |cell: &SurveyCell| -> Vec<GuidingSample> {
+        let hint = |step: Transition| {
+            let importance =
+                step.share * step.weight * balance.landed_importance[step.cell as usize];
+            GuidingSample::new(step.u.map(f64::from), importance)
         };
         cell.steps().map(hint).collect()
     };
-    let own: Vec<Vec<Hint>> = survey.known.par_iter().map(hints).collect();
-    let guide = |cell: &Known| {
+    let own: Vec<Vec<GuidingSample>> = survey.known.par_iter().map(hints).collect();
+    let guide = |cell: &SurveyCell| {
         let around = survey.numbers_around(cell);
-        Guide::new(around.flat_map(|number| own[number].iter().copied()).collect())
+        GuidingTree::new(around.flat_map(|number| own[number].iter().copied()).collect())
     };
     survey.known.par_iter().map(guide).collect()
 }
@@ -190,13 +191,13 @@ fn guides(survey: &Survey, balance: &Balance) -> Vec<Guide> {
 /// over even rays, worth^2 / density.
 fn next_squares<'g>(
     survey: &Survey,
-    balance: &Balance,
-    guides: impl Iterator<Item = &'g Guide>,
+    balance: &FluxAndImportance,
+    guides: impl Iterator<Item = &'g GuidingTree>,
 ) -> Vec<f64> {
-    let of_cell = |(cell, guide): (&Known, &Guide)| {
+    let of_cell = |(cell, guide): (&SurveyCell, &GuidingTree)| {
         let squares = cell.steps().map(|step| {
-            let worth = step.weight * balance.landed_worth[step.cell as usize];
-            step.share * worth * worth / guide.density(step.u.map(f64::from))
+            let importance = step.weight * balance.landed_importance[step.cell as usize];
+            step.share * importance * importance / guide.density(step.u.map(f64::from))
         });
         squares.sum::<f64>()
     };
@@ -206,21 +207,33 @@ fn next_squares<'g>(
 /// The weight with which photons leave each known cell: in inverse proportion to the root mean square
 /// of what they are worth next, which makes rays times variance least. Mean squares are those of the
 /// cells around.
-fn steered_weights(survey: &Survey, balance: &Balance, guides: &[Guide]) -> Vec<f64> {
+fn steered_weights(
+    survey: &Survey,
+    balance: &FluxAndImportance,
+    guides: &[GuidingTree],
+) -> Vec<f64> {
     let squares = next_squares(survey, balance, guides.iter());
-    let root_mean = |cell: &Known| {
+    let root_mean = |cell: &SurveyCell| {
         let around = survey.numbers_around(cell);
         let (sum, count) =
             around.fold((0.0, 0.0), |(sum, n), number| (sum + squares[number], n + 1.0));
         (sum / count).sqrt()
     };
-    let worths: Vec<f64> = survey.known.iter().map(root_mean).collect();
+    let importances: Vec<f64> = survey.known.iter().map(root_mean).collect();
     let leaving = survey.first_landings.iter().zip(&survey.known);
     let leaving = leaving.map(|(share, cell)| share * cell.albedo);
-    let total = leaving.clone().zip(&worths).map(|(share, worth)| share * worth).sum::<f64>();
+    let total = leaving
+        .clone()
+        .zip(&importances)
+        .map(|(share, importance)| share * importance)
+        .sum::<f64>();
     let mean_worth = total / leaving.sum::<f64>();
-    let weight = |worth: &f64| (mean_worth / worth).clamp(LIGHTEST, HEAVIEST);
-    if mean_worth > 0.0 { worths.iter().map(weight).collect() } else { vec![1.0; worths.len()] }
+    let weight = |importance: &f64| (mean_worth / importance).clamp(LIGHTEST, HEAVIEST);
+    if mean_worth > 0.0 {
+        importances.iter().map(weight).collect()
+    } else {
+        vec![1.0; importances.len()]
+    }
 }
 
 #[cfg(test)]

@@ -2,15 +2,15 @@
 //!
 //! The survey knows what photons are worth where they land. Sensors count them in flight, and a flight
 //! through a cell is a chance that the survey does not weigh: after the last surface before a sensor
-//! it may thin photons out. So what it foretells is tried before it is believed.
+//! it may thin photons out. So what it predicts is tried before it is believed.
 //!
 //! With s_i what the i-th of N photons leaves in a counter, the relative variance of their mean is at most
 //! `sum s_i^2 / (sum s_i)^2` (Kish 1965), and 1 is said where none came. Photons of both kinds take as many rays; the
 //! mean over the counters decides.
 
 use super::Receivers;
-use crate::context::{Stage, Stream};
-use crate::importance::{self, Plan, Windows};
+use crate::context::{Context, Stream};
+use crate::importance::{self, Plan, WeightWindows};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source, trace_photon};
@@ -32,14 +32,14 @@ const PIECE: u64 = 1 << 6;
 
 /// How to steer photons that sensors count.
 pub(crate) fn plan<S: Spectrum>(
-    stage: &Stage<'_, S>,
+    context: &Context<'_, S>,
     scene: &Scene,
     receivers: &Receivers,
     settings: &Settings,
 ) -> Plan {
-    let mut plan = importance::plan(stage, &targets(scene), settings.importance);
+    let mut plan = importance::plan(context, &targets(scene), settings.importance);
     if settings.importance == Switch::Auto && plan.windows.is_some() {
-        let trace = |windows, photons| Pilots::trace(stage, receivers, windows, photons);
+        let trace = |windows, photons| Pilots::trace(context, receivers, windows, photons);
         let steered = trace(plan.windows.as_ref(), 0..PILOTS);
         let mut plain = trace(None, 0..PILOTS);
         let as_many = PILOTS * steered.rays / plain.rays.max(1);
@@ -61,12 +61,12 @@ struct Pilots {
 
 impl Pilots {
     fn trace<S: Spectrum>(
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         receivers: &Receivers,
-        windows: Option<&Windows>,
+        windows: Option<&WeightWindows>,
         photons: Range<u64>,
     ) -> Self {
-        let points = stage.points(0, Stream::SteeringPilots);
+        let points = context.points(0, Stream::SteeringPilots);
         let lead = Lead::by_chance(Source::Lights, windows);
         let piece = |first: u64| {
             let mut counts = PhotonCounts::default();
@@ -74,7 +74,7 @@ impl Pilots {
             for index in first..(first + PIECE).min(photons.end) {
                 let mut found = Found { receivers, left: Vec::new() };
                 let sampler = Sampler::new(&points, index);
-                trace_photon(stage, lead, sampler, &mut found, &mut counts);
+                trace_photon(context, lead, sampler, &mut found, &mut counts);
                 left.extend(found.by_counter());
             }
             (left, counts.rays)

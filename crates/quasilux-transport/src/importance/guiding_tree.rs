@@ -20,8 +20,8 @@ const MIN_RAYS: usize = 8;
 /// Halvings, half of them along each edge.
 const MAX_HALVINGS: u32 = 24;
 /// No guide halves more regions.
-pub(crate) const MAX_FORKS: usize = 128;
-const _: () = assert!(MAX_FORKS <= 1 << u8::BITS, "forks are numbered in a byte");
+pub(crate) const MAX_NODES: usize = 128;
+const _: () = assert!(MAX_NODES <= 1 << u8::BITS, "forks are numbered in a byte");
 /// In so many parts shares of points are told.
 const WHOLE: f64 = 65_536.0;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
@@ -29,15 +29,15 @@ const EVEN: f64 = 0.3;
 
 /// A density over the unit square.
 #[derive(Clone, Debug)]
-pub(crate) struct Guide {
+pub(crate) struct GuidingTree {
     /// The regions that are halved, the whole square first: halved along the first edge, its halves along
     /// the second, and so on. Empty where all points are alike.
-    forks: Vec<Fork>,
+    forks: Vec<Node>,
 }
 
 /// A region that is halved, small: photons ask guides of all cells in turn.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fork {
+pub(crate) struct Node {
     /// Share of its points in the half where the coordinate is low, in parts of [`WHOLE`].
     low_share: u16,
     /// The halves, where they are halved too; 0 where not.
@@ -63,10 +63,10 @@ struct Stretch {
 
 /// A ray through a point of the square.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Hint {
+pub(crate) struct GuidingSample {
     /// Binary digits of both coordinates in turn, those of the first first: rays of a region follow each other.
     digits: u32,
-    worth: f64,
+    importance: f64,
 }
 
 /// A region that may be halved.
@@ -79,32 +79,32 @@ struct Region {
     to: usize,
 }
 
-impl Hint {
-    pub(crate) fn new(u: [f64; 2], worth: f64) -> Self {
-        Self { digits: digits(u), worth }
+impl GuidingSample {
+    pub(crate) fn new(u: [f64; 2], importance: f64) -> Self {
+        Self { digits: digits(u), importance }
     }
 }
 
-impl Guide {
+impl GuidingTree {
     /// By rays and what they were worth.
-    pub(crate) fn new(mut hints: Vec<Hint>) -> Self {
+    pub(crate) fn new(mut hints: Vec<GuidingSample>) -> Self {
         hints.sort_unstable_by_key(|hint| hint.digits);
         let mut sums = vec![0.0];
         for hint in &hints {
-            sums.push(sums[sums.len() - 1] + hint.worth);
+            sums.push(sums[sums.len() - 1] + hint.importance);
         }
         let total = sums[hints.len()];
-        let mut forks: Vec<Fork> = Vec::new();
+        let mut forks: Vec<Node> = Vec::new();
         let mut open = VecDeque::from([Region { of: None, halvings: 0, from: 0, to: hints.len() }]);
         while let Some(Region { of, halvings, from, to }) = open.pop_front() {
             let is_halved = to - from >= MIN_RAYS
                 && (sums[to] - sums[from]) * PARTS > total
                 && halvings < MAX_HALVINGS
-                && forks.len() < MAX_FORKS;
+                && forks.len() < MAX_NODES;
             if !is_halved {
                 continue;
             }
-            let is_low = |hint: &Hint| hint.digits << halvings >> (u32::BITS - 1) == 0;
+            let is_low = |hint: &GuidingSample| hint.digits << halvings >> (u32::BITS - 1) == 0;
             let middle = from + hints[from..to].partition_point(is_low);
             // In proportion to the worths, but for an even share.
             let area = libm::ldexp(1.0, -1 - halvings as i32);
@@ -116,7 +116,7 @@ impl Guide {
             if let Some((fork, half)) = of {
                 forks[fork].halves[half] = number as u8;
             }
-            forks.push(Fork::new(low / (low + high)));
+            forks.push(Node::new(low / (low + high)));
             for (half, (from, to)) in [(from, middle), (middle, to)].into_iter().enumerate() {
                 let of = Some((number, half));
                 open.push_back(Region { of, halvings: halvings + 1, from, to });
@@ -132,7 +132,7 @@ impl Guide {
 
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
-        for Fork { low_share, halves } in &self.forks {
+        for Node { low_share, halves } in &self.forks {
             out.u32(u32::from(*low_share));
             halves.iter().for_each(|half| out.u8(*half));
         }
@@ -177,13 +177,13 @@ impl Guide {
         density
     }
 
-    fn half(&self, fork: &Fork, half: usize) -> Option<&Fork> {
+    fn half(&self, fork: &Node, half: usize) -> Option<&Node> {
         let number = usize::from(fork.halves[half]);
         if number > 0 { self.forks.get(number) } else { None }
     }
 }
 
-impl Fork {
+impl Node {
     /// Neither half without points; the share of the rarer is rounded up, so that weights hardly grow by it.
     fn new(low_share: f64) -> Self {
         let parts = low_share * WHOLE;
@@ -215,15 +215,15 @@ mod tests {
     use super::*;
 
     /// Rays around three places, few of them worth much.
-    fn guide() -> Guide {
+    fn guide() -> GuidingTree {
         let mut hints = Vec::new();
         for i in 0..40 {
             let x = f64::from(i) / 40.0;
-            hints.push(Hint::new([0.3 + 0.1 * x, 0.9 - 0.2 * x], 5.0));
-            hints.push(Hint::new([0.31 + 0.001 * x, 0.1], 0.2));
-            hints.push(Hint::new([0.999, x], 1e-3));
+            hints.push(GuidingSample::new([0.3 + 0.1 * x, 0.9 - 0.2 * x], 5.0));
+            hints.push(GuidingSample::new([0.31 + 0.001 * x, 0.1], 0.2));
+            hints.push(GuidingSample::new([0.999, x], 1e-3));
         }
-        Guide::new(hints)
+        GuidingTree::new(hints)
     }
 
     /// The density is the inverse of the Jacobian determinant, by differences inside a region.
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn nothing_learnt_leaves_points_where_they_are() {
-        for guide in [Guide::even(), Guide::new(Vec::new())] {
+        for guide in [GuidingTree::even(), GuidingTree::new(Vec::new())] {
             for u in [[0.0, 0.0], [0.3, 0.8], [0.999_999, 0.5]] {
                 let guided = guide.sample(u);
                 assert_eq!((guided.u, guided.density, guide.density(u)), (u, 1.0, 1.0));

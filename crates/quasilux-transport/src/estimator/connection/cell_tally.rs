@@ -1,11 +1,11 @@
 //! Photons counted by the cells around where they land.
 
-use super::Joining;
-use super::leaving::Leaving;
+use super::ConnectionPlan;
+use super::cell_transfer::{CLASSES, CellTransfer};
+use super::exitant_flux::ExitantFlux;
 use super::lock;
-use super::outlook::{CLASSES, Outlook};
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
@@ -19,7 +19,7 @@ use std::ops::Range;
 use std::sync::Mutex;
 
 /// What leaves each cell of the survey, in all replicates.
-pub(super) struct Coarse {
+pub(super) struct CellTally {
     /// Light of 0, 1, .. bounces before it landed, the last all from there on; straight light is always
     /// told apart.
     slots: usize,
@@ -34,7 +34,7 @@ pub(super) struct Coarse {
     replicates: Range<u32>,
 }
 
-impl Coarse {
+impl CellTally {
     pub(super) fn new(
         cells: usize,
         terms: usize,
@@ -51,28 +51,35 @@ impl Coarse {
     /// Adds these photons in each replicate; `None` when the observer stopped it.
     pub(super) fn grow<S: Spectrum>(
         &self,
-        stage: &Stage<'_, S>,
-        joining: &Joining,
+        context: &Context<'_, S>,
+        connection: &ConnectionPlan,
         photons: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> Option<PhotonCounts> {
         let receiver = |r: u32| {
             let sums = &self.sums[(r - self.replicates.start) as usize];
             let own = vec![Sum::default(); self.cells * self.slots];
-            CellReceiver { stage, joining, slots: self.slots, quantum: self.quantum, sums, own }
+            CellReceiver {
+                context,
+                connection,
+                slots: self.slots,
+                quantum: self.quantum,
+                sums,
+                own,
+            }
         };
         let batch = PhotonBatch {
-            stream: Stream::CoarsePhotons,
+            stream: Stream::CellPhotons,
             replicates: self.replicates.clone(),
             indices: photons,
             way: Way::CoherentWaves,
-            lead: joining.lead(),
+            lead: connection.lead(),
         };
-        trace_photons(stage, &batch, receiver, watch)
+        trace_photons(context, &batch, receiver, watch)
     }
 
     /// Takes it that the sums are those of so many photons in each replicate.
-    pub(super) fn settle(&mut self, photons: u64) {
+    pub(super) fn freeze_converged(&mut self, photons: u64) {
         let means_of = |sums: &Mutex<Vec<Sum>>| self.means_of(&lock(sums), photons.max(1) as f64);
         self.means_lm_sr = self.sums.iter().map(means_of).collect();
     }
@@ -96,7 +103,7 @@ impl Coarse {
     pub(super) fn lx(
         &self,
         replicate: usize,
-        outlook: &Outlook,
+        outlook: &CellTransfer,
         target: usize,
         term: Option<usize>,
     ) -> f64 {
@@ -115,20 +122,20 @@ impl Coarse {
     }
 }
 
-impl Stored for Coarse {
+impl Stored for CellTally {
     fn put(&self, out: &mut Writer) {
         self.sums.iter().for_each(|sums| lock(sums).as_slice().put(out));
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.sums.iter().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums.iter().try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))
     }
 }
 
 /// Counts the photons of one wave.
 struct CellReceiver<'a, S> {
-    stage: &'a Stage<'a, S>,
-    joining: &'a Joining,
+    context: &'a Context<'a, S>,
+    connection: &'a ConnectionPlan,
     slots: usize,
     quantum: Quantum,
     /// Where what this wave found is added in the end.
@@ -140,7 +147,7 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = Leaving::new(self.stage, self.joining, at, weight, bounces);
+        let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         let slot = (bounces as usize).min(self.slots - 1);
         for side in leaving.sides {

@@ -34,8 +34,8 @@ fn what_is_wanted_decides() {
     // The paths of the shortest run, and not many photons.
     assert!(loose.rays < 200_000, "{}", loose.rays);
     assert_eq!(decided(&scene, 0.005), (None, true));
-    let (joined, on_map) = decided(&scene, 0.0002);
-    assert!(joined.is_some() && !on_map);
+    let (light_vertices, on_map) = decided(&scene, 0.0002);
+    assert!(light_vertices.is_some() && !on_map);
 }
 
 /// A bright lamp behind a screen in a box with a slit of 2 cm, and a dim one that all paths find at once. Their small spread says

@@ -1,10 +1,10 @@
 //! Which targets are known by what their replicates show, and which may get light that paths have not met.
 
-use super::Gathering;
+use super::PathEstimator;
 use crate::path::lobes::LobeSums;
 use crate::spectrum::Spectrum;
 
-impl<S: Spectrum> Gathering<'_, S> {
+impl<S: Spectrum> PathEstimator<'_, S> {
     /// Whether too few paths of each target were where narrow lobes are bright.
     pub(super) fn missed_lobes(&self) -> Vec<bool> {
         let own = self.sums.chunks_exact(self.replicates as usize).enumerate();
@@ -27,7 +27,10 @@ impl<S: Spectrum> Gathering<'_, S> {
             .map(|(target, (own, samples_direct))| {
                 let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
                 let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero())
-                    || self.joined.as_ref().is_some_and(|joined| joined.found(target));
+                    || self
+                        .light_vertices
+                        .as_ref()
+                        .is_some_and(|light_vertices| light_vertices.found(target));
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
                 !missed_lobes[target]
                     && (found_indirect || !reflected)

@@ -3,7 +3,7 @@
 //! The sums of all replicates are taken together, over all paths that they stand for: part of the
 //! paths of a replicate is a part of its sequence from the start, so nothing is left out but the rest.
 
-use super::Gathering;
+use super::PathEstimator;
 use crate::path::end::GrowingMaps;
 use crate::path::sections::PathSums;
 use crate::spectrum::Spectrum;
@@ -22,11 +22,11 @@ pub(super) struct Moment {
 
 /// What all targets showed before their maps changed.
 pub(super) struct Before<'g, 'a, S> {
-    gathering: &'g Gathering<'a, S>,
+    gathering: &'g PathEstimator<'a, S>,
     moments: Vec<Moment>,
 }
 
-impl<'a, S: Spectrum> Gathering<'a, S> {
+impl<'a, S: Spectrum> PathEstimator<'a, S> {
     /// What the targets show at the last checkpoint.
     pub(super) fn before(&self) -> Before<'_, 'a, S> {
         let paths = |target: usize| self.samples_of(target) * u64::from(self.replicates);
@@ -36,7 +36,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
     }
 
     /// What the sensors show when `done` of the paths `indices` of all growing targets and replicates are
-    /// over, in the order of [`Gathering::sums`].
+    /// over, in the order of [`PathEstimator::sums`].
     pub(super) fn snapshot(&self, indices: &Range<u64>, done: u64) -> Snapshot {
         let replicates = u64::from(self.replicates);
         let each = (indices.end - indices.start) * replicates;
@@ -60,19 +60,19 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let sum_lx = |sum: fn(&PathSums) -> Sum| -> f64 {
             own.iter().map(|sums| self.quantum.value(sum(sums))).sum()
         };
-        let hidden_lx = self.hidden.as_ref().map_or(0.0, |hidden| {
-            (0..replicates).map(|r| hidden.target_lx(r, target)).sum::<f64>() / replicates as f64
+        let caustic_lx = self.caustics.as_ref().map_or(0.0, |caustics| {
+            (0..replicates).map(|r| caustics.target_lx(r, target)).sum::<f64>() / replicates as f64
         });
-        let computed_lx = self.exact[target].sum_lx() + hidden_lx;
+        let computed_lx = self.exact[target].sum_lx() + caustic_lx;
         if paths == 0 {
             let is_all_computed = !self.samples_direct[target];
             return Moment { straight_lx: is_all_computed.then_some(computed_lx), all_lx: None };
         }
         let straight_lx = computed_lx + sum_lx(|sums| sums.direct) / paths as f64;
-        let joined_lx = (0..replicates).map(|r| self.joined_lx(r, target)).sum::<f64>();
+        let connected_lx = (0..replicates).map(|r| self.connected_lx(r, target)).sum::<f64>();
         let all_lx = straight_lx
             + sum_lx(|sums| sums.indirect) / paths as f64
-            + joined_lx / replicates as f64;
+            + connected_lx / replicates as f64;
         Moment { straight_lx: Some(straight_lx), all_lx: Some(all_lx) }
     }
 }
@@ -80,9 +80,9 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
 impl<S: Spectrum> Before<'_, '_, S> {
     /// The same with what growing maps have under the targets, in place of what paths read from them.
     pub(super) fn snapshot(&self, maps: &GrowingMaps<'_, S>) -> Snapshot {
-        let Gathering { stage, scene, targets, .. } = self.gathering;
+        let PathEstimator { context, scene, targets, .. } = self.gathering;
         let value_lx = |(target, before): (_, &Moment)| {
-            let from_map = before.straight_lx.zip(maps.illuminance_lx(stage, target));
+            let from_map = before.straight_lx.zip(maps.illuminance_lx(context, target));
             from_map.map(|(straight_lx, lx)| straight_lx + lx).or(before.all_lx)
         };
         snapshot(scene, targets.iter().zip(&self.moments).map(value_lx))

@@ -4,8 +4,8 @@
 //! Between pieces of each of them the state can be kept. Each knows how far it is, so that a run that
 //! goes on from a state finds what is left.
 
-use super::Gathering;
-use crate::estimator::connection::Joined;
+use super::PathEstimator;
+use crate::estimator::connection::LightVertexConnections;
 use crate::path::end::{GrowingMaps, PathEnd};
 use crate::path::sections::{PathSums, Piece, WorkCounts};
 use crate::path::wave::{PathWave, WAVE};
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 
-impl<S: Spectrum> Gathering<'_, S> {
+impl<S: Spectrum> PathEstimator<'_, S> {
     /// Traces the photons that serve all paths of the indices up to `samples`; `false` when the observer
     /// stopped it, as below.
     pub(super) fn serve(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
@@ -26,40 +26,45 @@ impl<S: Spectrum> Gathering<'_, S> {
             let mut end = std::mem::replace(&mut self.end, PathEnd::Nothing);
             let before = self.before();
             let look = |maps: &GrowingMaps<'_, S>| Some(before.snapshot(maps));
-            let grown = end.grow(self.stage, piece.end, look, watch);
+            let grown = end.grow(self.context, piece.end, look, watch);
             let before_lx = before.into_lx();
             self.end = end;
             let Some(photons) = grown else { return false };
             self.last_lx = before_lx;
-            self.served.photons += photons;
+            self.shared.photons += photons;
             if !watch.keep(|out| self.put_all(out)) {
                 return false;
             }
         }
-        let photons = self.hidden.as_ref().map_or(0..0, |h| h.photons()..h.photons_for(samples));
+        let photons = self.caustics.as_ref().map_or(0..0, |h| h.photons()..h.photons_for(samples));
         for piece in watch.pieces(photons, replicates) {
-            let Some(hidden) = &mut self.hidden else { break };
-            let Some(rays) = hidden.grow(self.stage, piece.end, watch) else { return false };
-            self.served.work.rays += rays;
+            let Some(caustics) = &mut self.caustics else { break };
+            let Some(rays) = caustics.grow(self.context, piece.end, watch) else { return false };
+            self.shared.work.rays += rays;
             if !watch.keep(|out| self.put_all(out)) {
                 return false;
             }
         }
-        if let Some(hidden) = &mut self.hidden {
-            hidden.show(self.stage);
+        if let Some(caustics) = &mut self.caustics {
+            caustics.show(self.context);
         }
         true
     }
 
     /// Traces the paths of the indices up to `samples`, and photons that come with them.
     pub(super) fn gather(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        let joined = self.joined.as_ref();
-        let photons = joined.map_or(0..0, |joined| joined.samples()..samples);
-        for piece in watch.pieces(photons, joined.map_or(1, Joined::work_of_an_index)) {
-            let Some(joined) = &mut self.joined else { break };
-            let Some(photons) = joined.grow(self.stage, piece.end, watch) else { return false };
+        let light_vertices = self.light_vertices.as_ref();
+        let photons =
+            light_vertices.map_or(0..0, |light_vertices| light_vertices.samples()..samples);
+        for piece in watch
+            .pieces(photons, light_vertices.map_or(1, LightVertexConnections::work_of_an_index))
+        {
+            let Some(light_vertices) = &mut self.light_vertices else { break };
+            let Some(photons) = light_vertices.grow(self.context, piece.end, watch) else {
+                return false;
+            };
             let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
-            photons.for_each(|photons| self.gathered.photons += photons);
+            photons.for_each(|photons| self.contribution.photons += photons);
             if !watch.keep(|out| self.put_all(out)) {
                 return false;
             }
@@ -94,7 +99,7 @@ impl<S: Spectrum> Gathering<'_, S> {
                 of_round += work;
             }
             let (now, rays) = (of_round.paths, of_round.rays);
-            self.gathered.work += of_round;
+            self.contribution.work += of_round;
             self.done = round.end;
             watch.show(|| Some(self.snapshot(&indices, self.done)));
             let goes_on = watch.tick(0, now, rays);

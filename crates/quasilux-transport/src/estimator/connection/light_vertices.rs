@@ -1,13 +1,13 @@
 //! What joined photons gave to all targets, in all replicates.
 
-use super::Joining;
-use super::coarse::Coarse;
+use super::ConnectionPlan;
+use super::cell_tally::CellTally;
+use super::cell_transfer::CellTransfer;
 use super::lock;
-use super::outlook::Outlook;
-use super::receiver::{Group, JoinReceiver};
-use super::spot::Spot;
+use super::receiver::{ConnectionReceiver, Group};
+use super::receiver_element::ReceiverElement;
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
@@ -24,9 +24,9 @@ const GROUP: usize = 256;
 const JOINING: u64 = 4;
 
 /// Sums that grow with a run.
-pub(crate) struct Joined {
-    pub(crate) joining: Joining,
-    spots: Vec<Spot>,
+pub(crate) struct LightVertexConnections {
+    pub(crate) connection: ConnectionPlan,
+    spots: Vec<ReceiverElement>,
     /// Illuminance to expect at each, in lx.
     expected_lx: Vec<f64>,
     /// Terms of the Neumann series that are told apart.
@@ -35,7 +35,7 @@ pub(crate) struct Joined {
     /// By group of targets and replicate; those of target t of a group from `t * terms` on.
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
-    coarse: Option<(Vec<Outlook>, Coarse)>,
+    coarse: Option<(Vec<CellTransfer>, CellTally)>,
     /// Rays that it took to find out what targets see.
     pub(crate) rays: u64,
     replicates: Range<u32>,
@@ -47,39 +47,39 @@ pub(crate) struct Joined {
     settled: Vec<Option<Vec<f64>>>,
 }
 
-impl Joined {
+impl LightVertexConnections {
     pub(crate) fn new<S: Spectrum>(
-        stage: &Stage<'_, S>,
-        joining: Joining,
+        context: &Context<'_, S>,
+        connection: ConnectionPlan,
         targets: &[Target],
         expected_lx: Vec<f64>,
         replicates: Range<u32>,
         (listed_terms, quantum): (u32, Quantum),
     ) -> Self {
         let terms = listed_terms as usize + 1;
-        let spots: Vec<Spot> =
-            targets.iter().map(|target| Spot::new(&stage.world, target)).collect();
-        let of_group = |group: &[Spot]| -> Vec<Mutex<Vec<Sum>>> {
+        let spots: Vec<ReceiverElement> =
+            targets.iter().map(|target| ReceiverElement::new(&context.world, target)).collect();
+        let of_group = |group: &[ReceiverElement]| -> Vec<Mutex<Vec<Sum>>> {
             let zeros = || Mutex::new(vec![Sum::default(); group.len() * terms]);
             replicates.clone().map(|_| zeros()).collect()
         };
         let sums = spots.chunks(GROUP).map(of_group).collect();
         let mut rays = 0;
-        let coarse = (joining.coarse_photons > 0).then(|| {
-            let look = |group: &[Spot]| {
-                let (outlook, looks) = Outlook::new(stage, &joining, group);
-                rays += looks;
+        let coarse = (connection.cell_photons > 0).then(|| {
+            let look = |group: &[ReceiverElement]| {
+                let (outlook, short_looks) = CellTransfer::new(context, &connection, group);
+                rays += short_looks;
                 outlook
             };
-            let quantum = Quantum::for_reference(stage.lights.flux_lm);
-            let cells = joining.places.len();
+            let quantum = Quantum::for_reference(context.lights.flux_lm);
+            let cells = connection.places.len();
             let outlooks = spots.chunks(GROUP).map(look).collect();
-            (outlooks, Coarse::new(cells, terms, quantum, replicates.clone()))
+            (outlooks, CellTally::new(cells, terms, quantum, replicates.clone()))
         });
         let (samples, ends) = (0, vec![None; targets.len()]);
         let settled = vec![None; targets.len()];
         Self {
-            joining,
+            connection,
             spots,
             expected_lx,
             terms,
@@ -97,23 +97,23 @@ impl Joined {
     /// The same from its beginning, for one replicate of some of the targets.
     pub(crate) fn of_some<S: Spectrum>(
         self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         targets: impl Iterator<Item = (usize, Target)>,
     ) -> Self {
         let of_target = |(number, target): (usize, Target)| (self.expected_lx[number], target);
         let (expected_lx, targets): (Vec<f64>, Vec<Target>) = targets.map(of_target).unzip();
-        Self::new(stage, self.joining, &targets, expected_lx, 0..1, (0, self.quantum))
+        Self::new(context, self.connection, &targets, expected_lx, 0..1, (0, self.quantum))
     }
 
     /// Puts what was found out before the first photon among the decisions.
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
-        self.joining.put(out);
+        self.connection.put(out);
         out.f64s(&self.expected_lx);
         let outlooks = self.coarse.iter().flat_map(|(outlooks, _)| outlooks);
         outlooks.for_each(|outlook| outlook.put(out));
     }
 
-    /// The illuminance that the survey foretells for each target, in lx.
+    /// The illuminance that the survey predicts for each target, in lx.
     pub(crate) fn foretold_lx(&self) -> &[f64] {
         &self.expected_lx
     }
@@ -132,31 +132,31 @@ impl Joined {
     /// Takes it that all sums are those of as many photons as belong to the indices so far.
     fn count(&mut self) {
         if let Some((_, coarse)) = &mut self.coarse {
-            coarse.settle(self.samples * self.joining.coarse_photons);
+            coarse.freeze_converged(self.samples * self.connection.cell_photons);
         }
     }
 
     /// How much work an index is, in photons that are not joined.
     pub(crate) fn work_of_an_index(&self) -> u64 {
-        let joined = self.joining.photons() * self.sums.len() as u64 * JOINING;
-        (joined + self.joining.coarse_photons) * self.replicates.len() as u64
+        let light_vertices = self.connection.photons() * self.sums.len() as u64 * JOINING;
+        (light_vertices + self.connection.cell_photons) * self.replicates.len() as u64
     }
 
     /// Adds the photons that belong to the indices up to `samples`, those that are joined and those that are
     /// counted; `None` when the observer stopped it.
     pub(crate) fn grow<S: Spectrum>(
         &mut self,
-        stage: &Stage<'_, S>,
+        context: &Context<'_, S>,
         samples: u64,
         watch: &mut Watch<'_>,
     ) -> Option<[PhotonCounts; 2]> {
-        let photons = self.joining.photons();
+        let photons = self.connection.photons();
         let mut counts = PhotonCounts::default();
         let mut counted = PhotonCounts::default();
         if let Some((_, coarse)) = &mut self.coarse {
-            let each = self.joining.coarse_photons;
+            let each = self.connection.cell_photons;
             let photons = self.samples * each..samples * each;
-            counted = coarse.grow(stage, &self.joining, photons, watch)?;
+            counted = coarse.grow(context, &self.connection, photons, watch)?;
         }
         for (number, sums) in (0..).zip(&self.sums) {
             let group = self.group(number as usize);
@@ -164,18 +164,24 @@ impl Joined {
                 continue;
             }
             let receiver = |r: u32| {
-                let points = stage.points(r, Stream::JoinedPlaces(number));
+                let points = context.points(r, Stream::ConnectionPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
-                JoinReceiver::new(stage, &self.joining, group, (points, self.quantum), sums)
+                ConnectionReceiver::new(
+                    context,
+                    &self.connection,
+                    group,
+                    (points, self.quantum),
+                    sums,
+                )
             };
             let batch = PhotonBatch {
-                stream: Stream::JoinedPhotons(number),
+                stream: Stream::ConnectedPhotons(number),
                 replicates: self.replicates.clone(),
                 indices: self.samples * photons..samples * photons,
                 way: Way::CoherentWaves,
-                lead: self.joining.lead(),
+                lead: self.connection.lead(),
             };
-            counts += trace_photons(stage, &batch, receiver, watch)?;
+            counts += trace_photons(context, &batch, receiver, watch)?;
         }
         self.samples = samples;
         self.count();
@@ -195,8 +201,8 @@ impl Joined {
         }
     }
 
-    /// Joins no more photons to targets that have an end.
-    pub(crate) fn settle(&mut self, ends: &[Option<u64>]) {
+    /// Connections no more photons to targets that have an end.
+    pub(crate) fn freeze_converged(&mut self, ends: &[Option<u64>]) {
         self.ends.copy_from_slice(ends);
         // Photons that are counted go on to serve the others.
         for (target, end) in ends.iter().enumerate() {
@@ -210,13 +216,13 @@ impl Joined {
     fn coarse_parts_lx(&self, target: usize) -> Vec<f64> {
         let parts = || std::iter::once(None).chain((0..self.terms).map(Some));
         let replicates = 0..self.replicates.len();
-        let of_replicate = |r| parts().map(move |part| self.coarse_lx(r, target, part));
+        let of_replicate = |r| parts().map(move |part| self.cells_lx(r, target, part));
         replicates.flat_map(of_replicate).collect()
     }
 
     /// What a target got in one replicate, in lx.
     pub(crate) fn lx(&self, replicate: usize, target: usize) -> f64 {
-        self.fine_lx(replicate, target) + self.coarse_lx(replicate, target, None)
+        self.fine_lx(replicate, target) + self.cells_lx(replicate, target, None)
     }
 
     /// By photons that are joined, beyond what was foreseen of them.
@@ -228,7 +234,7 @@ impl Joined {
     }
 
     /// By photons that are counted, of one term or of all.
-    pub(super) fn coarse_lx(&self, replicate: usize, target: usize, term: Option<usize>) -> f64 {
+    pub(super) fn cells_lx(&self, replicate: usize, target: usize, term: Option<usize>) -> f64 {
         if let Some(parts) = &self.settled[target] {
             return parts[replicate * (1 + self.terms) + term.map_or(0, |term| 1 + term)];
         }
@@ -240,20 +246,20 @@ impl Joined {
     /// What it got of one term of the Neumann series; of the last, of all that follow too.
     pub(crate) fn term_lx(&self, replicate: usize, target: usize, term: usize) -> f64 {
         let fine_lx = self.value_lx(target, self.sum(replicate, target, term));
-        fine_lx + self.coarse_lx(replicate, target, Some(term))
+        fine_lx + self.cells_lx(replicate, target, Some(term))
     }
 
     /// What a sum of a target means so far.
     fn value_lx(&self, target: usize, sum: Sum) -> f64 {
         let samples = self.ends[target].unwrap_or(self.samples);
-        let photons = (samples * self.joining.photons()).max(1) as f64;
+        let photons = (samples * self.connection.photons()).max(1) as f64;
         self.quantum.value(sum) / photons
     }
 
     /// Whether any replicate found light of one term.
     pub(crate) fn found_term(&self, target: usize, term: usize) -> bool {
         (0..self.replicates.len()).any(|r| {
-            !self.sum(r, target, term).is_zero() || self.coarse_lx(r, target, Some(term)) != 0.0
+            !self.sum(r, target, term).is_zero() || self.cells_lx(r, target, Some(term)) != 0.0
         })
     }
 
@@ -274,7 +280,7 @@ impl Joined {
     }
 }
 
-impl Stored for Joined {
+impl Stored for LightVertexConnections {
     fn put(&self, out: &mut Writer) {
         self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
         if let Some((_, coarse)) = &self.coarse {
@@ -285,9 +291,12 @@ impl Stored for Joined {
         }
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.sums.iter().flatten().try_for_each(|sums| lock(sums).as_mut_slice().take_in(from))?;
-        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.take_in(from))?;
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.sums
+            .iter()
+            .flatten()
+            .try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
+        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))?;
         let length = self.replicates.len() * (1 + self.terms);
         for parts in &mut self.settled {
             *parts = from.option(Reader::f64s)?;

@@ -12,7 +12,7 @@
 //! and Engineering 137(1), 2001).
 //! Deviation: both systems are solved on one sampled matrix instead of by a deterministic code.
 
-use crate::importance::survey::{Landing, Survey, Surveyed};
+use crate::importance::survey::{Survey, Surveyed, Transition};
 
 /// Sweeps after which a solution is taken as it is: it only steers.
 const MAX_SWEEPS: usize = 64;
@@ -20,28 +20,28 @@ const MAX_SWEEPS: usize = 64;
 const SETTLED: f64 = 0.05;
 
 /// Light and worth by surveyed cell.
-pub(crate) struct Balance {
+pub(crate) struct FluxAndImportance {
     /// Flux that lands, as a share of what all lights emit.
     pub(crate) landing: Vec<f64>,
     /// What a photon of weight one is worth that has landed after a bounce, before its next.
-    pub(crate) landed_worth: Vec<f64>,
+    pub(crate) landed_importance: Vec<f64>,
     /// What a photon of weight one is worth that leaves.
     pub(crate) leaving_worth: Vec<f64>,
     /// Illuminance at each surveyed sensor, in lx.
     pub(crate) sensors_lx: Vec<f64>,
 }
 
-impl Balance {
+impl FluxAndImportance {
     /// Both systems solved; `None` where no sensor gets light that way.
     pub(crate) fn new(survey: &Survey, areas_m2: &[f64], flux_lm: f64) -> Option<Self> {
         let landing = landing(survey);
         let sensors_lx = sensors_lx(survey, areas_m2, &landing, flux_lm);
         let read = read_worth(survey, areas_m2, &sensors_lx, flux_lm)?;
         let leaving_worth = leaving_worth(survey, &read);
-        let landed_worth = (0..read.len())
+        let landed_importance = (0..read.len())
             .map(|cell| read[cell] + survey.known[cell].albedo * leaving_worth[cell])
             .collect();
-        Some(Self { landing, landed_worth, leaving_worth, sensors_lx })
+        Some(Self { landing, landed_importance, leaving_worth, sensors_lx })
     }
 }
 
@@ -105,32 +105,32 @@ fn read_worth(
     sensors_lx: &[f64],
     flux_lm: f64,
 ) -> Option<Vec<f64>> {
-    let mut worth = vec![0.0; survey.known.len()];
+    let mut importance = vec![0.0; survey.known.len()];
     for (sensor, &lx) in survey.sensors.iter().zip(sensors_lx) {
         if lx > sensor.direct_lx {
             views(survey, areas_m2, sensor)
-                .for_each(|(cell, view)| worth[cell] += view * flux_lm / lx);
+                .for_each(|(cell, view)| importance[cell] += view * flux_lm / lx);
         }
     }
-    worth.iter().any(|worth| *worth > 0.0).then_some(worth)
+    importance.iter().any(|importance| *importance > 0.0).then_some(importance)
 }
 
 /// `d = T (r + a d)` by sweeps in place.
 fn leaving_worth(survey: &Survey, read: &[f64]) -> Vec<f64> {
     let known = &survey.known;
-    let mut worth = vec![0.0; known.len()];
+    let mut importance = vec![0.0; known.len()];
     for sweep in 0..MAX_SWEEPS {
         let mut largest_change = 0.0_f64;
         let mut pull = |cell: usize| {
-            let arrives = |step: Landing| {
+            let arrives = |step: Transition| {
                 let next = step.cell as usize;
-                step.share * step.weight * (read[next] + known[next].albedo * worth[next])
+                step.share * step.weight * (read[next] + known[next].albedo * importance[next])
             };
             let new: f64 = known[cell].steps().map(arrives).sum();
             if new > 0.0 {
-                largest_change = largest_change.max((new - worth[cell]).abs() / new);
+                largest_change = largest_change.max((new - importance[cell]).abs() / new);
             }
-            worth[cell] = new;
+            importance[cell] = new;
         };
         if sweep % 2 == 0 {
             (0..known.len()).for_each(&mut pull);
@@ -141,5 +141,5 @@ fn leaving_worth(survey: &Survey, read: &[f64]) -> Vec<f64> {
             break;
         }
     }
-    worth
+    importance
 }

@@ -1,15 +1,15 @@
 //! What leaves a place where a photon landed.
 
-use super::Joining;
+use super::ConnectionPlan;
 use crate::bsdf::Mode;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::importance::Around;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use glam::DVec3;
 
 /// What a photon sends on from where it landed.
-pub(super) struct Leaving {
+pub(super) struct ExitantFlux {
     /// To the side that it came from, and to the other.
     pub(super) sides: [Side; 2],
 }
@@ -23,25 +23,25 @@ pub(super) struct Side {
     pub(super) around: Around,
 }
 
-impl Leaving {
+impl ExitantFlux {
     /// What a photon of this weight sends on after so many bounces, on a surface that keeps illuminance; `None` where
     /// no more are wanted.
     pub(super) fn new<S: Spectrum>(
-        stage: &Stage<'_, S>,
-        joining: &Joining,
+        context: &Context<'_, S>,
+        connection: &ConnectionPlan,
         at: &Interaction,
         weight: S,
         bounces: u32,
     ) -> Option<Self> {
-        if stage.max_bounces.is_some_and(|most| bounces >= most) {
+        if context.max_bounces.is_some_and(|most| bounces >= most) {
             return None;
         }
-        let bsdf = stage.world.bsdf(at);
+        let bsdf = context.world.bsdf(at);
         let side = |n: DVec3, wi: DVec3| {
             let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
-            let lm_sr = scattered.luminance() * stage.lights.flux_lm;
+            let lm_sr = scattered.luminance() * context.lights.flux_lm;
             let around = match lm_sr > 0.0 {
-                true => joining.partition.landings.around(at.position, n),
+                true => connection.partition.landings.around(at.position, n),
                 false => Around::default(),
             };
             Side { lm_sr, around }

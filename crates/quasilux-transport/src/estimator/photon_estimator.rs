@@ -8,9 +8,9 @@ mod pilot;
 pub(crate) use pilot::plan;
 
 use crate::codec::{Reader, StateError, Stored, Writer, digest};
-use crate::context::{Stage, Stream};
-use crate::estimator::Estimation;
-use crate::importance::{Plan, Windows};
+use crate::context::{Context, Stream};
+use crate::estimator::Estimator;
+use crate::importance::{Plan, WeightWindows};
 use crate::photon::batch::{PhotonBatch, trace_photons_in_view};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::map::{MapLayout, QUANTA_PER_PHOTON};
@@ -38,8 +38,8 @@ const FIRST_SAMPLES: u64 = 1 << 8;
 const UNREAD: u32 = u32::MAX;
 
 /// Photons counted by all sensors, in all replicates.
-pub(crate) struct Counting<'a, S> {
-    stage: &'a Stage<'a, S>,
+pub(crate) struct PhotonEstimator<'a, S> {
+    context: &'a Context<'a, S>,
     scene: &'a Scene,
     receivers: Receivers,
     /// What steers the photons.
@@ -84,17 +84,17 @@ struct SensorReceiver<'a> {
     counters: &'a Counters,
 }
 
-impl<'a, S: Spectrum> Counting<'a, S> {
-    pub(crate) fn new(stage: &'a Stage<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
-        let receivers = Receivers::new(&stage.world, scene, settings);
+impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
+    pub(crate) fn new(context: &'a Context<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
+        let receivers = Receivers::new(&context.world, scene, settings);
         let replicates = settings.effective_replicates();
-        let plan = plan(stage, scene, &receivers, settings);
-        let lightest = plan.windows.as_ref().map_or(1.0, Windows::lightest);
+        let plan = plan(context, scene, &receivers, settings);
+        let lightest = plan.windows.as_ref().map_or(1.0, WeightWindows::lightest);
         let (quanta, terms) = (QUANTA_PER_PHOTON / lightest, settings.list_terms.max(1));
         let counters = || Counters::new(receivers.counters, terms, quanta);
         let counters = (0..replicates).map(|_| counters()).collect();
         let photons = PhotonCounts::default();
-        Self { stage, scene, receivers, plan, counters, samples: 0, photons }
+        Self { context, scene, receivers, plan, counters, samples: 0, photons }
     }
 
     /// Traces and counts the photons `indices` of all replicates.
@@ -116,12 +116,12 @@ impl<'a, S: Spectrum> Counting<'a, S> {
         };
         let before = self.samples * counters.len() as u64;
         let look = |emitted: u64| Some(self.snapshot(before + emitted));
-        trace_photons_in_view(self.stage, &batch, receiver, look, watch)
+        trace_photons_in_view(self.context, &batch, receiver, look, watch)
     }
 
     /// What the sensors show after so many photons of all replicates together.
     fn snapshot(&self, photons: u64) -> Snapshot {
-        let photon_lm = self.stage.lights.flux_lm / photons as f64;
+        let photon_lm = self.context.lights.flux_lm / photons as f64;
         let value_lx = |&(counter, area_m2): &(u32, f64)| {
             let photons = |own: &Counters| own.all(counter as usize) as f64 / own.quanta_per_photon;
             Some(self.counters.iter().map(photons).sum::<f64>() * photon_lm / area_m2)
@@ -139,7 +139,7 @@ impl<'a, S: Spectrum> Counting<'a, S> {
     }
 }
 
-impl<S: Spectrum> Estimation for Counting<'_, S> {
+impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
             let end = piece.end;
@@ -154,7 +154,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
     }
 
     fn estimates(&self) -> Estimates {
-        let photon_lm = self.stage.lights.flux_lm / self.samples as f64;
+        let photon_lm = self.context.lights.flux_lm / self.samples as f64;
         // One row a replicate, from the quanta of each counter.
         let read = |quanta: &dyn Fn(&Counters, usize) -> u64| -> Vec<Vec<f64>> {
             let value_lx = |own: &Counters, counter: u32, area_m2: f64| {
@@ -175,10 +175,10 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
         let found = |rows: &[Vec<f64>]| -> Vec<bool> {
             (0..direct_lx.len()).map(|target| rows.iter().any(|row| row[target] != 0.0)).collect()
         };
-        let listed = self.stage.listed_terms as usize;
+        let listed = self.context.listed_terms as usize;
         let terms = (0..=listed).take_while(|_| listed > 0).map(|term| {
             let replicate_lx = read(&|own, counter| own.term(term, counter));
-            let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
+            let cut = self.context.max_bounces.is_some_and(|most| term > most as usize);
             let resolved = found(&replicate_lx).into_iter().map(|found| found || cut).collect();
             TermEstimates { replicate_lx, resolved }
         });
@@ -192,7 +192,7 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,
             rays: self.plan.rays + self.photons.rays,
-            flux: self.photons.balance(self.stage.lights.flux_lm),
+            flux: self.photons.balance(self.context.lights.flux_lm),
             dimensions: Dimensions {
                 photon: self.photons.dimensions.clone(),
                 photons: self.photons.begun,
@@ -226,9 +226,9 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
         self.put_part(out);
     }
 
-    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.samples = from.u64()?;
-        self.take_in_part(from)?;
+        self.merge_part(from)?;
         let is_fine = self.samples <= coming;
         if is_fine { Ok(()) } else { Err(StateError::Unfit("the number of samples")) }
     }
@@ -239,9 +239,9 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
     }
 
     /// Each photon serves itself.
-    fn put_served(&self, _out: &mut Writer) {}
+    fn put_shared(&self, _out: &mut Writer) {}
 
-    fn take_in_served(&mut self, _from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_shared(&mut self, _from: &mut Reader<'_>) -> Result<(), StateError> {
         Ok(())
     }
 
@@ -250,9 +250,9 @@ impl<S: Spectrum> Estimation for Counting<'_, S> {
         self.counters.as_slice().put(out);
     }
 
-    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.photons.take_in(from)?;
-        self.counters.as_mut_slice().take_in(from)
+    fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.photons.merge_from(from)?;
+        self.counters.as_mut_slice().merge_from(from)
     }
 
     fn complete_at(&mut self, samples: u64) {
@@ -368,7 +368,7 @@ impl Stored for Counters {
         counters.for_each(|counter| out.u64(counter.load(Ordering::Relaxed)));
     }
 
-    fn take_in(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         from.expect_length(self.all.len() * (1 + self.by_bounces.len()))?;
         let counters = self.all.iter_mut().chain(self.by_bounces.iter_mut().flatten());
         counters.map(AtomicU64::get_mut).try_for_each(|counter| from.add_u64(counter))?;

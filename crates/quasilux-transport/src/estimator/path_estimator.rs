@@ -1,22 +1,22 @@
 //! The estimators that gather: paths from every sensor point, alone or ending on a map.
 
 mod advance;
-mod moment;
 mod resolved;
+mod snapshot;
 mod state;
 
 use crate::codec::{Reader, StateError, Writer};
-use crate::context::{Stage, Stream};
+use crate::context::{Context, Stream};
 use crate::cutoff;
-use crate::estimator::Estimation;
-use crate::estimator::connection::Joined;
+use crate::estimator::Estimator;
+use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::{Exact, exact};
 use crate::estimator::selection::{Decision, decide};
 use crate::path::end::PathEnd;
 use crate::path::lobes;
 use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::path::wave::PathWave;
-use crate::photon::caustics::HiddenLight;
+use crate::photon::caustics::CausticMap;
 use crate::photon::counts::PhotonCounts;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -33,16 +33,16 @@ const FIRST_SAMPLES: u64 = 16;
 const FIRST_PATHS: u64 = 1 << 22;
 
 /// Paths from all sensor points, in all replicates.
-pub(crate) struct Gathering<'a, S> {
-    stage: &'a Stage<'a, S>,
+pub(crate) struct PathEstimator<'a, S> {
+    context: &'a Context<'a, S>,
     scene: &'a Scene,
     targets: Vec<Target>,
     /// Of each target that is a point.
     exact: Vec<Exact>,
     end: PathEnd<S>,
-    hidden: Option<HiddenLight<S>>,
+    caustics: Option<CausticMap<S>>,
     /// Photons that find a part of the light.
-    joined: Option<Joined>,
+    light_vertices: Option<LightVertexConnections>,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -60,9 +60,9 @@ pub(crate) struct Gathering<'a, S> {
     /// Before the first sample.
     prepared: Costs,
     /// Of photons that serve all paths.
-    served: Costs,
+    shared: Costs,
     /// Of the paths, and of photons that come with each.
-    gathered: Costs,
+    contribution: Costs,
     /// Targets whose direct light is not finite.
     invalid_points: u64,
     /// Targets to which light that is sampled may come straight.
@@ -78,9 +78,9 @@ struct Costs {
     photons: PhotonCounts,
 }
 
-impl<'a, S: Spectrum> Gathering<'a, S> {
+impl<'a, S: Spectrum> PathEstimator<'a, S> {
     pub(crate) fn new(
-        stage: &'a Stage<'a, S>,
+        context: &'a Context<'a, S>,
         scene: &'a Scene,
         settings: &Settings,
         watch: &mut Watch<'_>,
@@ -88,27 +88,28 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
         let mut work = WorkCounts::default();
-        let mut exact = exact(stage, &targets, &mut work.rays);
+        let mut exact = exact(context, &targets, &mut work.rays);
         let mut invalid_points = 0;
         for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
             // A light right at a sensor point has no illuminance to speak of.
             *value_lx = 0.0;
             invalid_points += 1;
         }
-        let samples_direct = targets.iter().map(|target| samples_direct(stage, target)).collect();
-        let hidden = HiddenLight::new(stage, settings, &targets);
-        let quantum = Quantum::for_reference(stage.lights.reference_lx(&stage.world));
-        let Decision { joined, frozen, photons, rays } =
-            decide(stage, (settings, replicates), (&targets, &exact), quantum, watch);
+        let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
+        let caustics = CausticMap::new(context, settings, &targets);
+        let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
+        let Decision { light_vertices, frozen, photons, rays } =
+            decide(context, (settings, replicates), (&targets, &exact), quantum, watch);
         work.rays += rays;
-        let (end, photons) = PathEnd::prepare(stage, settings, &targets, (frozen, photons), watch);
+        let (end, photons) =
+            PathEnd::prepare(context, settings, &targets, (frozen, photons), watch);
         Self {
-            stage,
+            context,
             scene,
             exact,
             end,
-            hidden,
-            joined,
+            caustics,
+            light_vertices,
             replicates,
             last_lx: vec![None; targets.len()],
             quantum,
@@ -120,8 +121,8 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
             samples: 0,
             done: 0,
             prepared: Costs { work, photons },
-            served: Costs::default(),
-            gathered: Costs::default(),
+            shared: Costs::default(),
+            contribution: Costs::default(),
             invalid_points,
             samples_direct,
         }
@@ -144,7 +145,7 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
                 self.section(number, first..end)
             })
             .collect();
-        trace_sections(self.stage, &sections, self.quantum, wave)
+        trace_sections(self.context, &sections, self.quantum, wave)
     }
 
     /// The paths `indices` of the pair `number` of a growing target and a replicate.
@@ -154,16 +155,19 @@ impl<'a, S: Spectrum> Gathering<'a, S> {
         Section {
             number: number as usize,
             target: self.targets[target],
-            points: self.stage.points(replicate, Stream::Paths(target as u64)),
-            rest: self.end.rest(self.stage, replicate, target),
-            hidden: self.hidden.as_ref().and_then(|hidden| hidden.map(replicate)),
-            partition: self.joined.as_ref().map(|joined| &joined.joining.partition),
+            points: self.context.points(replicate, Stream::Paths(target as u64)),
+            rest: self.end.rest(self.context, replicate, target),
+            caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
+            partition: self
+                .light_vertices
+                .as_ref()
+                .map(|light_vertices| &light_vertices.connection.partition),
             indices,
         }
     }
 }
 
-impl<S: Spectrum> Gathering<'_, S> {
+impl<S: Spectrum> PathEstimator<'_, S> {
     /// Where the pair `number` of a growing target and a replicate has its sums.
     fn place(&self, number: usize) -> usize {
         let replicates = self.replicates as usize;
@@ -174,11 +178,11 @@ impl<S: Spectrum> Gathering<'_, S> {
     /// photons stay what they are.
     fn keep_to_ends(&mut self) {
         self.growing.retain(|&target| self.ends[target].is_none());
-        if let Some(hidden) = &mut self.hidden {
-            hidden.settle(&self.ends);
+        if let Some(caustics) = &mut self.caustics {
+            caustics.freeze_converged(&self.ends);
         }
-        if let Some(joined) = &mut self.joined {
-            joined.settle(&self.ends);
+        if let Some(light_vertices) = &mut self.light_vertices {
+            light_vertices.freeze_converged(&self.ends);
         }
     }
 
@@ -193,22 +197,26 @@ impl<S: Spectrum> Gathering<'_, S> {
     }
 
     /// What photons gave to a target in one replicate.
-    fn joined_lx(&self, replicate: usize, target: usize) -> f64 {
-        self.joined.as_ref().map_or(0.0, |joined| joined.lx(replicate, target))
+    fn connected_lx(&self, replicate: usize, target: usize) -> f64 {
+        self.light_vertices
+            .as_ref()
+            .map_or(0.0, |light_vertices| light_vertices.lx(replicate, target))
     }
 
     /// The terms of the Neumann series that are listed, and the rest.
     fn terms(&self) -> Vec<TermEstimates> {
-        let (listed, replicates) = (self.stage.listed_terms as usize, self.replicates as usize);
+        let (listed, replicates) = (self.context.listed_terms as usize, self.replicates as usize);
         if listed == 0 {
             return Vec::new();
         }
         let sum = |sums: &PathSums, term: usize| sums.terms.get(term).copied().unwrap_or_default();
-        let hidden_lx = |r: usize, target: usize, term: usize| {
-            self.hidden.as_ref().map_or(0.0, |hidden| hidden.term_lx(r, target, term))
+        let caustic_lx = |r: usize, target: usize, term: usize| {
+            self.caustics.as_ref().map_or(0.0, |caustics| caustics.term_lx(r, target, term))
         };
-        let joined_lx = |r: usize, target: usize, term: usize| {
-            self.joined.as_ref().map_or(0.0, |joined| joined.term_lx(r, target, term))
+        let connected_lx = |r: usize, target: usize, term: usize| {
+            self.light_vertices
+                .as_ref()
+                .map_or(0.0, |light_vertices| light_vertices.term_lx(r, target, term))
         };
         let row = |term: usize, r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates).zip(&self.exact).enumerate();
@@ -216,20 +224,21 @@ impl<S: Spectrum> Gathering<'_, S> {
                 let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
                 exact_lx.unwrap_or(0.0)
                     + self.mean(target, sum(sums, term))
-                    + hidden_lx(r, target, term)
-                    + joined_lx(r, target, term)
+                    + caustic_lx(r, target, term)
+                    + connected_lx(r, target, term)
             })
             .collect()
         };
         let resolved = |term: usize| -> Vec<bool> {
-            let cut = self.stage.max_bounces.is_some_and(|most| term > most as usize);
+            let cut = self.context.max_bounces.is_some_and(|most| term > most as usize);
             let targets = self.sums.chunks_exact(replicates).zip(&self.samples_direct);
             let targets = targets.enumerate();
             targets
                 .map(|(target, (own, samples_direct))| {
-                    let joined = self.joined.as_ref();
+                    let light_vertices = self.light_vertices.as_ref();
                     let found = own.iter().any(|sums| !sum(sums, term).is_zero())
-                        || joined.is_some_and(|joined| joined.found_term(target, term));
+                        || light_vertices
+                            .is_some_and(|light_vertices| light_vertices.found_term(target, term));
                     let may_be = if term == 0 {
                         *samples_direct
                     } else {
@@ -249,8 +258,8 @@ impl<S: Spectrum> Gathering<'_, S> {
 
     /// All that was traced.
     fn costs(&self) -> Costs {
-        let Self { prepared, served, gathered, .. } = self;
-        [served, gathered].into_iter().fold(prepared.clone(), |mut sum, costs| {
+        let Self { prepared, shared, contribution, .. } = self;
+        [shared, contribution].into_iter().fold(prepared.clone(), |mut sum, costs| {
             sum.work += costs.work.clone();
             sum.photons += costs.photons.clone();
             sum
@@ -258,7 +267,7 @@ impl<S: Spectrum> Gathering<'_, S> {
     }
 }
 
-impl<S: Spectrum> Estimation for Gathering<'_, S> {
+impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         self.serve(samples, watch) && self.gather(samples, watch)
     }
@@ -266,15 +275,15 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
     fn estimates(&self) -> Estimates {
         let Costs { work, photons } = self.costs();
         let replicates = self.replicates as usize;
-        let hidden_lx = |r: usize, target: usize| {
-            self.hidden.as_ref().map_or(0.0, |hidden| hidden.target_lx(r, target))
+        let caustic_lx = |r: usize, target: usize| {
+            self.caustics.as_ref().map_or(0.0, |caustics| caustics.target_lx(r, target))
         };
         let row = |r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates);
             let own = own.zip(&self.exact).enumerate();
             own.map(|(target, (sums, exact))| {
                 let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
-                exact.sum_lx() + sampled_lx + hidden_lx(r, target) + self.joined_lx(r, target)
+                exact.sum_lx() + sampled_lx + caustic_lx(r, target) + self.connected_lx(r, target)
             })
             .collect()
         };
@@ -304,7 +313,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,
             rays: work.rays + photons.rays,
-            flux: photons.balance(self.stage.lights.flux_lm),
+            flux: photons.balance(self.context.lights.flux_lm),
             biased: work.endless + photons.trapped > 0,
             warnings,
             dimensions: Dimensions {
@@ -314,7 +323,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
                 path: work.dimensions,
             },
             invalid_contributions: self.invalid_points
-                + self.joined.as_ref().map_or(0, Joined::invalid)
+                + self.light_vertices.as_ref().map_or(0, LightVertexConnections::invalid)
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
             ..Estimates::default()
         }
@@ -328,19 +337,19 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         self.put_all(out);
     }
 
-    fn take_in(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.take_in_all(coming, from)
     }
 
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
         (self.first, self.samples) = (part.start, part.start);
-        if let Some(joined) = &mut self.joined {
-            joined.go_to(part.start);
+        if let Some(light_vertices) = &mut self.light_vertices {
+            light_vertices.go_to(part.start);
         }
         self.serve(samples, watch) && self.gather(part.end, watch)
     }
 
-    fn put_served(&self, out: &mut Writer) {
+    fn put_shared(&self, out: &mut Writer) {
         self.put_shared(out);
     }
 
@@ -348,11 +357,11 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         self.put_own(out);
     }
 
-    fn take_in_served(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.take_in_shared(from)
+    fn merge_shared(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.merge_shared(from)
     }
 
-    fn take_in_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+    fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.take_in_own(from)
     }
 
@@ -360,7 +369,7 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
         self.complete(samples);
     }
 
-    fn settle(&mut self, done: &[bool]) -> bool {
+    fn freeze_converged(&mut self, done: &[bool]) -> bool {
         for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
             end.get_or_insert(self.samples);
         }
@@ -377,9 +386,9 @@ impl<S: Spectrum> Estimation for Gathering<'_, S> {
 
 /// Whether light whose direct part is sampled may come straight to a target: not to one with all such
 /// luminaires behind it.
-fn samples_direct<S: Spectrum>(stage: &Stage<'_, S>, target: &Target) -> bool {
-    let luminaires = &stage.lights.area_luminaires;
-    stage.lights.emitters.is_some()
+fn samples_direct<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> bool {
+    let luminaires = &context.lights.area_luminaires;
+    context.lights.emitters.is_some()
         || match *target {
             Target::Point { position, normal } => luminaires.may_light(position, normal),
             Target::Cell { .. } => !luminaires.is_empty(),

@@ -1,6 +1,6 @@
 //! What is to be known, and how well.
 
-use super::cost::{Budget, Promise};
+use super::cost::{Budget, PilotCost};
 use super::trial::{Sample, Trial};
 use crate::settings::{Settings, ToleranceOn};
 
@@ -11,7 +11,7 @@ pub(crate) const BY_CHANCE: f64 = 4.0;
 pub(crate) const MUCH_MORE: f64 = 2.0;
 
 /// What is to be known, and how well.
-pub(crate) struct Wanted {
+pub(crate) struct ErrorTarget {
     budget: Budget,
     settings: Settings,
     /// The illuminance at each target that is looked at, as far as known.
@@ -20,7 +20,7 @@ pub(crate) struct Wanted {
     average_lx: f64,
 }
 
-impl Wanted {
+impl ErrorTarget {
     /// Of a sample whose targets have these means.
     pub(crate) fn new(settings: &Settings, sample: &Sample, means_lx: Vec<f64>) -> Self {
         let average_lx = means_lx.iter().sum::<f64>() / means_lx.len().max(1) as f64;
@@ -50,12 +50,12 @@ impl Wanted {
     }
 
     /// What a lux counts at a target; nothing where there is none.
-    pub(crate) fn worth_per_lx(&self, target: usize) -> f64 {
-        self.worth_of(self.means_lx[target])
+    pub(crate) fn importance_per_lx(&self, target: usize) -> f64 {
+        self.importance_of(self.means_lx[target])
     }
 
     /// The same where the illuminance is this.
-    pub(crate) fn worth_of(&self, mean_lx: f64) -> f64 {
+    pub(crate) fn importance_of(&self, mean_lx: f64) -> f64 {
         let scale_lx = self.scale_lx(mean_lx);
         if mean_lx > 0.0 && scale_lx > 0.0 { 1.0 / scale_lx } else { 0.0 }
     }
@@ -81,12 +81,12 @@ impl Wanted {
     }
 
     /// What a promise costs, see [`Budget::effort`].
-    pub(crate) fn effort(&self, promise: &Promise<'_>) -> f64 {
-        self.budget.effort(promise)
+    pub(crate) fn effort(&self, pilot_cost: &PilotCost<'_>) -> f64 {
+        self.budget.effort(pilot_cost)
     }
 
     /// Rays of a whole run, see [`Budget::rays`].
-    pub(crate) fn rays(&self, plain: &Promise<'_>, promise: &Promise<'_>) -> f64 {
-        self.budget.rays(plain, promise)
+    pub(crate) fn rays(&self, plain: &PilotCost<'_>, pilot_cost: &PilotCost<'_>) -> f64 {
+        self.budget.rays(plain, pilot_cost)
     }
 }

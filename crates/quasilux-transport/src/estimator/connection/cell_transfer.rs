@@ -4,12 +4,12 @@
 //! the few places that the survey remembers of each cell, before any photon counts: a coarse picture of the
 //! sensors' views. It need not be right, see [`super`].
 
-use super::Joining;
-use super::leaving::{Leaving, Side};
-use super::spot::Spot;
+use super::ConnectionPlan;
+use super::exitant_flux::{ExitantFlux, Side};
+use super::receiver_element::ReceiverElement;
 use super::view::View;
 use crate::codec::Writer;
-use crate::context::Stage;
+use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use rayon::prelude::*;
@@ -21,21 +21,22 @@ const IN_CELL: [[f64; 2]; 4] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75], [0.75,
 pub(super) const CLASSES: usize = 2;
 
 /// Illuminance in lx that each of some targets gets of a lm/sr that leaves a cell, mean over the cell.
-pub(super) struct Outlook {
+pub(super) struct CellTransfer {
     targets: usize,
     /// Of target t by class k from cell c at `(c * CLASSES + k) * targets + t`.
     lx_sr_lm: Vec<f32>,
 }
 
-impl Outlook {
+impl CellTransfer {
     /// Looks from all targets at all cells; also says how many rays that took.
     pub(super) fn new<S: Spectrum>(
-        stage: &Stage<'_, S>,
-        joining: &Joining,
-        spots: &[Spot],
+        context: &Context<'_, S>,
+        connection: &ConnectionPlan,
+        spots: &[ReceiverElement],
     ) -> (Self, u64) {
-        let look = |places: &Vec<Interaction>| look(stage, joining, places, spots);
-        let (rows, rays): (Vec<Vec<f32>>, Vec<u64>) = joining.places.par_iter().map(look).unzip();
+        let look = |places: &Vec<Interaction>| look(context, connection, places, spots);
+        let (rows, rays): (Vec<Vec<f32>>, Vec<u64>) =
+            connection.places.par_iter().map(look).unzip();
         (Self { targets: spots.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
     }
 
@@ -51,7 +52,7 @@ impl Outlook {
     }
 
     /// Finds out what all targets are taken to get of what leaves a place.
-    pub(super) fn foresee(&self, leaving: &Leaving, is_first: bool, lx: &mut [f64]) {
+    pub(super) fn foresee(&self, leaving: &ExitantFlux, is_first: bool, lx: &mut [f64]) {
         lx.fill(0.0);
         for (cell, lm_sr) in leaving.sides.iter().flat_map(Side::parts_lm_sr) {
             let seen = self.of_cell(cell, is_first);
@@ -70,33 +71,39 @@ impl Outlook {
 /// What all targets see of one cell, first light that comes there straight, then other light; and the
 /// number of rays.
 fn look<S: Spectrum>(
-    stage: &Stage<'_, S>,
-    joining: &Joining,
+    context: &Context<'_, S>,
+    connection: &ConnectionPlan,
     places: &[Interaction],
-    spots: &[Spot],
+    spots: &[ReceiverElement],
 ) -> (Vec<f32>, u64) {
     let densities: Vec<_> =
-        places.iter().map(|at| joining.partition.density(at.position, at.n)).collect();
-    let (mut sights, mut offers) = (Vec::new(), Vec::new());
+        places.iter().map(|at| connection.partition.density(at.position, at.n)).collect();
+    let (mut shadow_rays, mut light_samples) = (Vec::new(), Vec::new());
     for (number, spot) in spots.iter().enumerate() {
         for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL.iter().cycle()) {
-            let Some(view) = View::of(&stage.world, spot, at, *in_cell) else { continue };
+            let Some(view) = View::of(&context.world, spot, at, *in_cell) else { continue };
             if view.behind {
                 continue;
             }
-            let shares = joining.partition.path_shares(view.pdf_m2, *density);
+            let weights_of_paths = connection.partition.path_weights(view.pdf_m2, *density);
             let lx = PI * view.pdf_m2 * view.weight / places.len() as f64;
-            sights.push(view.sight());
-            offers.push((number, lx * (1.0 - shares.first), lx * (1.0 - shares.rest)));
+            shadow_rays.push(view.shadow_ray());
+            light_samples.push((
+                number,
+                lx * (1.0 - weights_of_paths.first),
+                lx * (1.0 - weights_of_paths.rest),
+            ));
         }
     }
     let mut visible = Vec::new();
-    stage.world.are_visible(&sights, &mut visible);
+    context.world.are_visible(&shadow_rays, &mut visible);
     let mut row = vec![0.0; CLASSES * spots.len()];
-    for ((number, first, rest), _) in offers.into_iter().zip(visible).filter(|(_, seen)| *seen) {
+    for ((number, first, rest), _) in
+        light_samples.into_iter().zip(visible).filter(|(_, seen)| *seen)
+    {
         row[number] += first as f32;
         row[spots.len() + number] += rest as f32;
     }
     row.iter_mut().filter(|lx| !lx.is_finite()).for_each(|lx| *lx = 0.0);
-    (row, sights.len() as u64)
+    (row, shadow_rays.len() as u64)
 }
