@@ -5,7 +5,7 @@
 //! photons that stand beside paths, so many for each path.
 
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Beside, Block, Gain, Share, SampleKind};
+use quasilux_transport::explain::{Beside, Block, Gain, SampleKind, Share};
 use serde::Serialize;
 
 #[derive(Serialize)]

@@ -3,7 +3,7 @@
 use super::{Column, Emphasis, Style, lines};
 use crate::number::{brief, count};
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Beside, Block, Gain, Share, SampleKind};
+use quasilux_transport::explain::{Beside, Block, Gain, SampleKind, Share};
 use std::fmt::Write;
 
 /// A smaller factor between errors makes no difference to speak of.

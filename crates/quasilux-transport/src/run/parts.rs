@@ -6,8 +6,8 @@
 //! every part traces all of them.
 
 use crate::codec::{Reader, StateError, Writer};
-use crate::context::Stage;
-use crate::estimator::{Estimation, estimation};
+use crate::context::Context;
+use crate::estimator::{Estimator, estimation};
 use crate::run::pixels::add_pictures;
 use crate::run::simulate::look;
 use crate::settings::Settings;
@@ -26,9 +26,9 @@ use thiserror::Error;
 #[must_use]
 pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
     fn of<S: Spectrum>(scene: &Scene, settings: &Settings) -> Decisions {
-        let stage = Stage::<S>::new(scene, settings);
+        let context = Context::<S>::new(scene, settings);
         let mut nobody = ();
-        estimation(&stage, scene, settings, &mut Watch::new(&mut nobody)).decisions()
+        estimation(&context, scene, settings, &mut Watch::new(&mut nobody)).decisions()
     }
     if is_grey(scene) { of::<f64>(scene, settings) } else { of::<Rgb>(scene, settings) }
 }
@@ -121,8 +121,8 @@ fn trace<S: Spectrum>(
     part: Range<u64>,
     watch: &mut Watch<'_>,
 ) -> Option<Vec<u8>> {
-    let stage = Stage::<S>::new(scene, settings);
-    let mut estimation = estimation(&stage, scene, settings, watch);
+    let context = Context::<S>::new(scene, settings);
+    let mut estimation = estimation(&context, scene, settings, watch);
     // There is no checkpoint before the end, and so no result if it is stopped.
     watch.obey();
     let mut out = Writer::default();
@@ -133,7 +133,7 @@ fn trace<S: Spectrum>(
     if !estimation.trace_part(part, samples, watch) {
         return None;
     }
-    out.block(|out| estimation.put_served(out));
+    out.block(|out| estimation.put_shared(out));
     out.block(|out| estimation.put_part(out));
     Some(out.finish())
 }
@@ -145,8 +145,8 @@ fn put_together<'p, S: Spectrum>(
     parts: &[&'p [u8]],
     watch: &mut Watch<'_>,
 ) -> Result<Estimates, MergeError> {
-    let stage = Stage::<S>::new(scene, settings);
-    let mut estimation = estimation(&stage, scene, settings, watch);
+    let context = Context::<S>::new(scene, settings);
+    let mut estimation = estimation(&context, scene, settings, watch);
     let decisions = estimation.decisions();
     let expected = Expected {
         decisions: &decisions.digest,
@@ -156,17 +156,17 @@ fn put_together<'p, S: Spectrum>(
     let read = |(number, bytes): (usize, &&'p [u8])| expected.read(number, bytes);
     let read = parts.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
     expect_all_indices(&read, samples)?;
-    let mut served = None;
+    let mut shared = None;
     for part in &read {
-        add(estimation.as_mut(), part, &mut served)
+        add(estimation.as_mut(), part, &mut shared)
             .map_err(|error| MergeError::Part { part: part.number, error })?;
     }
     estimation.complete_at(samples);
     let (mut estimates, _) =
-        look(&stage, scene, settings, estimation.as_ref(), 1.0 - settings.confidence);
+        look(&context, scene, settings, estimation.as_ref(), 1.0 - settings.confidence);
     estimates.decisions = decisions;
     drop(estimation);
-    add_pictures(&stage, scene, settings, &mut estimates, watch);
+    add_pictures(&context, scene, settings, &mut estimates, watch);
     Ok(estimates)
 }
 
@@ -177,7 +177,7 @@ struct Part<'b> {
     /// Its indices.
     range: Range<u64>,
     /// Sums of the photons that all paths share, equal in all parts of a run.
-    served: &'b [u8],
+    shared: &'b [u8],
     /// Sums of its own indices.
     own: &'b [u8],
 }
@@ -202,7 +202,7 @@ impl Expected<'_> {
         }
         let mut rest = || -> Result<Part<'b>, StateError> {
             let range = from.u64()?..from.u64()?;
-            let part = Part { number, range, served: from.block()?, own: from.block()? };
+            let part = Part { number, range, shared: from.block()?, own: from.block()? };
             from.clone().end().map(|()| part)
         };
         let part = rest().map_err(refuse)?;
@@ -232,24 +232,24 @@ fn expect_all_indices(parts: &[Part<'_>], samples: u64) -> Result<(), MergeError
     if end < samples { Err(MergeError::Gap { missing: end..samples }) } else { Ok(()) }
 }
 
-/// Adds the sums of a part; `served` are the bytes that the parts before it have in common.
+/// Adds the sums of a part; `shared` are the bytes that the parts before it have in common.
 fn add<'b>(
-    estimation: &mut (dyn Estimation + '_),
+    estimation: &mut (dyn Estimator + '_),
     part: &Part<'b>,
-    served: &mut Option<&'b [u8]>,
+    shared: &mut Option<&'b [u8]>,
 ) -> Result<(), StateError> {
-    match *served {
+    match *shared {
         None => {
-            let mut from = Reader::new(part.served);
-            estimation.take_in_served(&mut from)?;
+            let mut from = Reader::new(part.shared);
+            estimation.merge_shared(&mut from)?;
             from.end()?;
-            *served = Some(part.served);
+            *shared = Some(part.shared);
         }
-        Some(served) if served == part.served => {}
+        Some(shared) if shared == part.shared => {}
         Some(_) => return Err(StateError::Unfit("what photons for all paths found")),
     }
     let mut from = Reader::new(part.own);
-    estimation.take_in_part(&mut from)?;
+    estimation.merge_part(&mut from)?;
     from.end()
 }
 
