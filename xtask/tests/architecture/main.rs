@@ -23,8 +23,9 @@ fn workspace() -> PathBuf {
 
 /// Names of the crates, which are the names of their folders, with their manifests.
 fn manifests() -> Vec<(String, toml::Table)> {
-    let mut manifests: Vec<_> = fs::read_dir(workspace().join("crates"))
-        .unwrap()
+    let mut manifests: Vec<_> = ["crates", "research"]
+        .iter()
+        .flat_map(|folder| fs::read_dir(workspace().join(folder)).unwrap())
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.is_dir())
         .map(|path| {
@@ -41,8 +42,10 @@ fn manifests() -> Vec<(String, toml::Table)> {
 fn rust_files() -> Vec<RustFile> {
     let root = workspace();
     let mut files = Vec::new();
-    let mut folders: Vec<PathBuf> =
-        ["crates", "xtask", "benches", "fuzz"].iter().map(|name| root.join(name)).collect();
+    let mut folders: Vec<PathBuf> = ["crates", "research", "xtask", "benches", "fuzz"]
+        .iter()
+        .map(|name| root.join(name))
+        .collect();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else {
             continue;

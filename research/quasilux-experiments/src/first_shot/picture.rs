@@ -1,0 +1,69 @@
+//! Errors against the number of samples and against rays, with and without first shot.
+
+use super::trial::{Part, Trial, error};
+use crate::course::Stage;
+use quasilux_drawing::svg::{
+    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
+};
+use quasilux_sampling::Sequence;
+
+/// What stands along the lower axis: its name, its base, its values.
+type Cost = (&'static str, u32, fn(&Stage) -> f64);
+
+const COSTS: [Cost; 2] =
+    [("N", 2, |stage| stage.samples as f64), ("rays of a replicate", 10, |stage| stage.rays)];
+
+/// The plot as an SVG file.
+pub(super) fn svg(trials: &[Trial]) -> String {
+    let panels = trials.chunks(2).flat_map(|pair| COSTS.map(|cost| panel(pair, cost)));
+    figure(&Figure {
+        title: "Photons from the lights and from where light lands".to_owned(),
+        panels: panels.collect(),
+        columns: 2,
+        legend: legend(&trials[..2]),
+    })
+}
+
+fn panel(trials: &[Trial], (label, base, cost): Cost) -> Panel {
+    let line = |trial: &Trial| {
+        let sequence = trial.sequence;
+        trial.runs().map(|(switch, course)| Line {
+            points: course
+                .stages
+                .iter()
+                .map(|stage| [cost(stage), error(stage, Part::OfPhotons)])
+                .collect(),
+            stroke: stroke(sequence, switch),
+        })
+    };
+    let lines: Vec<Line> = trials.iter().flat_map(line).collect();
+    let values =
+        |axis: usize| lines.iter().flat_map(move |l| l.points.iter().map(move |p| p[axis]));
+    Panel {
+        title: format!("{}, by {label}", trials[0].room),
+        x: Axis::around(label, Scale::Log(base), values(0)),
+        y: Axis::around("error of what photons bring / mean", Scale::Log(10), values(1)),
+        lines: lines.clone(),
+    }
+}
+
+/// Colours are switches, dashes are points.
+fn stroke(sequence: Sequence, switch: &str) -> Stroke {
+    let colour = PALETTE[usize::from(switch == "off")];
+    match sequence {
+        Sequence::Independent => Stroke { colour, width_px: 2.0, dash: Dash::Dashed },
+        _ => Stroke::solid(colour, 2.5),
+    }
+}
+
+fn legend(trials: &[Trial]) -> Vec<Vec<LegendEntry>> {
+    let row = |trial: &Trial| {
+        let name = trial.sequence.name();
+        let entry = |(switch, _)| LegendEntry {
+            text: format!("{name}, first shot {switch}"),
+            stroke: Some(stroke(trial.sequence, switch)),
+        };
+        trial.runs().map(entry).to_vec()
+    };
+    trials.iter().map(row).collect()
+}
