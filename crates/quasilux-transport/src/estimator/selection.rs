@@ -9,9 +9,10 @@
 
 use crate::context::Context;
 use crate::estimator::connection::{self, Alone, LightVertexConnections};
-use crate::estimator::control_variate::{Choice, FrozenMap, Outcome};
+use crate::estimator::control_variate::{Choice, Outcome, PathTrial};
 use crate::estimator::exact::Exact;
-use crate::estimator::pilot::{ErrorTarget, PathTrial, PilotCost, Sample, short_looks};
+use crate::estimator::pilot::{ErrorTarget, PilotCost, Sample, short_looks};
+use crate::path::frozen_map::FrozenMap;
 use crate::photon::counts::PhotonCounts;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;

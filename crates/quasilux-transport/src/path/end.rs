@@ -2,8 +2,8 @@
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
-use crate::estimator::control_variate::{FrozenEnd, FrozenMap, of_plan};
 use crate::importance::{self, Plan, WeightWindows};
+use crate::path::frozen_map::{FrozenEnd, FrozenMap, MapFacts};
 use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
@@ -59,17 +59,6 @@ pub(crate) struct MapEnd<'m, S> {
     pub(crate) map: IlluminationMap<'m, S>,
 }
 
-/// What is to know of what the paths end on.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct MapFacts {
-    /// Sides of elements; `None` without a map.
-    pub(crate) elements: Option<u64>,
-    /// Whether photons of maps that grow leave lit places.
-    pub(crate) first_shot: bool,
-    /// Whether they are steered.
-    pub(crate) uses_importance: bool,
-}
-
 /// The maps of all replicates at a moment when no photon flies.
 pub(crate) struct GrowingMaps<'m, S> {
     layout: &'m MapLayout,
@@ -106,7 +95,7 @@ impl<S: Spectrum> PathEnd<S> {
     ) -> (Self, PhotonCounts) {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         let balance = |watch: &mut Watch<'_>| {
-            let batch = of_plan(Source::Lights, 0..BALANCE_PHOTONS);
+            let batch = PhotonBatch::for_plan(Source::Lights, 0..BALANCE_PHOTONS);
             let none: Option<MapReceiver<'_, S>> = None;
             trace_photons(context, &batch, |_| none, watch).unwrap_or_default()
         };

@@ -2,8 +2,10 @@
 
 pub(crate) mod contribution;
 pub(crate) mod end;
+pub(crate) mod frozen_map;
 pub(crate) mod lobes;
 pub(crate) mod partition;
 pub(crate) mod sections;
 pub(crate) mod trace;
+pub(crate) mod vertex_record;
 pub(crate) mod wave;

@@ -15,12 +15,13 @@ mod direct_light;
 use crate::bsdf::Mode;
 use crate::context::Context;
 use crate::cutoff::Gain;
-use crate::estimator::control_variate::{FrozenEnd, Note, bounces_left};
 use crate::lights::images::ImageSamples;
 use crate::path::contribution::PathContribution;
 use crate::path::end::{MapEnd, Rest};
+use crate::path::frozen_map::{FrozenEnd, bounces_left};
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
+use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
 use crate::photon::map::{IlluminationMap, Place};
 use crate::purpose::Purpose;
@@ -48,7 +49,7 @@ pub(crate) struct PathResult<S> {
     /// How many coordinates it used.
     pub(crate) dimensions: u32,
     /// Where it might have ended on a map, if it was to note that.
-    pub(crate) notes: Vec<Note<S>>,
+    pub(crate) notes: Vec<VertexRecord<S>>,
     /// Its rays, but for those that ask for light.
     pub(crate) flights: u32,
 }
@@ -105,7 +106,7 @@ pub(crate) struct Path<'p, S> {
     /// From the point-like lights at its start.
     pointlikes: S,
     found: PathContribution<S>,
-    notes: Vec<Note<S>>,
+    notes: Vec<VertexRecord<S>>,
     flights: u32,
 }
 
@@ -326,7 +327,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// Notes that it might have ended here.
     fn note(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction, albedo: f64) {
         let keeps_illuminance = context.world.bsdf(at).keeps_illuminance();
-        self.notes.push(Note {
+        self.notes.push(VertexRecord {
             at: *at,
             weight: keeps_illuminance.then(|| self.weight(context, at)),
             alone: if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) },

@@ -5,7 +5,7 @@ use crate::cutoff;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{WAVES_PER_FIELD, Waves, Way};
 use crate::photon::receiver::PhotonReceiver;
-use crate::photon::trace::{Lead, trace_photon};
+use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::FluxBalance;
@@ -26,6 +26,19 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) indices: Range<u64>,
     pub(crate) way: Way,
     pub(crate) lead: Lead<'w>,
+}
+
+impl<'s> PhotonBatch<'s> {
+    /// Photons that come before all paths, and that no estimate counts.
+    pub(crate) fn for_plan(source: Source<'s>, indices: Range<u64>) -> Self {
+        Self {
+            stream: Stream::PlanPhotons,
+            replicates: 0..1,
+            indices,
+            way: Way::CoherentWaves,
+            lead: Lead::by_chance(source, None),
+        }
+    }
 }
 
 /// Traces photons; `receiver` makes what sees those of one replicate. `None` when the observer

@@ -4,8 +4,9 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
 //! element of its own, cells of surveys as if all were there.
 
-use crate::estimator::control_variate::{self, MAX_PHOTONS};
+use crate::estimator::control_variate::MAX_PHOTONS;
 use crate::importance::{MAX_NODES, Node};
+use crate::path::frozen_map;
 use crate::path::sections::PathSums;
 use crate::photon::map::{
     COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS,
@@ -87,7 +88,7 @@ impl MemoryNeed {
         if settings.estimator == EstimatorKind::Bidirectional {
             // Frozen before the first sample.
             let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
-            let layers = control_variate::layers(settings.max_bounces, settings.list_terms, sides);
+            let layers = frozen_map::layers(settings.max_bounces, settings.list_terms, sides);
             let full = full(sides, layers.into());
             let maps_bytes = full.min(of_landing.saturating_mul(MAX_PHOTONS));
             return Self { maps_bytes, maps_bytes_a_sample: maps_bytes, ..need };

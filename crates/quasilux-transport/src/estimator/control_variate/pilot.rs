@@ -1,24 +1,23 @@
 //! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all, by what a trial of
 //! paths predicts.
 
-use super::survival::{MIN, Survival};
-use super::trips::{Outcome, Trips};
-use super::walk::Ending;
-use super::{FrozenMap, Walks, bounces_left, layers};
-use crate::context::{Context, Stream};
+use super::PathRecords;
+use super::path_record::Ending;
+use super::replay::{Outcome, Replay};
+use crate::context::Context;
 use crate::estimator::pilot::{ErrorTarget, PilotCost};
+use crate::path::frozen_map::survival::{MIN, Survival};
+use crate::path::frozen_map::{FrozenMap, bounces_left, layers};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
 use crate::photon::lit_cells::LitCells;
 use crate::photon::map::{MapLayout, MapReceiver, MapTally};
-use crate::photon::order::Way;
-use crate::photon::trace::{Lead, Source};
+use crate::photon::trace::Source;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use std::f64::consts::SQRT_2;
-use std::ops::Range;
 
 /// Photons of the pilot for each side of an element, and the part of the run's rays, 1 over this, that they may be.
 const PHOTONS_PER_ELEMENT: u64 = 8;
@@ -68,7 +67,7 @@ impl<S: Spectrum> Choice<S> {
     pub(crate) fn new(
         context: &Context<'_, S>,
         settings: &Settings,
-        (walks, noted, alone): (&Walks<S>, &PilotCost<'_>, &PilotCost<'_>),
+        (walks, noted, alone): (&PathRecords<S>, &PilotCost<'_>, &PilotCost<'_>),
         wanted: &ErrorTarget,
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
@@ -153,7 +152,7 @@ impl Use {
 }
 
 /// Paths that go on seldom, more often, and nearly always.
-fn candidates(trips: &Trips, survival: &Survival) -> Vec<Survival> {
+fn candidates(trips: &Replay, survival: &Survival) -> Vec<Survival> {
     let usual = trips.usual_loss(survival);
     let first = if usual > 0.0 { MIN / usual } else { 0.0 };
     let sureness = |step: u32| first * libm::pow(SQRT_2, f64::from(step));
@@ -178,7 +177,7 @@ impl<S: Spectrum> Growing<S> {
         let Self { layout, tally, lit_cells, most_bounces, .. } = &*self;
         let source = Source::of(lit_cells.as_ref());
         let receiver = MapReceiver::up_to(*most_bounces, context.map_dimensions, layout, tally);
-        let batch = of_plan(source, self.photons..photons);
+        let batch = PhotonBatch::for_plan(source, self.photons..photons);
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         let counts = trace_photons(context, &batch, |_| receiver, watch).unwrap_or_default();
         self.counts += source.counted(counts);
@@ -188,16 +187,5 @@ impl<S: Spectrum> Growing<S> {
     /// Flux of a photon.
     fn photon_lm(&self, context: &Context<'_, S>) -> f64 {
         context.lights.flux_lm / self.photons as f64
-    }
-}
-
-/// Photons that come before all paths, and that no estimate counts.
-pub(crate) fn of_plan(source: Source<'_>, indices: Range<u64>) -> PhotonBatch<'_> {
-    PhotonBatch {
-        stream: Stream::PlanPhotons,
-        replicates: 0..1,
-        indices,
-        way: Way::CoherentWaves,
-        lead: Lead::by_chance(source, None),
     }
 }

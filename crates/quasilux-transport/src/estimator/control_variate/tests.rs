@@ -3,8 +3,9 @@
 use super::*;
 use crate::context::{Context, Stream};
 use crate::estimator::exact::exact;
-use crate::estimator::pilot::{ErrorTarget, PathTrial, PilotCost, SAMPLES, Sample};
+use crate::estimator::pilot::{ErrorTarget, PilotCost, SAMPLES, Sample};
 use crate::path::end::Rest;
+use crate::path::frozen_map::{FrozenMap, bounces_left, layers};
 use crate::path::sections::{Section, trace_sections};
 use crate::path::wave::PathWave;
 use crate::scenes::{all_walls_emit, diffuse, diffuse_cube, level_grid, mirror, point_light, room};
@@ -164,7 +165,7 @@ fn paths_that_know_nothing_of_a_map_go_alone() {
     let sample = Sample::new(&targets(&scene), &exact(&context, &targets(&scene), &mut 0));
     let wanted = ErrorTarget::new(&settings, &sample, vec![1000.0]);
     let none = PilotCost::of_paths(&[], 0.0);
-    let walks = Walks::default();
+    let walks = PathRecords::default();
     let choice = Choice::new(&context, &settings, (&walks, &none, &none), &wanted, &mut watch);
     let (map, _) = choice.unwrap().freeze(&context, vec![0.0], &mut watch);
     let place =

@@ -6,4 +6,4 @@ mod trial;
 
 pub(crate) use cost::PilotCost;
 pub(crate) use error_target::{BY_CHANCE, ErrorTarget, MUCH_MORE};
-pub(crate) use trial::{PathTrial, REPLICATES, SAMPLES, Sample, Trial, short_looks};
+pub(crate) use trial::{REPLICATES, SAMPLES, Sample, Trial, TrialPaths, short_looks, trace};

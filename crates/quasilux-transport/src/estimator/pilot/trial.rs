@@ -1,11 +1,11 @@
 //! Trials: what a few samples in a few replicates find at some of the targets.
 
 use crate::context::{Context, Stream};
-use crate::estimator::control_variate::{RayCounts, Walks};
 use crate::estimator::exact::Exact;
 use crate::path::end::Rest;
 use crate::path::partition::Partition;
 use crate::path::sections::{Piece, Section, trace_and_look};
+use crate::path::trace::PathResult;
 use crate::path::wave::PathWave;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
@@ -35,15 +35,6 @@ pub(crate) struct Trial {
     /// Of target t in replicate r at `t * REPLICATES.len() + r`.
     pub(crate) lx: Vec<f64>,
     pub(crate) rays: f64,
-}
-
-/// A trial of paths that go alone, and hardly end.
-pub(crate) struct PathTrial<S> {
-    pub(crate) trial: Trial,
-    pub(crate) walks: Walks<S>,
-    /// Whether at every target most replicates whose paths came to surfaces that reflect found light that bounced: a
-    /// spread says nothing of what is hardly ever found.
-    pub(crate) finds_light: bool,
 }
 
 /// Of what the replicates found at one target.
@@ -79,12 +70,27 @@ impl Trial {
         partition: &Partition,
         quantum: Quantum,
     ) -> Self {
-        let of_all = (&sample.targets[..], REPLICATES.len());
-        let pieces = trace(context, of_all, false, (Some(partition), quantum));
-        Self::of(pieces.iter().map(|(piece, _)| piece), quantum)
+        let paths = TrialPaths {
+            targets: &sample.targets,
+            replicates: REPLICATES.len(),
+            is_recorded: false,
+            partition: Some(partition),
+            quantum,
+        };
+        Self::without_records(context, &paths)
     }
 
-    fn of<'p>(pieces: impl Iterator<Item = &'p Piece> + Clone, quantum: Quantum) -> Self {
+    /// A trial whose paths record nothing.
+    fn without_records<S: Spectrum>(context: &Context<'_, S>, paths: &TrialPaths<'_>) -> Self {
+        let pieces = trace(context, paths, |(), _, _| {});
+        Self::from_pieces(pieces.iter().map(|(piece, ())| piece), paths.quantum)
+    }
+
+    /// Values and rays of what was traced.
+    pub(crate) fn from_pieces<'p>(
+        pieces: impl Iterator<Item = &'p Piece> + Clone,
+        quantum: Quantum,
+    ) -> Self {
         let value_lx = |piece: &Piece| -> f64 {
             let sums = &piece.sums[0];
             (quantum.value(sums.direct) + quantum.value(sums.indirect)) / SAMPLES as f64
@@ -102,80 +108,54 @@ impl Trial {
     }
 }
 
-impl<S: Spectrum> PathTrial<S> {
-    pub(crate) fn new(context: &Context<'_, S>, sample: &Sample, quantum: Quantum) -> Self {
-        let (pieces, walks): (Vec<Piece>, Vec<Walks<S>>) =
-            trace(context, (&sample.targets, REPLICATES.len()), true, (None, quantum))
-                .into_iter()
-                .unzip();
-        let finds_light = pieces.chunks(REPLICATES.len()).all(|of_target| {
-            let sums = of_target.iter().map(|piece| &piece.sums[0]);
-            let looked = sums.filter(|sums| sums.reflected > 0);
-            let (found, all) = looked.fold((0, 0), |(found, all), sums| {
-                (found + usize::from(!sums.indirect.is_zero()), all + 1)
-            });
-            2 * found >= all
-        });
-        let trial = Trial::of(pieces.iter(), quantum);
-        let at_start: usize =
-            sample.targets.iter().map(|target| asked_at_start(context, target)).sum();
-        let rays = RayCounts {
-            all: trial.rays,
-            at_start: at_start as f64 * REPLICATES.len() as f64 * SAMPLES as f64,
-            // It still looks for light that the next surface emits.
-            at_end: if context.lights.emitters.is_some() { 1.0 } else { 0.0 },
-        };
-        Self { trial, walks: Walks::all(walks, rays), finds_light }
-    }
-}
-
 /// What one short look finds at each target, in lx, by paths to their ends in one replicate; and its rays.
 pub(crate) fn short_looks<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
     quantum: Quantum,
 ) -> (Vec<f64>, u64) {
-    let pieces = trace(context, (targets, 1), false, (None, quantum));
-    let Trial { lx, rays } = Trial::of(pieces.iter().map(|(piece, _)| piece), quantum);
+    let paths = TrialPaths { targets, replicates: 1, is_recorded: false, partition: None, quantum };
+    let Trial { lx, rays } = Trial::without_records(context, &paths);
     (lx, rays as u64)
 }
 
-/// Rays by which a path asks lights themselves where it starts, at most.
-fn asked_at_start<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> usize {
-    let lights = &context.lights;
-    let areas = [lights.emitters.is_some(), !lights.area_luminaires.is_empty()];
-    let areas = areas.into_iter().filter(|is_there| *is_there).count();
-    match target {
-        Target::Point { .. } => areas,
-        Target::Cell { .. } => areas + lights.pointlikes.len(),
-    }
+/// What a trial traces.
+pub(crate) struct TrialPaths<'t> {
+    pub(crate) targets: &'t [Target],
+    /// Replicates of each target.
+    pub(crate) replicates: usize,
+    /// Whether paths record the vertices where they might have ended.
+    pub(crate) is_recorded: bool,
+    /// What they leave to photons.
+    pub(crate) partition: Option<&'t Partition>,
+    pub(crate) quantum: Quantum,
 }
 
-/// Paths from these targets in so many replicates of a trial, in the order of [`Trial::lx`], which leave to photons what is
-/// theirs, and may note where they might have ended.
-fn trace<S: Spectrum>(
+/// Traces the paths of a trial; `record` gets each with the number of its target. Results are in the
+/// order of [`Trial::lx`].
+pub(crate) fn trace<S: Spectrum, R: Default + Send>(
     context: &Context<'_, S>,
-    (targets, each): (&[Target], usize),
-    is_noted: bool,
-    (partition, quantum): (Option<&Partition>, Quantum),
-) -> Vec<(Piece, Walks<S>)> {
-    let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, Walks<S>) {
-        let target = number / each;
-        let replicate = REPLICATES.start + (number % each) as u32;
+    paths: &TrialPaths<'_>,
+    record: impl Fn(&mut R, usize, &mut PathResult<S>) + Sync,
+) -> Vec<(Piece, R)> {
+    let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, R) {
+        let target = number / paths.replicates;
+        let replicate = REPLICATES.start + (number % paths.replicates) as u32;
         let section = Section {
             number,
-            target: targets[target],
+            target: paths.targets[target],
             points: context.points_of_trial(replicate, Stream::Paths(target as u64)),
-            rest: if is_noted { Rest::Noted } else { Rest::Path },
+            rest: if paths.is_recorded { Rest::Noted } else { Rest::Path },
             caustics: None,
-            partition,
+            partition: paths.partition,
             indices: 0..SAMPLES,
         };
-        let mut walks = Walks::default();
-        let piece =
-            trace_and_look(context, &[section], quantum, wave, |path| walks.add(target, path));
-        (piece, walks)
+        let mut records = R::default();
+        let piece = trace_and_look(context, &[section], paths.quantum, wave, |path| {
+            record(&mut records, target, path);
+        });
+        (piece, records)
     };
-    let numbers = (0..targets.len() * each).into_par_iter();
+    let numbers = (0..paths.targets.len() * paths.replicates).into_par_iter();
     numbers.map_init(PathWave::default, trace).collect()
 }

@@ -1,11 +1,10 @@
 //! What paths that were traced to their ends would have cost, had they ended on the map by chance.
 
-use super::Survival;
-use super::survival::Finding;
+use crate::path::frozen_map::survival::{Finding, Survival};
 
 /// A path as it was traced, and the surfaces where it might have ended.
 #[derive(Clone, Debug, Default)]
-pub(super) struct SampleSource {
+pub(super) struct PathRecord {
     /// Rays up to the first of them.
     pub(super) flights: u32,
     pub(super) steps: Vec<Step>,
@@ -41,7 +40,7 @@ pub(super) struct Price {
     pub(super) flights: f64,
 }
 
-impl SampleSource {
+impl PathRecord {
     /// For a start where a unit is worth so much; what ends on the map takes so many rays more, as far as those are
     /// flights.
     pub(super) fn price(&self, ending: Ending<'_>, importance: f64, at_end: f64) -> Price {
@@ -84,7 +83,7 @@ mod tests {
     use super::*;
 
     /// A walk of three surfaces, and what it finds with all chances played through: mean, variance and rays.
-    fn played(walk: &SampleSource, survival: &Survival, importance: f64) -> [f64; 3] {
+    fn played(walk: &PathRecord, survival: &Survival, importance: f64) -> [f64; 3] {
         // What it takes along to a surface is the part that counts there, of the light beyond all of them.
         fn on(
             steps: &[Step],
@@ -135,7 +134,7 @@ mod tests {
                 alone: 1.0,
             })
             .to_vec();
-        let walk = SampleSource { flights: 1, steps };
+        let walk = PathRecord { flights: 1, steps };
         let survival = Survival::of(walk.steps.iter().map(|step| step.finding));
         for (sureness, importance) in [(0.5, 0.01), (2.0, 0.02), (1e-9, 1.0), (1e9, 1.0)] {
             let survival = survival.with_sureness(sureness);

@@ -1,11 +1,12 @@
 //! The paths of a trial, and what they say of a map.
 
-use super::survival::Finding;
-use super::walk::{Ending, Price, SampleSource, Step};
-use super::{Note, Survival, bounces_left};
+use super::path_record::{Ending, PathRecord, Price, Step};
 use crate::context::Context;
 use crate::estimator::pilot::{ErrorTarget, MUCH_MORE, SAMPLES};
+use crate::path::frozen_map::bounces_left;
+use crate::path::frozen_map::survival::{Finding, Survival};
 use crate::path::trace::PathResult;
+use crate::path::vertex_record::VertexRecord;
 use crate::photon::map::{IlluminationMap, MapLayout};
 use crate::spectrum::Spectrum;
 use rayon::prelude::*;
@@ -15,7 +16,7 @@ const MAX_NOISE: f64 = 0.75;
 
 /// Paths of a trial.
 #[derive(Debug)]
-pub(crate) struct Walks<S> {
+pub(crate) struct PathRecords<S> {
     paths: Vec<Path<S>>,
     rays: RayCounts,
 }
@@ -35,22 +36,22 @@ pub(crate) struct RayCounts {
 #[derive(Debug)]
 struct Path<S> {
     target: usize,
-    notes: Vec<Note<S>>,
+    notes: Vec<VertexRecord<S>>,
     flights: u32,
 }
 
 /// The same paths on a map.
-pub(super) struct Trips {
+pub(super) struct Replay {
     /// With what a unit is worth where each starts.
-    trips: Vec<(f64, Trip)>,
+    trips: Vec<(f64, ReplayedPath)>,
     rays: RayCounts,
     /// For each that a path takes itself, those that ask for light on its way included.
     rays_for_flight: f64,
 }
 
-struct Trip {
+struct ReplayedPath {
     target: usize,
-    walk: SampleSource,
+    walk: PathRecord,
     /// Variance of the map by the noise of its photons, by what it counts at the start.
     noise: f64,
 }
@@ -62,13 +63,13 @@ pub(crate) struct Outcome {
     pub(crate) rays: f64,
 }
 
-impl<S> Default for Walks<S> {
+impl<S> Default for PathRecords<S> {
     fn default() -> Self {
         Self { paths: Vec::new(), rays: RayCounts::default() }
     }
 }
 
-impl<S: Spectrum> Walks<S> {
+impl<S: Spectrum> PathRecords<S> {
     /// Remembers a path of one of the targets.
     pub(crate) fn add(&mut self, target: usize, path: &mut PathResult<S>) {
         let notes = std::mem::take(&mut path.notes);
@@ -91,7 +92,7 @@ impl<S: Spectrum> Walks<S> {
         context: &Context<'_, S>,
         (layout, map): (&MapLayout, &IlluminationMap<'_, S>),
         wanted: &ErrorTarget,
-    ) -> Trips {
+    ) -> Replay {
         self.trips(wanted, |note| {
             let weight = note.weight?;
             let sides = layout.len() as u64;
@@ -106,15 +107,15 @@ impl<S: Spectrum> Walks<S> {
     fn trips(
         &self,
         wanted: &ErrorTarget,
-        read: impl Fn(&Note<S>) -> Option<Reading> + Sync,
-    ) -> Trips {
+        read: impl Fn(&VertexRecord<S>) -> Option<Reading> + Sync,
+    ) -> Replay {
         let trip = |path: &Path<S>| (wanted.importance_per_lx(path.target), path.trip(&read));
         let flights: u64 = self.paths.iter().map(|path| u64::from(path.flights)).sum();
         let flights = flights.max(1) as f64;
         let RayCounts { all, at_start, .. } = self.rays;
         // Not all lights that may be asked for are before a start.
         let at_start = at_start.min(all - flights).max(0.0);
-        Trips {
+        Replay {
             trips: self.paths.par_iter().map(trip).collect(),
             rays: RayCounts { at_start, ..self.rays },
             rays_for_flight: (all - at_start) / flights,
@@ -131,10 +132,10 @@ struct Reading {
 }
 
 impl<S: Spectrum> Path<S> {
-    fn trip(&self, read: impl Fn(&Note<S>) -> Option<Reading>) -> Trip {
+    fn trip(&self, read: impl Fn(&VertexRecord<S>) -> Option<Reading>) -> ReplayedPath {
         let mut variance = 0.0;
         let ends = self.notes.iter().skip(1).map(|note| note.flights).chain([self.flights]);
-        let step = |(note, end): (&Note<S>, u32)| {
+        let step = |(note, end): (&VertexRecord<S>, u32)| {
             let read = read(note);
             let is_on_map = read.is_some();
             let none = Reading { element: 0, light: 0.0, noise: 0.0 };
@@ -150,18 +151,18 @@ impl<S: Spectrum> Path<S> {
         };
         let steps: Vec<Step> = self.notes.iter().zip(ends).map(step).collect();
         let flights = self.notes.first().map_or(self.flights, |note| note.flights);
-        Trip { target: self.target, walk: SampleSource { flights, steps }, noise: variance }
+        ReplayedPath { target: self.target, walk: PathRecord { flights, steps }, noise: variance }
     }
 }
 
-impl Trip {
+impl ReplayedPath {
     /// Where it might have ended on the map.
     fn findings(&self) -> impl Iterator<Item = Finding> {
         self.walk.steps.iter().filter(|step| step.is_on_map).map(|step| step.finding)
     }
 }
 
-impl Trips {
+impl Replay {
     /// How far off the map is.
     pub(super) fn survival(&self) -> Survival {
         let trips = self.trips.iter();
@@ -172,7 +173,7 @@ impl Trips {
 
     /// What ending on the map at their first surface would cost the trips on average.
     pub(super) fn usual_loss(&self, survival: &Survival) -> f64 {
-        let loss = |(importance, trip): &(f64, Trip)| {
+        let loss = |(importance, trip): &(f64, ReplayedPath)| {
             let Finding { element, weight, light, .. } = trip.findings().next()?;
             Some(survival.loss(element, importance * weight, importance * light))
         };
@@ -208,7 +209,8 @@ impl Trips {
     /// With these chances.
     pub(super) fn outcome(&self, ending: Ending<'_>, wanted: &ErrorTarget) -> Outcome {
         let at_end = self.rays.at_end / self.rays_for_flight;
-        let price = |(importance, trip): &(f64, Trip)| trip.walk.price(ending, *importance, at_end);
+        let price =
+            |(importance, trip): &(f64, ReplayedPath)| trip.walk.price(ending, *importance, at_end);
         let prices: Vec<Price> = self.trips.par_iter().map(price).collect();
         let mut sums = vec![(0.0, 0.0); wanted.targets()];
         for ((_, trip), price) in self.trips.iter().zip(&prices) {

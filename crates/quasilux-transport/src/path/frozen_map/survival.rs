@@ -3,7 +3,7 @@
 use crate::codec::Writer;
 
 /// Paths go on with this probability at least, so that no survivor counts too much.
-pub(super) const MIN: f64 = 1.0 / 64.0;
+pub(crate) const MIN: f64 = 1.0 / 64.0;
 /// Where the map has less than this part of the mean, it is taken as if it had so much: it may have missed something.
 const DIM: f64 = 0.1;
 /// What is known of all elements counts in each as much as this many paths of its own, of usual light.
@@ -24,18 +24,18 @@ pub(crate) struct Survival {
 
 /// What one path found beyond an element, and what the map has there, both by what they count at its start.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Finding {
-    pub(super) element: usize,
+pub(crate) struct Finding {
+    pub(crate) element: usize,
     /// What a lux there counts.
-    pub(super) weight: f64,
+    pub(crate) weight: f64,
     /// On the map.
-    pub(super) light: f64,
-    pub(super) beyond: f64,
+    pub(crate) light: f64,
+    pub(crate) beyond: f64,
 }
 
 impl Finding {
     /// For a start where a unit counts so much.
-    pub(super) fn importance(self, importance: f64) -> Self {
+    pub(crate) fn importance(self, importance: f64) -> Self {
         let [weight, light, beyond] =
             [self.weight, self.light, self.beyond].map(|x| x * importance);
         Self { weight, light, beyond, ..self }
@@ -44,7 +44,7 @@ impl Finding {
 
 impl Survival {
     /// Of a map that paths found this about; none of them goes on for certain yet.
-    pub(super) fn of(findings: impl Iterator<Item = Finding>) -> Self {
+    pub(crate) fn of(findings: impl Iterator<Item = Finding>) -> Self {
         let mut findings: Vec<Finding> = findings.filter(|finding| finding.weight > 0.0).collect();
         // By element.
         findings.sort_by_key(|finding| finding.element);
@@ -76,19 +76,19 @@ impl Survival {
         survival
     }
 
-    pub(super) fn with_sureness(&self, sureness: f64) -> Self {
+    pub(crate) fn with_sureness(&self, sureness: f64) -> Self {
         Self { sureness, ..self.clone() }
     }
 
     /// What the start of a path would get wrong if it ended here, on average.
-    pub(super) fn loss(&self, element: usize, weight: f64, light: f64) -> f64 {
+    pub(crate) fn loss(&self, element: usize, weight: f64, light: f64) -> f64 {
         let known = self.off.binary_search_by_key(&element, |(element, _)| *element);
         let off = known.map_or(self.usual_off, |number| self.off[number].1);
         off * self.light(weight, light)
     }
 
     /// With what probability it goes on; `None` where a lux counts nothing, or neither paths nor photons found any.
-    pub(super) fn chance(&self, element: usize, weight: f64, light: f64) -> Option<f64> {
+    pub(crate) fn chance(&self, element: usize, weight: f64, light: f64) -> Option<f64> {
         let is_known = weight > 0.0 && self.mean_lx > 0.0;
         let loss = is_known.then(|| self.loss(element, weight, light))?;
         Some((self.sureness * loss).clamp(MIN, 1.0))
@@ -99,7 +99,7 @@ impl Survival {
     }
 
     /// Puts it among the decisions.
-    pub(super) fn put(&self, out: &mut Writer) {
+    pub(crate) fn put(&self, out: &mut Writer) {
         let Self { sureness, mean_lx, usual_off, off } = self;
         [sureness, mean_lx, usual_off].into_iter().for_each(|x| out.f64(*x));
         for (element, off) in off {
