@@ -1,9 +1,11 @@
 //! What the architecture test and the command `cargo xtask` know about the sources of the
 //! workspace.
 //!
-//! [`modules`] reads which module imports which, [`ratchet`] keeps the list of known violations,
-//! [`workspace`] knows where all is.
+//! [`modules`] reads which module imports which, [`style`] finds long functions, long lines and
+//! tuples of unlike types, [`ratchet`] keeps the lists of known violations, [`workspace`] knows
+//! where all is.
 
 pub mod modules;
 pub mod ratchet;
+pub mod style;
 pub mod workspace;

@@ -6,6 +6,7 @@
 //! its file is deleted, and the rule holds without exception.
 
 use crate::modules::{arrows::Graph, rules, targets};
+use crate::style::{files, functions, width};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,12 @@ pub struct Rule {
 }
 
 /// All rules that may have a list.
-pub const RULES: [Rule; 1] = [Rule { name: "order", find: against_the_order }];
+pub const RULES: [Rule; 4] = [
+    Rule { name: "order", find: against_the_order },
+    Rule { name: "long_functions", find: long_functions },
+    Rule { name: "tuples", find: unlike_tuples },
+    Rule { name: "width", find: long_lines },
+];
 
 /// Reads the import graphs of all crates of a workspace.
 ///
@@ -53,6 +59,49 @@ fn against_the_order(root: &Path) -> Result<Found, String> {
     // However many imports join two rooms, it is one arrow: its number may change freely.
     found.values_mut().for_each(|places| *places = vec![places.join("\n    ")]);
     Ok(found)
+}
+
+/// Functions of too many lines, by file and name.
+fn long_functions(root: &Path) -> Result<Found, String> {
+    let functions = of_all_crates(root)?.into_iter();
+    Ok(grouped(functions.filter(|function| function.lines > functions::MAX_LINES).map(
+        |function| {
+            let place = format!("{}:{}: {} lines", function.file, function.line, function.lines);
+            (format!("{}: {}", function.file, function.name), place)
+        },
+    )))
+}
+
+/// Tuples of unlike types in signatures, by file and function.
+fn unlike_tuples(root: &Path) -> Result<Found, String> {
+    let functions = of_all_crates(root)?.into_iter();
+    Ok(grouped(functions.flat_map(|function| {
+        let key = format!("{}: {}", function.file, function.name);
+        let place = format!("{}:{}: ", function.file, function.line);
+        let found: Vec<_> = function.tuples.iter().map(|t| format!("{place}{t}")).collect();
+        found.into_iter().map(move |place| (key.clone(), place))
+    })))
+}
+
+/// Lines of too many columns, by file.
+fn long_lines(root: &Path) -> Result<Found, String> {
+    let files = files::of_workspace(root, &[".rs", ".md"])?;
+    Ok(grouped(files.into_iter().flat_map(|file| {
+        let lines = width::long_lines(&file).into_iter();
+        lines.map(move |line| (file.path.clone(), format!("{}:{line}", file.path)))
+    })))
+}
+
+fn of_all_crates(root: &Path) -> Result<Vec<functions::Function>, String> {
+    let graphs = graphs(root)?;
+    Ok(graphs.iter().flat_map(|graph| functions::of_crate(&graph.tree)).collect())
+}
+
+/// Places by key.
+fn grouped(places: impl Iterator<Item = (String, String)>) -> Found {
+    let mut found = Found::new();
+    places.for_each(|(key, place)| found.entry(key).or_default().push(place));
+    found
 }
 
 /// What differs between the violations found and those listed, one line each.

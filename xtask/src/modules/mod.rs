@@ -16,5 +16,5 @@ mod paths;
 pub mod rules;
 mod scope;
 pub mod targets;
-mod tests_left_out;
+pub(crate) mod tests_left_out;
 pub mod tree;
