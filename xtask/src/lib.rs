@@ -2,10 +2,12 @@
 //! workspace.
 //!
 //! [`modules`] reads which module imports which, [`style`] finds long functions, long lines and
-//! tuples of unlike types, [`ratchet`] keeps the lists of known violations, [`workspace`] knows
+//! tuples of unlike types, [`packages`] what crates lack before others can take them,
+//! [`ratchet`] keeps the lists of known violations, [`workspace`] knows
 //! where all is.
 
 pub mod modules;
+pub mod packages;
 pub mod ratchet;
 pub mod style;
 pub mod workspace;

@@ -6,6 +6,7 @@
 //! its file is deleted, and the rule holds without exception.
 
 use crate::modules::{arrows::Graph, rules, targets};
+use crate::packages;
 use crate::style::{files, functions, width};
 use std::collections::BTreeMap;
 use std::fs;
@@ -23,10 +24,11 @@ pub struct Rule {
 }
 
 /// All rules that may have a list.
-pub const RULES: [Rule; 4] = [
+pub const RULES: [Rule; 5] = [
     Rule { name: "order", find: against_the_order },
     Rule { name: "long_functions", find: long_functions },
     Rule { name: "tuples", find: unlike_tuples },
+    Rule { name: "packages", find: lacking_packages },
     Rule { name: "width", find: long_lines },
 ];
 
@@ -80,6 +82,14 @@ fn unlike_tuples(root: &Path) -> Result<Found, String> {
         let place = format!("{}:{}: ", function.file, function.line);
         let found: Vec<_> = function.tuples.iter().map(|t| format!("{place}{t}")).collect();
         found.into_iter().map(move |place| (key.clone(), place))
+    })))
+}
+
+/// Files and keys that crates lack before others can take them, by crate and name.
+fn lacking_packages(root: &Path) -> Result<Found, String> {
+    Ok(grouped(packages::of_workspace(root)?.into_iter().flat_map(|package| {
+        let tell = |missing| (format!("{}: {missing}", package.name), "is missing".to_owned());
+        package.missing.iter().map(tell).collect::<Vec<_>>()
     })))
 }
 

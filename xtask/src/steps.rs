@@ -11,7 +11,7 @@ struct Step {
     run: fn() -> Result<(), Failure>,
 }
 
-const STEPS: [Step; 6] = [
+const STEPS: [Step; 7] = [
     Step { name: "fmt", run: || cargo(&["fmt", "--all", "--check"], &[]) },
     Step {
         name: "clippy",
@@ -23,6 +23,7 @@ const STEPS: [Step; 6] = [
         name: "docs",
         run: || cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")]),
     },
+    Step { name: "package", run: package_crates },
     Step { name: "examples", run: || examples::run_all(&workspace_root()) },
 ];
 
@@ -74,6 +75,25 @@ fn check_fuzz_targets() -> Result<(), Failure> {
     const MANIFEST: &str = "--manifest-path=fuzz/Cargo.toml";
     cargo(&["fmt", MANIFEST, "--check"], &[])?;
     cargo(&["clippy", MANIFEST, "--no-default-features", "--", "-D", "warnings"], &[])
+}
+
+/// Crates that are built from what was packed: it takes 30 s of processor time, and the others,
+/// which stand on these, would take as long again.
+const VERIFIED: [&str; 5] =
+    ["quasilux-sampling", "quasilux-text", "quasilux-photometry", "quasilux-bsdf", "quasilux-bvh"];
+
+/// Packs the crates that may be published, without the registry, and builds [`VERIFIED`] from it.
+fn package_crates() -> Result<(), Failure> {
+    let packages = xtask::packages::of_workspace(&workspace_root())?;
+    let names: Vec<&str> = packages.iter().map(|package| package.name.as_str()).collect();
+    let pack = |names: &[&str], more: &[&str]| {
+        let mut arguments = vec!["package", "--quiet", "--offline", "--allow-dirty"];
+        arguments.extend(more);
+        arguments.extend(names.iter().flat_map(|name| ["--package", name]));
+        cargo(&arguments, &[])
+    };
+    pack(&names, &["--no-verify"])?;
+    pack(&VERIFIED, &[])
 }
 
 /// Runs cargo in the workspace with further environment variables.

@@ -79,7 +79,11 @@ fn of_package(root: &Path, folder: &str) -> Result<Vec<Target>, String> {
     Ok(libraries.into_iter().map(library).chain(binaries.into_iter().map(named)).collect())
 }
 
-fn manifest(path: &Path) -> Result<Table, String> {
+/// A manifest.
+///
+/// # Errors
+/// When it is missing or malformed.
+pub(crate) fn manifest(path: &Path) -> Result<Table, String> {
     let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
     text.parse().map_err(|error| format!("{}: {error}", path.display()))
 }
