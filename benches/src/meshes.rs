@@ -1,7 +1,6 @@
 //! What rays are shot at.
 
 use glam::{DMat3, DVec3};
-use std::path::Path;
 use std::process::Command;
 
 /// Triangles, and an inner point to shoot photons from.
@@ -21,13 +20,15 @@ impl Scene {
     }
 }
 
-/// A furnished kitchen of 57 000 triangles; `None` where the file or `zstd` is missing.
+/// A furnished kitchen of 57 000 triangles; `None` with `QUASILUX_CORPUS=none`.
+///
+/// # Panics
+/// Where the file is missing, is damaged, or the program `zstd` is missing.
 pub fn kitchen() -> Option<Scene> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../shared/data/scenes/obvhs-kitchen/kitchen.obj.zst");
-    let output = Command::new("zstd").arg("-dcq").arg(file).output().ok()?;
-    let corners = read_obj(std::str::from_utf8(&output.stdout).ok()?);
-    let [low, high] = bounds(&corners)?;
+    let file = quasilux_corpus::find("scenes/obvhs-kitchen/kitchen.obj.zst")?;
+    let output = Command::new("zstd").arg("-dcq").arg(file).output().expect("the program zstd");
+    let corners = read_obj(std::str::from_utf8(&output.stdout).expect("OBJ is text"));
+    let [low, high] = bounds(&corners).expect("a kitchen has triangles");
     Some(Scene { name: "kitchen", source: 0.5 * (low + high), corners })
 }
 

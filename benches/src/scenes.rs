@@ -104,16 +104,19 @@ pub fn lamp_and_probe(scene: &str, lamp: [f64; 3], probe: [f64; 3]) -> String {
     )
 }
 
-/// A furnished kitchen of 57 000 triangles, a lamp and a level grid in its middle; `None` where the
-/// file or `zstd` is missing.
+/// A furnished kitchen of 57 000 triangles, a lamp and a level grid in its middle; `None` with
+/// `QUASILUX_CORPUS=none`.
+///
+/// # Panics
+/// Where the file is missing, is damaged, or the program `zstd` is missing.
 #[must_use]
 pub fn kitchen() -> Option<Named> {
-    let folder =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/scenes/obvhs-kitchen");
+    let folder = quasilux_corpus::find("scenes/obvhs-kitchen")?;
     // Light and sensor are replaced when the size of the kitchen is known.
     let project = lamp_and_probe("geometry = [\"kitchen.obj\"]\nup = \"y\"", [0.0; 3], [0.0; 3]);
-    let mut scene = load("kitchen", project.as_bytes(), &Folder(folder)).ok()?.scene;
-    let [low, high] = scene.mesh.bounds()?;
+    let scene = load("kitchen", project.as_bytes(), &Folder(folder));
+    let mut scene = scene.expect("the kitchen and zstd").scene;
+    let [low, high] = scene.mesh.bounds().expect("a kitchen has triangles");
     let (middle, edges) = (0.5 * (low + high), 0.5 * (high - low));
     scene.lights = vec![Light::Point(PointLight { position: middle, intensity_cd: 100.0 })];
     let grid = Grid {

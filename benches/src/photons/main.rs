@@ -51,7 +51,7 @@ fn main() {
     );
     let kitchen = scenes::kitchen();
     if kitchen.is_none() {
-        println!("left out: kitchen, since the file or zstd is missing");
+        println!("left out: kitchen, as QUASILUX_CORPUS=none asks");
     }
     let examples = ["cube", "office"].map(scenes::example);
     for named in examples.into_iter().chain(kitchen).filter(asked) {

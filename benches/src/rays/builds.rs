@@ -5,9 +5,8 @@
 //! processors together, and of the ratios within a turn. With `taskset -c 0` in front all run on one
 //! thread.
 
-use crate::time;
-use quasilux_benches::median;
 use quasilux_benches::meshes::Scene;
+use quasilux_benches::{median, timed};
 use quasilux_bvh::TriangleBvh;
 use quasilux_foreign::{Embree, Quality, all_processors_seconds};
 use std::hint::black_box;
@@ -61,8 +60,8 @@ pub(crate) fn measure(scene: &Scene, embree: Option<&Embree>) {
 /// The cost of a build, without that of throwing its result away.
 fn cost<R>(build: impl FnOnce() -> R) -> Cost {
     let before = all_processors_seconds();
-    let (wall, result) = time(build);
+    let built = timed(build);
     let processor = all_processors_seconds() - before;
-    black_box(result);
-    Cost { wall, processor }
+    black_box(built.result);
+    Cost { wall: built.seconds, processor }
 }

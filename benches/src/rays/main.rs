@@ -11,11 +11,10 @@ mod photons;
 
 use photons::{RayQuery, photon_rays};
 use quasilux_benches::meshes::{self, Scene};
-use quasilux_benches::{median, processor_time};
+use quasilux_benches::{Timed, median, processor_time, timed};
 use quasilux_bvh::{RayQuery as BvhShot, TriangleBvh};
 use quasilux_foreign::{Embree, Mesh, Quality, RayHit};
 use std::hint::black_box;
-use std::time::Instant;
 
 const RAYS: usize = 1 << 20;
 const ROUND: usize = 1 << 14;
@@ -44,7 +43,7 @@ fn main() {
     };
     let kitchen = meshes::kitchen();
     if kitchen.is_none() {
-        println!("left out: kitchens, since the file or zstd is missing");
+        println!("left out: kitchens, as QUASILUX_CORPUS=none asks");
     }
     let nine = kitchen.as_ref().map(meshes::kitchens);
     let asked =
@@ -63,7 +62,7 @@ fn main() {
 /// Builds all hierarchies over a scene, shoots the same rays at them and prints the figures.
 fn measure(scene: Scene, embree: Option<&Embree>) {
     let corners = scene.corners.clone();
-    let (own_build, own) = time(|| TriangleBvh::build(corners));
+    let Timed { seconds: own_build, result: own } = timed(|| TriangleBvh::build(corners));
     let rays = photon_rays(&scene, &own, RAYS);
     let name = format!("quasilux, {} triangles", scene.corners.len());
 
@@ -79,8 +78,8 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
         .flat_map(|embree| {
             [("Embree, medium", Quality::Medium), ("Embree, high", Quality::High)].map(
                 |(name, quality)| {
-                    let (seconds, mesh) = time(|| embree.build(&narrow, quality));
-                    (name, seconds, mesh)
+                    let built = timed(|| embree.build(&narrow, quality));
+                    (name, built.seconds, built.result)
                 },
             )
         })
@@ -124,11 +123,4 @@ fn shoot_embree(mesh: &Mesh<'_>, rays: &[RayHit]) {
         mesh.closest_hit(&mut ray);
         black_box(&ray);
     }
-}
-
-#[expect(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
-fn time<R>(work: impl FnOnce() -> R) -> (f64, R) {
-    let start = Instant::now();
-    let result = work();
-    (start.elapsed().as_secs_f64(), result)
 }

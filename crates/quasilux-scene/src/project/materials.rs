@@ -1,9 +1,10 @@
 //! `[materials.NAME]`: what the project file says about the materials of the geometry.
 
-use super::document::{Section, Value};
+use super::coefficients::{eta, index, reflectance, shares};
+use super::document::Section;
 use super::pane;
 use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
-use crate::{Bsdf, LoadError, Placed, Rgb};
+use crate::{Bsdf, LoadError, Placed};
 use glam::DVec3;
 
 /// What each kind may hold beside `kind`.
@@ -19,9 +20,6 @@ const KINDS: [(&str, &[&str]); 7] = [
 const PLANNED_KINDS: [&str; 2] = ["glossy", "phong"];
 const PLANNED_KEYS: [&str; 2] = ["specular", "texture"];
 
-/// Of glass, and of most plastics and varnishes.
-const DEFAULT_ETA: f64 = 1.5;
-
 /// Roughness below which a surface is as good as smooth; its square is the least alpha.
 const MIN_ROUGHNESS: f64 = 0.02;
 const MIN_ALPHA: f64 = 0.0004;
@@ -29,8 +27,6 @@ const MIN_ALPHA: f64 = 0.0004;
 /// What `file` is.
 const FILE_NAME: &str = "the name of a file with a measured BSDF";
 const UP: &str = "a direction [x, y, z] with a length";
-
-pub(super) const SHARES: &str = "a number or [r, g, b] within 0 to 1";
 
 /// One material.
 #[derive(Clone, Debug)]
@@ -139,25 +135,6 @@ fn diffuse(section: &Section<'_>) -> Result<Bsdf, LoadError> {
     Ok(Bsdf::Translucent(Translucent { reflectance, transmittance }))
 }
 
-fn reflectance(section: &Section<'_>) -> Result<Rgb, LoadError> {
-    shares(section.require("reflectance", SHARES)?)
-}
-
-/// The refractive index of a body or a pane; that of glass if not given.
-pub(super) fn eta(section: &Section<'_>) -> Result<f64, LoadError> {
-    index(section, "a refractive index within 0.2 to 5, not 1", |x| {
-        (0.2..=5.0).contains(&x) && x != 1.0
-    })
-}
-
-fn index(
-    section: &Section<'_>,
-    expected: &str,
-    accept: impl Fn(f64) -> bool,
-) -> Result<f64, LoadError> {
-    section.get("eta").map_or(Ok(DEFAULT_ETA), |eta| eta.number(expected, accept))
-}
-
 /// Given as such, or as a roughness, whose square it is: equal steps of roughness look alike.
 fn alpha(section: &Section<'_>, smooth: &str) -> Result<f64, LoadError> {
     let value = section.exactly_one(&["roughness", "alpha"])?;
@@ -168,16 +145,4 @@ fn alpha(section: &Section<'_>, smooth: &str) -> Result<f64, LoadError> {
     let expected = format!("a number within {MIN_ROUGHNESS} to 1{smooth}");
     let roughness = value.number(&expected, |x| (MIN_ROUGHNESS..=1.0).contains(&x))?;
     Ok(roughness * roughness)
-}
-
-/// One share for all channels, or one for each.
-pub(super) fn shares(value: Value<'_>) -> Result<Rgb, LoadError> {
-    let share = |value: &Value<'_>| value.number(SHARES, |x| (0.0..=1.0).contains(&x));
-    match value.array(SHARES) {
-        Err(_) => Ok(Rgb::grey(share(&value)?)),
-        Ok(channels) => match channels.as_slice() {
-            [r, g, b] => Ok(Rgb([share(r)?, share(g)?, share(b)?])),
-            _ => Err(value.unexpected(SHARES)),
-        },
-    }
 }

@@ -5,6 +5,7 @@
 //! key.
 
 mod cameras;
+mod coefficients;
 mod document;
 mod grid;
 mod lights;

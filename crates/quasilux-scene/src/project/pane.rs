@@ -1,7 +1,7 @@
 //! `kind = "pane"`: a clear, a tinted or a measured pane.
 
+use super::coefficients::{SHARES, eta, shares};
 use super::document::{Section, Value};
-use super::materials::{SHARES, eta, shares};
 use crate::LoadError;
 use crate::bsdf::{AngularNode, AngularTable, Pane};
 use std::f64::consts::FRAC_PI_2;
