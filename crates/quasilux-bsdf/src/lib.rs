@@ -67,9 +67,15 @@ pub use measured::MeasuredBsdf;
 pub use memory::max_bsdf_memory_bytes;
 pub use merl::read_merl;
 pub use parsed::Parsed;
+pub use quasilux_sampling::ParseNameError;
 pub use quasilux_text::{ParseError, Position};
 pub use read::{read_bsdf, read_bsdf_named};
 pub use side::{Side, Way};
 pub use tree::{ExchangedTree, TensorTree};
 pub use warning::{Warning, WarningKind};
 pub use window_xml::read_bsdf_xml;
+
+/// Tests the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

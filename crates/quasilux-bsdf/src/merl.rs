@@ -38,6 +38,9 @@ const HALF_KNOTS: [u8; 22] =
 const DIRECTIONS: usize = 12_000;
 
 /// Reads a MERL file. Total: any bytes give a surface or an error; its place is the byte, counted from 1 in line 1.
+///
+/// # Errors
+/// [`ParseError`] with the position where the three counts are not those of the file, or it is cut short.
 pub fn read_merl(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let start = Position { line: 1, column: 1 };
     let counts = counts(bytes).ok_or_else(|| {

@@ -5,6 +5,7 @@ use crate::warning::Warning;
 
 /// A file that was read, with what was odd about it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Parsed {
     /// The surface.
     pub bsdf: MeasuredBsdf,

@@ -18,11 +18,17 @@ const SEARCHED: usize = 1 << 14;
 /// Reads a measured surface of any known format, told by the content; that of a DDR file is reflection, with a warning, see
 /// [`read_bsdf_named`]. Total: any bytes give a surface or an error with its place, in memory bounded by
 /// [`max_bsdf_memory_bytes`](crate::max_bsdf_memory_bytes).
+///
+/// # Errors
+/// [`ParseError`] for content of no known format, and all errors of the reader of the format.
 pub fn read_bsdf(bytes: &[u8]) -> Result<Parsed, ParseError> {
     read_bsdf_named("", bytes)
 }
 
 /// The same with the name of the file, whose extension tells reflection, `.ddr`, from transmission, `.ddt`.
+///
+/// # Errors
+/// All errors of [`read_bsdf`].
 pub fn read_bsdf_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
     if merl::counts(bytes).is_some() {
         return read_merl(bytes);

@@ -1,5 +1,9 @@
 //! The sides of a thin sheet, and the modes of scattering: reflection and transmission.
 
+use quasilux_sampling::ParseNameError;
+use std::fmt;
+use std::str::FromStr;
+
 /// A side of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
@@ -52,5 +56,59 @@ impl Way {
             Self::Reflection => "reflection",
             Self::Transmission => "transmission",
         }
+    }
+}
+
+impl fmt::Display for Side {
+    /// Its [name](Self::name).
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Side {
+    type Err = ParseNameError;
+
+    /// The side of that [name](Self::name).
+    ///
+    /// # Errors
+    /// [`ParseNameError`] for any other text.
+    fn from_str(name: &str) -> Result<Self, ParseNameError> {
+        let known = Self::ALL.into_iter().find(|known| known.name() == name);
+        known.ok_or_else(|| ParseNameError::new("side", name, "front, back"))
+    }
+}
+
+impl fmt::Display for Way {
+    /// Its [name](Self::name).
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Way {
+    type Err = ParseNameError;
+
+    /// The scattering mode of that [name](Self::name).
+    ///
+    /// # Errors
+    /// [`ParseNameError`] for any other text.
+    fn from_str(name: &str) -> Result<Self, ParseNameError> {
+        let known = Self::ALL.into_iter().find(|known| known.name() == name);
+        known
+            .ok_or_else(|| ParseNameError::new("scattering mode", name, "reflection, transmission"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_and_modes_are_read_back_from_their_names() {
+        assert!(Side::ALL.into_iter().all(|side| side.to_string().parse() == Ok(side)));
+        assert!(Way::ALL.into_iter().all(|way| way.to_string().parse() == Ok(way)));
+        let error = "absorption".parse::<Way>().unwrap_err();
+        assert!(error.to_string().contains("expected reflection, transmission"));
     }
 }

@@ -1,44 +1,12 @@
 //! What a photometric file says about its luminaire beside the intensities.
 
-/// The format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standard {
-    /// ANSI/IES LM-63 (.ies), by edition.
-    Lm63(IesStandard),
-    /// EULUMDAT (.ldt).
-    Eulumdat,
-    /// ANSI/IES TM-33 (.xml), by edition.
-    Tm33(Tm33Edition),
-}
-
-/// The edition of ANSI/IES TM-33 that a file claims to follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Tm33Edition {
-    /// ATLA S001, from which TM-33 was made: root element `ATLA_S001` or `ATLA_S001_A`.
-    AtlaS001,
-    /// TM-33-18: root element `IESTM33`.
-    Of2018,
-    /// TM-33-23: root element `IESTM33-22`.
-    Of2023,
-}
-
-/// The edition of ANSI/IES LM-63 that a file claims to follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum IesStandard {
-    /// LM-63-1986: no identifying line; free label lines before `TILT=`.
-    Lm63Of1986,
-    /// LM-63-1991: first line `IESNA91`.
-    Lm63Of1991,
-    /// LM-63-1995: first line `IESNA:LM-63-1995`.
-    Lm63Of1995,
-    /// LM-63-2002: first line `IESNA:LM-63-2002`.
-    Lm63Of2002,
-    /// LM-63-2019: first line `IES:LM-63-2019`.
-    Lm63Of2019,
-}
+use crate::standard::Standard;
+use quasilux_sampling::ParseNameError;
+use std::fmt;
+use std::str::FromStr;
 
 /// The web of angles that a luminaire was measured in: where its poles are (see [`Web`](crate::Web)).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PhotometricType {
     /// Poles along the vertical axis, angles (C, gamma): indoor and road lighting.
     C,
@@ -145,10 +113,39 @@ pub struct EulumdatFacts {
     pub further_lamp_sets: Vec<[String; 6]>,
 }
 
-impl IesStandard {
-    /// All of them, the earliest first.
-    pub const ALL: [Self; 5] =
-        [Self::Lm63Of1986, Self::Lm63Of1991, Self::Lm63Of1995, Self::Lm63Of2002, Self::Lm63Of2019];
+impl PhotometricType {
+    /// All types.
+    pub const ALL: [Self; 3] = [Self::A, Self::B, Self::C];
+
+    /// `A`, `B` or `C`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+        }
+    }
+}
+
+impl fmt::Display for PhotometricType {
+    /// Its [name](Self::name).
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for PhotometricType {
+    type Err = ParseNameError;
+
+    /// The type of that [name](Self::name).
+    ///
+    /// # Errors
+    /// [`ParseNameError`] for any other text.
+    fn from_str(name: &str) -> Result<Self, ParseNameError> {
+        let known = Self::ALL.into_iter().find(|kind| kind.name() == name);
+        known.ok_or_else(|| ParseNameError::new("photometric type", name, "A, B, C"))
+    }
 }
 
 impl LuminaireFacts {

@@ -2,10 +2,14 @@
 
 use crate::warning::Warnings;
 use crate::{Parsed, read_ies, read_ldt, read_tm33};
+use quasilux_sampling::ParseNameError;
 use quasilux_text::{ParseError, decode, lines};
+use std::fmt;
+use std::str::FromStr;
 
 /// The formats of luminaire files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Format {
     /// ANSI/IES LM-63.
     Lm63,
@@ -21,6 +25,9 @@ const MAX_SEARCHED: usize = 1 << 16;
 const LDT_NUMBERS: std::ops::Range<usize> = 2..7;
 
 impl Format {
+    /// All formats.
+    pub const ALL: [Self; 3] = [Self::Lm63, Self::Eulumdat, Self::Tm33];
+
     /// The format that the content shows: a line `TILT=` or an identifying line makes it LM-63, an
     /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT: there, a later line that begins
     /// as `TILT=` does is a name. `None` where there is no such mark.
@@ -70,7 +77,7 @@ impl Format {
         Self::of_name(name).filter(|promised| *promised != self)
     }
 
-    /// What people call it.
+    /// `LM-63`, `EULUMDAT` or `TM-33`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lm63 => "LM-63",
@@ -80,12 +87,35 @@ impl Format {
     }
 
     /// Reads a file of this format.
+    ///
+    /// # Errors
+    /// All errors of [`read_ies`], [`read_ldt`] or [`read_tm33`].
     pub fn read(self, bytes: &[u8]) -> Result<Parsed, ParseError> {
         match self {
             Self::Lm63 => read_ies(bytes),
             Self::Eulumdat => read_ldt(bytes),
             Self::Tm33 => read_tm33(bytes),
         }
+    }
+}
+
+impl fmt::Display for Format {
+    /// Its [name](Self::name).
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Format {
+    type Err = ParseNameError;
+
+    /// The format of that [name](Self::name).
+    ///
+    /// # Errors
+    /// [`ParseNameError`] for any other text.
+    fn from_str(name: &str) -> Result<Self, ParseNameError> {
+        let known = Self::ALL.into_iter().find(|format| format.name() == name);
+        known.ok_or_else(|| ParseNameError::new("format", name, "LM-63, EULUMDAT, TM-33"))
     }
 }
 
@@ -112,6 +142,15 @@ mod tests {
         ] {
             assert_eq!(Format::of_content(content.as_bytes()), format, "{content:?}");
         }
+    }
+
+    #[test]
+    fn formats_are_read_back_from_their_names() {
+        for format in Format::ALL {
+            assert_eq!(format.to_string().parse(), Ok(format));
+        }
+        let error = "IES".parse::<Format>().unwrap_err();
+        assert_eq!(error.to_string(), "unknown format \"IES\"; expected LM-63, EULUMDAT, TM-33");
     }
 
     #[test]

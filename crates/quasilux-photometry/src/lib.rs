@@ -38,6 +38,7 @@ mod memory;
 mod parsed;
 mod photometry;
 mod shape;
+mod standard;
 mod table;
 mod tilt;
 mod tm33;
@@ -46,21 +47,25 @@ mod web;
 mod write;
 
 pub use analysis::Analysis;
-pub use facts::{
-    EulumdatFacts, IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType,
-    Standard, Tilt, Tm33Edition,
-};
+pub use facts::{EulumdatFacts, Keyword, LuminaireFacts, LuminousOpening, PhotometricType, Tilt};
 pub use file_format::Format;
 pub use ies::{ReadTilt, read_ies, read_tilt, write_ies};
 pub use ldt::{read_ldt, write_ldt};
 pub use memory::max_read_memory_bytes;
 pub use parsed::Parsed;
 pub use photometry::Photometry;
+pub use quasilux_sampling::ParseNameError;
 pub use quasilux_text::{ParseError, Position};
 pub use shape::{Axis, LuminousShape, Solid, SurfacePoint};
+pub use standard::{IesStandard, Standard, Tm33Edition};
 pub use table::{Angles, DirectionSample, Grid, Maximum, SphericalTable, Symmetry, TableError};
 pub use tilt::{TiltFactor, TiltSupport};
 pub use tm33::read_tm33;
 pub use warning::{Warning, WarningKind};
 pub use web::{Web, WebAngles};
 pub use write::{Encoded, Note};
+
+/// Tests the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

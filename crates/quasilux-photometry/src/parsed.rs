@@ -4,6 +4,7 @@ use crate::{Photometry, Warning};
 
 /// A luminaire file that was parsed, with what was odd about it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Parsed {
     /// The luminaire.
     pub photometry: Photometry,

@@ -1,9 +1,9 @@
-//! The error of parsing the name of a sequence or of a randomisation.
+//! The error of parsing a name out of a closed list: of a sequence, a randomisation, a file format.
 
 use std::error::Error;
 use std::fmt;
 
-/// A text that names no sequence, or no randomisation.
+/// A text that is none of the names of its kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ParseNameError {
@@ -13,6 +13,14 @@ pub struct ParseNameError {
     pub name: String,
     /// All names of this kind.
     pub expected: &'static str,
+}
+
+impl ParseNameError {
+    /// The error of a text `name` that should have been one of the names in `expected`.
+    #[must_use]
+    pub fn new(kind: &'static str, name: &str, expected: &'static str) -> Self {
+        Self { kind, name: name.to_owned(), expected }
+    }
 }
 
 impl fmt::Display for ParseNameError {

@@ -29,3 +29,8 @@ pub use number::{Number, Token, check_room, number_list};
 pub use position::Position;
 pub use quote::{quoted, shortened};
 pub use warning::{TextWarning, Warning, Warnings};
+
+/// Tests the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

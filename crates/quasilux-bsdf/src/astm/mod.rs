@@ -38,6 +38,10 @@ enum Columns {
 
 /// Reads an ASTM E1392 file. What is measured counts for light on the front. Total: any bytes give a surface or an error with its
 /// place.
+///
+/// # Errors
+/// [`ParseError`] with the position where the columns or the angles are not those of a measured
+/// surface, or a value is no number.
 pub fn read_astm(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

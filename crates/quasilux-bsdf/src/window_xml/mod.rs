@@ -32,6 +32,10 @@ enum Structure {
 
 /// Reads a WINDOW file. Total: any bytes give a surface or an error with its place, and memory is bounded by a multiple
 /// of the file's length.
+///
+/// # Errors
+/// [`ParseError`] with the position where the XML is not well formed, or a basis, an axis or a value
+/// is missing or out of range.
 pub fn read_bsdf_xml(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut Warnings::default());

@@ -59,6 +59,10 @@ const METRES_PER_FOOT: f64 = 0.3048;
 
 /// Reads an LM-63 file. Total: any bytes give a luminaire or an error with its place, in
 /// no more memory than [`crate::max_read_memory_bytes`].
+///
+/// # Errors
+/// [`ParseError`] with the position where the header, an angle or a value is missing, no number or out
+/// of range.
 pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

@@ -20,6 +20,7 @@ const LARGEST_FACTOR: f64 = 100.0;
 
 /// A tilt file that was read, with what was odd about it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct ReadTilt {
     /// The factors: always [`Tilt::Include`].
     pub tilt: Tilt,
@@ -29,6 +30,9 @@ pub struct ReadTilt {
 
 /// Reads the file that `TILT=<file>` names. Total: any bytes give factors or an error with its
 /// place, and memory is bounded by a multiple of the file's length.
+///
+/// # Errors
+/// [`ParseError`] with the position where an angle or a factor is missing, no number or out of range.
 pub fn read_tilt(bytes: &[u8]) -> Result<ReadTilt, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

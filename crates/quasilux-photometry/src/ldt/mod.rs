@@ -64,6 +64,9 @@ const REFERENCE_FLUX_LM: f64 = 1000.0;
 
 /// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, in
 /// no more memory than [`crate::max_read_memory_bytes`].
+///
+/// # Errors
+/// [`ParseError`] with the position where a line is missing, no number or out of range.
 pub fn read_ldt(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

@@ -85,6 +85,10 @@ impl Angles {
 
 impl SphericalTable {
     /// A table from a grid as measured: see [`Symmetry`] for what the azimuths mean.
+    ///
+    /// # Errors
+    /// [`TableError`] for a grid with fewer than two polar angles, angles that do not ascend, azimuths
+    /// that do not fit the symmetry, or values that are not finite.
     pub fn new(grid: Grid) -> Result<Self, TableError> {
         let symmetry = grid.symmetry;
         let full = grid.unfold()?;

@@ -44,9 +44,10 @@ pub struct Grid {
 
 /// Why a grid is not one.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TableError {
     /// Fewer than two polar angles.
-    #[error("a spherical table needs at min two polar angles, found {0}")]
+    #[error("a spherical table needs at least two polar angles, found {0}")]
     TooFewPolarAngles(usize),
     /// A polar angle outside [0, pi] or not above its predecessor.
     #[error("polar angle {0} is not above the one before it, or not between 0 and 180 degrees")]

@@ -23,6 +23,10 @@ use std::borrow::Cow;
 
 /// Reads a TM-33 file. Total: any bytes give a luminaire or an error with its place, and memory is
 /// bounded by a multiple of the file's length.
+///
+/// # Errors
+/// [`ParseError`] with the position where the XML is not well formed, or an element that intensities
+/// depend on is missing or out of range.
 pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

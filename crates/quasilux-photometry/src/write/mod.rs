@@ -10,6 +10,7 @@ pub(crate) use turn::{Half, aligned};
 
 /// A file that was written, with what the format could not hold.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Encoded {
     /// The file. Lines end with carriage return and line feed, as both formats ask for.
     pub text: String,

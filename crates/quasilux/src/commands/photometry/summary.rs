@@ -53,8 +53,8 @@ fn facts(luminaire: &Luminaire) -> Vec<(&'static str, String)> {
 
 fn standard(luminaire: &Luminaire) -> String {
     let facts = luminaire.photometry.facts();
-    let kind = words::photometric_type(facts.photometric_type);
-    let name = format!("{}, type {kind}", words::standard(facts.standard));
+    let kind = facts.photometric_type;
+    let name = format!("{}, type {kind}", facts.standard);
     match luminaire.misnamed {
         Some(promised) => format!("{name} (the file's name says {})", promised.name()),
         None => name,

@@ -1,32 +1,8 @@
 //! What things are called, in the summary and in the document.
 
 use quasilux_photometry::analysis::{FluxCode, Plane};
-use quasilux_photometry::{
-    IesStandard, LuminaireFacts, PhotometricType, Standard, Symmetry, Tm33Edition,
-};
+use quasilux_photometry::{LuminaireFacts, Symmetry};
 use std::f64::consts::PI;
-
-pub(super) fn standard(standard: Standard) -> &'static str {
-    match standard {
-        Standard::Lm63(IesStandard::Lm63Of1986) => "LM-63-1986",
-        Standard::Lm63(IesStandard::Lm63Of1991) => "LM-63-1991",
-        Standard::Lm63(IesStandard::Lm63Of1995) => "LM-63-1995",
-        Standard::Lm63(IesStandard::Lm63Of2002) => "LM-63-2002",
-        Standard::Lm63(IesStandard::Lm63Of2019) => "LM-63-2019",
-        Standard::Eulumdat => "EULUMDAT",
-        Standard::Tm33(Tm33Edition::AtlaS001) => "ATLA S001",
-        Standard::Tm33(Tm33Edition::Of2018) => "TM-33-18",
-        Standard::Tm33(Tm33Edition::Of2023) => "TM-33-23",
-    }
-}
-
-pub(super) fn photometric_type(kind: PhotometricType) -> &'static str {
-    match kind {
-        PhotometricType::A => "A",
-        PhotometricType::B => "B",
-        PhotometricType::C => "C",
-    }
-}
 
 pub(super) fn symmetry(symmetry: Symmetry) -> &'static str {
     match symmetry {
