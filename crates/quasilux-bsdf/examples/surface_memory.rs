@@ -1,9 +1,10 @@
-//! The most memory that reading a large file of a measured surface takes, the bytes of the file included, for each format. Files have
-//! 200 MB, or as many as the first argument says:
+//! The most memory that reading a large file of a measured surface takes, the bytes of the file
+//! included, for each format. Files have 200 MB, or as many as the first argument says:
 //!
 //!     cargo run --release -p quasilux-bsdf --example surface_memory -- 200
 //!
-//! With a folder as the second argument the files are also written there, for `/usr/bin/time -v quasilux bsdf FILE`.
+//! With a folder as the second argument the files are also written there, for `/usr/bin/time -v
+//! quasilux bsdf FILE`.
 
 #[path = "../tests/damage/large.rs"]
 mod large;

@@ -10,8 +10,8 @@ use glam::DVec3;
 
 /// A scattering distribution function f(wi, wo) in sr^-1, as a table.
 ///
-/// All directions are in the frame of the [crate](crate): unit, away from the surface, with a positive `z` on their
-/// own side. f does not contain the cosine of `wo`.
+/// All directions are in the frame of the [crate](crate): unit, away from the surface, with a
+/// positive `z` on their own side. f does not contain the cosine of `wo`.
 #[derive(Clone, Debug)]
 pub enum Distribution {
     /// Constant in pairs of angular patches.
@@ -25,8 +25,8 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// f(wi, wo) in sr^-1, without the cosine, in linear RGB; three equal channels where the table is grey. Zero
-    /// where a direction is below its side.
+    /// f(wi, wo) in sr^-1, without the cosine, in linear RGB; three equal channels where the table
+    /// is grey. Zero where a direction is below its side.
     #[must_use]
     pub fn evaluate(&self, wi: DVec3, wo: DVec3) -> [f64; 3] {
         if wi.z < 0.0 || wo.z < 0.0 {
@@ -40,8 +40,8 @@ impl Distribution {
         }
     }
 
-    /// The share of light from `wi` that is scattered: the integral of f times the cosine of `wo`, exact for what
-    /// [`Self::evaluate`] returns.
+    /// The share of light from `wi` that is scattered: the integral of f times the cosine of `wo`,
+    /// exact for what [`Self::evaluate`] returns.
     #[must_use]
     pub fn albedo(&self, wi: DVec3) -> [f64; 3] {
         match self {
@@ -52,10 +52,11 @@ impl Distribution {
         }
     }
 
-    /// Solid angle, sr^-1: a direction with density proportional to the luminance of f times the cosine of `wo`; `None`
-    /// where the albedo is zero.
+    /// Solid angle, sr^-1: a direction with density proportional to the luminance of f times the
+    /// cosine of `wo`; `None` where the albedo is zero.
     ///
-    /// `u` is in [0, 1]^2. An inverse transform: no rejection, and continuous in `u` within a cell of the table.
+    /// `u` is in [0, 1]^2. An inverse transform: no rejection, and continuous in `u` within a cell
+    /// of the table.
     #[must_use]
     pub fn sample(&self, wi: DVec3, u: [f64; 2]) -> Option<ScatterSample> {
         match self {
@@ -94,8 +95,9 @@ impl Distribution {
         }
     }
 
-    /// A bound of the luminance of f times the cosine of `wo`, in sr^-1, over all exits: what rejection would need. It is
-    /// reached to within the cosine in a cell, or to within the mixture of lobes.
+    /// A bound of the luminance of f times the cosine of `wo`, in sr^-1, over all exits: what
+    /// rejection would need. It is reached to within the cosine in a cell, or to within the mixture
+    /// of lobes.
     #[must_use]
     pub fn max_value(&self, wi: DVec3) -> f64 {
         match self {
@@ -106,9 +108,9 @@ impl Distribution {
         }
     }
 
-    /// The incident directions that the table is stored for: centres of cells or knots of a grid, along the
-    /// half-plane of positive `x` where a grid or a tree is isotropic. Trees finer than 32 cells a side are shown at that
-    /// resolution.
+    /// The incident directions that the table is stored for: centres of cells or knots of a grid,
+    /// along the half-plane of positive `x` where a grid or a tree is isotropic. Trees finer than
+    /// 32 cells a side are shown at that resolution.
     #[must_use]
     pub fn incidences(&self) -> Vec<DVec3> {
         match self {
@@ -119,7 +121,8 @@ impl Distribution {
         }
     }
 
-    /// Incidences such that the mean of the albedo over projected solid angle is the sum of theirs by their parts, exactly.
+    /// Incidences such that the mean of the albedo over projected solid angle is the sum of theirs
+    /// by their parts, exactly.
     pub(super) fn parts(&self) -> Vec<Incident> {
         match self {
             Self::Klems(table) => table.parts(),

@@ -1,7 +1,8 @@
 //! Tables of a function: what a laboratory would write down of a surface with a closed form.
 //!
-//! All take f(wi, wo) in sr^-1 without the cosine, in the frame of the [module](super). Boxes and patches hold means of f over midpoints, two
-//! along each axis, so that lobes little wider than a box keep their light; f, being constant in it, is of first order in its width.
+//! All take f(wi, wo) in sr^-1 without the cosine, in the frame of the [module](super). Boxes and
+//! patches hold means of f over midpoints, two along each axis, so that lobes little wider than a
+//! box keep their light; f, being constant in it, is of first order in its width.
 
 use crate::gridded::ExitKnots;
 use crate::gridded::GriddedTable;
@@ -47,9 +48,9 @@ impl KlemsTable {
 }
 
 impl TensorTree {
-    /// The means of f over 2^`log_side` boxes along each axis, in rank 3 where `is_isotropic`, which takes f with wi at azimuth
-    /// pi, and in rank 4 otherwise. `None` where one is negative or no number, and unless boxes are 2 to 2^12 a side and fewer
-    /// than 2^32 in all.
+    /// The means of f over 2^`log_side` boxes along each axis, in rank 3 where `is_isotropic`,
+    /// which takes f with wi at azimuth pi, and in rank 4 otherwise. `None` where one is negative
+    /// or no number, and unless boxes are 2 to 2^12 a side and fewer than 2^32 in all.
     #[must_use]
     pub fn from_function(
         is_isotropic: bool,
@@ -92,9 +93,10 @@ impl TensorTree {
 }
 
 impl GriddedTable {
-    /// Lobes of a surface that is isotropic and mirrored in the plane of incidence, at ascending incident polar angles `theta_rad` up to pi/2.
-    /// Their knots lie at distances `offsets_rad` from the mirror direction, in the plane of incidence and across, and
-    /// wherever gaps would be wider than 2.5 degrees in polar angle or 5 in azimuth: f is of second order in both.
+    /// Lobes of a surface that is isotropic and mirrored in the plane of incidence, at ascending
+    /// incident polar angles `theta_rad` up to pi/2. Their knots lie at distances `offsets_rad`
+    /// from the mirror direction, in the plane of incidence and across, and wherever gaps would be
+    /// wider than 2.5 degrees in polar angle or 5 in azimuth: f is of second order in both.
     ///
     /// `None` where angles do not ascend or are no angles, and where f is negative or no number.
     #[must_use]

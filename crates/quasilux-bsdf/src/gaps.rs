@@ -1,10 +1,12 @@
 //! Gaps between measured azimuths.
 //!
-//! Between azimuths values are interpolated. How much scattered light leaves the plane of incidence shows a quarter turn away from that
-//! plane: over wider gaps nothing tells, and a narrow lobe would be smeared over all of it. Of an isotropic surface, whose lobes are
-//! mirrored in the plane of incidence, harmonics up to the second are told apart by azimuths a quarter turn apart; an eighth of a turn
-//! leaves room for what a smooth lobe has besides. Azimuths *about* the mirror direction smear no lobe, however wide: a quarter turn is narrow
-//! enough there, and between azimuths of incidence.
+//! Between azimuths values are interpolated. How much scattered light leaves the plane of incidence
+//! shows a quarter turn away from that plane: over wider gaps nothing tells, and a narrow lobe
+//! would be smeared over all of it. Of an isotropic surface, whose lobes are mirrored in the plane
+//! of incidence, harmonics up to the second are told apart by azimuths a quarter turn apart; an
+//! eighth of a turn leaves room for what a smooth lobe has besides. Azimuths *about* the mirror
+//! direction smear no lobe, however wide: a quarter turn is narrow enough there, and between
+//! azimuths of incidence.
 
 use crate::warning::WarningKind;
 use crate::warning::Warnings;

@@ -4,8 +4,8 @@
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
 
-/// Samples nearer to the edge of a cell, in parts of it, are moved inside: rounding must not carry a direction
-/// into the next cell.
+/// Samples nearer to the edge of a cell, in parts of it, are moved inside: rounding must not carry
+/// a direction into the next cell.
 pub(super) const INSIDE: f64 = 1e-9;
 
 /// A scattered direction.
@@ -30,8 +30,8 @@ pub(super) fn upwards([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
 }
 
-/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the renormalised rest.
-/// Never a step of height zero.
+/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the
+/// renormalised rest. Never a step of height zero.
 pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usize, f64) {
     let (start, end) = (before(0), before(count));
     let target = start + u * (end - start);
@@ -52,8 +52,8 @@ pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usiz
     (low, rest.clamp(0.0, 1.0))
 }
 
-/// Point `index` of `count` in the unit square: a lattice of rank 1, its generator the golden section (Roberts 2018), moved by
-/// `shift`.
+/// Point `index` of `count` in the unit square: a lattice of rank 1, its generator the golden
+/// section (Roberts 2018), moved by `shift`.
 pub(super) fn lattice(index: usize, count: usize, shift: f64) -> [f64; 2] {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let turns = index as f64 * GOLDEN + shift;

@@ -1,8 +1,8 @@
 //! Measured surfaces: files of scattering distributions, read into tables that are sampled exactly.
 //!
-//! A file is read ([`read_bsdf`]) into a [`MeasuredBsdf`]: for each side of a thin sheet, what is reflected
-//! and what passes, as a [`Distribution`]. Each kind of table keeps the cells that it was stored with; none is
-//! turned into another.
+//! A file is read ([`read_bsdf`]) into a [`MeasuredBsdf`]: for each side of a thin sheet, what is
+//! reflected and what passes, as a [`Distribution`]. Each kind of table keeps the cells that it was
+//! stored with; none is turned into another.
 //!
 //! ```
 //! use glam::DVec3;
@@ -18,15 +18,17 @@
 //! ```
 //!
 //! # Frame
-//! One frame for the whole sheet. `x` and `y` lie in it, the same two for both sides: seen from the back, with `y` up,
-//! `x` points to the right. A direction has unit length and points away from the sheet, and its `z` is the cosine of the
-//! angle to the normal *of the side that it is on*: positive for the incident and the scattered direction
-//! alike, in reflection and in transmission. Light that goes straight through the sheet has
-//! `wo = (-wi.x, -wi.y, wi.z)`, and so has light that a mirror reflects.
+//! One frame for the whole sheet. `x` and `y` lie in it, the same two for both sides: seen from the
+//! back, with `y` up, `x` points to the right. A direction has unit length and points away from the
+//! sheet, and its `z` is the cosine of the angle to the normal *of the side that it is on*:
+//! positive for the incident and the scattered direction alike, in reflection and in transmission.
+//! Light that goes straight through the sheet has `wo = (-wi.x, -wi.y, wi.z)`, and so has light
+//! that a mirror reflects.
 //!
-//! The front is the side that a file calls so. In WINDOW files it faces outdoors and Radiance takes the back for the
-//! side that the normal points to (`doc/notes/BSDFdirections.txt`). Files of one measured side, all other formats, have it in front
-//! and count azimuths counterclockwise as seen from there, from `-x` of this frame on: from the right, with `y` up.
+//! The front is the side that a file calls so. In WINDOW files it faces outdoors and Radiance takes
+//! the back for the side that the normal points to (`doc/notes/BSDFdirections.txt`). Files of one
+//! measured side, all other formats, have it in front and count azimuths counterclockwise as seen
+//! from there, from `-x` of this frame on: from the right, with `y` up.
 
 mod analysis;
 mod astm;

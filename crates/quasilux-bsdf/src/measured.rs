@@ -25,7 +25,8 @@ struct Kept {
 }
 
 impl MeasuredBsdf {
-    /// A surface of tables that a program made; the last one counts where several are for the same side and way.
+    /// A surface of tables that a program made; the last one counts where several are for the same
+    /// side and way.
     pub fn from_tables(
         facts: BsdfFacts,
         tables: impl IntoIterator<Item = (Side, Way, Distribution)>,
@@ -54,8 +55,9 @@ impl MeasuredBsdf {
         self.scattering.get(side, way)
     }
 
-    /// The same for light that goes the other way round: arriving where that leaves, and leaving where it arrives. Made when it is first
-    /// asked for; `None` where there is none, see [`Distribution::reversed`].
+    /// The same for light that goes the other way round: arriving where that leaves, and leaving
+    /// where it arrives. Made when it is first asked for; `None` where there is none, see
+    /// [`Distribution::reversed`].
     #[must_use]
     pub fn exchanged(&self, side: Side, way: Way) -> Option<&Distribution> {
         let made = &self.kept.exchanged[side as usize][way as usize];

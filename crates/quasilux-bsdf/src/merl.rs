@@ -37,10 +37,12 @@ const HALF_KNOTS: [u8; 22] =
 /// Exit directions of one lobe, at most; of small files, as many as there are values.
 const DIRECTIONS: usize = 12_000;
 
-/// Reads a MERL file. Total: any bytes give a surface or an error; its place is the byte, counted from 1 in line 1.
+/// Reads a MERL file. Total: any bytes give a surface or an error; its place is the byte, counted
+/// from 1 in line 1.
 ///
 /// # Errors
-/// [`ParseError`] with the position where the three counts are not those of the file, or it is cut short.
+/// [`ParseError`] with the position where the three counts are not those of the file, or it is cut
+/// short.
 pub fn read_merl(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let start = Position { line: 1, column: 1 };
     let counts = counts(bytes).ok_or_else(|| {
@@ -75,7 +77,8 @@ pub fn read_merl(bytes: &[u8]) -> Result<Parsed, ParseError> {
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 
-/// The numbers of half angles, difference angles and difference azimuths, if the bytes are as many as they ask for.
+/// The numbers of half angles, difference angles and difference azimuths, if the bytes are as many
+/// as they ask for.
 pub(super) fn counts(bytes: &[u8]) -> Option<[usize; 3]> {
     let word = |index: usize| bytes.get(4 * index..4 * index + 4)?.try_into().ok();
     let mut counts = [0; 3];
@@ -140,7 +143,8 @@ impl Measured<'_> {
         Ok(missing)
     }
 
-    /// f between the eight values around a pair of directions, by weight; those that are missing have none.
+    /// f between the eight values around a pair of directions, by weight; those that are missing
+    /// have none.
     fn value(&self, wi: DVec3, wo: DVec3) -> [f64; 3] {
         let axes = self.axes(wi, wo);
         let [_, differences, azimuths] = self.counts;

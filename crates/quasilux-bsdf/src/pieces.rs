@@ -7,7 +7,8 @@ use quasilux_text::{ParseError, Position, Token, quoted};
 /// Values below count as zero: sums and quotients of them would lose digits to underflow.
 const SMALLEST_VALUE: f64 = 1e-100;
 
-/// The pieces of a text between blanks and commas, with the places they have if nothing in the text was escaped.
+/// The pieces of a text between blanks and commas, with the places they have if nothing in the text
+/// was escaped.
 pub(super) struct Pieces<'t> {
     rest: &'t str,
     at: Position,

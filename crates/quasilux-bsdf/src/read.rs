@@ -15,9 +15,9 @@ use quasilux_text::{ParseError, Position, quoted};
 /// The mark of a format stands within so many bytes, those of comments before it not counted.
 const SEARCHED: usize = 1 << 14;
 
-/// Reads a measured surface of any known format, told by the content; that of a DDR file is reflection, with a warning, see
-/// [`read_bsdf_named`]. Total: any bytes give a surface or an error with its place, in memory bounded by
-/// [`max_bsdf_memory_bytes`](crate::max_bsdf_memory_bytes).
+/// Reads a measured surface of any known format, told by the content; that of a DDR file is
+/// reflection, with a warning, see [`read_bsdf_named`]. Total: any bytes give a surface or an error
+/// with its place, in memory bounded by [`max_bsdf_memory_bytes`](crate::max_bsdf_memory_bytes).
 ///
 /// # Errors
 /// [`ParseError`] for content of no known format, and all errors of the reader of the format.
@@ -25,7 +25,8 @@ pub fn read_bsdf(bytes: &[u8]) -> Result<Parsed, ParseError> {
     read_bsdf_named("", bytes)
 }
 
-/// The same with the name of the file, whose extension tells reflection, `.ddr`, from transmission, `.ddt`.
+/// The same with the name of the file, whose extension tells reflection, `.ddr`, from transmission,
+/// `.ddt`.
 ///
 /// # Errors
 /// All errors of [`read_bsdf`].

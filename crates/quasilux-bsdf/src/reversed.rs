@@ -4,8 +4,9 @@ use crate::distribution::Distribution;
 use crate::tree::ExchangedTree;
 
 impl Distribution {
-    /// f'(wi, wo) = f(wo, wi), for light that goes the other way round, exactly. `None` for grids, for patches without a counterpart at the opposite azimuth,
-    /// and for trees of rank 4 that become too large.
+    /// f'(wi, wo) = f(wo, wi), for light that goes the other way round, exactly. `None` for grids,
+    /// for patches without a counterpart at the opposite azimuth, and for trees of rank 4 that
+    /// become too large.
     #[must_use]
     pub fn reversed(&self) -> Option<Self> {
         Some(match self {

@@ -23,7 +23,8 @@ pub enum WarningKind {
     Foreword,
     /// WINDOW: there are several optical layers. The first is read.
     SeveralLayers,
-    /// WINDOW: the thickness has no known unit, or is no number from 0 on. It is left out: nothing depends on it.
+    /// WINDOW: the thickness has no known unit, or is no number from 0 on. It is left out: nothing
+    /// depends on it.
     UnknownThickness,
     /// WINDOW: there are data of the solar spectrum alone. They are read as if they were visible.
     SolarOnly,
@@ -37,30 +38,38 @@ pub enum WarningKind {
     TrailingValues,
     /// Surfaces: values are negative. They count as zero.
     NegativeScattering,
-    /// Surfaces: transmission is given from one side only. That from the other side is taken from it by
-    /// reciprocity.
+    /// Surfaces: transmission is given from one side only. That from the other side is taken from
+    /// it by reciprocity.
     ByReciprocity,
     /// Surfaces: transmission is given from one side only, in a table that is not turned round.
     /// Nothing passes from the other side.
     OneWayTransmission,
-    /// Surfaces: values are given in angles that samples cannot be drawn in. They are resampled; the warning says how
-    /// far that is off.
+    /// Surfaces: values are given in angles that samples cannot be drawn in. They are resampled;
+    /// the warning says how far that is off.
     Resampled,
-    /// MERL: values are negative, which means that nothing was measured. Their neighbours stand for them.
+    /// MERL: values are negative, which means that nothing was measured. Their neighbours stand for
+    /// them.
     MissingValues,
-    /// ASTM E1392: polar angles or azimuths are too large for radians. All angles are read as degrees.
+    /// ASTM E1392: polar angles or azimuths are too large for radians. All angles are read as
+    /// degrees.
     AnglesInDegrees,
-    /// ASTM E1392: a pair of directions is given several times, with other values. The first one is read.
+    /// ASTM E1392: a pair of directions is given several times, with other values. The first one is
+    /// read.
     RepeatedDirection,
-    /// ASTM E1392: a colour is more saturated than BT.709 can be. It is made less so, its luminance is kept.
+    /// ASTM E1392: a colour is more saturated than BT.709 can be. It is made less so, its luminance
+    /// is kept.
     OutOfGamut,
-    /// Surfaces: measured azimuths leave a gap wider than 90 degrees, exits of ASTM E1392 one wider than 45. Values are interpolated across it.
+    /// Surfaces: measured azimuths leave a gap wider than 90 degrees, exits of ASTM E1392 one wider
+    /// than 45. Values are interpolated across it.
     AzimuthGap,
-    /// Surfaces: light was measured from one polar angle alone. What comes from elsewhere is scattered like it.
+    /// Surfaces: light was measured from one polar angle alone. What comes from elsewhere is
+    /// scattered like it.
     OneIncidence,
-    /// DDR: the first angle from the specular direction is not 0. Up to there f is as at that angle.
+    /// DDR: the first angle from the specular direction is not 0. Up to there f is as at that
+    /// angle.
     SpecularMissing,
-    /// DDR and DDT: the name does not tell whether it is reflection or transmission. It is read as reflection.
+    /// DDR and DDT: the name does not tell whether it is reflection or transmission. It is read as
+    /// reflection.
     UnknownWay,
     /// WINDOW: a side that light passes has no reflection. It reflects nothing.
     MissingReflection,
@@ -70,8 +79,8 @@ pub enum WarningKind {
     BasisEndsEarly,
     /// Surfaces: more light is scattered than arrives. The table is used as it is.
     EnergyNotConserved,
-    /// Surfaces: exchanging both directions changes the value by more than 1 % in the mean. The table is used
-    /// as it is.
+    /// Surfaces: exchanging both directions changes the value by more than 1 % in the mean. The
+    /// table is used as it is.
     NotReciprocal,
 }
 

@@ -39,7 +39,8 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
     }
 }
 
-/// Bytes a byte that tables as programs write them may take beside the file: 200 MB of them less than 1.8 GiB with it.
+/// Bytes a byte that tables as programs write them may take beside the file: 200 MB of them less
+/// than 1.8 GiB with it.
 const MAX_OF_TABLES: f64 = 8.0;
 
 /// Bytes of a file whose table is larger than the least grids that values are resampled to.
@@ -68,7 +69,8 @@ fn greedy_files() -> Vec<(&'static str, Vec<u8>)> {
         let count = LENGTH / inside.len();
         format!("<WindowElement>{}</WindowElement>", inside.repeat(count))
     };
-    // Surfaces: values of two letters, leaves of three, nodes as deep as they may be, and many incident directions.
+    // Surfaces: values of two letters, leaves of three, nodes as deep as they may be, and many
+    // incident directions.
     let tree = |data: &str| {
         let of_block = "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>";
         String::from_utf8(surface("TensorTree4", "", of_block, data)).unwrap()

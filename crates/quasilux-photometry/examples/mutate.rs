@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release -p quasilux-photometry --example mutate -- 1000000
 //!
-//! The numbers of the files go on from a second argument (0 without it), and a third one names a format (Ies, Ldt or Tm33), so
-//! that runs can share the work. A panic names the file.
+//! The numbers of the files go on from a second argument (0 without it), and a third one names a
+//! format (Ies, Ldt or Tm33), so that runs can share the work. A panic names the file.
 
 #[path = "../tests/damage/mod.rs"]
 mod damage;

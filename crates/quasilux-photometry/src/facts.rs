@@ -5,7 +5,8 @@ use quasilux_sampling::ParseNameError;
 use std::fmt;
 use std::str::FromStr;
 
-/// The web of angles that a luminaire was measured in: where its poles are (see [`Web`](crate::Web)).
+/// The web of angles that a luminaire was measured in: where its poles are (see
+/// [`Web`](crate::Web)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PhotometricType {
     /// Poles along the vertical axis, angles (C, gamma): indoor and road lighting.
@@ -27,8 +28,9 @@ pub struct Keyword {
     pub line: usize,
 }
 
-/// The luminous opening as the file gives it, in metres. The *signs* carry the shape
-/// (a negative width is a diameter, and so on; [`LuminousShape::of_opening`](crate::LuminousShape::of_opening)): they are kept.
+/// The luminous opening as the file gives it, in metres. The *signs* carry the shape (a negative
+/// width is a diameter, and so on;
+/// [`LuminousShape::of_opening`](crate::LuminousShape::of_opening)): they are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LuminousOpening {
     /// Across the C90-C270 plane, along the local y axis.

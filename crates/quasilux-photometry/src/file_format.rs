@@ -29,8 +29,8 @@ impl Format {
     pub const ALL: [Self; 3] = [Self::Lm63, Self::Eulumdat, Self::Tm33];
 
     /// The format that the content shows: a line `TILT=` or an identifying line makes it LM-63, an
-    /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT: there, a later line that begins
-    /// as `TILT=` does is a name. `None` where there is no such mark.
+    /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT: there, a later line that
+    /// begins as `TILT=` does is a name. `None` where there is no such mark.
     pub fn of_content(bytes: &[u8]) -> Option<Self> {
         let start = &bytes[..bytes.len().min(MAX_SEARCHED)];
         let text = decode(start, &mut Warnings::default());

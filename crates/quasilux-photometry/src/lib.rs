@@ -1,14 +1,14 @@
 //! Measured photometry: luminaire files, spherical tables, exact sampling.
 //!
-//! A file is read ([`read_ies`], [`read_ldt`], [`read_tm33`]) into a [`Photometry`]: intensities over directions, with the facts
-//! of the header. Behind it stands a [`SphericalTable`], bilinear on a grid of spherical angles,
-//! with its integral in closed form and an inverse transform that turns two uniform coordinates
-//! into a direction, continuously and without rejection.
+//! A file is read ([`read_ies`], [`read_ldt`], [`read_tm33`]) into a [`Photometry`]: intensities
+//! over directions, with the facts of the header. Behind it stands a [`SphericalTable`], bilinear
+//! on a grid of spherical angles, with its integral in closed form and an inverse transform that
+//! turns two uniform coordinates into a direction, continuously and without rejection.
 //!
 //! What of a luminaire shines is a [`LuminousShape`], by the signs of the file's dimensions.
 //!
-//! The luminaire frame has gamma = 0 (nadir) along -z, C0 along +x and C90 along +y; [`Web`] says where
-//! the angles of each photometric type lie in it.
+//! The luminaire frame has gamma = 0 (nadir) along -z, C0 along +x and C90 along +y; [`Web`] says
+//! where the angles of each photometric type lie in it.
 //!
 //! ```
 //! use glam::DVec3;
@@ -21,10 +21,10 @@
 //! # Ok::<(), quasilux_photometry::ParseError>(())
 //! ```
 //!
-//! What a reader tolerates beyond the standard is listed in [`WarningKind`]; each case is reported as
-//! a [`Warning`]. Any bytes may be given: readers do not panic, and take no more memory than
-//! [`max_read_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the same
-//! table. The formats stand line by line in [`formats`].
+//! What a reader tolerates beyond the standard is listed in [`WarningKind`]; each case is reported
+//! as a [`Warning`]. Any bytes may be given: readers do not panic, and take no more memory than
+//! [`max_read_memory_bytes`]. [`write_ies`] and [`write_ldt`] write files that read back to the
+//! same table. The formats stand line by line in [`formats`].
 
 pub mod analysis;
 mod angles;

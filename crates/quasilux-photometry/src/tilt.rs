@@ -12,8 +12,8 @@
 //!
 //! Between listed angles the factor is piecewise linear. Factors that end at 90 degrees hold
 //! mirrored from there to 180, as Radiance's `ies2rad` reads them; other ends are held, and
-//! [`TiltSupport`] says so. Of a turn about another axis, geometries 2 and 3 say nothing: only its part
-//! about C0-C180 counts, and [`TiltSupport`] says that too.
+//! [`TiltSupport`] says so. Of a turn about another axis, geometries 2 and 3 say nothing: only its
+//! part about C0-C180 counts, and [`TiltSupport`] says that too.
 
 use crate::Tilt;
 use glam::DVec3;

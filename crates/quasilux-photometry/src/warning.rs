@@ -47,16 +47,16 @@ pub enum WarningKind {
     NegativeLumens,
     /// The reserved field behind the ballast factor is zero. It counts as 1.
     ZeroBallastLampFactor,
-    /// The reserved field behind the ballast factor is not 1, in an edition where it must be. It has
-    /// no meaning there and is not applied.
+    /// The reserved field behind the ballast factor is not 1, in an edition where it must be. It
+    /// has no meaning there and is not applied.
     BallastLampFactor,
-    /// The vertical angles do not start at 0 or 90 or do not end at 90 or 180; those of types A and B
-    /// do not start at -90 or 0 or do not end at 90. Outside them the intensity is zero.
+    /// The vertical angles do not start at 0 or 90 or do not end at 90 or 180; those of types A and
+    /// B do not start at -90 or 0 or do not end at 90. Outside them the intensity is zero.
     VerticalRange,
     /// Types A and B: the vertical angles start at 0. The half below mirrors the half above.
     VerticalMirror,
-    /// Types A and B: the horizontal angles do not start at -90 or 0 or do not end at 90. Outside them
-    /// the intensity is zero.
+    /// Types A and B: the horizontal angles do not start at -90 or 0 or do not end at 90. Outside
+    /// them the intensity is zero.
     HorizontalRange,
     /// The only horizontal plane is not at 0. The distribution is rotationally symmetric all the
     /// same.
@@ -79,8 +79,8 @@ pub enum WarningKind {
     /// it is compared with the lamps' flux times the light output ratio, in TM-33 with the luminous
     /// flux of each emitter where that is given.
     FluxDiffers,
-    /// The signs of the luminous dimensions stand for a shape in another edition only. It is read as
-    /// that shape.
+    /// The signs of the luminous dimensions stand for a shape in another edition only. It is read
+    /// as that shape.
     OpeningOfOtherEdition,
     /// The signs of the luminous dimensions stand for no shape. It is read as a point.
     UnknownOpening,
@@ -96,8 +96,8 @@ pub enum WarningKind {
     SinglePlaneWithoutSymmetry,
     /// EULUMDAT: the planes listed without symmetry include the closing one at 360. It is kept.
     ClosingPlaneGiven,
-    /// EULUMDAT: the planes listed without symmetry leave a gap much wider than those between them. It
-    /// is filled by interpolation.
+    /// EULUMDAT: the planes listed without symmetry leave a gap much wider than those between them.
+    /// It is filled by interpolation.
     PlanesMissing,
     /// EULUMDAT: there are several sets of lamps. The first one is taken.
     SeveralLampSets,
@@ -110,8 +110,8 @@ pub enum WarningKind {
     /// EULUMDAT: the luminaire was tilted while it was measured. It is taken in the position it
     /// was measured in: the tilt is kept as a fact and turns nothing.
     MeasurementTilt,
-    /// TM-33: an element that the standard requires, and that no intensity depends on, is missing or
-    /// empty. The file is read without it.
+    /// TM-33: an element that the standard requires, and that no intensity depends on, is missing
+    /// or empty. The file is read without it.
     MissingElement,
     /// TM-33: an element or attribute has the name that another writer uses, such as
     /// `IntensityData` with `horz` and `vert` for `IntData` with `h` and `v`. It is read as the one

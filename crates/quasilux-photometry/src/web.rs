@@ -1,4 +1,5 @@
-//! The photometric web: between the luminaire frame, a file's own angles, and the frame of the table.
+//! The photometric web: between the luminaire frame, a file's own angles, and the frame of the
+//! table.
 //!
 //! Each type of photometry has its poles elsewhere. A table that has its own where the web has them
 //! needs no resampling: what is left is a signed permutation of the axes, which is exact.
@@ -10,9 +11,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// The web of angles of a photometric type: where its poles and zeros lie in the luminaire frame.
 ///
 /// ANSI/IESNA LM-63-2002, clause 3.0, defines two directions from the photometric centre for all
-/// types, and so ties them to one frame: *photometric zero*, straight down, is our -z, and *photometric
-/// horizontal* our +x. The luminous length lies along photometric horizontal, the width across it, the
-/// height along photometric zero.
+/// types, and so ties them to one frame: *photometric zero*, straight down, is our -z, and
+/// *photometric horizontal* our +x. The luminous length lies along photometric horizontal, the
+/// width across it, the height along photometric zero.
 ///
 /// | type | photometric zero, -z | photometric horizontal, +x | poles | direction at (H, V) |
 /// |---|---|---|---|---|
@@ -20,25 +21,26 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// | B | H = 0, V = 0 | H = 0, V = 90 | H = 90 at -y, H = -90 at +y | (cos H sin V, -sin H, -cos H cos V) |
 /// | A | H = 0, V = -90 | H = 0, V = 0 | V = -90 at -z, V = 90 at +z | (cos V cos H, -cos V sin H, sin V) |
 ///
-/// So a floodlight of type B shines along -z as a downlight does, and a vehicle lamp of type A along
-/// +x, level. In both, +V is up and +H is to the right for somebody who looks along the beam from
-/// behind: horizontal angles count clockwise in types A and B, counterclockwise in type C (the same
-/// clause).
+/// So a floodlight of type B shines along -z as a downlight does, and a vehicle lamp of type A
+/// along +x, level. In both, +V is up and +H is to the right for somebody who looks along the beam
+/// from behind: horizontal angles count clockwise in types A and B, counterclockwise in type C (the
+/// same clause).
 ///
 /// Where sources differ:
 /// - The clause says that the planes of type B share a horizontal axis, without naming it. By CIE
-///   121:1996 (`tan B = cos C tan gamma`, `sin beta = sin C sin gamma`) and Ashdown (1998: the polar
-///   axis is the luminaire's width) it is the axis across photometric horizontal: V turns around it, H
-///   rises towards it. Some readers turn H around +x instead. A published floodlight decides: its
-///   intensities integrate to 100.9 % of the flux that its laboratory states in the former way, to
-///   106.8 % in the latter.
+///   121:1996 (`tan B = cos C tan gamma`, `sin beta = sin C sin gamma`) and Ashdown (1998: the
+///   polar axis is the luminaire's width) it is the axis across photometric horizontal: V turns
+///   around it, H rises towards it. Some readers turn H around +x instead. A published floodlight
+///   decides: its intensities integrate to 100.9 % of the flux that its laboratory states in the
+///   former way, to 106.8 % in the latter.
 /// - CIE 121 counts beta towards C90, against the H of LM-63.
-/// - Radiance's `ies2rad` has the same V and the same sign of H, but measures H in the projection along
-///   x, so that it is the same only at V = 0; it does not read type A.
+/// - Radiance's `ies2rad` has the same V and the same sign of H, but measures H in the projection
+///   along x, so that it is the same only at V = 0; it does not read type A.
 /// - Ashdown (1998) lays the poles of type A along the luminaire's length; LM-63-2002 makes its
 ///   planes vertical, as here and as vehicle lamps are measured.
 ///
-/// The [`SphericalTable`](crate::SphericalTable) of a luminaire has its poles where the web has them:
+/// The [`SphericalTable`](crate::SphericalTable) of a luminaire has its poles where the web has
+/// them:
 ///
 /// | type | theta of the table | phi of the table |
 /// |---|---|---|

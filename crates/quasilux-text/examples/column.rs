@@ -1,8 +1,8 @@
 //! cargo run --example column
 //!
 //! A reader of a small format, one length in metres a line, that never panics: it gives the sum, or
-//! an error with line and column. What it tolerates, decimal commas, becomes one warning a kind with
-//! the number of cases.
+//! an error with line and column. What it tolerates, decimal commas, becomes one warning a kind
+//! with the number of cases.
 
 use quasilux_text::{ParseError, Position, TextWarning, Token, Warnings, decode, lines};
 

@@ -1,9 +1,9 @@
 //! XML as a tree of elements with their places.
 //!
 //! Well-formed XML 1.0 or 1.1 without a document type: definitions of entities, and with them all
-//! expansion, are refused, so a tree takes no more memory than a multiple of the text. Elements nest
-//! no deeper than [`MAX_DEPTH`], so that no walk over them can exhaust the stack. Names lose their
-//! prefixes; comments and processing instructions are left out.
+//! expansion, are refused, so a tree takes no more memory than a multiple of the text. Elements
+//! nest no deeper than [`MAX_DEPTH`], so that no walk over them can exhaust the stack. Names lose
+//! their prefixes; comments and processing instructions are left out.
 
 use crate::{ParseError, Position, quoted, shortened};
 use quick_xml::XmlVersion;

@@ -24,9 +24,11 @@ pub struct EnergyBalance {
     pub diffuse: [f64; 2],
     /// The greatest sum of both over all incidences, of the strongest colour channel.
     ///
-    /// It is the maximum itself: of tables that are constant in cells a value of one of their cells, of lobes, whose
-    /// shares are linear between knots, one at a knot, and of exchanged trees one at the edge of a ring, to 1e-5 of its width. Only where both tables are of different kinds, or two grids of lobes have
-    /// azimuths apart, it is the greatest of 4096 directions and of all cells.
+    /// It is the maximum itself: of tables that are constant in cells a value of one of their
+    /// cells, of lobes, whose shares are linear between knots, one at a knot, and of exchanged
+    /// trees one at the edge of a ring, to 1e-5 of its width. Only where both tables are of
+    /// different kinds, or two grids of lobes have azimuths apart, it is the greatest of 4096
+    /// directions and of all cells.
     pub worst: f64,
     /// The incidence where that is.
     pub worst_wi: DVec3,

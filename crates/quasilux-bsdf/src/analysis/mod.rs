@@ -1,4 +1,5 @@
-//! What a measured surface reflects and transmits, and where its table breaks energy conservation or reciprocity.
+//! What a measured surface reflects and transmits, and where its table breaks energy conservation
+//! or reciprocity.
 //!
 //! Tables are used as they are: these figures say by how much they are wrong.
 
@@ -21,8 +22,8 @@ pub struct BsdfAnalysis {
 }
 
 impl BsdfAnalysis {
-    /// How far f of light that arrives on `side` and goes `way` is from that of exchanged directions; `None` where one of the two is
-    /// missing.
+    /// How far f of light that arrives on `side` and goes `way` is from that of exchanged
+    /// directions; `None` where one of the two is missing.
     #[must_use]
     pub fn reciprocity(&self, side: Side, way: Way) -> Option<&Reciprocity> {
         // Of transmission there is one figure for both sides.

@@ -20,8 +20,9 @@ const EXITS: usize = 256;
 
 /// How far f(a, b) and f(b, a) differ.
 ///
-/// Of matrices all pairs of patches count by their projected solid angles, and the figures are exact where the two sides have the same
-/// ones. Of others up to 512 incidences count, each with 256 exits: half of them spread evenly, half as the light goes.
+/// Of matrices all pairs of patches count by their projected solid angles, and the figures are
+/// exact where the two sides have the same ones. Of others up to 512 incidences count, each with
+/// 256 exits: half of them spread evenly, half as the light goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reciprocity {
     /// The side of `a`.
@@ -44,8 +45,8 @@ pub(super) fn all(tables: &ScatteringTables) -> Vec<Reciprocity> {
 }
 
 impl Reciprocity {
-    /// Compares f of light that arrives on `side` and goes `way` with f of light the other way round; `None` where one
-    /// of the two is missing or both are dark.
+    /// Compares f of light that arrives on `side` and goes `way` with f of light the other way
+    /// round; `None` where one of the two is missing or both are dark.
     pub(super) fn new(tables: &ScatteringTables, side: Side, way: Way) -> Option<Self> {
         let back_side = if way == Way::Reflection { side } else { side.other() };
         let forth = tables.get(side, way)?;
@@ -90,8 +91,8 @@ impl Sums {
     }
 }
 
-/// The patches that light leaves to, as those from which it comes the other way round; `None` where there are no
-/// patches, or too many.
+/// The patches that light leaves to, as those from which it comes the other way round; `None` where
+/// there are no patches, or too many.
 fn exits_of_patches(forth: &Distribution, back: &Distribution) -> Option<Vec<Incident>> {
     let (Distribution::Klems(forth), Distribution::Klems(back)) = (forth, back) else {
         return None;

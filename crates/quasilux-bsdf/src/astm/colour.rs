@@ -8,8 +8,8 @@ use quasilux_text::Position;
 /// Channels below zero by less, in parts of the luminance, are rounding.
 const ROUNDING: f64 = 1e-4;
 
-/// Linear RGB of ITU-R BT.709 from CIE XYZ. A colour that is more saturated than its gamut goes towards the white of its luminance, as
-/// far as it must: Y stays.
+/// Linear RGB of ITU-R BT.709 from CIE XYZ. A colour that is more saturated than its gamut goes
+/// towards the white of its luminance, as far as it must: Y stays.
 pub(super) fn rgb([x, y, z]: [f64; 3], at: Position, warnings: &mut Warnings) -> [f64; 3] {
     if y <= 0.0 {
         if x > 0.0 || z > 0.0 {

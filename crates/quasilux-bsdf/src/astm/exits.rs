@@ -57,7 +57,8 @@ impl<const N: usize> Exits<N> {
         Ok(Self { exits, thetas, phis, at_pole, symmetry, line })
     }
 
-    /// Refuses azimuths between which nothing tells what leaves the plane of incidence, and warns of wide gaps.
+    /// Refuses azimuths between which nothing tells what leaves the plane of incidence, and warns
+    /// of wide gaps.
     pub(super) fn check_gaps(&self, warnings: &mut Warnings) -> Result<(), ParseError> {
         let azimuths: Vec<f64> = self.phis.iter().map(|&phi| angle(phi)).collect();
         let widest_rad = match self.symmetry {
@@ -154,8 +155,8 @@ struct Rows {
 }
 
 impl Rows {
-    /// The same with f linear in between at narrower polar angles, as many directions as there may be: a lobe is linear in
-    /// f times the cosine.
+    /// The same with f linear in between at narrower polar angles, as many directions as there may
+    /// be: a lobe is linear in f times the cosine.
     fn refined(self, most: usize) -> Self {
         let Self { knots, channels } = self;
         let columns = knots.phi_rad.len();

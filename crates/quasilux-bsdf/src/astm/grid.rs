@@ -23,8 +23,8 @@ struct Incidences {
     thetas: Vec<Key>,
 }
 
-/// The table of one way, `None` where the file has no such line. Each incidence must have a full grid of exits, and each azimuth the same
-/// polar angles.
+/// The table of one way, `None` where the file has no such line. Each incidence must have a full
+/// grid of exits, and each azimuth the same polar angles.
 pub(super) fn table<const N: usize>(
     records: &Records<N>,
     way: Way,

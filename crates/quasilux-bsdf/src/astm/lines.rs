@@ -1,6 +1,7 @@
 //! Lines of data: which unit their angles have, then one at a time.
 //!
-//! The text is gone through twice, so that nothing is kept of a line before the unit of its angles is known.
+//! The text is gone through twice, so that nothing is kept of a line before the unit of its angles
+//! is known.
 
 use super::{Columns, colour};
 use crate::pieces;
@@ -32,7 +33,8 @@ pub(super) struct Lines<L> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     pub(super) line: usize,
-    /// Polar angle and azimuth of the incident, then of the scattered direction; that on its own side.
+    /// Polar angle and azimuth of the incident, then of the scattered direction; that on its own
+    /// side.
     pub(super) angles_rad: [f64; 4],
     pub(super) is_transmitted: bool,
     /// Linear RGB, or a grey value thrice.
@@ -47,8 +49,8 @@ struct Range {
 }
 
 impl<'t, L: Iterator<Item = (usize, &'t str)> + Clone> Lines<L> {
-    /// The lines behind the names of columns. Polar angles over half a turn and azimuths over a whole one can only be degrees.
-    /// `None` without any.
+    /// The lines behind the names of columns. Polar angles over half a turn and azimuths over a
+    /// whole one can only be degrees. `None` without any.
     pub(super) fn survey(lines: L, columns: Columns, warnings: &mut Warnings) -> Option<Self> {
         let mut range =
             Range { incident: 0.0, exit: [f64::INFINITY, f64::NEG_INFINITY], azimuth: 0.0 };

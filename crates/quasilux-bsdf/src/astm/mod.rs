@@ -36,8 +36,8 @@ enum Columns {
     Xyz,
 }
 
-/// Reads an ASTM E1392 file. What is measured counts for light on the front. Total: any bytes give a surface or an error with its
-/// place.
+/// Reads an ASTM E1392 file. What is measured counts for light on the front. Total: any bytes give
+/// a surface or an error with its place.
 ///
 /// # Errors
 /// [`ParseError`] with the position where the columns or the angles are not those of a measured

@@ -1,4 +1,5 @@
-//! What a file measured, in few bytes: a number that tells both directions, the line and f in 24 bits.
+//! What a file measured, in few bytes: a number that tells both directions, the line and f in 24
+//! bits.
 
 use super::lines::Lines;
 use crate::gridded::MAX_INCIDENCES;

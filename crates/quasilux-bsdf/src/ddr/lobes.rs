@@ -55,7 +55,8 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
     Some((table, error))
 }
 
-/// At the stored incidences; what is between them only neighbours tell, see [`GriddedTable::error_between`]. Its values are multiplied by `factors`.
+/// At the stored incidences; what is between them only neighbours tell, see
+/// [`GriddedTable::error_between`]. Its values are multiplied by `factors`.
 fn error(table: &GriddedTable, header: &Header, blocks: &[Block], factors: &[[f64; 3]]) -> f64 {
     let per_incidence = header.theta_rad.len() * header.phi_rad.len();
     let error = |incidence: usize| {
@@ -89,8 +90,8 @@ struct Measured<'h> {
 }
 
 impl Measured<'_> {
-    /// f towards a direction, with the plane of incidence at azimuth 0: bilinear in both angles about the specular
-    /// direction, zero beyond the last of them.
+    /// f towards a direction, with the plane of incidence at azimuth 0: bilinear in both angles
+    /// about the specular direction, zero beyond the last of them.
     fn value(&self, wo: DVec3, channel: usize) -> f64 {
         let Header { symmetry, unit, phi_rad, theta_rad, .. } = self.header;
         let sigma = self.incidence % self.header.sigma_rad.len();

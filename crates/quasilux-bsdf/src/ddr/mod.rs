@@ -32,11 +32,13 @@ struct Block {
     values: Vec<f64>,
 }
 
-/// Reads a DDR file, or a DDT file with [`Way::Transmission`]: the content does not tell. What is measured counts for light on
-/// the front. Total: any bytes give a surface or an error with its place.
+/// Reads a DDR file, or a DDT file with [`Way::Transmission`]: the content does not tell. What is
+/// measured counts for light on the front. Total: any bytes give a surface or an error with its
+/// place.
 ///
 /// # Errors
-/// [`ParseError`] with the position where the header, an angle or a value is missing or out of range.
+/// [`ParseError`] with the position where the header, an angle or a value is missing or out of
+/// range.
 pub fn read_ddr(bytes: &[u8], way: Way) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

@@ -1,9 +1,10 @@
 //! Integra DDR and DDT files, word by word.
 //!
-//! Text files of Integra's Inspirer and Lumicept for measured reflection (`.ddr`) and transmission (`.ddt`). No description by
-//! their makers is public; [`read_ddr`](crate::read_ddr) follows the reader and the writer of libbsdf (Kimura 2014), and
-//! no published file was at hand: the tests make theirs from analytic surfaces. The content does not tell whether it is
-//! reflection or transmission, the extension does.
+//! Text files of Integra's Inspirer and Lumicept for measured reflection (`.ddr`) and transmission
+//! (`.ddt`). No description by their makers is public; [`read_ddr`](crate::read_ddr) follows the
+//! reader and the writer of libbsdf (Kimura 2014), and no published file was at hand: the tests
+//! make theirs from analytic surfaces. The content does not tell whether it is reflection or
+//! transmission, the extension does.
 //!
 //! Words are read in letters of any case; a semicolon begins a comment to the end of the line.
 //!
@@ -22,10 +23,11 @@
 //! | .. `kbdf` *values* | one for each `psi` and, inside, `sigma`; 1 if missing |
 //! | .. `def` *values* `enddef` | pi times f; `psi` outermost, then `sigma`, `phi`, and `theta` innermost |
 //!
-//! Angles are in degrees and ascend. The specular direction of reflection is the mirror direction, that of transmission
-//! straight on. Between angles of exit f is bilinear; beyond the last `theta` it is zero. Between incident angles lobes move with the
-//! specular direction and keep their light, see [`GriddedTable`](crate::GriddedTable); so does the lobe of a file of one incident polar angle, for
-//! light from anywhere. Light is scattered by the front.
+//! Angles are in degrees and ascend. The specular direction of reflection is the mirror direction,
+//! that of transmission straight on. Between angles of exit f is bilinear; beyond the last `theta`
+//! it is zero. Between incident angles lobes move with the specular direction and keep their light,
+//! see [`GriddedTable`](crate::GriddedTable); so does the lobe of a file of one incident polar
+//! angle, for light from anywhere. Light is scattered by the front.
 //!
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |
@@ -36,7 +38,8 @@
 //! | [`OneIncidence`](crate::WarningKind::OneIncidence) | the lobe follows the specular direction | `9:1: found one incident polar angle, 0.0 degrees; expected several (the lobe follows the specular direction and keeps its light)` |
 //! | [`UnknownWay`] | reflection, such as from standard input | `1:1: found the name "stdin"; expected a name in .ddr for reflection, or .ddt for transmission (read as reflection)` |
 //!
-//! As in WINDOW files: `OneWayTransmission`, `NegativeScattering`, `TrailingValues`, `EnergyNotConserved`, `NotReciprocal`; as in ASTM E1392 files: `Encoding`, `ByteOrderMark`.
+//! As in WINDOW files: `OneWayTransmission`, `NegativeScattering`, `TrailingValues`,
+//! `EnergyNotConserved`, `NotReciprocal`; as in ASTM E1392 files: `Encoding`, `ByteOrderMark`.
 //!
 //! [`Resampled`]: crate::WarningKind::Resampled
 //! [`AzimuthGap`]: crate::WarningKind::AzimuthGap

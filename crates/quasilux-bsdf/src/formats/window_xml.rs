@@ -1,10 +1,11 @@
 //! LBNL WINDOW files of scattering layers, element by element.
 //!
-//! The XML of LBNL WINDOW 6 and 7 (schema `BSDF-v1.4.xsd`, root `WindowElement`) holds how a layer reflects and
-//! transmits, as a matrix over angular patches (Klems 1994) or as a tensor tree (Ward, Kurt and Bonneel 2012).
-//! [`read_bsdf_xml`](crate::read_bsdf_xml) takes the visible data of the first layer. Where no standard says
-//! how numbers are ordered and directions oriented, they are read as Radiance reads them, and a test compares with
-//! Radiance. Words are read in letters of any case.
+//! The XML of LBNL WINDOW 6 and 7 (schema `BSDF-v1.4.xsd`, root `WindowElement`) holds how a layer
+//! reflects and transmits, as a matrix over angular patches (Klems 1994) or as a tensor tree (Ward,
+//! Kurt and Bonneel 2012). [`read_bsdf_xml`](crate::read_bsdf_xml) takes the visible data of the
+//! first layer. Where no standard says how numbers are ordered and directions oriented, they are
+//! read as Radiance reads them, and a test compares with Radiance. Words are read in letters of any
+//! case.
 //!
 //! | element | meaning here |
 //! |---|---|
@@ -19,28 +20,31 @@
 //! | .. `AngleBasis` | of a tree: `LBNL/Shirley-Chiu` |
 //! | .. `ScatteringData` | the values in sr^-1, without the cosine of the exit direction |
 //!
-//! `ScatteringDataType`, spectra of source and detector, and the geometry are not used. Blanks, tabs, line ends and
-//! commas separate numbers alike.
+//! `ScatteringDataType`, spectra of source and detector, and the geometry are not used. Blanks,
+//! tabs, line ends and commas separate numbers alike.
 //!
 //! # How the sheet is mounted
-//! `Front` faces outdoors and `Back` faces the room: `Transmission Front` is what light from outdoors does. A scene has the front on the front of
-//! the facets, so the normals of a window's facets point outdoors, and `up` is the vertical of the file, its `y` axis. Radiance is the other way
-//! round: there the normal of a surface with a BSDF points into the room. Facets of a scene made for
-//! Radiance must be turned over.
+//! `Front` faces outdoors and `Back` faces the room: `Transmission Front` is what light from
+//! outdoors does. A scene has the front on the front of the facets, so the normals of a window's
+//! facets point outdoors, and `up` is the vertical of the file, its `y` axis. Radiance is the other
+//! way round: there the normal of a surface with a BSDF points into the room. Facets of a scene
+//! made for Radiance must be turned over.
 //!
 //! # Matrices
-//! `Columns`: each row of the text is one exit patch, each column one incident patch; `Rows`: the other way round. Patches
-//! go from the normal to the horizon, in each band counterclockwise, the first one centred at azimuth 0. The azimuth of an
-//! incident patch is that of the direction *in which light goes*, so that light that goes
-//! straight through, and light that a mirror reflects, stay in the patch of the same number.
+//! `Columns`: each row of the text is one exit patch, each column one incident patch; `Rows`: the
+//! other way round. Patches go from the normal to the horizon, in each band counterclockwise, the
+//! first one centred at azimuth 0. The azimuth of an incident patch is that of the direction *in
+//! which light goes*, so that light that goes straight through, and light that a mirror reflects,
+//! stay in the patch of the same number.
 //!
 //! # Trees
-//! A node is `{` 8 or 16 nodes `}`, or `{` a grid of values `}`, 1, 8, 64 .. or 1, 16, 256 .. of them. The axes are
-//! those of the incident square and then those of the exit square: the disk of projected directions mapped by Shirley and
-//! Chiu (1997), that of the incident direction turned by half a turn as above. In rank 3 the incident axis is (1 - r) / 2, r the
-//! sine of the polar angle, so that its upper half is not used, and the exit direction is turned with the azimuth of the incident one.
-//! Node number n is in the upper half of axis i where bit i of n is set; in a grid the last axis runs fastest.
-//! No more than 12 levels.
+//! A node is `{` 8 or 16 nodes `}`, or `{` a grid of values `}`, 1, 8, 64 .. or 1, 16, 256 .. of
+//! them. The axes are those of the incident square and then those of the exit square: the disk of
+//! projected directions mapped by Shirley and Chiu (1997), that of the incident direction turned by
+//! half a turn as above. In rank 3 the incident axis is (1 - r) / 2, r the sine of the polar angle,
+//! so that its upper half is not used, and the exit direction is turned with the azimuth of the
+//! incident one. Node number n is in the upper half of axis i where bit i of n is set; in a grid
+//! the last axis runs fastest. No more than 12 levels.
 //!
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |

@@ -16,12 +16,13 @@ const EXITS: usize = 610;
 const TRIED: usize = 128;
 
 impl GriddedTable {
-    /// The mean of |f - f'| over the mean of f, over projected solid angle, that is to be expected in the middle between two incident
-    /// polar angles; `None` of less than three.
+    /// The mean of |f - f'| over the mean of f, over projected solid angle, that is to be expected
+    /// in the middle between two incident polar angles; `None` of less than three.
     ///
-    /// What is stored at an angle is compared to what its two neighbours would say without it. The difference is of second order in the
-    /// gap, which is twice as wide there: a quarter is expected of neighbours. That is an estimate, good where
-    /// gaps are even and lobes change little from one angle to the next; beyond the last angle nothing is known.
+    /// What is stored at an angle is compared to what its two neighbours would say without it. The
+    /// difference is of second order in the gap, which is twice as wide there: a quarter is
+    /// expected of neighbours. That is an estimate, good where gaps are even and lobes change
+    /// little from one angle to the next; beyond the last angle nothing is known.
     #[must_use]
     pub fn error_between(&self) -> Option<f64> {
         let rows = self.theta_rad.len();
@@ -54,8 +55,8 @@ impl GriddedTable {
     }
 }
 
-/// The mean of |f - f'| over the mean of f', f' the exact function, at incident directions and over projected solid angle, both
-/// in the frame of the file.
+/// The mean of |f - f'| over the mean of f', f' the exact function, at incident directions and over
+/// projected solid angle, both in the frame of the file.
 pub(crate) fn table_error(
     table: &GriddedTable,
     incidences: &[DVec3],
@@ -74,8 +75,8 @@ pub(crate) fn table_error(
     if sum > 0.0 { difference / sum } else { 0.0 }
 }
 
-/// The integrals of |g - g'| and of g', of which one is a mixture: over exits that are spread evenly by one half and drawn from the mixture by the
-/// other. `g` is the other one.
+/// The integrals of |g - g'| and of g', of which one is a mixture: over exits that are spread
+/// evenly by one half and drawn from the mixture by the other. `g` is the other one.
 fn off(mixture: &Mixture<'_>, g: impl Fn(DVec3) -> f64) -> (f64, f64) {
     let (mut difference, mut sum) = (0.0, 0.0);
     for index in 0..EXITS {

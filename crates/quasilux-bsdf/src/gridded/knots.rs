@@ -25,14 +25,15 @@ pub(crate) fn around(knots: &[f64], phi_rad: f64) -> [(usize, f64); 2] {
     [(last, 1.0 - t), (0, t)]
 }
 
-/// What each knot stands for of the mean over projected solid angle, 2 sin cos, of a function that is linear between polar angles
-/// and constant beyond the ends.
+/// What each knot stands for of the mean over projected solid angle, 2 sin cos, of a function that
+/// is linear between polar angles and constant beyond the ends.
 pub(super) fn parts_of_polar_angles(knots: &[f64]) -> Vec<f64> {
     let sin2 = |theta_rad: f64| {
         let sin = libm::sin(theta_rad);
         sin * sin
     };
-    // The mean of sin^2 between two knots: by parts, the upper one stands for its own sin^2 less that.
+    // The mean of sin^2 between two knots: by parts, the upper one stands for its own sin^2 less
+    // that.
     let mean = |low: f64, high: f64| {
         let sines = libm::sin(high - low) * libm::cos(high + low);
         0.5 * (1.0 - sines / (high - low))

@@ -6,11 +6,12 @@ use glam::DVec3;
 use quasilux_photometry::{Grid, SphericalTable};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Less than this counts as nothing, as in tables of what is above it: shares of such values would lose digits to underflow.
+/// Less than this counts as nothing, as in tables of what is above it: shares of such values would
+/// lose digits to underflow.
 const SMALLEST_VALUE: f64 = 1e-100;
 
-/// What one incident direction is scattered to, its azimuth being 0: f is the least of its values, as of Lambert's surface, and what
-/// there is above that.
+/// What one incident direction is scattered to, its azimuth being 0: f is the least of its values,
+/// as of Lambert's surface, and what there is above that.
 #[derive(Clone, Debug)]
 pub(crate) struct Lobe {
     /// The least f, in sr^-1, by linear RGB.
@@ -22,8 +23,8 @@ pub(crate) struct Lobe {
 }
 
 impl Lobe {
-    /// A lobe from f at exit directions: one list for grey, three for linear RGB, each all azimuths at the first polar angle, then
-    /// at the next. `None` where they are no grid.
+    /// A lobe from f at exit directions: one list for grey, three for linear RGB, each all azimuths
+    /// at the first polar angle, then at the next. `None` where they are no grid.
     pub(crate) fn new(knots: &ExitKnots, channels: &[Vec<f64>]) -> Option<Self> {
         let columns = knots.phi_rad.len();
         // At the horizon f may be anything, and g is zero.

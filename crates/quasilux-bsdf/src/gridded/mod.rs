@@ -1,20 +1,24 @@
 //! A scattering distribution as lobes over a grid of incident directions.
 //!
-//! For each stored incidence f is the sum of its least value and of a [`SphericalTable`](quasilux_photometry::SphericalTable) of what is above that, times
-//! cos(theta), over exit directions, bilinear in spherical angles. Between incidences g = f cos(theta) is the linear mixture of theirs, two
-//! by polar angle and, where the surface is not isotropic, two by azimuth, each turned about the normal so that its
-//! plane of incidence is that of `wi`. What is above the least value follows the mirror direction where neighbours have more
-//! in common so (`motion.rs`), without loss: the albedo is the mixture of the integrals; and where a file that counts angles from there
-//! has but one incidence. The difference from the surface is of second
-//! order in the gap between incidences; [`GriddedTable::error_between`] estimates it from the table itself.
+//! For each stored incidence f is the sum of its least value and of a
+//! [`SphericalTable`](quasilux_photometry::SphericalTable) of what is above that, times cos(theta),
+//! over exit directions, bilinear in spherical angles. Between incidences g = f cos(theta) is the
+//! linear mixture of theirs, two by polar angle and, where the surface is not isotropic, two by
+//! azimuth, each turned about the normal so that its plane of incidence is that of `wi`. What is
+//! above the least value follows the mirror direction where neighbours have more in common so
+//! (`motion.rs`), without loss: the albedo is the mixture of the integrals; and where a file that
+//! counts angles from there has but one incidence. The difference from the surface is of second
+//! order in the gap between incidences; [`GriddedTable::error_between`] estimates it from the table
+//! itself.
 //!
-//! Files with lobes measure one side, the front, and count azimuths counterclockwise as seen from there. In the frame of the
-//! sheet that is clockwise: the `x` of a lobe is `-x` of the sheet.
+//! Files with lobes measure one side, the front, and count azimuths counterclockwise as seen from
+//! there. In the frame of the sheet that is clockwise: the `x` of a lobe is `-x` of the sheet.
 //!
-//! Sampling picks Lambert's part or a lobe by its share of the albedo with `u[0]`, which is renormalised, inverts it and moves
-//! the direction. The density is that of the whole mixture, f cos(theta) over the albedo: each sample weighs the same, and nothing is biased. What it
-//! costs is strata: up to five maps share the unit square, so that a sequence fills each with a part of its points,
-//! and one direction has several pairs of coordinates, of which `invert` returns one.
+//! Sampling picks Lambert's part or a lobe by its share of the albedo with `u[0]`, which is
+//! renormalised, inverts it and moves the direction. The density is that of the whole mixture, f
+//! cos(theta) over the albedo: each sample weighs the same, and nothing is biased. What it costs is
+//! strata: up to five maps share the unit square, so that a sequence fills each with a part of its
+//! points, and one direction has several pairs of coordinates, of which `invert` returns one.
 
 mod error;
 mod knots;
@@ -36,7 +40,8 @@ use quasilux_photometry::Angles;
 pub(super) use resample::ExitKnots;
 use std::f64::consts::TAU;
 
-/// Incident directions of one file: more than are measured, and few enough for the grids of their lobes.
+/// Incident directions of one file: more than are measured, and few enough for the grids of their
+/// lobes.
 pub(super) const MAX_INCIDENCES: usize = 1000;
 
 /// Lobes over a grid of incident directions.
@@ -50,15 +55,17 @@ pub struct GriddedTable {
     specular_rad: Vec<f64>,
     /// The same as directions.
     mirrors: Vec<Mirror>,
-    /// How lobes move between each polar angle and the next; of one polar angle alone, how its lobes move, if they do.
+    /// How lobes move between each polar angle and the next; of one polar angle alone, how its
+    /// lobes move, if they do.
     motions: Vec<Motion>,
     /// All polar angles of the first azimuth, then of the next.
     lobes: Vec<Lobe>,
 }
 
 impl GriddedTable {
-    /// A table of lobes, all polar angles of the first azimuth, then of the next; they lie about the polar angles `specular_rad`. One
-    /// azimuth alone makes it isotropic. `None` unless angles ascend and there is a lobe for each pair.
+    /// A table of lobes, all polar angles of the first azimuth, then of the next; they lie about
+    /// the polar angles `specular_rad`. One azimuth alone makes it isotropic. `None` unless angles
+    /// ascend and there is a lobe for each pair.
     pub(super) fn new(
         theta_rad: Vec<f64>,
         phi_rad: Vec<f64>,
@@ -82,8 +89,9 @@ impl GriddedTable {
         Some(table)
     }
 
-    /// The same table, whose lobes follow the mirror direction also where there is but one incident polar angle, with no neighbour to
-    /// tell: those of files that count angles from there. They keep their light, and their width in the plane of incidence.
+    /// The same table, whose lobes follow the mirror direction also where there is but one incident
+    /// polar angle, with no neighbour to tell: those of files that count angles from there. They
+    /// keep their light, and their width in the plane of incidence.
     #[must_use]
     pub(super) fn following_the_mirror(mut self) -> Self {
         if self.theta_rad.len() == 1 {
@@ -129,7 +137,8 @@ impl GriddedTable {
         mixture.pdf_sr(turned(wo, turn))
     }
 
-    /// Of the coordinates that lead to `wo`, those of the part of the mixture that is the brightest there.
+    /// Of the coordinates that lead to `wo`, those of the part of the mixture that is the brightest
+    /// there.
     pub(super) fn invert(&self, wi: DVec3, wo: DVec3) -> Option<[f64; 2]> {
         let (mixture, turn) = self.mixture(wi);
         mixture.invert(turned(wo, turn))
@@ -151,7 +160,8 @@ impl GriddedTable {
         self.phi_rad.iter().flat_map(of_azimuth).collect()
     }
 
-    /// Knots, each for the light of which its lobe has the share: shares are linear in both angles between them.
+    /// Knots, each for the light of which its lobe has the share: shares are linear in both angles
+    /// between them.
     pub(super) fn parts(&self) -> Vec<Incident> {
         let of_theta = parts_of_polar_angles(&self.theta_rad);
         let of_phi = parts_of_azimuths(&self.phi_rad);
@@ -166,8 +176,8 @@ impl GriddedTable {
         are_isotropic || self.phi_rad == other.phi_rad
     }
 
-    /// The lobes that mix at an incident direction, and cosine and sine of its azimuth as seen from the front: lobes are
-    /// stored with it at 0.
+    /// The lobes that mix at an incident direction, and cosine and sine of its azimuth as seen from
+    /// the front: lobes are stored with it at 0.
     fn mixture(&self, wi: DVec3) -> (Mixture<'_>, [f64; 2]) {
         let horizontal = (wi.x * wi.x + wi.y * wi.y).sqrt();
         let turn =
@@ -189,7 +199,8 @@ impl GriddedTable {
         (Mixture { parts: [0, 1, 2, 3].map(part) }, turn)
     }
 
-    /// Where lobes belong at an incident polar angle between two knots, or beyond the ends, and how they get there.
+    /// Where lobes belong at an incident polar angle between two knots, or beyond the ends, and how
+    /// they get there.
     fn mirror(&self, theta_rad: f64, knots: [(usize, f64); 2]) -> (Motion, Mirror) {
         let [(low, below), (high, above)] = knots;
         if low != high {
@@ -217,8 +228,8 @@ fn turned(direction: DVec3, [cos, sin]: [f64; 2]) -> DVec3 {
     DVec3::new(sin * y - cos * x, sin * x + cos * y, z.max(0.0))
 }
 
-/// A direction in the frame of the file, which is seen from the front, from one of the sheet; and the other way
-/// round.
+/// A direction in the frame of the file, which is seen from the front, from one of the sheet; and
+/// the other way round.
 pub(super) fn as_in_file(direction: DVec3) -> DVec3 {
     DVec3::new(-direction.x, direction.y, direction.z)
 }

@@ -1,14 +1,17 @@
 //! How a lobe follows the mirror direction between the incidences that are stored.
 //!
-//! A lobe that is moved from one mirror direction to another is stretched linearly in the plane of incidence: in the frame
-//! of the surface (x, y, z) becomes (p x + q z, y, z), and is normalised (Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light
-//! shading with linearly transformed cosines"). The horizon stays where it is, no light is lost, and the Jacobian
-//! is that of a linear map: p over the cube of the length. q leads one mirror direction to the other. p is
-//! a power of the ratio of their cosines: with 2 lobes keep their width in the plane of incidence and become narrower across with the
-//! cosine, as those of microfacets do; less, down to 1, disturbs less what is far from the mirror direction.
+//! A lobe that is moved from one mirror direction to another is stretched linearly in the plane of
+//! incidence: in the frame of the surface (x, y, z) becomes (p x + q z, y, z), and is normalised
+//! (Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading with linearly
+//! transformed cosines"). The horizon stays where it is, no light is lost, and the Jacobian is that
+//! of a linear map: p over the cube of the length. q leads one mirror direction to the other. p is
+//! a power of the ratio of their cosines: with 2 lobes keep their width in the plane of incidence
+//! and become narrower across with the cosine, as those of microfacets do; less, down to 1,
+//! disturbs less what is far from the mirror direction.
 //!
-//! Which power serves a pair of neighbours, or whether lobes had better stay, is what the neighbours say: that under which one of
-//! them, moved onto the other, has the most in common with it.
+//! Which power serves a pair of neighbours, or whether lobes had better stay, is what the
+//! neighbours say: that under which one of them, moved onto the other, has the most in common with
+//! it.
 
 use super::Lobe;
 use crate::hemisphere::lattice;
@@ -122,8 +125,8 @@ impl Motion {
     }
 }
 
-/// The integral of the lesser of the first lobe, moved, and the second, both without what is least and with integral 1: the mean of
-/// min(1, a / b) over directions drawn from b.
+/// The integral of the lesser of the first lobe, moved, and the second, both without what is least
+/// and with integral 1: the mean of min(1, a / b) over directions drawn from b.
 fn overlap([a, b]: [&Lobe; 2], step: Option<Move>) -> f64 {
     let (a, b) = (a.above(), b.above());
     if a.integral() <= 0.0 || b.integral() <= 0.0 {

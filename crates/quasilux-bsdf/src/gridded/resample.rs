@@ -1,14 +1,16 @@
 //! Grids of exit directions for lobes that files give in other angles.
 //!
-//! Values around the mirror direction, or over half and difference angles, are taken to a grid of spherical angles about the
-//! normal, whose knots lie where those of the file do: in the plane of incidence at the same distances from the
-//! mirror direction, and around the normal at azimuths of the same distances. The horizon is an edge of the grid.
+//! Values around the mirror direction, or over half and difference angles, are taken to a grid of
+//! spherical angles about the normal, whose knots lie where those of the file do: in the plane of
+//! incidence at the same distances from the mirror direction, and around the normal at azimuths of
+//! the same distances. The horizon is an edge of the grid.
 
 use glam::DVec3;
 use quasilux_photometry::{Angles, Symmetry};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Widest gaps between knots, in polar angle and in azimuth: at first, and where there would be too many knots.
+/// Widest gaps between knots, in polar angle and in azimuth: at first, and where there would be too
+/// many knots.
 const WIDEST_RAD: [[f64; 2]; 2] = [[PI / 72.0, PI / 36.0], [PI / 36.0, PI / 18.0]];
 
 /// Closer knots are one, in radians.
@@ -23,9 +25,10 @@ pub(crate) struct ExitKnots {
 }
 
 impl ExitKnots {
-    /// Knots at distances `offsets_rad` from a mirror direction at polar angle `mirror_rad` and azimuth pi, and at such
-    /// azimuths `phis_rad`; over half a turn where both halves are alike. Where that makes more than `most` directions,
-    /// every other knot is left out until none is left but those that fill wide gaps.
+    /// Knots at distances `offsets_rad` from a mirror direction at polar angle `mirror_rad` and
+    /// azimuth pi, and at such azimuths `phis_rad`; over half a turn where both halves are alike.
+    /// Where that makes more than `most` directions, every other knot is left out until none is
+    /// left but those that fill wide gaps.
     pub(crate) fn around(
         mirror_rad: f64,
         offsets_rad: &[f64],
@@ -38,7 +41,8 @@ impl ExitKnots {
             let offsets = || offsets_rad.iter().copied().step_by(step);
             let thetas = offsets().flat_map(|offset| [mirror_rad - offset, mirror_rad + offset]);
             let sine = libm::sin(mirror_rad);
-            // Two directions at the mirror's polar angle, `offset` apart, differ by this in azimuth.
+            // Two directions at the mirror's polar angle, `offset` apart, differ by this in
+            // azimuth.
             let azimuth = |offset: f64| {
                 let ratio = libm::sin(0.5 * offset.min(PI)) / sine;
                 if ratio < 1.0 { 2.0 * libm::asin(ratio) } else { PI }
@@ -59,7 +63,8 @@ impl ExitKnots {
         }
     }
 
-    /// The exit directions in the order of values: all azimuths at the first polar angle, then at the next.
+    /// The exit directions in the order of values: all azimuths at the first polar angle, then at
+    /// the next.
     pub(crate) fn directions(&self) -> impl Iterator<Item = DVec3> {
         let at = |&theta_rad: &f64| {
             self.phi_rad.iter().map(move |&phi_rad| upward(Angles { theta_rad, phi_rad }))

@@ -1,9 +1,11 @@
-//! Angular bases of Klems (1994): bands of the polar angle, each cut into equal patches of the azimuth.
+//! Angular bases of Klems (1994): bands of the polar angle, each cut into equal patches of the
+//! azimuth.
 //!
-//! J. H. Klems, "A new method for predicting the solar heat gain of complex fenestration systems" (ASHRAE Transactions
-//! 100, 1994). Patch 0 of each band is centred at azimuth 0, and patches go on counterclockwise; the azimuth is that of
-//! light going *onwards*: of the exit direction, or of the incident direction turned by half a turn. Directions of
-//! light that goes straight through have the same patch on both sides.
+//! J. H. Klems, "A new method for predicting the solar heat gain of complex fenestration systems"
+//! (ASHRAE Transactions 100, 1994). Patch 0 of each band is centred at azimuth 0, and patches go on
+//! counterclockwise; the azimuth is that of light going *onwards*: of the exit direction, or of the
+//! incident direction turned by half a turn. Directions of light that goes straight through have
+//! the same patch on both sides.
 
 use std::f64::consts::{PI, TAU};
 
@@ -81,8 +83,8 @@ impl AngleBasis {
         Self::new(name, bands)
     }
 
-    /// A basis from the upper polar angle in degrees and the number of patches of each band, from the normal on; `None`
-    /// unless the angles ascend within (0, 90] and each band has patches.
+    /// A basis from the upper polar angle in degrees and the number of patches of each band, from
+    /// the normal on; `None` unless the angles ascend within (0, 90] and each band has patches.
     #[must_use]
     pub fn new(name: &str, bands: &[(f64, usize)]) -> Option<Self> {
         let mut basis = Self { name: name.to_owned(), bands: Vec::new(), patches: 0 };
@@ -121,8 +123,8 @@ impl AngleBasis {
         self.patches
     }
 
-    /// The cell of a direction whose projection into the surface, in the sense in which light goes, is `(x, y)`.
-    /// `None` beyond the last band.
+    /// The cell of a direction whose projection into the surface, in the sense in which light goes,
+    /// is `(x, y)`. `None` beyond the last band.
     pub(super) fn cell(&self, [x, y]: [f64; 2]) -> Option<Cell> {
         let sin2 = (x * x + y * y).min(1.0);
         let band = self.bands.partition_point(|band| band.sin2[1] <= sin2);
@@ -168,7 +170,8 @@ impl AngleBasis {
         self.bands.iter().enumerate().flat_map(of_band)
     }
 
-    /// The projection, and `z`, of a place in each piece that a patch has in common with one of another basis.
+    /// The projection, and `z`, of a place in each piece that a patch has in common with one of
+    /// another basis.
     pub(super) fn common_places(&self, other: &Self) -> Vec<[f64; 3]> {
         let between = |mut ends: Vec<f64>| -> Vec<f64> {
             ends.sort_by(f64::total_cmp);
@@ -198,8 +201,8 @@ impl AngleBasis {
         places
     }
 
-    /// The patch half a turn away from each, in the order of files; `None` where some band has an odd number of
-    /// patches, more than one.
+    /// The patch half a turn away from each, in the order of files; `None` where some band has an
+    /// odd number of patches, more than one.
     pub(super) fn opposites(&self) -> Option<Vec<usize>> {
         let has_pairs = |band: &ThetaBand| band.patches == 1 || band.patches.is_multiple_of(2);
         let opposite = |cell: Cell| {

@@ -1,9 +1,10 @@
 //! A scattering matrix over angular patches (Klems 1994; LBNL WINDOW).
 //!
-//! f is constant for each pair of an incident and an exit patch. With the projected solid angle W of a patch,
-//! the albedo of an incident patch is the sum of f W over exit patches. Sampling takes the two coordinates apart:
-//! `u[0]` picks a band by its share and, renormalised, the squared sine in it; `u[1]` picks a patch of
-//! that band and, renormalised, the azimuth in it. The density in projected solid angle is f over the albedo.
+//! f is constant for each pair of an incident and an exit patch. With the projected solid angle W
+//! of a patch, the albedo of an incident patch is the sum of f W over exit patches. Sampling takes
+//! the two coordinates apart: `u[0]` picks a band by its share and, renormalised, the squared sine
+//! in it; `u[1]` picks a patch of that band and, renormalised, the azimuth in it. The density in
+//! projected solid angle is f over the albedo.
 
 mod basis;
 
@@ -30,8 +31,8 @@ pub struct KlemsTable {
 }
 
 impl KlemsTable {
-    /// A table from values for all exit patches of the first incident patch, then of the next; `None` unless
-    /// there is one value, non-negative and finite, for each pair.
+    /// A table from values for all exit patches of the first incident patch, then of the next;
+    /// `None` unless there is one value, non-negative and finite, for each pair.
     #[must_use]
     pub fn new(incident: AngleBasis, exit: AngleBasis, values: Vec<f64>) -> Option<Self> {
         let pairs = incident.patches().checked_mul(exit.patches())?;
@@ -55,7 +56,8 @@ impl KlemsTable {
         Some(Self { incident, exit, values, share_before, is_isotropic })
     }
 
-    /// Whether f does not depend on azimuths at all. Patches are too coarse for any other table to be the same however it is turned.
+    /// Whether f does not depend on azimuths at all. Patches are too coarse for any other table to
+    /// be the same however it is turned.
     pub(super) fn is_isotropic(&self) -> bool {
         self.is_isotropic
     }
@@ -72,8 +74,8 @@ impl KlemsTable {
         &self.exit
     }
 
-    /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi). `None` where a patch has no
-    /// counterpart at the opposite azimuth.
+    /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi). `None` where a
+    /// patch has no counterpart at the opposite azimuth.
     pub(super) fn reversed(&self) -> Option<Self> {
         let (opposite_in, opposite_out) = (self.incident.opposites()?, self.exit.opposites()?);
         let columns = self.exit.patches();
@@ -153,7 +155,8 @@ impl KlemsTable {
         self.parts().into_iter().map(|part| part.wi).collect()
     }
 
-    /// The centres of incident patches, each for its projected solid angle; the light beyond the last band is not scattered.
+    /// The centres of incident patches, each for its projected solid angle; the light beyond the
+    /// last band is not scattered.
     pub(super) fn parts(&self) -> Vec<Incident> {
         let has_cap = self.incident.bands()[0].patches == 1;
         let of_cell = |cell: Cell| {
@@ -166,8 +169,8 @@ impl KlemsTable {
         self.incident.cells().map(of_cell).collect()
     }
 
-    /// An incidence in each piece that a patch of one table and one of the other have in common; none where both have the same
-    /// patches.
+    /// An incidence in each piece that a patch of one table and one of the other have in common;
+    /// none where both have the same patches.
     pub(super) fn common_incidences(one: &Self, other: &Self) -> Vec<DVec3> {
         if one.incident.bands() == other.incident.bands() {
             return vec![];

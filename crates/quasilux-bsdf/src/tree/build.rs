@@ -30,8 +30,8 @@ impl TreeBuilder {
         self.incident_axes + 2
     }
 
-    /// Makes a branch of a leaf at `level`, and returns the number of its first child; `None` if the tree becomes too
-    /// deep or too large.
+    /// Makes a branch of a leaf at `level`, and returns the number of its first child; `None` if
+    /// the tree becomes too deep or too large.
     pub(crate) fn branch(&mut self, node: usize, level: usize) -> Option<usize> {
         let first = self.nodes.len();
         let end = first.checked_add(1 << self.axes())?;
@@ -44,8 +44,8 @@ impl TreeBuilder {
         Some(first)
     }
 
-    /// Writes a grid of values with 2^`log_side` of them along each axis, the last axis running fastest, to a leaf
-    /// at `level`. `None` as in [`Self::branch`].
+    /// Writes a grid of values with 2^`log_side` of them along each axis, the last axis running
+    /// fastest, to a leaf at `level`. `None` as in [`Self::branch`].
     pub(crate) fn grid(
         &mut self,
         node: usize,
@@ -106,8 +106,9 @@ struct Part<'v> {
 impl TensorTree {
     /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi).
     ///
-    /// Of rank 4: the squares of a direction and of its opposite are mirror images, and the old place of an axis is one
-    /// less the new place of its counterpart. `None` of rank 3, see [`ExchangedTree`](super::ExchangedTree).
+    /// Of rank 4: the squares of a direction and of its opposite are mirror images, and the old
+    /// place of an axis is one less the new place of its counterpart. `None` of rank 3, see
+    /// [`ExchangedTree`](super::ExchangedTree).
     pub(crate) fn reversed(&self) -> Option<Self> {
         if self.is_isotropic() {
             return None;

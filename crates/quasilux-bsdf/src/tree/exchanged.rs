@@ -1,14 +1,17 @@
 //! A tree of rank 3 for light that goes the other way round.
 //!
-//! f'(wi, wo) = f(wo, wi) of an isotropic tree is constant in rings of the sine of wo, for which the tree has its incident axis. In the exit
-//! square of the tree wi is at the azimuth that it has from where light goes: as wo turns, it runs around a circle, and concentric
-//! squares are what Shirley and Chiu's map makes of circles. So, for one wi, f' is constant in runs along the four sides of a square, and the
-//! azimuth is linear in the way along them: both coordinates are inverted exactly, without a table for each incidence.
+//! f'(wi, wo) = f(wo, wi) of an isotropic tree is constant in rings of the sine of wo, for which
+//! the tree has its incident axis. In the exit square of the tree wi is at the azimuth that it has
+//! from where light goes: as wo turns, it runs around a circle, and concentric squares are what
+//! Shirley and Chiu's map makes of circles. So, for one wi, f' is constant in runs along the four
+//! sides of a square, and the azimuth is linear in the way along them: both coordinates are
+//! inverted exactly, without a table for each incidence.
 //!
-//! With 2^h boxes a side, the square through wi has half a side of `column` + t boxes, t in (0, 1]. A ring sends
-//! (I + 2 t C) / (8 (column + t)) of its projected solid angle, I the sum of the values of the boxes between the corners of all
-//! sides and C that of the four at the corners. Sums of I and C over rings are stored for each column. `u[0]` picks a ring by its
-//! share and, renormalised, the squared sine in it; `u[1]` runs along the sides.
+//! With 2^h boxes a side, the square through wi has half a side of `column` + t boxes, t in (0, 1].
+//! A ring sends (I + 2 t C) / (8 (column + t)) of its projected solid angle, I the sum of the
+//! values of the boxes between the corners of all sides and C that of the four at the corners. Sums
+//! of I and C over rings are stored for each column. `u[0]` picks a ring by its share and,
+//! renormalised, the squared sine in it; `u[1]` runs along the sides.
 
 use super::{DEEPEST, Incidence, TensorTree};
 use crate::hemisphere::INSIDE;
@@ -33,8 +36,8 @@ pub struct ExchangedTree {
     log_side: usize,
     /// Rings, and columns: half of that.
     half: usize,
-    /// For each column, the sums over the rings before each one, and over all, of I times the projected solid angle of a
-    /// ring.
+    /// For each column, the sums over the rings before each one, and over all, of I times the
+    /// projected solid angle of a ring.
     between_before: Vec<f64>,
     /// The same of C.
     corners_before: Vec<f64>,
@@ -160,7 +163,8 @@ impl ExchangedTree {
         (turns - turns.floor()) * square.around()
     }
 
-    /// The value of a box on a side and the size of its leaf in boxes; `step` counts boxes along the side from its middle.
+    /// The value of a box on a side and the size of its leaf in boxes; `step` counts boxes along
+    /// the side from its middle.
     fn leaf(&self, ring: usize, column: usize, side: usize, step: isize) -> (f64, usize) {
         let half = self.half as isize;
         let (out, along) = (column as isize, step);
@@ -289,7 +293,8 @@ impl ExchangedTree {
         max_value
     }
 
-    /// The middles of columns, each for its ring: what a column sends is linear in the area before it.
+    /// The middles of columns, each for its ring: what a column sends is linear in the area before
+    /// it.
     pub(crate) fn parts(&self) -> Vec<Incident> {
         let half = self.half as f64;
         let of_column = |column: usize| {

@@ -1,9 +1,9 @@
 //! Means over exit squares, as functions of the incident direction.
 //!
-//! The mean of a branch is a function of the incidence, constant in boxes: a tree over the incident axes alone. At an
-//! incidence it is the mean over four children, so its boxes are those that all four agree on. A full tree
-//! of height h has 2^(h d) of them at a node, d incident axes, and the nodes of all levels together a third of the leaves of
-//! the whole tree.
+//! The mean of a branch is a function of the incidence, constant in boxes: a tree over the incident
+//! axes alone. At an incidence it is the mean over four children, so its boxes are those that all
+//! four agree on. A full tree of height h has 2^(h d) of them at a node, d incident axes, and the
+//! nodes of all levels together a third of the leaves of the whole tree.
 
 use super::{Incidence, Node};
 
@@ -61,7 +61,8 @@ impl Means {
         boxes
     }
 
-    /// Makes the means of all branches; children lie behind their parents. `None` if there are too many.
+    /// Makes the means of all branches; children lie behind their parents. `None` if there are too
+    /// many.
     pub(super) fn new(nodes: &mut [Node], incident_axes: usize) -> Option<Self> {
         let mut means = Self::default();
         for index in (0..nodes.len()).rev() {

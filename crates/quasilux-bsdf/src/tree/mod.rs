@@ -1,13 +1,16 @@
-//! A tensor tree: a scattering distribution constant in boxes of varied size (Ward, Kurt and Bonneel 2012).
+//! A tensor tree: a scattering distribution constant in boxes of varied size (Ward, Kurt and
+//! Bonneel 2012).
 //!
-//! Projected directions fill a disk, and the disk is mapped to a square (Shirley and Chiu 1997): equal areas are equal
-//! projected solid angles. In rank 4 the axes are those of the incident and of the exit square; in rank 3, where the
-//! surface is isotropic, one axis for the incident sine and the exit square. So the albedo is pi times the mean
-//! over the exit square, and a density in projected solid angle is one in that square over pi.
+//! Projected directions fill a disk, and the disk is mapped to a square (Shirley and Chiu 1997):
+//! equal areas are equal projected solid angles. In rank 4 the axes are those of the incident and
+//! of the exit square; in rank 3, where the surface is isotropic, one axis for the incident sine
+//! and the exit square. So the albedo is pi times the mean over the exit square, and a density in
+//! projected solid angle is one in that square over pi.
 //!
-//! Sampling goes down the tree with both coordinates (McCool and Harwood 1997; Clarberg et al. 2005): `u[0]` picks a half of
-//! the first exit axis and is renormalised in it, then `u[1]` a half of the second axis given the first. The shares are means
-//! over exit squares at the incident direction, kept with each node (`means.rs`). No rejection, and strata stay strata.
+//! Sampling goes down the tree with both coordinates (McCool and Harwood 1997; Clarberg et al.
+//! 2005): `u[0]` picks a half of the first exit axis and is renormalised in it, then `u[1]` a half
+//! of the second axis given the first. The shares are means over exit squares at the incident
+//! direction, kept with each node (`means.rs`). No rejection, and strata stay strata.
 
 mod build;
 mod exchanged;
@@ -47,8 +50,9 @@ pub struct TensorTree {
 struct Node {
     /// Of a leaf: f in sr^-1.
     value: f64,
-    /// Of a branch: the index of its first child. Children lie side by side; bit i of a child's number is set where it is
-    /// the upper half along axis i, exit axes after incident ones. 0 in a leaf.
+    /// Of a branch: the index of its first child. Children lie side by side; bit i of a child's
+    /// number is set where it is the upper half along axis i, exit axes after incident ones. 0 in a
+    /// leaf.
     first_child: u32,
     /// Of a branch: its mean over the exit square, in [`Means`].
     mean: u32,
@@ -220,8 +224,8 @@ impl TensorTree {
         Incidence { axes, cell: [cell(0.5 - 0.5 * sine).min(in_use), 0], turn }
     }
 
-    /// The children of a branch at an incidence: bit 0 of the index is the half along the first exit axis, bit 1 that
-    /// along the second. `None` for a leaf.
+    /// The children of a branch at an incidence: bit 0 of the index is the half along the first
+    /// exit axis, bit 1 that along the second. `None` for a leaf.
     fn children(&self, node: usize, level: usize, incidence: Incidence) -> Option<[usize; 4]> {
         let first = self.nodes[node].first_child as usize;
         let incident = incidence.half(level);

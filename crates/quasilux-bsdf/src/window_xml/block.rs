@@ -101,8 +101,8 @@ fn of_one_layer<'e, 't>(layer: &'e Element<'t>, warnings: &mut Warnings) -> Vec<
     data
 }
 
-/// Tells where light that arrives on a side can pass, but no reflection is known. An opaque sample measured from one side lacks
-/// nothing.
+/// Tells where light that arrives on a side can pass, but no reflection is known. An opaque sample
+/// measured from one side lacks nothing.
 pub(super) fn warn_of_missing_reflection(blocks: &[Block<'_, '_>], warnings: &mut Warnings) {
     let Some(passing) = blocks.iter().find(|block| block.way == Way::Transmission) else {
         return;

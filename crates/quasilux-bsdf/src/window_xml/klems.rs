@@ -60,8 +60,9 @@ fn basis(element: &Element<'_>) -> Result<AngleBasis, ParseError> {
 
 /// The matrix of one block.
 ///
-/// `Columns`: a row of the text holds one exit patch, a column one incident patch. `ColumnAngleBasis` is
-/// the incident basis and `RowAngleBasis` the exit basis in both structures, as Radiance reads them.
+/// `Columns`: a row of the text holds one exit patch, a column one incident patch.
+/// `ColumnAngleBasis` is the incident basis and `RowAngleBasis` the exit basis in both structures,
+/// as Radiance reads them.
 pub(super) fn read(
     block: &Block<'_, '_>,
     bases: &[AngleBasis],

@@ -30,12 +30,12 @@ enum Structure {
     Tree { rank: usize },
 }
 
-/// Reads a WINDOW file. Total: any bytes give a surface or an error with its place, and memory is bounded by a multiple
-/// of the file's length.
+/// Reads a WINDOW file. Total: any bytes give a surface or an error with its place, and memory is
+/// bounded by a multiple of the file's length.
 ///
 /// # Errors
-/// [`ParseError`] with the position where the XML is not well formed, or a basis, an axis or a value
-/// is missing or out of range.
+/// [`ParseError`] with the position where the XML is not well formed, or a basis, an axis or a
+/// value is missing or out of range.
 pub fn read_bsdf_xml(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut Warnings::default());
@@ -69,7 +69,8 @@ pub fn read_bsdf_xml(bytes: &[u8]) -> Result<Parsed, ParseError> {
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 
-/// The text with blanks in the place of what stands before the XML: messages that a program wrote to its output.
+/// The text with blanks in the place of what stands before the XML: messages that a program wrote
+/// to its output.
 fn without_foreword<'t>(text: Cow<'t, str>, warnings: &mut Warnings) -> Cow<'t, str> {
     let bare = text.trim_start_matches('\u{FEFF}').trim_start();
     let Some(start) = text.find('<').filter(|_| !bare.starts_with('<')) else {

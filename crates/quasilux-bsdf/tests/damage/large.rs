@@ -1,4 +1,5 @@
-//! Large files of measured surfaces, numbers as programs write them: as much memory as they take decides what can be loaded.
+//! Large files of measured surfaces, numbers as programs write them: as much memory as they take
+//! decides what can be loaded.
 
 use std::fmt::Write;
 
@@ -65,7 +66,8 @@ pub(crate) fn surface(structure: &str, basis: &str, of_block: &str, data: &str) 
     .into_bytes()
 }
 
-/// Whole degrees and one digit: up to 890 incidences, a thousand would be the most, some 13 bytes a line.
+/// Whole degrees and one digit: up to 890 incidences, a thousand would be the most, some 13 bytes a
+/// line.
 fn grey_astm(bytes: usize) -> Vec<u8> {
     astm(bytes, 13, "f", "1")
 }

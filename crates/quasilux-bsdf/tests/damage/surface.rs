@@ -41,7 +41,8 @@ pub(crate) fn samples() -> Vec<Vec<u8>> {
     let grid = "{ 0.1 0.2 0.3 0.4 0.1 0.2 0.3 0.4 }\n";
     let rank_3 = block("Transmission Front", sphere, &format!("{{ {grid} {} }}", leaves(7)));
     let rank_4 = block("Transmission Front", sphere, &format!("{{ {} }}", leaves(16)));
-    let ddr = ";; made up\nTypeSym PlaneSymmetrical\nTypeColorModel BW\nTypeData Luminance Absolute\n\
+    let ddr = ";; made up\nTypeSym PlaneSymmetrical\nTypeColorModel BW\n\
+        TypeData Luminance Absolute\n\
                sigma 2\n 0 60\nphi 2\n 0 180\ntheta 3\n 0 10 90\nbw\n kbdf\n 1 0.5\n def\n\
                0.9 0.5 0\n 0.9 0.4 0\n 0.8 0.4 0\n 0.7 0.4 0\n enddef\n";
     let colours = "TypeSym ASymmetrical 4D\nTypeColorModel RGB\nTypeData Luminance Relative\n\
@@ -52,7 +53,8 @@ pub(crate) fn samples() -> Vec<Vec<u8>> {
     let half = |angles: &str| ["0", "1.5708", "3.1416"].map(|phi| format!("{angles},{phi},0.2\n"));
     let lines: String = ["0,0,0.2", "0,0,1", "1,0,0.5", "1,0,2"].map(half).concat().concat();
     let astm = "NUM_POINTS 12\nVARS theta_i,phi_i,theta_s,phi_s,BRDF\n".to_owned() + &lines;
-    let coloured = "VARS theta_i,phi_i,theta_s,phi_s,X,Y,Z\n0.5 3 0.1 0 1 0.5 0.2\n0.5 3 0.1 1.5 1 0 0\n\
+    let coloured = "VARS theta_i,phi_i,theta_s,phi_s,X,Y,Z\n\
+        0.5 3 0.1 0 1 0.5 0.2\n0.5 3 0.1 1.5 1 0 0\n\
                     0.5 3 0.1 3 0.2 0.2 0.2\n0.5 3 0.1 4.6 0 0.1 0\n";
     let texts = [
         xml("Columns", &basis, &matrix),
@@ -76,8 +78,8 @@ pub(crate) fn name(bytes: &[u8]) -> &'static str {
     if bytes.len().is_multiple_of(2) { "surface.ddr" } else { "surface.ddt" }
 }
 
-/// Samples, densities and shares are numbers that fit each other, also of the tables that paths draw from: those with both directions
-/// exchanged.
+/// Samples, densities and shares are numbers that fit each other, also of the tables that paths
+/// draw from: those with both directions exchanged.
 pub(crate) fn check(bsdf: &MeasuredBsdf, random: &mut Random) {
     let exchanged = bsdf
         .distributions()

@@ -45,7 +45,8 @@ fn reflecting(table: Distribution) -> MeasuredBsdf {
     MeasuredBsdf::from_tables(facts(), [(Side::Front, Way::Reflection, table)])
 }
 
-/// The visible matrices of a file: side, way, and the share of each incident patch, straight from its text. Rows are exits.
+/// The visible matrices of a file: side, way, and the share of each incident patch, straight from
+/// its text. Rows are exits.
 fn matrices(text: &str) -> Vec<(Side, Way, Vec<f64>)> {
     let weights = projected_sr();
     let element = |text: &str, name: &str| -> String {
@@ -130,7 +131,8 @@ fn trees_have_the_sums_of_their_values() {
         let Some(bsdf) = surface(name) else {
             return;
         };
-        // The front of the first one passes light by reciprocity, in other pieces: see `window_xml`.
+        // The front of the first one passes light by reciprocity, in other pieces: see
+        // `window_xml`.
         let is_given =
             |balance: &EnergyBalance| name != "tt-pyradiance-t3.xml" || balance.side == Side::Back;
         for balance in bsdf.analysis().clone().energy.into_iter().filter(is_given) {
@@ -251,7 +253,8 @@ fn each_pair_of_patches_is_looked_at() {
     }
 }
 
-/// The greatest sum of two matrices over different patches is in the piece that two of them have in common.
+/// The greatest sum of two matrices over different patches is in the piece that two of them have in
+/// common.
 #[test]
 fn sums_over_different_patches_have_their_true_maximum() {
     let exit = || AngleBasis::new("all", &[(90.0, 1)]).unwrap();
@@ -271,7 +274,8 @@ fn sums_over_different_patches_have_their_true_maximum() {
     assert!(balance.worst_wi.angle_between(direction(49.5, 199.0)) < 0.02);
 }
 
-/// A lobe of six degrees that is twice as bright one way as the other, beside the sum over half a million pairs.
+/// A lobe of six degrees that is twice as bright one way as the other, beside the sum over half a
+/// million pairs.
 #[test]
 fn defects_of_narrow_lobes_are_measured() {
     let f = |wi: DVec3, wo: DVec3| {

@@ -43,8 +43,8 @@ pub(super) struct SpecularGrid {
 }
 
 impl SpecularGrid {
-    /// Incidences up to 80 degrees; angles from the specular direction whose spacing is `step` there and twice that
-    /// 10 degrees away, over half a turn.
+    /// Incidences up to 80 degrees; angles from the specular direction whose spacing is `step`
+    /// there and twice that 10 degrees away, over half a turn.
     pub(super) fn with_step(step: f64) -> Self {
         let mut theta = vec![0.0];
         while let Some(&last) = theta.last().filter(|&&last| last < 180.0 - step) {
@@ -110,7 +110,8 @@ pub(super) fn albedo(f: Scattering, wi: DVec3) -> f64 {
     sum
 }
 
-/// The mean difference of a table from f over the mean of f, over exits of equal projected solid angle.
+/// The mean difference of a table from f over the mean of f, over exits of equal projected solid
+/// angle.
 pub(super) fn difference(f: Scattering, table: &Distribution, wi: DVec3) -> f64 {
     let (mut difference, mut sum) = (0.0, 0.0);
     for i in 0..90 {

@@ -28,8 +28,8 @@ fn table(text: &str) -> Distribution {
     bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone()
 }
 
-/// At half the steps near a quarter of the difference: second order. What is left of Lambert's surface is the linear cosine
-/// between polar angles.
+/// At half the steps near a quarter of the difference: second order. What is left of Lambert's
+/// surface is the linear cosine between polar angles.
 #[test]
 fn tables_approach_the_closed_form() {
     for (name, f, most) in [("lambert", lambert as Scattering, 3e-4), ("rough", rough, 0.03)] {
@@ -102,7 +102,8 @@ fn what_is_no_astm_file_is_refused_with_its_place() {
     }
 }
 
-/// A file in degrees: each incident polar angle with each of the exits, in the plane of incidence 0.
+/// A file in degrees: each incident polar angle with each of the exits, in the plane of incidence
+/// 0.
 fn in_degrees(
     thetas_i: &[u32],
     thetas_s: &[u32],
@@ -131,8 +132,8 @@ fn found(read: &Parsed, deviation: WarningKind) -> Option<String> {
     read.warnings.iter().find(is_meant).map(ToString::to_string)
 }
 
-/// A scan in the plane of incidence or in a quadrant does not tell what leaves it: filling the gap would make several times as much
-/// light of a glossy lobe.
+/// A scan in the plane of incidence or in a quadrant does not tell what leaves it: filling the gap
+/// would make several times as much light of a glossy lobe.
 #[test]
 fn azimuths_too_far_apart_are_refused() {
     let polar: Vec<u32> = (0..90).collect();
@@ -178,7 +179,8 @@ fn wide_gaps_between_azimuths_are_told() {
     }
 }
 
-/// In radians up to pi: 0.1 is reflected and 0.05 passes, straight light half a turn from where it comes from.
+/// In radians up to pi: 0.1 is reflected and 0.05 passes, straight light half a turn from where it
+/// comes from.
 #[test]
 fn exits_behind_the_sheet_are_transmission() {
     for (has_reflection, first) in [(true, 0), (false, 90)] {

@@ -7,8 +7,8 @@ use quasilux_bsdf::WarningKind::{
 };
 use quasilux_bsdf::{Distribution, read_bsdf};
 
-/// A file with the kind of its tables, how many there are, and its warnings; or why it is refused, as seen in it by
-/// hand.
+/// A file with the kind of its tables, how many there are, and its warnings; or why it is refused,
+/// as seen in it by hand.
 type Known = (&'static str, Result<(&'static str, usize, &'static [WarningKind]), &'static str>);
 
 const FILES: [Known; 17] = [

@@ -36,7 +36,8 @@ fn tables_approach_the_closed_form() {
     }
 }
 
-/// What the warning states is the difference between the table and the file: of the order of that from the closed form.
+/// What the warning states is the difference between the table and the file: of the order of that
+/// from the closed form.
 #[test]
 fn the_stated_error_is_that_of_resampling() {
     let file = ddr(glossy, &SpecularGrid::with_step(1.0));
@@ -51,8 +52,9 @@ fn the_stated_error_is_that_of_resampling() {
     assert!(stated > 0.1 * found && stated < 3.0 * found, "{stated} % stated, {found} % found");
 }
 
-/// Between incidences of the file, some 20 degrees apart: at most so much, and a lobe has one peak, in the mirror direction. Lobes that
-/// stay where they are stored would be two, and off by 0.15, 0.48, 0.81 and 0.44 where the glossy one is.
+/// Between incidences of the file, some 20 degrees apart: at most so much, and a lobe has one peak,
+/// in the mirror direction. Lobes that stay where they are stored would be two, and off by 0.15,
+/// 0.48, 0.81 and 0.44 where the glossy one is.
 #[test]
 fn lobes_move_with_the_mirror_direction() {
     for (name, f, most) in [
@@ -79,7 +81,8 @@ fn lobes_move_with_the_mirror_direction() {
     }
 }
 
-/// The mixture between incidences approaches the surface at second order in their gap, and the warning foretells how far the table is off.
+/// The mixture between incidences approaches the surface at second order in their gap, and the
+/// warning foretells how far the table is off.
 #[test]
 fn errors_between_incidences_are_foretold() {
     let mut found = Vec::new();
@@ -155,7 +158,8 @@ fn colours_planes_and_albedos_are_read() {
 #[test]
 fn angles_go_from_the_specular_direction_towards_the_normal() {
     let text = "TypeSym ASymmetrical\nTypeColorModel BW\nsigma 1 50 phi 5 0 90 180 270 360\n\
-                theta 4 0 30 40 50\nbw def\n 0 0 0 0\n 0 1 1 0\n 0 0 0 0\n 0 0 0 0\n 0 0 0 0 enddef";
+                theta 4 0 30 40 50\n\
+                bw def\n 0 0 0 0\n 0 1 1 0\n 0 0 0 0\n 0 0 0 0\n 0 0 0 0 enddef";
     let read = read_ddr(text.as_bytes(), Way::Reflection).unwrap();
     let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
     let wi = from_front(50.0, 0.0);
@@ -195,7 +199,8 @@ fn what_is_no_ddr_file_is_refused_with_its_place() {
 const NARROW: &str = "TypeSym AxiSymmetrical\nTypeColorModel BW\nsigma 1 0\nphi 1 0\n\
     theta 8 0 2 4 6 8 10 20 90\nbw kbdf 1 def\n40 35 21 10 3 0.8 0.05 0.05\nenddef\n";
 
-/// Angles count from the mirror direction: light from elsewhere has its peak there, and the same light in all.
+/// Angles count from the mirror direction: light from elsewhere has its peak there, and the same
+/// light in all.
 #[test]
 fn a_lobe_of_one_incidence_follows_the_mirror_direction() {
     for way in Way::ALL {

@@ -48,8 +48,9 @@ fn lambert_is_itself_in_any_table() {
     }
 }
 
-/// f is constant in boxes: its mean difference is of first order in their width. Between lobes it is of second order in the gap between
-/// incidences, as long as that is much wider than the gaps between exits, which are 2.5 degrees at most and stay so.
+/// f is constant in boxes: its mean difference is of first order in their width. Between lobes it
+/// is of second order in the gap between incidences, as long as that is much wider than the gaps
+/// between exits, which are 2.5 degrees at most and stay so.
 #[test]
 fn tables_approach_the_function_at_the_expected_order() {
     type Maker = Box<dyn Fn(u32) -> Distribution>;

@@ -40,7 +40,8 @@ fn direction(theta_deg: f64, phi_deg: f64) -> DVec3 {
     Angles { theta_rad: theta_deg.to_radians(), phi_rad: phi_deg.to_radians() }.direction()
 }
 
-/// The direction of angles in degrees as a file counts them that measures the front: counterclockwise as seen from there.
+/// The direction of angles in degrees as a file counts them that measures the front:
+/// counterclockwise as seen from there.
 fn from_front(theta_deg: f64, phi_deg: f64) -> DVec3 {
     direction(theta_deg, 180.0 - phi_deg)
 }

@@ -10,7 +10,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Half angles, difference angles and azimuths of the database.
 const COUNTS: [usize; 3] = [90, 90, 180];
 
-/// A file of a surface whose channels are f, f / 2 and f / 4; below the horizon nothing is measured.
+/// A file of a surface whose channels are f, f / 2 and f / 4; below the horizon nothing is
+/// measured.
 pub(super) fn file(f: Scattering, counts: [usize; 3]) -> Vec<u8> {
     let mut bytes: Vec<u8> =
         counts.iter().flat_map(|&count| (count as i32).to_le_bytes()).collect();
@@ -67,7 +68,8 @@ fn a_value_stands_where_its_angles_say() {
     let counts = [4, 6, 4];
     let mut bytes = file(lambert, counts);
     bytes[12..].fill(0);
-    // Half angle 2 of 4: 22.5 degrees; difference angle 2 of 6: 30 degrees; azimuth 2 of 4: 90 degrees. All channels.
+    // Half angle 2 of 4: 22.5 degrees; difference angle 2 of 6: 30 degrees; azimuth 2 of 4: 90
+    // degrees. All channels.
     let triple = (2 * 6 + 2) * 4 + 2;
     for channel in 0..3 {
         let first = 12 + 8 * (channel * 96 + triple);

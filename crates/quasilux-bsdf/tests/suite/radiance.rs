@@ -68,8 +68,9 @@ fn values_and_shares_are_those_of_radiance() {
     assert!(compared > 250 && surfaces.len() == 10, "{compared} of {}", surfaces.len());
 }
 
-/// Of a file with transmission from the back alone, which is turned round, Radiance gives no shares from the front. They are the mean of its
-/// values, which the test above compares: here over rings of exits, cut finely in azimuth.
+/// Of a file with transmission from the back alone, which is turned round, Radiance gives no shares
+/// from the front. They are the mean of its values, which the test above compares: here over rings
+/// of exits, cut finely in azimuth.
 #[test]
 fn shares_of_a_tree_turned_round_are_those_of_its_values() {
     const PARTS: u32 = 1 << 17;

@@ -1,10 +1,11 @@
 //! Sample, density, inverse and albedo of measured surfaces belong together, and to the values.
 //!
-//! Chi-square: 2^20 pseudo-random samples for each incidence in some 200 boxes, 0.1 % for the whole family (Sidak). Boxes
-//! are made of parts that lie along the edges of the table's cells and finer, so that what is expected in
-//! them is a sum of values times projected solid angles: it shares nothing with the sums that sampling uses. A
-//! density that is 2 % wrong on half of the light is rejected. Lobes are bilinear: for them a part is a midpoint of a
-//! quadrature, finer by four a side, and azimuths of trees turned round are cut finely.
+//! Chi-square: 2^20 pseudo-random samples for each incidence in some 200 boxes, 0.1 % for the whole
+//! family (Sidak). Boxes are made of parts that lie along the edges of the table's cells and finer,
+//! so that what is expected in them is a sum of values times projected solid angles: it shares
+//! nothing with the sums that sampling uses. A density that is 2 % wrong on half of the light is
+//! rejected. Lobes are bilinear: for them a part is a midpoint of a quadrature, finer by four a
+//! side, and azimuths of trees turned round are cut finely.
 
 use super::{analytic, ddr, direction, merl, surface};
 use glam::DVec3;
@@ -37,7 +38,8 @@ fn incidences() -> [DVec3; 3] {
     [direction(2.0, 13.0), direction(33.0, 47.0), direction(79.0, 311.0)]
 }
 
-/// Lobes over incident directions, from closed forms: stored each ten degrees and more, so that they mix.
+/// Lobes over incident directions, from closed forms: stored each ten degrees and more, so that
+/// they mix.
 fn gridded() -> [(&'static str, Distribution); 2] {
     let merl = read_merl(&merl::file(analytic::rough, [30, 30, 30])).unwrap().bsdf;
     let merl = merl.scattering(Side::Front, Way::Reflection).unwrap().clone();
@@ -58,12 +60,13 @@ fn published() -> impl Iterator<Item = (&'static str, Distribution)> {
 /// Boxes, and their parts along cell edges.
 #[derive(Clone, Copy)]
 enum Boxes {
-    /// Each band of the full Klems basis in two halves of equal projected solid angle, the azimuth in 480 parts: patches
-    /// are centred at azimuth 0.
+    /// Each band of the full Klems basis in two halves of equal projected solid angle, the azimuth
+    /// in 480 parts: patches are centred at azimuth 0.
     Klems,
     /// Squares, so many a side, in a frame turned by that azimuth.
     Squares { turn_rad: f64, side: usize },
-    /// Rings of equal width in the sine, the azimuth in 2^17 parts: a tree turned round has edges between them.
+    /// Rings of equal width in the sine, the azimuth in 2^17 parts: a tree turned round has edges
+    /// between them.
     Rings,
 }
 
@@ -240,9 +243,9 @@ fn samples_follow_the_values() {
     assert!(tests <= FAMILY);
 }
 
-/// Owen-scrambled Sobol' points fill boxes more evenly than chance, for which Pearson's statistic is its degrees of
-/// freedom: the transform keeps strata. In tables of cells it is 0.0006 to 0.0016 of them; lobes share the unit
-/// square, and what is expected of them comes from quadrature.
+/// Owen-scrambled Sobol' points fill boxes more evenly than chance, for which Pearson's statistic
+/// is its degrees of freedom: the transform keeps strata. In tables of cells it is 0.0006 to 0.0016
+/// of them; lobes share the unit square, and what is expected of them comes from quadrature.
 #[test]
 fn sobol_samples_fill_boxes_evenly() {
     let points = PointSet::new(Sequence::Sobol, Randomization::Owen, stream_key(9, 1, 0));
@@ -281,8 +284,8 @@ fn a_density_two_percent_wrong_is_rejected() {
     }
 }
 
-/// Without randomness: the map stretches areas by one over the density, goes back to the same coordinates, and each
-/// sample estimates the albedo without variance.
+/// Without randomness: the map stretches areas by one over the density, goes back to the same
+/// coordinates, and each sample estimates the albedo without variance.
 #[test]
 fn sample_density_and_inverse_belong_together() {
     const STEP: f64 = 1e-7;
@@ -317,8 +320,9 @@ fn sample_density_and_inverse_belong_together() {
     }
 }
 
-/// The same of lobes that are sampled by one map: at an incidence of the file, where no other mixes with it, and of a surface with
-/// directions to which it gives nothing, so that Lambert has no part.
+/// The same of lobes that are sampled by one map: at an incidence of the file, where no other mixes
+/// with it, and of a surface with directions to which it gives nothing, so that Lambert has no
+/// part.
 #[test]
 fn the_map_of_a_lobe_stretches_by_its_density() {
     const STEP: f64 = 1e-7;

@@ -8,15 +8,18 @@ use std::f64::consts::PI;
 
 /// Two bands: the cap up to 30 degrees, and four patches.
 const BASIS: &str = "<AngleBasis><AngleBasisName>five</AngleBasisName>\
-    <AngleBasisBlock><ThetaBounds><LowerTheta>0</LowerTheta><UpperTheta>30</UpperTheta></ThetaBounds>\
+    <AngleBasisBlock><ThetaBounds><LowerTheta>0</LowerTheta><UpperTheta>30</UpperTheta>\
+    </ThetaBounds>\
     <nPhis>1</nPhis></AngleBasisBlock>\
-    <AngleBasisBlock><ThetaBounds><LowerTheta>30</LowerTheta><UpperTheta>90</UpperTheta></ThetaBounds>\
+    <AngleBasisBlock><ThetaBounds><LowerTheta>30</LowerTheta><UpperTheta>90</UpperTheta>\
+    </ThetaBounds>\
     <nPhis>4</nPhis></AngleBasisBlock></AngleBasis>";
 
 fn file(structure: &str, data: &str) -> String {
     format!(
         "<WindowElement><Optical><Layer><DataDefinition><IncidentDataStructure>{structure}\
-         </IncidentDataStructure>{BASIS}</DataDefinition>\n{data}\n</Layer></Optical></WindowElement>"
+         </IncidentDataStructure>{BASIS}</DataDefinition>\n\
+         {data}\n</Layer></Optical></WindowElement>"
     )
 }
 
@@ -84,7 +87,8 @@ fn a_matrix_knows_its_albedo() {
 /// Rank 3: sines below and above a half, the exit turned with the incidence.
 #[test]
 fn an_isotropic_tree_turns_with_the_incidence() {
-    // Boxes of the incident axis, of the first exit axis and of the second: the first is the slowest.
+    // Boxes of the incident axis, of the first exit axis and of the second: the first is the
+    // slowest.
     let text = file(
         "TensorTree3",
         &tree("Reflection Front", "{ {1 2 3 4 5 6 7 8}".replace("{ {", "{ ").as_str()),
@@ -102,8 +106,8 @@ fn an_isotropic_tree_turns_with_the_incidence() {
     }
 }
 
-/// A branch of rank 4 whose only lit leaf is child 0b0110: the incident square's upper half along y, the exit square's upper
-/// half along x. From the other side directions are exchanged.
+/// A branch of rank 4 whose only lit leaf is child 0b0110: the incident square's upper half along
+/// y, the exit square's upper half along x. From the other side directions are exchanged.
 #[test]
 fn an_anisotropic_tree_is_turned_round_exactly() {
     let leaves: String = (0..16).map(|n| if n == 0b0110 { "{ 1 }" } else { "{ 0 }" }).collect();
@@ -126,7 +130,8 @@ fn an_anisotropic_tree_is_turned_round_exactly() {
     assert!(reciprocity.len() == 1 && reciprocity[0].mean == 0.0, "{reciprocity:?}");
 }
 
-/// Two patches of a half each; f is 1 or 3 by the incident one alone: a quarter of pairs have 1, a quarter 3, and half both.
+/// Two patches of a half each; f is 1 or 3 by the incident one alone: a quarter of pairs have 1, a
+/// quarter 3, and half both.
 #[test]
 fn reciprocity_is_measured() {
     let two = file("Columns", &matrix("Reflection Front", "0.1 0.3 0.1 0.3"));
@@ -144,7 +149,8 @@ fn reciprocity_is_measured() {
     assert!(warning.to_string().contains("by 40.0 % in the mean"), "{warning}");
 }
 
-/// Exactly: as much diffuse light passes one way as the other, and exchanged directions have the same value.
+/// Exactly: as much diffuse light passes one way as the other, and exchanged directions have the
+/// same value.
 #[test]
 fn transmission_from_the_other_side_is_reciprocal() {
     let read_matrix = read(&file("Columns", &matrix("Transmission Back", &places())));
@@ -164,7 +170,8 @@ fn transmission_from_the_other_side_is_reciprocal() {
     assert!(passing.mean < 1e-12, "{passing:?}");
 }
 
-/// A few boxes of the twelfth level in a file of a thousand bytes: 4096 boxes a side when it is turned round.
+/// A few boxes of the twelfth level in a file of a thousand bytes: 4096 boxes a side when it is
+/// turned round.
 #[test]
 fn deep_trees_are_turned_round_too() {
     let mut values = "{ 0.5 }".to_owned();

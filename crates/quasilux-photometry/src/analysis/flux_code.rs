@@ -1,9 +1,9 @@
 //! The CIE flux code: a luminaire's distribution in five numbers.
 //!
-//! CIE 52 (1982), EN 13032-2 (2004): cumulative fluxes FCL1 to FCL4 in the cones about nadir of solid
-//! angle pi/2, pi, 3 pi/2 and 2 pi (gamma up to 41.4, 60, 75.5 and 90 degrees), and the same about
-//! zenith, FCU1 to FCU4. N1 to N3 are FCL1 to FCL3 over FCL4, N4 is the downward flux fraction
-//! (DFF), N5 the light output ratio (LOR), all in per cent.
+//! CIE 52 (1982), EN 13032-2 (2004): cumulative fluxes FCL1 to FCL4 in the cones about nadir of
+//! solid angle pi/2, pi, 3 pi/2 and 2 pi (gamma up to 41.4, 60, 75.5 and 90 degrees), and the same
+//! about zenith, FCU1 to FCU4. N1 to N3 are FCL1 to FCL3 over FCL4, N4 is the downward flux
+//! fraction (DFF), N5 the light output ratio (LOR), all in per cent.
 
 use super::ZonalFlux;
 use std::f64::consts::PI;

@@ -3,9 +3,10 @@
 //!
 //! Everything is stated in the luminaire frame (C, gamma), whatever web of angles the file was
 //! measured in. Types C and A have their poles at nadir and zenith: their figures are exact for the
-//! bilinear table, for intensities along a plane are piecewise linear and zonal fluxes have a closed
-//! form. Type B has other poles: the greatest intensity and the total flux are exact for it too;
-//! planes are sampled each 0.1 degrees, zonal fluxes integrated numerically (see [`ZonalFlux`]).
+//! bilinear table, for intensities along a plane are piecewise linear and zonal fluxes have a
+//! closed form. Type B has other poles: the greatest intensity and the total flux are exact for it
+//! too; planes are sampled each 0.1 degrees, zonal fluxes integrated numerically (see
+//! [`ZonalFlux`]).
 //!
 //! Read on at [`PlaneCurve`] for the curves of the polar diagram, [`Spread`] for beam and field
 //! angles, [`FluxCode`] for the CIE flux code.
@@ -56,11 +57,12 @@ pub struct PlaneAnalysis {
     pub maximum_cd: f64,
     /// The intensity at gamma = 0, in candela.
     pub centre_cd: f64,
-    /// Half-peak divergence (CIE S 017, "angular extent of all radius vectors longer than 50 % of the
-    /// maximum"), the beam angle of ANSI/IES LS-1; `None` in a dark plane.
+    /// Half-peak divergence (CIE S 017, "angular extent of all radius vectors longer than 50 % of
+    /// the maximum"), the beam angle of ANSI/IES LS-1; `None` in a dark plane.
     pub beam: Option<Spread>,
-    /// The beam angle of CIE S 017, 17-27-077: 50 % of the *centre beam* intensity, the centre being
-    /// gamma = 0; `None` where that is dark. It differs from `beam` where the maximum is elsewhere.
+    /// The beam angle of CIE S 017, 17-27-077: 50 % of the *centre beam* intensity, the centre
+    /// being gamma = 0; `None` where that is dark. It differs from `beam` where the maximum is
+    /// elsewhere.
     pub centre_beam: Option<Spread>,
     /// One-tenth-peak divergence, the field angle of ANSI/IES LS-1: 10 % of the maximum.
     pub field: Option<Spread>,

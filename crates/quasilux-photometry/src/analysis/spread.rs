@@ -5,7 +5,8 @@
 //! crossings count, and the dip between the wings is part of the beam. Two rules make the extent
 //! definite on the whole circle:
 //!
-//! 1. It is the smallest arc that contains all those directions: the circle without its largest gap.
+//! 1. It is the smallest arc that contains all those directions: the circle without its largest
+//!    gap.
 //! 2. Where no horizontal direction is among them, light up and light down are two beams, and the
 //!    arc is that of the one with the maximum.
 
@@ -54,7 +55,8 @@ impl PlaneCurve {
         without_largest_gap(&arcs)
     }
 
-    /// Arcs of at least this intensity, in ascending order, none touching the next one but at zenith.
+    /// Arcs of at least this intensity, in ascending order, none touching the next one but at
+    /// zenith.
     fn arcs_above(&self, threshold_cd: f64) -> Vec<Arc> {
         let mut arcs: Vec<Arc> = Vec::new();
         for pair in self.points().windows(2) {

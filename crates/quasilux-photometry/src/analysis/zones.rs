@@ -83,8 +83,8 @@ mod tests {
     use super::*;
     use crate::read_ies;
 
-    /// The numerical form against the exact one, on a table without symmetry and with a kink at each
-    /// knot.
+    /// The numerical form against the exact one, on a table without symmetry and with a kink at
+    /// each knot.
     #[test]
     fn rings_agree_with_the_closed_form() {
         let file = b"IESNA:LM-63-2002\n[TEST] rings\nTILT=NONE\n1 -1 1 5 4 1 2 0 0 0\n1 1 10\n\

@@ -38,31 +38,32 @@
 //! | 29 | Ng angles gamma, from 0 on, one a line | 6 |
 //! | 30 | intensities in cd/klm, all gamma of one plane, then the next | 6 |
 //!
-//! Field 28 lists the planes all around. Field 30 holds those that the symmetry leaves: all (Isym 0), one
-//! (1), C0 to C180 (2), C270 over C0 to C90 (3), C0 to C90 (4).
+//! Field 28 lists the planes all around. Field 30 holds those that the symmetry leaves: all (Isym
+//! 0), one (1), C0 to C180 (2), C270 over C0 to C90 (3), C0 to C90 (4).
 //!
 //! # What the numbers mean
 //!
-//! Intensity = value x conversion factor (24) x total flux of the first lamp set (26c) / 1000 lm. In absolute
-//! photometry the flux is that of the luminaire, and the same product holds. The length runs along C90-C270,
-//! the width along C0-C180: the width and the length of LM-63.
+//! Intensity = value x conversion factor (24) x total flux of the first lamp set (26c) / 1000 lm.
+//! In absolute photometry the flux is that of the luminaire, and the same product holds. The length
+//! runs along C90-C270, the width along C0-C180: the width and the length of LM-63.
 //!
 //! # Direct ratios
 //!
-//! Field 27 gives the part of the luminaire's flux that falls on the working plane directly, for the
-//! utilisation factor method. It is not read. The writer computes it for luminaires that cover the ceiling
-//! of a square room evenly: a ray at (gamma, C) moves h tan gamma, so that of all luminaires the share
-//! (1 - |tan gamma cos C| / 2k) (1 - |tan gamma sin C| / 2k) sends it to the plane, in a room of index k.
-//! Of 21 published files with ratios of their own, 11 are within 0.04 of this in all ten, and 15 within 0.1;
-//! tables of the method put a finite number of luminaires at stated places. A formula that public programs
-//! share, a sum of the fluxes below 41.4, 60, 75.5 and 90 degrees with tabulated weights, is within 0.1 for
-//! one of them, misses most by 0.2 to 0.3 in small rooms, and is not used.
+//! Field 27 gives the part of the luminaire's flux that falls on the working plane directly, for
+//! the utilisation factor method. It is not read. The writer computes it for luminaires that cover
+//! the ceiling of a square room evenly: a ray at (gamma, C) moves h tan gamma, so that of all
+//! luminaires the share (1 - |tan gamma cos C| / 2k) (1 - |tan gamma sin C| / 2k) sends it to the
+//! plane, in a room of index k. Of 21 published files with ratios of their own, 11 are within 0.04
+//! of this in all ten, and 15 within 0.1; tables of the method put a finite number of luminaires at
+//! stated places. A formula that public programs share, a sum of the fluxes below 41.4, 60, 75.5
+//! and 90 degrees with tabulated weights, is within 0.1 for one of them, misses most by 0.2 to 0.3
+//! in small rooms, and is not used.
 //!
 //! # What is tolerated
 //!
 //! [`Encoding`], [`ByteOrderMark`], [`CountWithPoint`], [`VerticalRange`], [`NegativeCandela`],
-//! [`TrailingText`], [`NoLight`] and [`FluxDiffers`] as in [LM-63](super::lm63); the last compares with the
-//! lamps' flux times the light output ratio. And:
+//! [`TrailingText`], [`NoLight`] and [`FluxDiffers`] as in [LM-63](super::lm63); the last compares
+//! with the lamps' flux times the light output ratio. And:
 //!
 //! | rule | what is made of it | for example |
 //! |---|---|---|

@@ -5,10 +5,10 @@
 //! # Lines and numbers
 //!
 //! A file is ASCII text. Lines end with carriage return and line feed; any line end is read. Up to
-//! 1995 lines have at most 80 characters as far as `TILT=` and 132 behind it; in 2002 at most 256, with
-//! the two that end it; in 2019 there is no limit (as the head comment of Radiance's `ies2rad.c`
-//! compares the editions). Numbers are separated by blanks, a comma or line ends (2002, clause 3,
-//! "Delimiter"). A record begins on a new line and goes on over as many as it needs.
+//! 1995 lines have at most 80 characters as far as `TILT=` and 132 behind it; in 2002 at most 256,
+//! with the two that end it; in 2019 there is no limit (as the head comment of Radiance's
+//! `ies2rad.c` compares the editions). Numbers are separated by blanks, a comma or line ends (2002,
+//! clause 3, "Delimiter"). A record begins on a new line and goes on over as many as it needs.
 //!
 //! # Line by line
 //!
@@ -38,16 +38,16 @@
 //!
 //! # What the numbers mean
 //!
-//! Intensity = candela value x candela multiplier (5.6) x ballast factor (5.12), and in 1986 and 1991
-//! x ballast-lamp photometric factor. Lamp lumens scale nothing.
+//! Intensity = candela value x candela multiplier (5.6) x ballast factor (5.12), and in 1986 and
+//! 1991 x ballast-lamp photometric factor. Lamp lumens scale nothing.
 //!
-//! One plane alone is a distribution that is the same all around. Planes from 0 to 90 are mirrored into
-//! all quarters, 0 to 180 in the plane of C0 and C180, 90 to 270 in the plane of C90 and C270. Width is
-//! measured along C90-C270, length along C0-C180.
+//! One plane alone is a distribution that is the same all around. Planes from 0 to 90 are mirrored
+//! into all quarters, 0 to 180 in the plane of C0 and C180, 90 to 270 in the plane of C90 and C270.
+//! Width is measured along C90-C270, length along C0-C180.
 //!
-//! The file generation type is 1 with five decimals, in the order accredited laboratory, interpolated
-//! angles, scaled lumens, simulation, undefined (2019, annex H). 1.00001 stands for "Undefined", and
-//! is what the writer puts where it knows nothing.
+//! The file generation type is 1 with five decimals, in the order accredited laboratory,
+//! interpolated angles, scaled lumens, simulation, undefined (2019, annex H). 1.00001 stands for
+//! "Undefined", and is what the writer puts where it knows nothing.
 //!
 //! # What is tolerated
 //!

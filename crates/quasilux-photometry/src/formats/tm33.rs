@@ -1,10 +1,10 @@
 //! TM-33 files, element by element.
 //!
-//! ANSI/IES TM-33-18 and TM-33-23, *Standard Format for the Electronic Transfer of Luminaire Optical
-//! Data*, describe a luminaire in XML; both come from ATLA S001 (All Things Lighting Association
-//! 2018, Ashdown). [`read_tm33`](crate::read_tm33) takes the luminous intensities and what scales
-//! them; spectra, radiant and photon quantities and colours are read over. Elements may have any
-//! order, and a prefix.
+//! ANSI/IES TM-33-18 and TM-33-23, *Standard Format for the Electronic Transfer of Luminaire
+//! Optical Data*, describe a luminaire in XML; both come from ATLA S001 (All Things Lighting
+//! Association 2018, Ashdown). [`read_tm33`](crate::read_tm33) takes the luminous intensities and
+//! what scales them; spectra, radiant and photon quantities and colours are read over. Elements may
+//! have any order, and a prefix.
 //!
 //! | element | meaning here |
 //! |---|---|
@@ -31,9 +31,9 @@
 //! TM-33-23 adds `Multiplier`, spectra over angles, colours over angles, and several elements
 //! `CustomData`.
 //!
-//! Intensity = value x multiplier, x ballast factor unless the photometry is absolute. Planes span a
-//! symmetry as in LM-63: one plane, 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees. Types A and B
-//! have the ranges and mirror images of LM-63 too, and `Symm` says nothing about them.
+//! Intensity = value x multiplier, x ballast factor unless the photometry is absolute. Planes span
+//! a symmetry as in LM-63: one plane, 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees. Types A and
+//! B have the ranges and mirror images of LM-63 too, and `Symm` says nothing about them.
 //!
 //! *Our reading, where the schema leaves it open:* `RatedLumens` and `InputWattage` are those of
 //! the emitter, not of one of its `Quantity` lamps, as the wattage in the examples shows; the

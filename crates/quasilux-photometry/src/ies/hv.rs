@@ -1,10 +1,11 @@
-//! The angles (H, V) of types A and B: checks, mirror images, and the grid in the frame of the table.
+//! The angles (H, V) of types A and B: checks, mirror images, and the grid in the frame of the
+//! table.
 //!
-//! ANSI/IESNA LM-63-2002 lets vertical angles run from -90 or 0 to 90, and horizontal angles from -90
-//! to 90, or from 0 to 90 in a luminaire whose sides mirror each other. One of the two is a latitude,
-//! between the poles of the [`Web`](crate::Web), the other a longitude around them. Where nothing was
-//! measured the intensity is zero; the standard's sector is the half of the sphere that the beam
-//! lies in.
+//! ANSI/IESNA LM-63-2002 lets vertical angles run from -90 or 0 to 90, and horizontal angles from
+//! -90 to 90, or from 0 to 90 in a luminaire whose sides mirror each other. One of the two is a
+//! latitude, between the poles of the [`Web`](crate::Web), the other a longitude around them. Where
+//! nothing was measured the intensity is zero; the standard's sector is the half of the sphere that
+//! the beam lies in.
 
 use crate::angles::{check_ascending, radians, snapped};
 use crate::warning::{WarningKind, Warnings};

@@ -21,10 +21,11 @@
 //! | 1995, 2002 | reserved, 1 | no |
 //! | 2019 | file generation type, 1.00001 to 1.11100 (LM-63-19, 5.13, table 2) | no |
 //!
-//! Radiance's `ies2rad` reads it the same way. Lamp lumens scale nothing: they serve the flux check.
+//! Radiance's `ies2rad` reads it the same way. Lamp lumens scale nothing: they serve the flux
+//! check.
 //!
-//! The luminous length lies along C0-C180, the width along C90-C270: the horizontal angle 0 is parallel
-//! to the length (`ies2rad` puts the length along x, and C0 too).
+//! The luminous length lies along C0-C180, the width along C90-C270: the horizontal angle 0 is
+//! parallel to the length (`ies2rad` puts the length along x, and C0 too).
 //!
 //! What is tolerated beyond the standard is listed, rule by rule, in [`WarningKind`].
 
@@ -61,8 +62,8 @@ const METRES_PER_FOOT: f64 = 0.3048;
 /// no more memory than [`crate::max_read_memory_bytes`].
 ///
 /// # Errors
-/// [`ParseError`] with the position where the header, an angle or a value is missing, no number or out
-/// of range.
+/// [`ParseError`] with the position where the header, an angle or a value is missing, no number or
+/// out of range.
 pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
@@ -258,11 +259,13 @@ fn check_flux(
         .to_string();
         let expected = if ratio < 1.0 {
             format!(
-                "{lamps_lm:.1} lm, the lamps' flux, less the luminaire's losses (candela values count)"
+                "{lamps_lm:.1} lm, the lamps' flux, less the luminaire's \
+                losses (candela values count)"
             )
         } else {
             format!(
-                "{lamps_lm:.1} lm, the lamps' flux (check multiplier and lumens; candela values count)"
+                "{lamps_lm:.1} lm, the lamps' flux (check multiplier and \
+                lumens; candela values count)"
             )
         };
         warnings.push(WarningKind::FluxDiffers, at, found, expected);

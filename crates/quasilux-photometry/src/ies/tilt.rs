@@ -32,7 +32,8 @@ pub struct ReadTilt {
 /// place, and memory is bounded by a multiple of the file's length.
 ///
 /// # Errors
-/// [`ParseError`] with the position where an angle or a factor is missing, no number or out of range.
+/// [`ParseError`] with the position where an angle or a factor is missing, no number or out of
+/// range.
 pub fn read_tilt(bytes: &[u8]) -> Result<ReadTilt, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

@@ -22,9 +22,9 @@ const NO_FACT: &str = "(not given)";
 /// last place. Angles that are multiples of 1e-9 degrees come back bit for bit; others within
 /// 4e-15 rad.
 ///
-/// - Type C has one plane at 0 for rotational symmetry, or planes from 0 to 90, 0 to 180, 90 to 270 or
-///   0 to 360, the closing plane included. A half or a quarter on another side is mirrored to the one that LM-63 stores. A
-///   table without its closing plane gets it.
+/// - Type C has one plane at 0 for rotational symmetry, or planes from 0 to 90, 0 to 180, 90 to 270
+///   or 0 to 360, the closing plane included. A half or a quarter on another side is mirrored to
+///   the one that LM-63 stores. A table without its closing plane gets it.
 /// - Types A and B keep their poles and all their angles (H, V), mirror images written out. A table
 ///   with symmetries of its own in one of these types is resampled to type C.
 /// - Facts: all of LM-63 are kept. The dimensions are in metres, with the signs by

@@ -25,18 +25,19 @@
 //!
 //! Where the format's text leaves a choice:
 //!
-//! - The length lies along C90-C270, which is y, the width along C0-C180: C0 looks at the long side of
-//!   a linear luminaire. In published files the height of the luminous area is that of the side wall at
-//!   C0 and C180 and 0 at the end caps, and intensities at large gamma are lower towards C90.
+//! - The length lies along C90-C270, which is y, the width along C0-C180: C0 looks at the long side
+//!   of a linear luminaire. In published files the height of the luminous area is that of the side
+//!   wall at C0 and C180 and 0 at the end caps, and intensities at large gamma are lower towards
+//!   C90.
 //! - The conversion factor multiplies the intensities; converters to LM-63 write it as the candela
 //!   multiplier.
 //! - With Isym = 3 the stored planes run from C270 over C0 to C90, and are mirrored in C90-C270.
-//! - The tilt is the angle between an axis of the luminaire and the horizontal while it was measured (CIE
-//!   S 017, 17-25-112): intensities stand in the frame of the goniometer, and turning them is up to the
-//!   placement.
-//! - Producers scale intensities so that a sum over zones, each reaching halfway to the next angle, gives
-//!   the lamps' flux times the light output ratio. The integral here differs from it by up to 0.15 % in
-//!   published files.
+//! - The tilt is the angle between an axis of the luminaire and the horizontal while it was
+//!   measured (CIE S 017, 17-25-112): intensities stand in the frame of the goniometer, and turning
+//!   them is up to the placement.
+//! - Producers scale intensities so that a sum over zones, each reaching halfway to the next angle,
+//!   gives the lamps' flux times the light output ratio. The integral here differs from it by up to
+//!   0.15 % in published files.
 //!
 //! What is tolerated beyond the format is listed, rule by rule, in [`WarningKind`].
 

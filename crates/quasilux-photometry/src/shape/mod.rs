@@ -1,10 +1,10 @@
 //! The luminous shape of a luminaire: what of it shines, for light nearer than the far field.
 //!
 //! # The model
-//! A file gives the intensity I(w) that a luminaire has from afar, and the shape of what shines, but
-//! not how the light is spread over it. We take the luminance in each direction w to be uniform over
-//! the *silhouette* of the shape along w: L(w) = I(w) / A(w), with A(w) its projected area. An element
-//! dA of the surface with outward normal n then has the intensity
+//! A file gives the intensity I(w) that a luminaire has from afar, and the shape of what shines,
+//! but not how the light is spread over it. We take the luminance in each direction w to be uniform
+//! over the *silhouette* of the shape along w: L(w) = I(w) / A(w), with A(w) its projected area. An
+//! element dA of the surface with outward normal n then has the intensity
 //!
 //! ```text
 //! dI = I(w) max(0, n.w) / A(w) dA     solids (all of them are convex)
@@ -19,8 +19,9 @@
 //! there, because on a convex surface n.(x - p) > 0 implies n.(x - c) > 0 with c inside.
 //!
 //! The shape is centred on the photometric centre, the place from which the distance law holds best
-//! (CIE S 017:2020, 17-25-103); for solids that is the middle of the luminous volume. Axes are those
-//! of the luminaire frame: length along x (C0-C180), width along y (C90-C270), height along z.
+//! (CIE S 017:2020, 17-25-103); for solids that is the middle of the luminous volume. Axes are
+//! those of the luminaire frame: length along x (C0-C180), width along y (C90-C270), height along
+//! z.
 
 mod cuboid;
 mod cylinder;
@@ -69,8 +70,8 @@ pub enum Axis {
 pub struct SurfacePoint {
     /// In the luminaire frame, in m.
     pub position_m: DVec3,
-    /// Outward unit normal in the luminaire frame; toward the asker on flat shapes, zero on lines and
-    /// points.
+    /// Outward unit normal in the luminaire frame; toward the asker on flat shapes, zero on lines
+    /// and points.
     pub normal: DVec3,
 }
 
@@ -124,10 +125,10 @@ impl LuminousShape {
     ///
     /// Sections are elliptical where their two extents differ. Sources: for 1995 I. Ashdown (1998),
     /// "Parsing the IESNA LM-63 photometric data file"; for the others the table of shapes by
-    /// edition in Radiance's `ies2rad` (R. Fritz, 2018), which agrees with him on 1995; for 2002 and
-    /// 2019 also LM-63-19, section 5.11, table 1, as its implementers give it. LM-63 has no lines
-    /// and upright rectangles; they are what a box without the other extents is. Signs that only
-    /// another edition gives a meaning are read by that edition, the latest first.
+    /// edition in Radiance's `ies2rad` (R. Fritz, 2018), which agrees with him on 1995; for 2002
+    /// and 2019 also LM-63-19, section 5.11, table 1, as its implementers give it. LM-63 has no
+    /// lines and upright rectangles; they are what a box without the other extents is. Signs that
+    /// only another edition gives a meaning are read by that edition, the latest first.
     ///
     /// EULUMDAT has rectangles and disks (width 0), with luminous heights by side, of which the
     /// largest counts; its reader gives them the signs of 2002.
@@ -196,8 +197,8 @@ impl LuminousShape {
     }
 
     /// Area, m^-2 (length on lines): a point of the side that is turned to the unit direction
-    /// `toward`, uniform over the silhouette along it; on flat shapes, lines and points uniform over
-    /// them.
+    /// `toward`, uniform over the silhouette along it; on flat shapes, lines and points uniform
+    /// over them.
     pub fn sample_silhouette(&self, toward: DVec3, u: [f64; 2]) -> SurfacePoint {
         match self.solid {
             Solid::Cuboid => cuboid::sample(self.half_m, toward, u),
@@ -213,8 +214,8 @@ impl LuminousShape {
         }
     }
 
-    /// Area, m^-2 (length on lines; 1 on points): the density of [`Self::sample_silhouette`], and so
-    /// the part of the intensity in the unit direction `toward` that leaves around the point.
+    /// Area, m^-2 (length on lines; 1 on points): the density of [`Self::sample_silhouette`], and
+    /// so the part of the intensity in the unit direction `toward` that leaves around the point.
     pub fn pdf_silhouette(&self, toward: DVec3, point: &SurfacePoint) -> f64 {
         match self.solid {
             Solid::Cuboid => cuboid::pdf(self.half_m, toward, point.normal),

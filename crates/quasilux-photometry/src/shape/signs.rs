@@ -33,8 +33,8 @@ pub(super) fn shape(standard: Standard, opening: &LuminousOpening) -> Found {
         .unwrap_or(Found { shape: LuminousShape::POINT, table: None })
 }
 
-/// The dimensions by which a file of the format `to` gives the shape of `opening`: by its own table,
-/// else by that of another edition; these themselves where they do.
+/// The dimensions by which a file of the format `to` gives the shape of `opening`: by its own
+/// table, else by that of another edition; these themselves where they do.
 pub(crate) fn opening_in(
     to: Standard,
     from: Standard,

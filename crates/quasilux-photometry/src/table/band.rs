@@ -123,8 +123,8 @@ impl Band {
             let next = if is_newton { newton } else { 0.5 * (low + high) };
             let step = (next - x).abs();
             x = next;
-            // After a Newton step the error is below step^2 over the distance to the nearer end, for
-            // the density vanishes nowhere else.
+            // After a Newton step the error is below step^2 over the distance to the nearer end,
+            // for the density vanishes nowhere else.
             let converged = is_newton && step <= 1e-8 * x.min(width - x);
             if converged || step <= 1e-15 * width {
                 break;

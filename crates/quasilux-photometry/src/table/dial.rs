@@ -1,19 +1,20 @@
 //! An axis of angles that is read by directions in its plane, without their arc tangents.
 //!
-//! The angle itself is not needed: which cell holds a direction is a question of signs, and the place
-//! in the cell needs the small angle from a mark to the direction, whose sine is a cross product. The
-//! search starts from a guide table (H.-C. Chen and Y. Asau, 1974) over the *pseudo-angle*, which
-//! grows with the angle from 0 to 4 over a turn: `1 - q` in the upper half plane and `3 + q` in the
-//! lower one, `q = x / (|x| + |y|)`.
+//! The angle itself is not needed: which cell holds a direction is a question of signs, and the
+//! place in the cell needs the small angle from a mark to the direction, whose sine is a cross
+//! product. The search starts from a guide table (H.-C. Chen and Y. Asau, 1974) over the
+//! *pseudo-angle*, which grows with the angle from 0 to 4 over a turn: `1 - q` in the upper half
+//! plane and `3 + q` in the lower one, `q = x / (|x| + |y|)`.
 //!
-//! The angle that a place stands for is within 3e-16 rad of the true one; with arc tangents it is within
-//! 3e-16 up to half a turn and 1e-15 up to a whole one, whose last digits are worth more.
+//! The angle that a place stands for is within 3e-16 rad of the true one; with arc tangents it is
+//! within 3e-16 up to half a turn and 1e-15 up to a whole one, whose last digits are worth more.
 
 use super::axis::{Axis, Place};
 
 /// Marks are at most this far apart, for [`small_arc_sine`].
 const WIDEST_RAD: f64 = 1.0 / 16.0;
-/// Buckets of the guide table for each mark: most hold none, so that the search ends where it starts.
+/// Buckets of the guide table for each mark: most hold none, so that the search ends where it
+/// starts.
 const BUCKETS_PER_MARK: usize = 8;
 /// Directions that are off the axis by rounding only are on it.
 const SLACK: f64 = 8.0 * f64::EPSILON;
@@ -124,8 +125,8 @@ fn pseudo_angle(x: f64, y: f64) -> f64 {
     2.0 - half * (1.0 + x / (x.abs() + y.abs()))
 }
 
-/// The arc sine by its series, for arguments up to sin [`WIDEST_RAD`]: the terms left out are below 1e-16
-/// of the sum.
+/// The arc sine by its series, for arguments up to sin [`WIDEST_RAD`]: the terms left out are below
+/// 1e-16 of the sum.
 #[inline]
 fn small_arc_sine(x: f64) -> f64 {
     let s = x * x;

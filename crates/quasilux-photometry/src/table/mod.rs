@@ -2,8 +2,8 @@
 //!
 //! In the frame of the table theta is measured from +z and phi from +x towards +y. Inside a cell
 //! the value is bilinear in (theta, phi), both in radians; outside the polar range of the grid, and
-//! outside the azimuths of a sector, it is zero. The integral over solid angle and the inverse transform are exact: see
-//! [`SphericalTable::sample`].
+//! outside the azimuths of a sector, it is zero. The integral over solid angle and the inverse
+//! transform are exact: see [`SphericalTable::sample`].
 
 mod axis;
 mod band;
@@ -87,8 +87,8 @@ impl SphericalTable {
     /// A table from a grid as measured: see [`Symmetry`] for what the azimuths mean.
     ///
     /// # Errors
-    /// [`TableError`] for a grid with fewer than two polar angles, angles that do not ascend, azimuths
-    /// that do not fit the symmetry, or values that are not finite.
+    /// [`TableError`] for a grid with fewer than two polar angles, angles that do not ascend,
+    /// azimuths that do not fit the symmetry, or values that are not finite.
     pub fn new(grid: Grid) -> Result<Self, TableError> {
         let symmetry = grid.symmetry;
         let full = grid.unfold()?;
@@ -134,8 +134,8 @@ impl SphericalTable {
 
     /// The value towards a unit direction; the azimuth of the poles is 0.
     ///
-    /// The same as [`Self::value_at`] of [`Angles::of`] but for the rounding of the angles, which is
-    /// no larger here, and sooner found.
+    /// The same as [`Self::value_at`] of [`Angles::of`] but for the rounding of the angles, which
+    /// is no larger here, and sooner found.
     pub fn value(&self, direction: DVec3) -> f64 {
         let DVec3 { x, y, z } = direction;
         let horizontal = (x * x + y * y).sqrt();
@@ -173,8 +173,8 @@ impl SphericalTable {
             + band.integral() * band.fraction_below(theta_rad).clamp(0.0, 1.0)
     }
 
-    /// The greatest value: a bilinear function has it at a knot. Of several the first in the order of
-    /// the polar angle, then of the azimuth from the first plane on.
+    /// The greatest value: a bilinear function has it at a knot. Of several the first in the order
+    /// of the polar angle, then of the azimuth from the first plane on.
     pub fn maximum(&self) -> Maximum {
         let columns = self.phi.knots().len();
         let mut max_index = 0;

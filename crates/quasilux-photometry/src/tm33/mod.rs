@@ -1,8 +1,8 @@
 //! Reader of ANSI/IES TM-33 files (2018 and 2023), and of ATLA S001, which they come from.
 //!
 //! The elements that light depends on, and how they are read, stand in
-//! [`formats::tm33`](crate::formats::tm33); what is tolerated beyond the standard is listed, rule by
-//! rule, in [`WarningKind`].
+//! [`formats::tm33`](crate::formats::tm33); what is tolerated beyond the standard is listed, rule
+//! by rule, in [`WarningKind`].
 
 mod emitter;
 mod fields;
@@ -25,8 +25,8 @@ use std::borrow::Cow;
 /// bounded by a multiple of the file's length.
 ///
 /// # Errors
-/// [`ParseError`] with the position where the XML is not well formed, or an element that intensities
-/// depend on is missing or out of range.
+/// [`ParseError`] with the position where the XML is not well formed, or an element that
+/// intensities depend on is missing or out of range.
 pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);

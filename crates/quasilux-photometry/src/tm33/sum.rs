@@ -1,10 +1,10 @@
 //! Intensities of several emitters, added.
 //!
 //! Emitters on the same grid are added value by value. Otherwise each table is evaluated at all
-//! angles of all of them: on a finer grid a bilinear function stays what it is, so the sum is exact.
-//! An emitter whose vertical angles end early counts as dark beyond them, which a bilinear table
-//! can only show if it is dark at that end already; for the same reason emitters of types A and B,
-//! which shine into a sector, must be on one grid.
+//! angles of all of them: on a finer grid a bilinear function stays what it is, so the sum is
+//! exact. An emitter whose vertical angles end early counts as dark beyond them, which a bilinear
+//! table can only show if it is dark at that end already; for the same reason emitters of types A
+//! and B, which shine into a sector, must be on one grid.
 
 use super::emitter::Emitter;
 use crate::{Angles, Grid, SphericalTable, Symmetry};

@@ -23,8 +23,8 @@ pub struct Encoded {
 #[non_exhaustive]
 pub enum Note {
     /// The table has poles of its own, or is a sector of type C. It was resampled to the whole
-    /// sphere in type C, on the coarsest of three grids that keeps the flux to 0.1 %. Beams narrower
-    /// than the steps of the finest fall between them, or fill them: compare the fluxes.
+    /// sphere in type C, on the coarsest of three grids that keeps the flux to 0.1 %. Beams
+    /// narrower than the steps of the finest fall between them, or fill them: compare the fluxes.
     Resampled {
         /// The type of the table.
         photometric_type: PhotometricType,
@@ -102,10 +102,10 @@ impl fmt::Display for Note {
             }
             Self::ClosingPlaneDropped { difference_cd } => write!(
                 f,
-                "the plane at 360 differs from that at 0 by up to {difference_cd} cd and was left out"
+                "the plane at 360 differs from that at 0 by up to {difference_cd} cd: left out"
             ),
             Self::PolarRange => f.write_str(
-                "the vertical angles do not span 0 to 90, 90 to 180 or 0 to 180 degrees, as the format asks",
+                "the vertical angles do not span 0 to 90, 90 to 180 or 0 to 180 degrees",
             ),
             Self::AngleNearAxis => f.write_str(
                 "an angle within 0.001 degrees of a multiple of 90 will be read as that multiple",

@@ -9,8 +9,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Planes nearer than this to an axis stand on it.
 const TOLERANCE_RAD: f64 = 1e-9;
 
-/// Grids that what is not of type C is resampled on, ever finer: planes around, and steps from nadir to
-/// zenith. The last has 260 000 intensities.
+/// Grids that what is not of type C is resampled on, ever finer: planes around, and steps from
+/// nadir to zenith. The last has 260 000 intensities.
 const GRIDS: [[usize; 2]; 3] = [[72, 180], [144, 360], [360, 720]];
 
 /// Resampling may change the flux by this part before a finer grid is taken.
@@ -76,8 +76,8 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
     }
 }
 
-/// Intensities in planes and at angles of type C all around, on the first of the grids that keeps the
-/// flux, or else on the finest.
+/// Intensities in planes and at angles of type C all around, on the first of the grids that keeps
+/// the flux, or else on the finest.
 fn resampled(photometry: &Photometry, writer: &mut Writer) -> Grid {
     let flux_lm = photometry.flux_lm();
     let [first, finer @ ..] = GRIDS;

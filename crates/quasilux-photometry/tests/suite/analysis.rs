@@ -165,8 +165,8 @@ fn an_uplight_shines_about_zenith() {
     assert!(analysis.planes[0].centre_beam.is_none());
 }
 
-/// The half of the sphere about the beam, evenly lit: for type B below the horizon, for type A on the
-/// side of +x.
+/// The half of the sphere about the beam, evenly lit: for type B below the horizon, for type A on
+/// the side of +x.
 #[test]
 fn webs_with_other_poles_are_analysed_in_the_luminaire_frame() {
     let half_sphere = |kind: u8| {

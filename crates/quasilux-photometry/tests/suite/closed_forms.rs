@@ -111,8 +111,8 @@ fn intensity_of_a_file_is_bilinear_in_its_angles() {
     }
 }
 
-/// The directions of tabulated angles at the borders of a sector are in it, whatever the rounding of
-/// their sines and cosines.
+/// The directions of tabulated angles at the borders of a sector are in it, whatever the rounding
+/// of their sines and cosines.
 #[test]
 fn borders_of_a_sector_belong_to_it() {
     for start_deg in 0..360 {
@@ -126,9 +126,9 @@ fn borders_of_a_sector_belong_to_it() {
     }
 }
 
-/// Values without arc tangents against those with them, at random directions and right at knots, but
-/// for the ends, where rounding decides: 1e-13 of the greatest value is ten times what rounding makes
-/// of the steepest table.
+/// Values without arc tangents against those with them, at random directions and right at knots,
+/// but for the ends, where rounding decides: 1e-13 of the greatest value is ten times what rounding
+/// makes of the steepest table.
 #[test]
 fn directions_have_the_values_of_their_angles() {
     let mut generator = Generator(11);

@@ -10,7 +10,8 @@ struct Refusal {
     line: usize,
     /// A part of its message.
     message: &'static str,
-    /// The rule of LM-63 that the file breaks, as seen in it by hand; empty where the file is valid.
+    /// The rule of LM-63 that the file breaks, as seen in it by hand; empty where the file is
+    /// valid.
     breaks: &'static str,
 }
 

@@ -1,8 +1,8 @@
 //! Published files whose integrated flux is not their own figure by more than 1 %: why, one by one.
 //!
-//! Figures are the lamps' lumens times the ballast factor (IES), and the lamps' flux times the light
-//! output ratio (EULUMDAT). The ratios below come from a reader of its own, in another language, that
-//! integrates each zone by a trapezium rule of 500 steps or more.
+//! Figures are the lamps' lumens times the ballast factor (IES), and the lamps' flux times the
+//! light output ratio (EULUMDAT). The ratios below come from a reader of its own, in another
+//! language, that integrates each zone by a trapezium rule of 500 steps or more.
 
 use crate::corpus::{name, published_files_of};
 use crate::fluxes::{midpoint_sum_lm, sum_of_means_lm};

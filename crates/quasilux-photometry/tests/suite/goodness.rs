@@ -4,9 +4,9 @@
 //! family of tables (Sidak). It finds a density that is 1 % wrong all over the sphere, and 3 % in a
 //! value that carries a quarter of the flux.
 //!
-//! Owen-scrambled Sobol' points, 2^18, fill boxes far more evenly than chance: Pearson's statistic is
-//! 0.0002 to 0.012 of its degrees of freedom. Its distribution is not known; the bound of 0.04 finds
-//! 2 % in the same value.
+//! Owen-scrambled Sobol' points, 2^18, fill boxes far more evenly than chance: Pearson's statistic
+//! is 0.0002 to 0.012 of its degrees of freedom. Its distribution is not known; the bound of 0.04
+//! finds 2 % in the same value.
 
 use crate::published::luminaire;
 use crate::quadrature::Boxes;

@@ -1,9 +1,9 @@
 //! No digit is lost near the poles, however narrow the ring and however near.
 //!
-//! The reference is Gauss quadrature of `value x sin(x)` in the distance `x` from the pole: a sum of
-//! positive terms, so that its relative error is a few units in the last place at any scale. In a
-//! rotationally symmetric table the first coordinate of a sample is the part of that integral that
-//! lies nearer to the pole (near theta = 0), or the rest (near theta = pi).
+//! The reference is Gauss quadrature of `value x sin(x)` in the distance `x` from the pole: a sum
+//! of positive terms, so that its relative error is a few units in the last place at any scale. In
+//! a rotationally symmetric table the first coordinate of a sample is the part of that integral
+//! that lies nearer to the pole (near theta = 0), or the rest (near theta = pi).
 
 use crate::quadrature::GAUSS_5;
 use crate::tables::table;

@@ -20,8 +20,9 @@ pub(crate) struct Boxes {
 }
 
 impl Boxes {
-    /// The integral over solid angle of the table's value over each box, row by row: five Gauss nodes
-    /// in theta between neighbouring knots and borders; in phi, where the value is linear, midpoints.
+    /// The integral over solid angle of the table's value over each box, row by row: five Gauss
+    /// nodes in theta between neighbouring knots and borders; in phi, where the value is linear,
+    /// midpoints.
     pub(crate) fn integrals(&self, table: &SphericalTable) -> Vec<f64> {
         let azimuths: Vec<f64> = table.phi_rad().map(|phi| phi.rem_euclid(TAU)).collect();
         let columns: Vec<Vec<[f64; 2]>> =

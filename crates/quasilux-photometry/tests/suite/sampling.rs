@@ -70,7 +70,8 @@ fn a_dark_table_has_no_directions() {
     assert!(dark.invert(DVec3::X).iter().all(|u| (0.0..=1.0).contains(u)));
 }
 
-/// A sector from 20 to 60 degrees ends at 60 for directions up to 220, and begins at 20 for those beyond.
+/// A sector from 20 to 60 degrees ends at 60 for directions up to 220, and begins at 20 for those
+/// beyond.
 #[test]
 fn outside_a_sector_the_nearer_border_is_inverted() {
     let sector = table(&[30.0, 150.0], &[20.0, 60.0], Symmetry::Sector, |_, p| p);
@@ -82,8 +83,8 @@ fn outside_a_sector_the_nearer_border_is_inverted() {
 }
 
 /// At 300 places of each table where the density varies by less than a thousandth over the
-/// differences, of half-width 1e-6: these err by less than 1e-6 there, and the bound of 1e-5 finds a
-/// density that is wrong by as much.
+/// differences, of half-width 1e-6: these err by less than 1e-6 there, and the bound of 1e-5 finds
+/// a density that is wrong by as much.
 #[test]
 fn density_is_the_inverse_of_the_jacobian() {
     for (name, table) in tables() {

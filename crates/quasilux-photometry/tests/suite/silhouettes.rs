@@ -179,8 +179,8 @@ fn density_is_the_inverse_of_the_jacobian() {
     }
 }
 
-/// First: counts of a uniform distribution over the silhouette do not fit one that is 2 % brighter on
-/// half of it. Then 2^18 samples, seed 3, 64 cells each, 0.1 % for the family.
+/// First: counts of a uniform distribution over the silhouette do not fit one that is 2 % brighter
+/// on half of it. Then 2^18 samples, seed 3, 64 cells each, 0.1 % for the family.
 #[test]
 fn samples_are_uniform_over_the_silhouette() {
     let level = sidak(SIGNIFICANCE, solids().len() * directions().len());
@@ -195,8 +195,8 @@ fn samples_are_uniform_over_the_silhouette() {
     }
 }
 
-/// That counts in cells by position come from a density that is `more` times as high on one half of the
-/// silhouette.
+/// That counts in cells by position come from a density that is `more` times as high on one half of
+/// the silhouette.
 fn probability(
     shape: &LuminousShape,
     elements: &[(DVec3, DVec3)],

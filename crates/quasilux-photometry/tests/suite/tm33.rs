@@ -401,7 +401,8 @@ fn refusals_name_place_and_element() {
         ),
         (
             "</Emitter>",
-            "<EmissionAreas><TopFace><TopArea><Width>-1</Width></TopArea></TopFace></EmissionAreas></Emitter>",
+            "<EmissionAreas><TopFace><TopArea><Width>-1</Width></TopArea></TopFace>\
+            </EmissionAreas></Emitter>",
             19,
             41,
             "0 or more",

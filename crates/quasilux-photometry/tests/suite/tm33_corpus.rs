@@ -5,9 +5,9 @@ use quasilux_photometry::{WarningKind, read_tm33};
 use std::path::{Path, PathBuf};
 
 /// Each file's flux in lumens, by a quadrature that shares nothing with the reader (an XML library
-/// of another language, trapezia over the planes, 2000 midpoints between vertical angles), or why it
-/// is refused. None of the intensities are scaled to the lumens that stand beside them: all but the
-/// refused one were made up to test programs.
+/// of another language, trapezia over the planes, 2000 midpoints between vertical angles), or why
+/// it is refused. None of the intensities are scaled to the lumens that stand beside them: all but
+/// the refused one were made up to test programs.
 const FILES: [(&str, Result<f64, &str>); 15] = [
     ("TM33-DLC-Required_Elements_Hort_01032022.xml", Err("24:1: found an emitter with PhotonData")),
     ("fluorescent.xml", Ok(401.500)),

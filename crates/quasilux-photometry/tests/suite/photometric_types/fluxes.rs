@@ -34,8 +34,8 @@ fn a_uniform_source_does_not_depend_on_the_type() {
     }
 }
 
-/// `I = 100 |cos|` to the beam's axis, on a grid of one degree in each type: pi x 100 lm, and the same
-/// intensities, but for the error of interpolation (100 cd x (pi/180)^2 / 8 x 2 = 0.0076 cd).
+/// `I = 100 |cos|` to the beam's axis, on a grid of one degree in each type: pi x 100 lm, and the
+/// same intensities, but for the error of interpolation (100 cd x (pi/180)^2 / 8 x 2 = 0.0076 cd).
 #[test]
 fn a_lambertian_source_does_not_depend_on_the_type() {
     for photometric_type in A_AND_B {
@@ -66,9 +66,9 @@ fn a_lambertian_source_does_not_depend_on_the_type() {
     }
 }
 
-/// A published floodlight of type B states its flux in a keyword: midpoints of its own bilinear (H, V)
-/// interpolation agree with the exact integral, and both with the statement to 1 %. With the poles of
-/// type A they would be 6.8 % off.
+/// A published floodlight of type B states its flux in a keyword: midpoints of its own bilinear (H,
+/// V) interpolation agree with the exact integral, and both with the statement to 1 %. With the
+/// poles of type A they would be 6.8 % off.
 #[test]
 fn a_published_floodlight_gives_the_flux_that_it_states() {
     let Some(files) = published_files() else {

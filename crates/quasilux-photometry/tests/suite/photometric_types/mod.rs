@@ -57,7 +57,8 @@ impl File<'_> {
     }
 }
 
-/// The direction at (H, V) in degrees: photometric zero is -z, photometric horizontal +x, H clockwise.
+/// The direction at (H, V) in degrees: photometric zero is -z, photometric horizontal +x, H
+/// clockwise.
 pub(super) fn direction(photometric_type: PhotometricType, h_deg: f64, v_deg: f64) -> DVec3 {
     let (sin_h, cos_h) = libm::sincos(h_deg / 180.0 * PI);
     let (sin_v, cos_v) = libm::sincos(v_deg / 180.0 * PI);
@@ -73,8 +74,8 @@ fn latitude(photometric_type: PhotometricType, h_deg: f64, v_deg: f64) -> f64 {
     if photometric_type == PhotometricType::A { v_deg } else { h_deg }
 }
 
-/// The flux of each cell of the file, by midpoints: many along the latitude and, for the value is linear
-/// along it, one along the longitude.
+/// The flux of each cell of the file, by midpoints: many along the latitude and, for the value is
+/// linear along it, one along the longitude.
 pub(super) fn cell_fluxes_lm(file: &File<'_>) -> Vec<f64> {
     const STEPS: usize = 4096;
     let mut fluxes_lm = Vec::new();

@@ -10,9 +10,10 @@ use std::f64::consts::PI;
 /// Of the family of two chi-square tests.
 const SIGNIFICANCE: f64 = 1e-3;
 
-/// Seed 23, 2^20 samples in 100 cells, 0.1 % for the family of two: of a density that is 2 % wrong on
-/// half of the cells (1 % after normalisation) the expected statistic exceeds its mean of 99 by 2^20 x
-/// 1e-4 = 105, seven standard deviations. The first pass shows that such a density is rejected.
+/// Seed 23, 2^20 samples in 100 cells, 0.1 % for the family of two: of a density that is 2 % wrong
+/// on half of the cells (1 % after normalisation) the expected statistic exceeds its mean of 99 by
+/// 2^20 x 1e-4 = 105, seven standard deviations. The first pass shows that such a density is
+/// rejected.
 #[test]
 fn directions_follow_the_density_of_the_file() {
     let (h, v) = (uneven(-90.0), uneven(-90.0));
