@@ -27,19 +27,15 @@ pub(crate) fn samples() -> Seeds {
     Seeds::new(surface::samples())
 }
 
-/// The same, with the published files where they are present.
+/// The same with the published files; without them where `QUASILUX_CORPUS=none` says so.
 pub(crate) fn seeds() -> Seeds {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
-    samples().with_files(published(&folder, "xml"))
+    let folder = quasilux_corpus::find("bsdf");
+    samples().with_files(folder.map_or_else(Vec::new, |folder| published(&folder, "xml")))
 }
 
-/// The files of a folder that have the extension, in the order of their names; none, with a line
-/// that says so, where the folder is missing.
+/// The files of a folder that have the extension, in the order of their names.
 fn published(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        println!("no published .{extension} files at {}", folder.display());
-        return Vec::new();
-    };
+    let entries = std::fs::read_dir(folder).expect("a folder of published files");
     let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(fits).collect();
     paths.sort();

@@ -8,7 +8,6 @@ mod ddr;
 mod format_pages;
 mod from_function;
 mod merl;
-mod missing;
 mod radiance;
 mod sampling;
 mod window_xml;
@@ -16,20 +15,14 @@ mod window_xml;
 use glam::DVec3;
 use quasilux_bsdf::{MeasuredBsdf, read_bsdf};
 use quasilux_photometry::Angles;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// The folder of published files, or `None`, with a line that says so.
+/// The folder of published files; `None` where the test is left out.
 fn folder() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bsdf");
-    if !folder.is_dir() {
-        let folder = folder.display();
-        crate::missing::tell(&format!("no published surfaces at {folder}: nothing compared"));
-        return None;
-    }
-    Some(folder)
+    quasilux_corpus::find("bsdf")
 }
 
-/// One published surface; `None` where there are no published files at all.
+/// One published surface; `None` where the test is left out.
 fn surface(file: &str) -> Option<MeasuredBsdf> {
     let bytes = std::fs::read(folder()?.join(file)).unwrap();
     Some(read_bsdf(&bytes).unwrap_or_else(|error| panic!("{file}:{error}")).bsdf)

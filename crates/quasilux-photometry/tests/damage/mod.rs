@@ -52,25 +52,22 @@ impl Format {
         })
     }
 
-    /// The same, with the published files where they are present.
+    /// The same with the published files; without them where `QUASILUX_CORPUS=none` says so.
     pub(crate) fn seeds(self) -> Seeds {
         let (folder, extension) = match self {
             Self::Ies => ("ies", "ies"),
             Self::Ldt => ("ldt", "ldt"),
             Self::Tm33 => ("ies/tm33", "xml"),
         };
-        let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-        self.samples().with_files(published(&data.join(folder), extension))
+        let folder = quasilux_corpus::find(folder);
+        let files = folder.map_or_else(Vec::new, |folder| published(&folder, extension));
+        self.samples().with_files(files)
     }
 }
 
-/// The files of a folder that have the extension, in the order of their names; none, with a line
-/// that says so, where the folder is missing.
+/// The files of a folder that have the extension, in the order of their names.
 fn published(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        println!("no published .{extension} files at {}", folder.display());
-        return Vec::new();
-    };
+    let entries = std::fs::read_dir(folder).expect("a folder of published files");
     let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(fits).collect();
     paths.sort();

@@ -1,4 +1,4 @@
-//! Files as manufacturers and other programs publish them, read where they are present.
+//! Files as manufacturers and other programs publish them.
 
 use quasilux_photometry::read_ies;
 use std::path::{Path, PathBuf};
@@ -59,21 +59,15 @@ pub(crate) fn name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The published IES files in the order of their names, or `None`, with a line that says so.
+/// The published IES files in the order of their names; `None` where the test is left out.
 pub(crate) fn published_files() -> Option<Vec<PathBuf>> {
     published_files_of("ies")
 }
 
 /// The published files with that extension, which names their folder too.
 pub(crate) fn published_files_of(extension: &str) -> Option<Vec<PathBuf>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(extension);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        let folder = folder.display();
-        crate::missing::tell(&format!(
-            "no published .{extension} files at {folder}: nothing compared"
-        ));
-        return None;
-    };
+    let folder = quasilux_corpus::find(extension)?;
+    let entries = std::fs::read_dir(&folder).expect("a folder of published files");
     let fits = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(fits).collect();
     files.sort();

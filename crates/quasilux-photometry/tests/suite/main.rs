@@ -9,7 +9,6 @@ mod format_pages;
 mod goodness;
 mod ldt;
 mod ldt_corpus;
-mod missing;
 mod photometric_types;
 mod poles;
 mod published;

@@ -1,4 +1,4 @@
-//! Luminaires of the published files, of every format, where they are present.
+//! Luminaires of the published files, of every format.
 
 use crate::corpus::{name, published_files_of};
 use quasilux_photometry::{Photometry, read_ies, read_ldt};
@@ -11,7 +11,7 @@ pub(crate) fn luminaires() -> impl Iterator<Item = (String, Photometry)> {
     read.filter(|(_, photometry)| photometry.flux_lm() > 0.0)
 }
 
-/// The luminaire of one file; `None` where there are no published files at all.
+/// The luminaire of one file; `None` where the test is left out.
 pub(crate) fn luminaire(file: &str) -> Option<Photometry> {
     let extension = if file.to_ascii_lowercase().ends_with("ldt") { "ldt" } else { "ies" };
     let files = published_files_of(extension)?;

@@ -2,7 +2,7 @@
 
 use crate::corpus::name;
 use quasilux_photometry::{WarningKind, read_tm33};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Each file's flux in lumens, by a quadrature that shares nothing with the reader (an XML library
 /// of another language, trapezia over the planes, 2000 midpoints between vertical angles), or why
@@ -50,14 +50,10 @@ fn published_tm33_files_load_or_are_refused_for_a_known_reason() {
     }
 }
 
-/// The published TM-33 files in the order of their names, or `None`, with a line that says so.
+/// The published TM-33 files in the order of their names; `None` where the test is left out.
 fn published() -> Option<Vec<PathBuf>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ies/tm33");
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        let folder = folder.display();
-        crate::missing::tell(&format!("no published TM-33 files at {folder}: nothing compared"));
-        return None;
-    };
+    let folder = quasilux_corpus::find("ies/tm33")?;
+    let entries = std::fs::read_dir(&folder).expect("a folder of published files");
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     files.sort();
     Some(files)
