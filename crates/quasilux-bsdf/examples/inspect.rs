@@ -5,7 +5,7 @@
 //! file: a diffuse sample in the format of ASTM E1392.
 
 use glam::DVec3;
-use quasilux_bsdf::{Side, Way, luminance, read_bsdf_named};
+use quasilux_bsdf::{ScatteringMode, Side, luminance, read_bsdf_named};
 use std::error::Error;
 
 const DIFFUSE: &[u8] = b"VARS theta_i,phi_i,theta_s,phi_s,BRDF\n0,0,0,0,0.2\n";
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("format  {}", file.bsdf.facts().format);
     let oblique = DVec3::new(0.75_f64.sqrt(), 0.0, 0.5);
     for side in Side::ALL {
-        for mode in Way::ALL {
+        for mode in ScatteringMode::ALL {
             // A sheet may be dark on one side, or let nothing through.
             let Some(distribution) = file.bsdf.scattering(side, mode) else { continue };
             let [normal, oblique] =

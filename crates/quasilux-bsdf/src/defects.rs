@@ -2,8 +2,8 @@
 
 use crate::analysis::Reciprocity;
 use crate::measured::MeasuredBsdf;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::Position;
@@ -16,7 +16,7 @@ const RECIPROCITY_TOLERANCE: f64 = 0.01;
 
 /// Says that what was measured from the front alone lets light through from there alone.
 pub(super) fn warn_of_one_way(bsdf: &MeasuredBsdf, at: Position, warnings: &mut Warnings) {
-    let passes = |side| bsdf.scattering(side, Way::Transmission).is_some();
+    let passes = |side| bsdf.scattering(side, ScatteringMode::Transmission).is_some();
     if passes(Side::Front) && !passes(Side::Back) {
         let expected = "both sides (nothing passes from the back)";
         warnings.push(WarningKind::OneWayTransmission, at, "transmission of the front", expected);

@@ -6,10 +6,10 @@
 //!
 //! ```
 //! use glam::DVec3;
-//! use quasilux_bsdf::{Side, Way, read_bsdf};
+//! use quasilux_bsdf::{Side, ScatteringMode, read_bsdf};
 //! let file = b"VARS theta_i,phi_i,theta_s,phi_s,BRDF\n0,0,0,0,0.2\n";
 //! let read = read_bsdf(file)?;
-//! let reflection = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+//! let reflection = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
 //! assert!((reflection.albedo(DVec3::Z)[0] - 0.2 * std::f64::consts::PI).abs() < 1e-3);
 //! let sample = reflection.sample(DVec3::Z, [0.3, 0.7]).unwrap();
 //! let weight = reflection.evaluate(DVec3::Z, sample.wo)[0] * sample.wo.z / sample.pdf_sr;
@@ -72,7 +72,7 @@ pub use parsed::Parsed;
 pub use quasilux_sampling::ParseNameError;
 pub use quasilux_text::{ParseError, Position};
 pub use read::{read_bsdf, read_bsdf_named};
-pub use side::{Side, Way};
+pub use side::{ScatteringMode, Side};
 pub use tree::{ExchangedTree, TensorTree};
 pub use warning::{Warning, WarningKind};
 pub use window_xml::read_bsdf_xml;

@@ -3,8 +3,8 @@
 use crate::analysis::BsdfAnalysis;
 use crate::distribution::Distribution;
 use crate::facts::BsdfFacts;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::tables::ScatteringTables;
 use std::sync::OnceLock;
 
@@ -29,7 +29,7 @@ impl MeasuredBsdf {
     /// side and way.
     pub fn from_tables(
         facts: BsdfFacts,
-        tables: impl IntoIterator<Item = (Side, Way, Distribution)>,
+        tables: impl IntoIterator<Item = (Side, ScatteringMode, Distribution)>,
     ) -> Self {
         let mut surface = Self::new(facts);
         tables.into_iter().for_each(|(side, way, table)| surface.set(side, way, table));
@@ -43,7 +43,7 @@ impl MeasuredBsdf {
     }
 
     /// Takes over how light that arrives on `side` is scattered that way.
-    pub fn set(&mut self, side: Side, way: Way, distribution: Distribution) {
+    pub fn set(&mut self, side: Side, way: ScatteringMode, distribution: Distribution) {
         self.scattering.set(side, way, distribution);
         self.kept.exchanged[side as usize][way as usize] = OnceLock::new();
         self.kept.analysis = OnceLock::new();
@@ -51,7 +51,7 @@ impl MeasuredBsdf {
 
     /// How light that arrives on `side` is scattered that way; `None` where nothing is.
     #[must_use]
-    pub fn scattering(&self, side: Side, way: Way) -> Option<&Distribution> {
+    pub fn scattering(&self, side: Side, way: ScatteringMode) -> Option<&Distribution> {
         self.scattering.get(side, way)
     }
 
@@ -59,7 +59,7 @@ impl MeasuredBsdf {
     /// where it arrives. Made when it is first asked for; `None` where there is none, see
     /// [`Distribution::reversed`].
     #[must_use]
-    pub fn exchanged(&self, side: Side, way: Way) -> Option<&Distribution> {
+    pub fn exchanged(&self, side: Side, way: ScatteringMode) -> Option<&Distribution> {
         let made = &self.kept.exchanged[side as usize][way as usize];
         made.get_or_init(|| self.scattering(side, way)?.reversed()).as_ref()
     }
@@ -77,8 +77,9 @@ impl MeasuredBsdf {
     }
 
     /// All distributions, each with the side that light arrives on and the way it goes.
-    pub fn distributions(&self) -> impl Iterator<Item = (Side, Way, &Distribution)> {
-        let pairs = Side::ALL.into_iter().flat_map(|side| Way::ALL.map(|way| (side, way)));
+    pub fn distributions(&self) -> impl Iterator<Item = (Side, ScatteringMode, &Distribution)> {
+        let pairs =
+            Side::ALL.into_iter().flat_map(|side| ScatteringMode::ALL.map(|way| (side, way)));
         pairs.filter_map(|(side, way)| Some((side, way, self.scattering(side, way)?)))
     }
 

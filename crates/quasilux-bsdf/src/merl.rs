@@ -12,8 +12,8 @@ use crate::gridded::Lobe;
 use crate::gridded::table_error;
 use crate::measured::MeasuredBsdf;
 use crate::parsed::Parsed;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use glam::DVec3;
@@ -72,7 +72,7 @@ pub fn read_merl(bytes: &[u8]) -> Result<Parsed, ParseError> {
         thickness_m: None,
     };
     let mut bsdf = MeasuredBsdf::new(facts);
-    bsdf.set(Side::Front, Way::Reflection, Distribution::Gridded(table));
+    bsdf.set(Side::Front, ScatteringMode::Reflection, Distribution::Gridded(table));
     warn_of_defects(&bsdf, start, &mut warnings);
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }

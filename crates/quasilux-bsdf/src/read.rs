@@ -6,7 +6,7 @@ use crate::ddr::read_ddr;
 use crate::merl;
 use crate::merl::read_merl;
 use crate::parsed::Parsed;
-use crate::side::Way;
+use crate::side::ScatteringMode;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use crate::window_xml::read_bsdf_xml;
@@ -52,7 +52,7 @@ pub fn read_bsdf_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
 fn read_ddr_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
     let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
     let is = |known: &str| extension.eq_ignore_ascii_case(known);
-    let way = if is("ddt") { Way::Transmission } else { Way::Reflection };
+    let way = if is("ddt") { ScatteringMode::Transmission } else { ScatteringMode::Reflection };
     let mut read = read_ddr(bytes, way)?;
     if !is("ddt") && !is("ddr") {
         let mut warnings = Warnings::default();
@@ -64,7 +64,7 @@ fn read_ddr_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
         };
         let expected =
             "a name in .ddr for reflection, or .ddt for transmission (read as reflection)";
-        warnings.push(WarningKind::UnknownWay, at, found, expected);
+        warnings.push(WarningKind::UnknownScatteringMode, at, found, expected);
         read.warnings.splice(..0, warnings.into_vec());
     }
     Ok(read)

@@ -15,7 +15,7 @@ pub enum Side {
 
 /// Where scattered light goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Way {
+pub enum ScatteringMode {
     /// Back to the side that it came from.
     Reflection,
     /// To the other side.
@@ -45,7 +45,7 @@ impl Side {
     }
 }
 
-impl Way {
+impl ScatteringMode {
     /// Both ways.
     pub const ALL: [Self; 2] = [Self::Reflection, Self::Transmission];
 
@@ -79,14 +79,14 @@ impl FromStr for Side {
     }
 }
 
-impl fmt::Display for Way {
+impl fmt::Display for ScatteringMode {
     /// Its [name](Self::name).
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
 }
 
-impl FromStr for Way {
+impl FromStr for ScatteringMode {
     type Err = ParseNameError;
 
     /// The scattering mode of that [name](Self::name).
@@ -107,8 +107,8 @@ mod tests {
     #[test]
     fn sides_and_modes_are_read_back_from_their_names() {
         assert!(Side::ALL.into_iter().all(|side| side.to_string().parse() == Ok(side)));
-        assert!(Way::ALL.into_iter().all(|way| way.to_string().parse() == Ok(way)));
-        let error = "absorption".parse::<Way>().unwrap_err();
+        assert!(ScatteringMode::ALL.into_iter().all(|way| way.to_string().parse() == Ok(way)));
+        let error = "absorption".parse::<ScatteringMode>().unwrap_err();
         assert!(error.to_string().contains("expected reflection, transmission"));
     }
 }

@@ -1,20 +1,20 @@
 //! The scattering distributions of both sides of a sheet.
 
 use crate::distribution::Distribution;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 
-/// By [`Side`] that light arrives on, then by [`Way`].
+/// By [`Side`] that light arrives on, then by [`ScatteringMode`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ScatteringTables([[Option<Distribution>; 2]; 2]);
 
 impl ScatteringTables {
     /// How light that arrives on `side` is scattered; `None` where nothing is.
-    pub(crate) fn get(&self, side: Side, way: Way) -> Option<&Distribution> {
+    pub(crate) fn get(&self, side: Side, way: ScatteringMode) -> Option<&Distribution> {
         self.0[side as usize][way as usize].as_ref()
     }
 
-    pub(crate) fn set(&mut self, side: Side, way: Way, distribution: Distribution) {
+    pub(crate) fn set(&mut self, side: Side, way: ScatteringMode, distribution: Distribution) {
         self.0[side as usize][way as usize] = Some(distribution);
     }
 }

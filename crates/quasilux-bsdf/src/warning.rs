@@ -70,7 +70,7 @@ pub enum WarningKind {
     SpecularMissing,
     /// DDR and DDT: the name does not tell whether it is reflection or transmission. It is read as
     /// reflection.
-    UnknownWay,
+    UnknownScatteringMode,
     /// WINDOW: a side that light passes has no reflection. It reflects nothing.
     MissingReflection,
     /// WINDOW: data of single layers stand beside those of the system. They are left out.

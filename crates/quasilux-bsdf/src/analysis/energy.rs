@@ -5,8 +5,8 @@ use crate::distribution::Distribution;
 use crate::hemisphere::upwards;
 use crate::hemisphere::{Incident, spread};
 use crate::klems::KlemsTable;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::tables::ScatteringTables;
 use glam::DVec3;
 
@@ -37,7 +37,7 @@ pub struct EnergyBalance {
 impl EnergyBalance {
     /// The balance of one side; `None` where it scatters nothing.
     pub(super) fn new(tables: &ScatteringTables, side: Side) -> Option<Self> {
-        let ways = Way::ALL.map(|way| tables.get(side, way));
+        let ways = ScatteringMode::ALL.map(|way| tables.get(side, way));
         let share = |way: usize, wi| ways[way].map_or([0.0; 3], |found| found.albedo(wi));
         let total = |wi| {
             let (reflected, passed) = (share(0, wi), share(1, wi));

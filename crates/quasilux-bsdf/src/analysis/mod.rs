@@ -6,8 +6,8 @@
 mod energy;
 mod reciprocity;
 
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::tables::ScatteringTables;
 pub use energy::EnergyBalance;
 pub use reciprocity::Reciprocity;
@@ -25,10 +25,10 @@ impl BsdfAnalysis {
     /// How far f of light that arrives on `side` and goes `way` is from that of exchanged
     /// directions; `None` where one of the two is missing.
     #[must_use]
-    pub fn reciprocity(&self, side: Side, way: Way) -> Option<&Reciprocity> {
+    pub fn reciprocity(&self, side: Side, way: ScatteringMode) -> Option<&Reciprocity> {
         // Of transmission there is one figure for both sides.
         let is_meant = |found: &&Reciprocity| {
-            found.way == way && (way == Way::Transmission || found.side == side)
+            found.way == way && (way == ScatteringMode::Transmission || found.side == side)
         };
         self.reciprocity.iter().find(is_meant)
     }

@@ -4,8 +4,8 @@ use crate::color::luminance;
 use crate::distribution::Distribution;
 use crate::hemisphere::upwards;
 use crate::hemisphere::{Incident, lattice, spread};
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::tables::ScatteringTables;
 use glam::DVec3;
 use quasilux_sampling::warp::sample_disk;
@@ -28,7 +28,7 @@ pub struct Reciprocity {
     /// The side of `a`.
     pub side: Side,
     /// Whether `b` is on the same side.
-    pub way: Way,
+    pub way: ScatteringMode,
     /// The mean of |f(a, b) - f(b, a)| over the mean of the greater of both.
     pub mean: f64,
     /// The largest |f(a, b) - f(b, a)| over the greater of both, between 0 and 1.
@@ -40,15 +40,19 @@ pub struct Reciprocity {
 /// Reflection off both sides, transmission once.
 pub(super) fn all(tables: &ScatteringTables) -> Vec<Reciprocity> {
     let (front, back) = (Side::Front, Side::Back);
-    let pairs = [(front, Way::Reflection), (back, Way::Reflection), (front, Way::Transmission)];
+    let pairs = [
+        (front, ScatteringMode::Reflection),
+        (back, ScatteringMode::Reflection),
+        (front, ScatteringMode::Transmission),
+    ];
     pairs.into_iter().filter_map(|(side, way)| Reciprocity::new(tables, side, way)).collect()
 }
 
 impl Reciprocity {
     /// Compares f of light that arrives on `side` and goes `way` with f of light the other way
     /// round; `None` where one of the two is missing or both are dark.
-    pub(super) fn new(tables: &ScatteringTables, side: Side, way: Way) -> Option<Self> {
-        let back_side = if way == Way::Reflection { side } else { side.other() };
+    pub(super) fn new(tables: &ScatteringTables, side: Side, way: ScatteringMode) -> Option<Self> {
+        let back_side = if way == ScatteringMode::Reflection { side } else { side.other() };
         let forth = tables.get(side, way)?;
         let back = tables.get(back_side, way)?;
         let mut sums = Sums::default();

@@ -6,7 +6,7 @@ use crate::gaps;
 use crate::gridded::GriddedTable;
 use crate::gridded::Lobe;
 use crate::gridded::MAX_INCIDENCES;
-use crate::side::Way;
+use crate::side::ScatteringMode;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position};
@@ -27,7 +27,7 @@ struct Incidences {
 /// grid of exits, and each azimuth the same polar angles.
 pub(super) fn table<const N: usize>(
     records: &Records<N>,
-    way: Way,
+    way: ScatteringMode,
     warnings: &mut Warnings,
 ) -> Result<Option<GriddedTable>, ParseError> {
     let Some(incidences) = Incidences::of(records, way)? else {
@@ -69,7 +69,10 @@ pub(super) fn table<const N: usize>(
 }
 
 impl Incidences {
-    fn of<const N: usize>(records: &Records<N>, way: Way) -> Result<Option<Self>, ParseError> {
+    fn of<const N: usize>(
+        records: &Records<N>,
+        way: ScatteringMode,
+    ) -> Result<Option<Self>, ParseError> {
         let all = || records.incidences(way);
         let Some(first) = all().map(|(_, beginning)| beginning.line).min() else {
             return Ok(None);
@@ -111,7 +114,7 @@ impl Incidences {
     fn exits<const N: usize>(
         &self,
         records: &Records<N>,
-        way: Way,
+        way: ScatteringMode,
         plane: Key,
         theta: Key,
     ) -> Result<Exits<N>, ParseError> {

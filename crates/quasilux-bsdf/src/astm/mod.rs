@@ -18,8 +18,8 @@ use crate::measured::MeasuredBsdf;
 use crate::parsed::Parsed;
 use crate::pieces::Pieces;
 use crate::pieces::Style;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::Warnings;
 use lines::Lines;
 use quasilux_text::{ParseError, Position, Token, decode, lines, quoted};
@@ -80,10 +80,10 @@ pub fn read_astm(bytes: &[u8]) -> Result<Parsed, ParseError> {
 fn tables<'t, const N: usize>(
     lines: &Lines<impl Iterator<Item = (usize, &'t str)> + Clone>,
     warnings: &mut Warnings,
-) -> Result<Vec<(Way, GriddedTable)>, ParseError> {
+) -> Result<Vec<(ScatteringMode, GriddedTable)>, ParseError> {
     let records = Records::<N>::read(lines, warnings)?;
     let mut tables = Vec::new();
-    for way in Way::ALL {
+    for way in ScatteringMode::ALL {
         if let Some(table) = grid::table(&records, way, warnings)? {
             tables.push((way, table));
         }

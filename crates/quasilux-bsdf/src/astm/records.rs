@@ -3,7 +3,7 @@
 
 use super::lines::Lines;
 use crate::gridded::MAX_INCIDENCES;
-use crate::side::Way;
+use crate::side::ScatteringMode;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position};
@@ -132,12 +132,17 @@ impl<const N: usize> Records<N> {
     /// The incidences of one way, by azimuth and then by polar angle.
     pub(super) fn incidences(
         &self,
-        way: Way,
+        way: ScatteringMode,
     ) -> impl Iterator<Item = (&Incidence, &Beginning)> + Clone {
         self.incidences.iter().filter(move |(incidence, _)| incidence.way == way as usize)
     }
 
-    pub(super) fn beginning(&self, way: Way, plane: Key, theta: Key) -> Option<&Beginning> {
+    pub(super) fn beginning(
+        &self,
+        way: ScatteringMode,
+        plane: Key,
+        theta: Key,
+    ) -> Option<&Beginning> {
         let plane = if theta == 0 { 0 } else { plane };
         self.incidences.get(&Incidence { way: way as usize, plane, theta })
     }

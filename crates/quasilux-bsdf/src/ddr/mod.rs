@@ -16,8 +16,8 @@ use crate::parsed::Parsed;
 use crate::pieces;
 use crate::pieces::Pieces;
 use crate::pieces::Style;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use header::{Colours, Header};
@@ -32,14 +32,14 @@ struct Block {
     values: Vec<f64>,
 }
 
-/// Reads a DDR file, or a DDT file with [`Way::Transmission`]: the content does not tell. What is
-/// measured counts for light on the front. Total: any bytes give a surface or an error with its
-/// place.
+/// Reads a DDR file, or a DDT file with [`ScatteringMode::Transmission`]: the content does not
+/// tell. What is measured counts for light on the front. Total: any bytes give a surface or an
+/// error with its place.
 ///
 /// # Errors
 /// [`ParseError`] with the position where the header, an angle or a value is missing or out of
 /// range.
-pub fn read_ddr(bytes: &[u8], way: Way) -> Result<Parsed, ParseError> {
+pub fn read_ddr(bytes: &[u8], way: ScatteringMode) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let start = Position { line: 1, column: 1 };

@@ -36,7 +36,7 @@
 //! | [`AzimuthGap`] | linear across the gap; `PlaneSymmetrical` goes on beyond its ends as there | `9:1: found azimuths phi that leave a gap of 180 degrees; expected 0 to 180 with gaps of 90 degrees at most (...)` |
 //! | [`SpecularMissing`] | f is constant up to the first angle | `9:1: found theta from 5.0 degrees on; expected angles from 0 on, the specular direction (f is as at the first one)` |
 //! | [`OneIncidence`](crate::WarningKind::OneIncidence) | the lobe follows the specular direction | `9:1: found one incident polar angle, 0.0 degrees; expected several (the lobe follows the specular direction and keeps its light)` |
-//! | [`UnknownWay`] | reflection, such as from standard input | `1:1: found the name "stdin"; expected a name in .ddr for reflection, or .ddt for transmission (read as reflection)` |
+//! | [`UnknownScatteringMode`] | reflection, such as from standard input | `1:1: found the name "stdin"; expected a name in .ddr for reflection, or .ddt for transmission (read as reflection)` |
 //!
 //! As in WINDOW files: `OneWayTransmission`, `NegativeScattering`, `TrailingValues`,
 //! `EnergyNotConserved`, `NotReciprocal`; as in ASTM E1392 files: `Encoding`, `ByteOrderMark`.
@@ -44,4 +44,4 @@
 //! [`Resampled`]: crate::WarningKind::Resampled
 //! [`AzimuthGap`]: crate::WarningKind::AzimuthGap
 //! [`SpecularMissing`]: crate::WarningKind::SpecularMissing
-//! [`UnknownWay`]: crate::WarningKind::UnknownWay
+//! [`UnknownScatteringMode`]: crate::WarningKind::UnknownScatteringMode

@@ -1,7 +1,7 @@
 //! The blocks of scattering data that are read: one spectrum, each side and way once.
 
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::xml::Element;
@@ -10,7 +10,7 @@ use quasilux_text::{ParseError, quoted};
 /// One element `WavelengthDataBlock`.
 pub(super) struct Block<'e, 't> {
     pub(super) side: Side,
-    pub(super) way: Way,
+    pub(super) way: ScatteringMode,
     pub(super) element: &'e Element<'t>,
 }
 
@@ -104,11 +104,13 @@ fn of_one_layer<'e, 't>(layer: &'e Element<'t>, warnings: &mut Warnings) -> Vec<
 /// Tells where light that arrives on a side can pass, but no reflection is known. An opaque sample
 /// measured from one side lacks nothing.
 pub(super) fn warn_of_missing_reflection(blocks: &[Block<'_, '_>], warnings: &mut Warnings) {
-    let Some(passing) = blocks.iter().find(|block| block.way == Way::Transmission) else {
+    let Some(passing) = blocks.iter().find(|block| block.way == ScatteringMode::Transmission)
+    else {
         return;
     };
     for side in Side::ALL {
-        let is_given = |block: &Block<'_, '_>| block.side == side && block.way == Way::Reflection;
+        let is_given =
+            |block: &Block<'_, '_>| block.side == side && block.way == ScatteringMode::Reflection;
         if !blocks.iter().any(is_given) {
             let found = format!("no Reflection {}", side.name());
             let expected = "the reflection of both sides (nothing is reflected)";
@@ -118,11 +120,11 @@ pub(super) fn warn_of_missing_reflection(blocks: &[Block<'_, '_>], warnings: &mu
 }
 
 /// `Transmission Front` and the like; others are left out.
-fn side_and_way(element: &Element<'_>, warnings: &mut Warnings) -> Option<(Side, Way)> {
+fn side_and_way(element: &Element<'_>, warnings: &mut Warnings) -> Option<(Side, ScatteringMode)> {
     let direction = element.child("WavelengthDataDirection");
     let text = direction.map_or("", |direction| direction.text());
     let mut words = text.split_whitespace();
-    let way = words.next().and_then(Way::of_word);
+    let way = words.next().and_then(ScatteringMode::of_word);
     let side = words.next().and_then(Side::of_word);
     let known = side.zip(way).filter(|_| words.next().is_none());
     if known.is_none() {

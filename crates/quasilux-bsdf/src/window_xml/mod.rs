@@ -13,8 +13,8 @@ use crate::facts::BsdfFacts;
 use crate::facts::BsdfFormat;
 use crate::measured::MeasuredBsdf;
 use crate::parsed::Parsed;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::xml::{self, Element};
@@ -178,7 +178,7 @@ impl Side {
     }
 }
 
-impl Way {
+impl ScatteringMode {
     /// `Reflection` or `Transmission` in a file.
     fn of_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|way| way.name().eq_ignore_ascii_case(word))

@@ -3,8 +3,8 @@
 use super::block::Block;
 use crate::distribution::Distribution;
 use crate::measured::MeasuredBsdf;
+use crate::side::ScatteringMode;
 use crate::side::Side;
-use crate::side::Way;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 
@@ -15,8 +15,9 @@ pub(super) fn fill_transmission(
     warnings: &mut Warnings,
 ) {
     let given = |side: Side| {
-        let is_given =
-            |block: &&Block<'_, '_>| (block.side, block.way) == (side, Way::Transmission);
+        let is_given = |block: &&Block<'_, '_>| {
+            (block.side, block.way) == (side, ScatteringMode::Transmission)
+        };
         blocks.iter().find(is_given)
     };
     for side in Side::ALL {
@@ -24,7 +25,7 @@ pub(super) fn fill_transmission(
             continue;
         };
         let found = format!("no Transmission {}", side.name());
-        let known = bsdf.scattering(side.other(), Way::Transmission);
+        let known = bsdf.scattering(side.other(), ScatteringMode::Transmission);
         let reversed = known.and_then(Distribution::reversed);
         let (deviation, expected) = match &reversed {
             Some(_) => {
@@ -39,7 +40,7 @@ pub(super) fn fill_transmission(
         };
         warnings.push(deviation, source.element.at, found, expected);
         if let Some(reversed) = reversed {
-            bsdf.set(side, Way::Transmission, reversed);
+            bsdf.set(side, ScatteringMode::Transmission, reversed);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{analytic, ddr, direction, folder, surface};
 use glam::DVec3;
 use quasilux_bsdf::{
     AngleBasis, BsdfAnalysis, BsdfFacts, BsdfFormat, Distribution, EnergyBalance, KlemsTable,
-    MeasuredBsdf, Side, TensorTree, Way, luminance,
+    MeasuredBsdf, ScatteringMode, Side, TensorTree, luminance,
 };
 use quasilux_photometry::Angles;
 use quasilux_sampling::warp::sample_disk;
@@ -42,12 +42,12 @@ fn facts() -> BsdfFacts {
 }
 
 fn reflecting(table: Distribution) -> MeasuredBsdf {
-    MeasuredBsdf::from_tables(facts(), [(Side::Front, Way::Reflection, table)])
+    MeasuredBsdf::from_tables(facts(), [(Side::Front, ScatteringMode::Reflection, table)])
 }
 
 /// The visible matrices of a file: side, way, and the share of each incident patch, straight from
 /// its text. Rows are exits.
-fn matrices(text: &str) -> Vec<(Side, Way, Vec<f64>)> {
+fn matrices(text: &str) -> Vec<(Side, ScatteringMode, Vec<f64>)> {
     let weights = projected_sr();
     let element = |text: &str, name: &str| -> String {
         let from = text.find(&format!("<{name}>")).unwrap() + name.len() + 2;
@@ -62,7 +62,11 @@ fn matrices(text: &str) -> Vec<(Side, Way, Vec<f64>)> {
         }
         let words = element(block, "WavelengthDataDirection");
         let side = if words.ends_with("Front") { Side::Front } else { Side::Back };
-        let way = if words.starts_with("Refl") { Way::Reflection } else { Way::Transmission };
+        let way = if words.starts_with("Refl") {
+            ScatteringMode::Reflection
+        } else {
+            ScatteringMode::Transmission
+        };
         let data = element(block, "ScatteringData");
         let numbers = data.split(|c: char| c == ',' || c.is_whitespace());
         let values: Vec<f64> =
@@ -95,11 +99,11 @@ fn matrices_have_the_figures_of_their_files() {
         let shares = matrices(&String::from_utf8_lossy(&text));
         let bsdf = surface(name).unwrap();
         for balance in bsdf.analysis().clone().energy {
-            let of_way = |wanted: Way| -> Vec<f64> {
+            let of_way = |wanted: ScatteringMode| -> Vec<f64> {
                 let found = shares.iter().find(|(s, w, _)| (*s, *w) == (balance.side, wanted));
                 found.map_or(vec![0.0; 145], |(_, _, shares)| shares.clone())
             };
-            let [reflected, passed] = Way::ALL.map(of_way);
+            let [reflected, passed] = ScatteringMode::ALL.map(of_way);
             let diffuse = |shares: &[f64]| -> f64 {
                 shares.iter().zip(&weights).map(|(share, weight)| share * weight / PI).sum()
             };
@@ -141,7 +145,7 @@ fn trees_have_the_sums_of_their_values() {
             for i in 0..SIDE / 2 {
                 let wi = upwards([-(1.0 - 2.0 * middle(i)), 0.0]);
                 let mut shares = [0.0; 2];
-                for (way, share) in Way::ALL.into_iter().zip(&mut shares) {
+                for (way, share) in ScatteringMode::ALL.into_iter().zip(&mut shares) {
                     let Some(table) = bsdf.scattering(balance.side, way) else { continue };
                     for place in 0..SIDE * SIDE {
                         let square = [middle(place / SIDE), middle(place % SIDE)];
@@ -174,7 +178,7 @@ fn a_tree_turned_round_has_its_true_maximum() {
     let Some(bsdf) = surface("tt-pyradiance-t3.xml") else {
         return;
     };
-    let table = bsdf.scattering(Side::Front, Way::Transmission).unwrap();
+    let table = bsdf.scattering(Side::Front, ScatteringMode::Transmission).unwrap();
     let balance = bsdf.analysis().energy[0].clone();
     let (mut diffuse, mut worst) = (0.0, 0.0_f64);
     for i in 0..100_000 {
@@ -215,8 +219,8 @@ fn lobes_have_the_integral_of_their_shares() {
         .to_owned();
     file += "0.3 0.5 0.2 0.1 0.9 0.6 0.4 0.4 0.8 0.2 0.7 0.95 def ";
     file += &("1 1 1 1 ".repeat(12) + "enddef");
-    let read = quasilux_bsdf::read_ddr(file.as_bytes(), Way::Reflection).unwrap();
-    let planes = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone();
+    let read = quasilux_bsdf::read_ddr(file.as_bytes(), ScatteringMode::Reflection).unwrap();
+    let planes = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap().clone();
     for table in [glossy, planes] {
         const ROWS: u32 = 2000;
         const COLUMNS: u32 = 360;
@@ -248,7 +252,8 @@ fn each_pair_of_patches_is_looked_at() {
         values[145 * patch + other] = 3.0;
         let table = KlemsTable::new(basis(), basis(), values).unwrap();
         let bsdf = reflecting(Distribution::Klems(table));
-        let found = bsdf.analysis().reciprocity(Side::Front, Way::Reflection).expect("light");
+        let found =
+            bsdf.analysis().reciprocity(Side::Front, ScatteringMode::Reflection).expect("light");
         assert_eq!((found.mean, found.worst), (1.0, 1.0), "patch {patch}");
     }
 }
@@ -267,7 +272,8 @@ fn sums_over_different_patches_have_their_true_maximum() {
     let reflected = table(&[(49.0, 1), (90.0, 9)], 1);
     let passed = table(&[(50.0, 10), (90.0, 1)], 1);
     let way = |way, table| (Side::Front, way, table);
-    let tables = [way(Way::Reflection, reflected), way(Way::Transmission, passed)];
+    let tables =
+        [way(ScatteringMode::Reflection, reflected), way(ScatteringMode::Transmission, passed)];
     let bsdf = MeasuredBsdf::from_tables(facts(), tables);
     let balance = bsdf.analysis().energy[0].clone();
     assert!((balance.worst - 0.4 * PI).abs() < 1e-12, "{}", balance.worst);
@@ -298,7 +304,7 @@ fn defects_of_narrow_lobes_are_measured() {
     }
     let mean = difference / sum;
     let bsdf = reflecting(table);
-    let found = bsdf.analysis().reciprocity(Side::Front, Way::Reflection).unwrap();
+    let found = bsdf.analysis().reciprocity(Side::Front, ScatteringMode::Reflection).unwrap();
     println!("{} for {mean}", found.mean);
     assert!((found.mean / mean - 1.0).abs() < 0.02);
 }
@@ -312,11 +318,11 @@ fn a_surface_keeps_its_figures_and_exchanged_tables() {
     let mut bsdf = reflecting(table(0.1));
     let figures: *const BsdfAnalysis = bsdf.analysis();
     assert!(std::ptr::eq(figures, bsdf.analysis()));
-    let front = (Side::Front, Way::Reflection);
+    let front = (Side::Front, ScatteringMode::Reflection);
     let exchanged: *const Distribution = bsdf.exchanged(front.0, front.1).unwrap();
     assert!(std::ptr::eq(exchanged, bsdf.exchanged(front.0, front.1).unwrap()));
-    assert!(bsdf.exchanged(Side::Back, Way::Reflection).is_none());
-    assert!(bsdf.analysis().reciprocity(Side::Back, Way::Reflection).is_none());
+    assert!(bsdf.exchanged(Side::Back, ScatteringMode::Reflection).is_none());
+    assert!(bsdf.analysis().reciprocity(Side::Back, ScatteringMode::Reflection).is_none());
     bsdf.set(front.0, front.1, table(0.2));
     assert!((bsdf.analysis().energy[0].diffuse[0] - 0.2 * PI).abs() < 1e-12);
     let value = bsdf.exchanged(front.0, front.1).unwrap().evaluate(DVec3::Z, DVec3::Z);

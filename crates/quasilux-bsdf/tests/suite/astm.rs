@@ -3,7 +3,9 @@
 use super::analytic::{Scattering, difference, glossy, lambert, rough};
 use super::{direction, from_front};
 use quasilux_bsdf::WarningKind;
-use quasilux_bsdf::{BsdfFormat, Distribution, Parsed, Side, Way, luminance, read_astm, read_bsdf};
+use quasilux_bsdf::{
+    BsdfFormat, Distribution, Parsed, ScatteringMode, Side, luminance, read_astm, read_bsdf,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A file with `phi_i` half a turn, exits over half a turn and steps of so many degrees.
@@ -25,7 +27,7 @@ fn file(f: Scattering, step: u32) -> String {
 
 fn table(text: &str) -> Distribution {
     let bsdf = read_astm(text.as_bytes()).unwrap().bsdf;
-    bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone()
+    bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap().clone()
 }
 
 /// At half the steps near a quarter of the difference: second order. What is left of Lambert's
@@ -52,7 +54,7 @@ fn degrees_blanks_colours_and_any_order_are_read() {
     assert_eq!(read.bsdf.facts().format, BsdfFormat::Astm);
     let warnings: Vec<WarningKind> = read.warnings.iter().map(|w| w.kind()).collect();
     assert_eq!(warnings[..2], [WarningKind::AnglesInDegrees, WarningKind::NegativeScattering]);
-    let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+    let table = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
     assert!(table.is_coloured() && table.is_isotropic());
     let f = table.evaluate(direction(30.0, 0.0), direction(60.0, 90.0));
     let luminance = 0.2126 * f[0] + 0.7152 * f[1] + 0.0722 * f[2];
@@ -148,13 +150,13 @@ fn azimuths_too_far_apart_are_refused() {
     // Along the normal all azimuths are alike.
     for phis in [&[0][..], &[0, 180]] {
         let read = read_astm(in_degrees(&[0], &polar, phis, of_glossy).as_bytes()).unwrap();
-        let off = difference(glossy, front(&read, Way::Reflection), direction(0.0, 0.0));
+        let off = difference(glossy, front(&read, ScatteringMode::Reflection), direction(0.0, 0.0));
         assert!(off < 0.02, "{off}");
         assert!(found(&read, WarningKind::OneIncidence).is_some());
     }
 }
 
-fn front(read: &Parsed, way: Way) -> &Distribution {
+fn front(read: &Parsed, way: ScatteringMode) -> &Distribution {
     read.bsdf.scattering(Side::Front, way).unwrap()
 }
 
@@ -201,15 +203,18 @@ fn exits_behind_the_sheet_are_transmission() {
         }
         let read = read_astm(text.as_bytes()).unwrap();
         assert_eq!(found(&read, WarningKind::AnglesInDegrees), None);
-        assert_eq!(read.bsdf.scattering(Side::Front, Way::Reflection).is_some(), has_reflection);
+        assert_eq!(
+            read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).is_some(),
+            has_reflection
+        );
         let wi = from_front(30.0, 0.0);
-        let passing = front(&read, Way::Transmission);
+        let passing = front(&read, ScatteringMode::Transmission);
         for (phi_deg, expected) in [(180.0, 0.07), (90.0, 0.05), (0.0, 0.05)] {
             let f = passing.evaluate(wi, from_front(40.0, phi_deg))[0];
             assert!((f / expected - 1.0).abs() < 1e-4, "{f} at {phi_deg}");
         }
         if has_reflection {
-            let albedo = front(&read, Way::Reflection).albedo(wi)[0];
+            let albedo = front(&read, ScatteringMode::Reflection).albedo(wi)[0];
             assert!((albedo / (0.1 * PI) - 1.0).abs() < 1e-3, "{albedo}");
         }
     }
@@ -235,7 +240,7 @@ fn of_repeated_directions_the_first_one_counts() {
     let warning = warning.unwrap();
     assert_eq!((warning.line(), warning.count()), (26, 24));
     assert!(warning.to_string().contains("the directions of line 2;"), "{warning}");
-    let albedo = front(&read, Way::Reflection).albedo(direction(20.0, 0.0))[0];
+    let albedo = front(&read, ScatteringMode::Reflection).albedo(direction(20.0, 0.0))[0];
     assert!((albedo / (0.1 * PI) - 1.0).abs() < 1e-3, "{albedo}");
     // The same values again, and a whole turn that is none, are nothing new.
     let (_, same) = once.split_once('\n').unwrap();
@@ -253,7 +258,7 @@ fn colours_outside_keep_their_luminance() {
         }
     }
     let read = read_astm(text.as_bytes()).unwrap();
-    let albedo = luminance(front(&read, Way::Reflection).albedo(direction(0.0, 0.0)));
+    let albedo = luminance(front(&read, ScatteringMode::Reflection).albedo(direction(0.0, 0.0)));
     assert!((albedo - 0.25).abs() < 1e-3, "{albedo}");
     let message = found(&read, WarningKind::OutOfGamut).unwrap();
     assert!(message.starts_with("2:1: found X 0.015915, Y"), "{message}");

@@ -4,15 +4,16 @@ use super::analytic::{Scattering, SpecularGrid, albedo, ddr, difference, glossy,
 use super::{direction, from_front};
 use glam::DVec3;
 use quasilux_bsdf::WarningKind;
-use quasilux_bsdf::{BsdfFormat, Distribution, Side, Way, read_bsdf_named, read_ddr};
+use quasilux_bsdf::{BsdfFormat, Distribution, ScatteringMode, Side, read_bsdf_named, read_ddr};
 use quasilux_stats::least_squares_slope;
 use std::f64::consts::PI;
 
 /// The table of a surface, from a file of so many degrees at the specular direction.
 pub(super) fn table(f: Scattering, step: f64) -> Distribution {
-    let read = read_ddr(ddr(f, &SpecularGrid::with_step(step)).as_bytes(), Way::Reflection);
+    let read =
+        read_ddr(ddr(f, &SpecularGrid::with_step(step)).as_bytes(), ScatteringMode::Reflection);
     let bsdf = read.unwrap().bsdf;
-    bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone()
+    bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap().clone()
 }
 
 /// At the stored incidences; the file is bilinear, and so is the table: second order.
@@ -41,13 +42,13 @@ fn tables_approach_the_closed_form() {
 #[test]
 fn the_stated_error_is_that_of_resampling() {
     let file = ddr(glossy, &SpecularGrid::with_step(1.0));
-    let read = read_ddr(file.as_bytes(), Way::Reflection).unwrap();
+    let read = read_ddr(file.as_bytes(), ScatteringMode::Reflection).unwrap();
     let warning = read.warnings.iter().find(|w| w.kind() == WarningKind::Resampled).unwrap();
     assert_eq!((warning.line(), warning.column()), (8, 1));
     let text = warning.to_string();
     let (_, percent) = text.split_once("off by ").unwrap();
     let stated: f64 = percent.split(' ').next().unwrap().parse().unwrap();
-    let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+    let table = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
     let found = 100.0 * difference(glossy, table, direction(30.0, 0.0));
     assert!(stated > 0.1 * found && stated < 3.0 * found, "{stated} % stated, {found} % found");
 }
@@ -90,7 +91,7 @@ fn errors_between_incidences_are_foretold() {
         let sigma: Vec<f64> =
             (0..=5).map(|i| 20.0 + gap * f64::from(i)).filter(|sigma| *sigma < 72.0).collect();
         let grid = SpecularGrid { sigma: sigma.clone(), ..SpecularGrid::with_step(0.5) };
-        let read = read_ddr(ddr(glossy, &grid).as_bytes(), Way::Reflection).unwrap();
+        let read = read_ddr(ddr(glossy, &grid).as_bytes(), ScatteringMode::Reflection).unwrap();
         let warning = read.warnings.iter().find(|w| w.kind() == WarningKind::Resampled);
         let text = warning.unwrap().to_string();
         // At incidences of the file, and between them.
@@ -99,7 +100,7 @@ fn errors_between_incidences_are_foretold() {
             percent.split(' ').next().unwrap().parse().unwrap()
         };
         let stated = 0.01 * (percent("off by ") + percent("by about "));
-        let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+        let table = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
         let middles = sigma.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let offs = middles.map(|theta| difference(glossy, table, direction(theta, 0.0)));
         let off = offs.sum::<f64>() / (sigma.len() - 1) as f64;
@@ -135,8 +136,8 @@ fn colours_planes_and_albedos_are_read() {
         + &block("blue", "0.125 0.3 9");
     let read = read_bsdf_named("surface.DDT", text.as_bytes()).unwrap();
     assert_eq!(read.bsdf.facts().format, BsdfFormat::Ddr);
-    assert!(read.bsdf.scattering(Side::Front, Way::Reflection).is_none());
-    let table = read.bsdf.scattering(Side::Front, Way::Transmission).unwrap();
+    assert!(read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).is_none());
+    let table = read.bsdf.scattering(Side::Front, ScatteringMode::Transmission).unwrap();
     assert!(table.is_coloured() && !table.is_isotropic());
     assert_eq!(table.incidences().len(), 2);
     for (phi_deg, expected) in [
@@ -160,8 +161,8 @@ fn angles_go_from_the_specular_direction_towards_the_normal() {
     let text = "TypeSym ASymmetrical\nTypeColorModel BW\nsigma 1 50 phi 5 0 90 180 270 360\n\
                 theta 4 0 30 40 50\n\
                 bw def\n 0 0 0 0\n 0 1 1 0\n 0 0 0 0\n 0 0 0 0\n 0 0 0 0 enddef";
-    let read = read_ddr(text.as_bytes(), Way::Reflection).unwrap();
-    let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+    let read = read_ddr(text.as_bytes(), ScatteringMode::Reflection).unwrap();
+    let table = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
     let wi = from_front(50.0, 0.0);
     let at = |phi| {
         let wo = super::analytic::around_specular(50.0, 35.0, phi);
@@ -190,7 +191,7 @@ fn what_is_no_ddr_file_is_refused_with_its_place() {
         (format!("{head}bw kbdf 1 1 def"), "5:11", "def, before the values"),
         (format!("{head}bw def 1"), "5:9", "a value"),
     ] {
-        let error = read_ddr(text.as_bytes(), Way::Reflection).expect_err(&text);
+        let error = read_ddr(text.as_bytes(), ScatteringMode::Reflection).expect_err(&text);
         assert!(error.to_string().starts_with(&format!("{place}: ")), "{text:?}: {error}");
         assert!(error.expected().contains(expected), "{text:?}: {error}");
     }
@@ -203,7 +204,7 @@ const NARROW: &str = "TypeSym AxiSymmetrical\nTypeColorModel BW\nsigma 1 0\nphi 
 /// light in all.
 #[test]
 fn a_lobe_of_one_incidence_follows_the_mirror_direction() {
-    for way in Way::ALL {
+    for way in ScatteringMode::ALL {
         let read = read_ddr(NARROW.as_bytes(), way).unwrap();
         let table = read.bsdf.scattering(Side::Front, way).unwrap();
         let along_normal = table.albedo(DVec3::Z)[0];
@@ -217,7 +218,7 @@ fn a_lobe_of_one_incidence_follows_the_mirror_direction() {
             assert!(off.abs() < 1e-9, "{off} at {theta_deg}");
         }
         let is_one_way = |w: &quasilux_bsdf::Warning| w.kind() == WarningKind::OneWayTransmission;
-        assert_eq!(read.warnings.iter().any(is_one_way), way == Way::Transmission);
+        assert_eq!(read.warnings.iter().any(is_one_way), way == ScatteringMode::Transmission);
         let last = read.warnings.iter().find(|w| w.kind() == WarningKind::OneIncidence);
         assert!(last.unwrap().found().contains("one incident polar angle, 0.0 degrees"));
     }
@@ -256,7 +257,7 @@ fn what_angles_leave_open_is_told() {
             "theta from 5.0 degrees on",
         ),
     ] {
-        let read = read_ddr(text.as_bytes(), Way::Reflection).unwrap();
+        let read = read_ddr(text.as_bytes(), ScatteringMode::Reflection).unwrap();
         let odd =
             [WarningKind::AzimuthGap, WarningKind::SpecularMissing, WarningKind::OneIncidence];
         let found = read.warnings.iter().find(|w| odd.contains(&w.kind()));
@@ -277,7 +278,7 @@ fn a_long_foreword_of_comments_is_skipped() {
 fn a_name_that_does_not_tell_the_way_is_told() {
     for (name, is_told) in [("a.ddr", false), ("a.DDT", false), ("stdin", true), ("", true)] {
         let read = read_bsdf_named(name, NARROW.as_bytes()).unwrap();
-        let warning = read.warnings.iter().find(|w| w.kind() == WarningKind::UnknownWay);
+        let warning = read.warnings.iter().find(|w| w.kind() == WarningKind::UnknownScatteringMode);
         assert_eq!(warning.is_some(), is_told, "{name}");
     }
 }

@@ -4,7 +4,7 @@ use super::analytic::{Scattering, difference, lambert, rough};
 use super::direction;
 use glam::DVec3;
 use quasilux_bsdf::WarningKind;
-use quasilux_bsdf::{Distribution, Side, Way, read_bsdf, read_merl};
+use quasilux_bsdf::{Distribution, ScatteringMode, Side, read_bsdf, read_merl};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Half angles, difference angles and azimuths of the database.
@@ -43,7 +43,7 @@ fn table(f: Scattering) -> Distribution {
     let warned: Vec<WarningKind> = read.warnings.iter().map(|w| w.kind()).collect();
     assert_eq!(warned[..2], [WarningKind::MissingValues, WarningKind::Resampled]);
     println!("{}", read.warnings[1]);
-    read.bsdf.scattering(Side::Front, Way::Reflection).unwrap().clone()
+    read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap().clone()
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_value_stands_where_its_angles_say() {
         bytes[first..first + 8].copy_from_slice(&1500_f64.to_le_bytes());
     }
     let read = read_bsdf(&bytes).unwrap();
-    let table = read.bsdf.scattering(Side::Front, Way::Reflection).unwrap();
+    let table = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
     let half = direction(22.5, 0.0);
     let (sin, cos) = libm::sincos(30.0 * PI / 180.0);
     let (across, along) = (sin * DVec3::Y, cos * half);

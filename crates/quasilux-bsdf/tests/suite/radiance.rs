@@ -1,7 +1,7 @@
 //! Values and directional-hemispherical shares of published files are those of Radiance.
 
 use super::{direction, surface};
-use quasilux_bsdf::{MeasuredBsdf, Side, Way};
+use quasilux_bsdf::{MeasuredBsdf, ScatteringMode, Side};
 
 /// Made by Radiance: the head of the table says how.
 const TABLE: &str = include_str!("radiance.txt");
@@ -12,7 +12,7 @@ const TOLERANCE: f64 = 0.001;
 struct Row<'t> {
     name: &'t str,
     side: Side,
-    way: Way,
+    way: ScatteringMode,
     wi_deg: [f64; 2],
     /// `None`: the value is the share of light from `wi` over all exits.
     wo_deg: Option<[f64; 2]>,
@@ -26,7 +26,11 @@ fn rows() -> impl Iterator<Item = Row<'static>> {
         Row {
             name: words[0],
             side: if words[1] == "front" { Side::Front } else { Side::Back },
-            way: if words[2] == "reflection" { Way::Reflection } else { Way::Transmission },
+            way: if words[2] == "reflection" {
+                ScatteringMode::Reflection
+            } else {
+                ScatteringMode::Transmission
+            },
             wi_deg: [3, 4].map(|index| number(index).unwrap()),
             wo_deg: number(5).ok().map(|theta| [theta, number(6).unwrap()]),
             value: number(7).unwrap(),
@@ -77,7 +81,8 @@ fn shares_of_a_tree_turned_round_are_those_of_its_values() {
     let Some(bsdf) = surface("tt-pyradiance-t3.xml") else {
         return;
     };
-    let [front, back] = Side::ALL.map(|side| bsdf.scattering(side, Way::Transmission).unwrap());
+    let [front, back] =
+        Side::ALL.map(|side| bsdf.scattering(side, ScatteringMode::Transmission).unwrap());
     for theta_deg in [0.5, 2.0, 10.0, 33.0, 64.0, 80.0] {
         let wi = direction(theta_deg, 13.0);
         let mut share = 0.0;

@@ -9,7 +9,7 @@
 
 use super::{analytic, ddr, direction, merl, surface};
 use glam::DVec3;
-use quasilux_bsdf::{Distribution, GriddedTable, Side, Way, read_merl};
+use quasilux_bsdf::{Distribution, GriddedTable, ScatteringMode, Side, read_merl};
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 use quasilux_stats::damage::Random;
@@ -21,16 +21,16 @@ const FAMILY: usize = 50;
 const SAMPLES: u64 = 1 << 20;
 
 /// Files and what is taken from them: all kinds of tables, smooth and peaked, isotropic and not.
-const SURFACES: [(&str, Side, Way); 8] = [
-    ("klems-2011-SA1.xml", Side::Front, Way::Transmission),
-    ("klems-frads-aniso_high.xml", Side::Back, Way::Reflection),
-    ("klems-room-DiffuseGlass.xml", Side::Front, Way::Reflection),
-    ("klems-room-blinds.xml", Side::Front, Way::Transmission),
-    ("tt-pyradiance-t3.xml", Side::Back, Way::Transmission),
+const SURFACES: [(&str, Side, ScatteringMode); 8] = [
+    ("klems-2011-SA1.xml", Side::Front, ScatteringMode::Transmission),
+    ("klems-frads-aniso_high.xml", Side::Back, ScatteringMode::Reflection),
+    ("klems-room-DiffuseGlass.xml", Side::Front, ScatteringMode::Reflection),
+    ("klems-room-blinds.xml", Side::Front, ScatteringMode::Transmission),
+    ("tt-pyradiance-t3.xml", Side::Back, ScatteringMode::Transmission),
     // A tree turned round.
-    ("tt-pyradiance-t3.xml", Side::Front, Way::Transmission),
-    ("tt-room-blindsT3.xml", Side::Back, Way::Reflection),
-    ("radiance-testBSDF.xml", Side::Back, Way::Reflection),
+    ("tt-pyradiance-t3.xml", Side::Front, ScatteringMode::Transmission),
+    ("tt-room-blindsT3.xml", Side::Back, ScatteringMode::Reflection),
+    ("radiance-testBSDF.xml", Side::Back, ScatteringMode::Reflection),
 ];
 
 /// Incidences: near the normal, in between, grazing.
@@ -42,7 +42,7 @@ fn incidences() -> [DVec3; 3] {
 /// they mix.
 fn gridded() -> [(&'static str, Distribution); 2] {
     let merl = read_merl(&merl::file(analytic::rough, [30, 30, 30])).unwrap().bsdf;
-    let merl = merl.scattering(Side::Front, Way::Reflection).unwrap().clone();
+    let merl = merl.scattering(Side::Front, ScatteringMode::Reflection).unwrap().clone();
     [("DDR", ddr::table(analytic::glossy, 1.0)), ("MERL", merl)]
 }
 

@@ -3,7 +3,7 @@
 use super::direction;
 use glam::DVec3;
 use quasilux_bsdf::WarningKind;
-use quasilux_bsdf::{Distribution, KlemsTable, Parsed, Side, Way, read_bsdf_xml};
+use quasilux_bsdf::{Distribution, KlemsTable, Parsed, ScatteringMode, Side, read_bsdf_xml};
 use std::f64::consts::PI;
 
 /// Two bands: the cap up to 30 degrees, and four patches.
@@ -44,7 +44,7 @@ fn read(text: &str) -> Parsed {
     read_bsdf_xml(text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn scattering(read: &Parsed, side: Side, way: Way) -> &Distribution {
+fn scattering(read: &Parsed, side: Side, way: ScatteringMode) -> &Distribution {
     read.bsdf.scattering(side, way).unwrap()
 }
 
@@ -59,7 +59,7 @@ fn places() -> String {
 fn columns_and_rows_are_incident_patches() {
     for (structure, expected) in [("columns", [0.31, 0.13]), ("Rows", [0.13, 0.31])] {
         let read = read(&file(structure, &matrix("reflection front", &places())));
-        let front = scattering(&read, Side::Front, Way::Reflection);
+        let front = scattering(&read, Side::Front, ScatteringMode::Reflection);
         // Patch 2 is around azimuth 90 degrees.
         let to_patch_2 = direction(60.0, 90.0);
         assert_eq!(front.evaluate(DVec3::Z, to_patch_2)[0], expected[0]);
@@ -72,7 +72,7 @@ fn columns_and_rows_are_incident_patches() {
 #[test]
 fn a_matrix_knows_its_albedo() {
     let read = read(&file("Columns", &matrix("Reflection Back", &places())));
-    let back = scattering(&read, Side::Back, Way::Reflection);
+    let back = scattering(&read, Side::Back, ScatteringMode::Reflection);
     let (cap, patch) = (0.25 * PI, 0.75 * PI / 4.0);
     let column_1 = cap * 0.11 + patch * (0.21 + 0.31 + 0.41 + 0.51);
     assert!((back.albedo(DVec3::Z)[0] - column_1).abs() < 1e-14);
@@ -95,7 +95,7 @@ fn an_isotropic_tree_turns_with_the_incidence() {
     );
     let text = text.replace("7 8</", "7 8 }</");
     let read = read(&text);
-    let front = scattering(&read, Side::Front, Way::Reflection);
+    let front = scattering(&read, Side::Front, ScatteringMode::Reflection);
     assert!(front.is_isotropic() && front.incidences().len() == 1);
     for turn_deg in [0.0, 77.0, 200.0] {
         // Light goes to azimuth `turn_deg`; the incident axis above a half is not in use.
@@ -113,8 +113,8 @@ fn an_anisotropic_tree_is_turned_round_exactly() {
     let leaves: String = (0..16).map(|n| if n == 0b0110 { "{ 1 }" } else { "{ 0 }" }).collect();
     let read = read(&file("TensorTree4", &tree("Transmission Front", &format!("{{ {leaves} }}"))));
     assert_eq!(read.warnings[0].kind(), WarningKind::ByReciprocity, "{:?}", read.warnings);
-    let front = scattering(&read, Side::Front, Way::Transmission);
-    let back = scattering(&read, Side::Back, Way::Transmission);
+    let front = scattering(&read, Side::Front, ScatteringMode::Transmission);
+    let back = scattering(&read, Side::Back, ScatteringMode::Transmission);
     assert!(!front.is_isotropic());
     // Light goes to azimuth 135 degrees, and leaves towards -45.
     let (wi, wo) = (direction(40.0, -45.0), direction(40.0, -45.0));
@@ -156,7 +156,7 @@ fn transmission_from_the_other_side_is_reciprocal() {
     let read_matrix = read(&file("Columns", &matrix("Transmission Back", &places())));
     assert_eq!(read_matrix.warnings[0].kind(), WarningKind::ByReciprocity);
     let reciprocity = &read_matrix.bsdf.analysis().clone().reciprocity;
-    assert_eq!((reciprocity[0].way, reciprocity[0].mean), (Way::Transmission, 0.0));
+    assert_eq!((reciprocity[0].way, reciprocity[0].mean), (ScatteringMode::Transmission, 0.0));
 
     let Some(bsdf) = super::surface("tt-pyradiance-t3.xml") else {
         return;
@@ -166,7 +166,8 @@ fn transmission_from_the_other_side_is_reciprocal() {
     println!("diffuse transmittance {:.5} and {:.5}", passed[0], passed[1]);
     assert!((passed[0] / passed[1] - 1.0).abs() < 1e-12, "{passed:?}");
     let reciprocity = &bsdf.analysis().clone().reciprocity;
-    let passing = reciprocity.iter().find(|found| found.way == Way::Transmission).unwrap();
+    let passing =
+        reciprocity.iter().find(|found| found.way == ScatteringMode::Transmission).unwrap();
     assert!(passing.mean < 1e-12, "{passing:?}");
 }
 
@@ -183,7 +184,7 @@ fn deep_trees_are_turned_round_too() {
         values = format!("{{ {} }}", (0..8).map(child).collect::<String>());
     }
     let read = read(&file("TensorTree3", &tree("Transmission Back", &values)));
-    let [front, back] = Side::ALL.map(|side| scattering(&read, side, Way::Transmission));
+    let [front, back] = Side::ALL.map(|side| scattering(&read, side, ScatteringMode::Transmission));
     let energy = &read.bsdf.analysis().clone().energy;
     let passed = [0, 1].map(|side: usize| energy[side].diffuse[1]);
     assert!(passed[0] > 0.1 && (passed[0] / passed[1] - 1.0).abs() < 1e-12, "{passed:?}");
@@ -228,7 +229,10 @@ fn what_is_odd_is_told() {
         let read = read(&text);
         let found: Vec<WarningKind> = read.warnings.iter().map(|w| w.kind()).collect();
         assert!(found.contains(&deviation), "{found:?} without {deviation:?}");
-        assert!(matches!(scattering(&read, Side::Front, Way::Reflection), Distribution::Klems(_)));
+        assert!(matches!(
+            scattering(&read, Side::Front, ScatteringMode::Reflection),
+            Distribution::Klems(_)
+        ));
     }
 }
 
@@ -291,7 +295,7 @@ fn layers_of_a_system_are_left_out() {
     let (system, layer) = (of_layer("System", &places()), of_layer("1", &"0.2 ".repeat(25)));
     for both in [system.clone() + &layer, layer.clone() + &system] {
         let read = read(&file("Columns", &both));
-        let front = scattering(&read, Side::Front, Way::Reflection);
+        let front = scattering(&read, Side::Front, ScatteringMode::Reflection);
         assert_eq!(front.evaluate(DVec3::Z, DVec3::Z)[0], 0.11);
         let found = messages(&read, WarningKind::LayersLeftOut);
         assert!(found.len() == 1 && found[0].starts_with("found LayerNumber \"1\""), "{found:?}");

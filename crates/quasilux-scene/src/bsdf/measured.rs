@@ -1,7 +1,7 @@
 //! A measured sheet.
 
 use glam::DVec3;
-use quasilux_bsdf::{EnergyBalance, MeasuredBsdf, Side, Way};
+use quasilux_bsdf::{EnergyBalance, MeasuredBsdf, ScatteringMode, Side};
 use std::sync::Arc;
 
 /// A thin sheet whose scattering was measured: tables for light that arrives on its two sides.
@@ -56,7 +56,7 @@ impl Measured {
     /// Whether light passes through to the other side.
     #[must_use]
     pub fn transmits(&self) -> bool {
-        self.table.distributions().any(|(_, way, _)| way == Way::Transmission)
+        self.table.distributions().any(|(_, way, _)| way == ScatteringMode::Transmission)
     }
 
     /// The share of diffuse light that is not absorbed, on the side where that is more; above 1 where the
@@ -69,7 +69,7 @@ impl Measured {
 
 /// The one side that an opaque sample was measured from.
 fn only_side(table: &MeasuredBsdf) -> Option<Side> {
-    let is_opaque = table.distributions().all(|(_, way, _)| way == Way::Reflection);
+    let is_opaque = table.distributions().all(|(_, way, _)| way == ScatteringMode::Reflection);
     let mut sides = table.distributions().map(|(side, _, _)| side);
     let first = sides.next()?;
     (is_opaque && sides.all(|side| side == first)).then_some(first)

@@ -10,7 +10,7 @@ use super::BsdfSample;
 use super::Mode;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
-use quasilux_bsdf::{Distribution, MeasuredBsdf, Side, Way};
+use quasilux_bsdf::{Distribution, MeasuredBsdf, ScatteringMode, Side};
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::{pdf_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_scene::{Rgb, bsdf as scene};
@@ -37,7 +37,7 @@ struct Lobe<'t> {
 
 impl Measured {
     pub(super) fn new(sheet: scene::Measured) -> Self {
-        let of_side = |side| Way::ALL.map(|way| doubt(sheet.table(), side, way));
+        let of_side = |side| ScatteringMode::ALL.map(|way| doubt(sheet.table(), side, way));
         let doubts = Side::ALL.map(of_side);
         Self { sheet, doubts }
     }
@@ -54,8 +54,8 @@ impl Measured {
     /// The share of light that goes on; of paths an estimate where exchanged tables are not at hand.
     pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool, mode: Mode) -> S {
         let side = self.sheet.side(front);
-        let share = |way: Way| self.lobe(side, way, mode).share(in_table(wo, side));
-        let [reflected, passed] = Way::ALL.map(share);
+        let share = |way: ScatteringMode| self.lobe(side, way, mode).share(in_table(wo, side));
+        let [reflected, passed] = ScatteringMode::ALL.map(share);
         S::from_rgb(reflected + passed)
     }
 
@@ -70,7 +70,8 @@ impl Measured {
         let from = in_table(wo, side);
         let p_reflected = self.p_reflected(from, side, mode)?;
         let is_reflected = sampler.choose_bool(p_reflected);
-        let way = if is_reflected { Way::Reflection } else { Way::Transmission };
+        let way =
+            if is_reflected { ScatteringMode::Reflection } else { ScatteringMode::Transmission };
         let to = self.lobe(side, way, mode).sample(from, sampler)?;
         let wi = out_of_table(to, side, way);
         let pdf_sr = self.pdf_of(wo, wi, front, mode);
@@ -106,13 +107,13 @@ impl Measured {
 
     /// By the light that goes each way; `None` where none does.
     fn p_reflected(&self, from: DVec3, side: Side, mode: Mode) -> Option<f64> {
-        let share = |way: Way| self.lobe(side, way, mode).share(from).luminance();
-        let [reflected, passed] = Way::ALL.map(share);
+        let share = |way: ScatteringMode| self.lobe(side, way, mode).share(from).luminance();
+        let [reflected, passed] = ScatteringMode::ALL.map(share);
         let sum = reflected + passed;
         (sum > 0.0).then(|| reflected / sum)
     }
 
-    fn lobe(&self, side: Side, way: Way, mode: Mode) -> Lobe<'_> {
+    fn lobe(&self, side: Side, way: ScatteringMode, mode: Mode) -> Lobe<'_> {
         let sheet = self.sheet.table();
         let table = sheet.scattering(side, way);
         match mode {
@@ -161,7 +162,7 @@ impl Lobe<'_> {
 }
 
 /// How many directions of paths that look at a side had better not come from a table.
-fn doubt(table: &MeasuredBsdf, side: Side, way: Way) -> f64 {
+fn doubt(table: &MeasuredBsdf, side: Side, way: ScatteringMode) -> f64 {
     let source = source(side, way);
     if table.scattering(source, way).is_none() || table.exchanged(source, way).is_some() {
         return 0.0;
@@ -172,15 +173,15 @@ fn doubt(table: &MeasuredBsdf, side: Side, way: Way) -> f64 {
 }
 
 /// The side that light arrives on which goes on from `side` after it went that way.
-fn source(side: Side, way: Way) -> Side {
+fn source(side: Side, way: ScatteringMode) -> Side {
     match way {
-        Way::Reflection => side,
-        Way::Transmission => side.other(),
+        ScatteringMode::Reflection => side,
+        ScatteringMode::Transmission => side.other(),
     }
 }
 
-fn way(wi: DVec3) -> Way {
-    if wi.z > 0.0 { Way::Reflection } else { Way::Transmission }
+fn way(wi: DVec3) -> ScatteringMode {
+    if wi.z > 0.0 { ScatteringMode::Reflection } else { ScatteringMode::Transmission }
 }
 
 /// A local direction as tables have it. Their x axis points to the right for who sees the back, and z is positive on
@@ -193,10 +194,10 @@ fn in_table(local: DVec3, side: Side) -> DVec3 {
     DVec3::new(x, local.y, local.z.abs())
 }
 
-fn out_of_table(direction: DVec3, side: Side, way: Way) -> DVec3 {
+fn out_of_table(direction: DVec3, side: Side, way: ScatteringMode) -> DVec3 {
     let local = in_table(direction, side);
     match way {
-        Way::Reflection => local,
-        Way::Transmission => DVec3::new(local.x, local.y, -local.z),
+        ScatteringMode::Reflection => local,
+        ScatteringMode::Transmission => DVec3::new(local.x, local.y, -local.z),
     }
 }

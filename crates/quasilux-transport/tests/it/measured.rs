@@ -4,7 +4,8 @@ use crate::images::add_panel;
 use crate::scenes::{all_walls_emit, level_grid, points, room};
 use glam::DVec3;
 use quasilux_bsdf::{
-    AngleBasis, BsdfFacts, BsdfFormat, Distribution, KlemsTable, MeasuredBsdf, Side, Way, read_bsdf,
+    AngleBasis, BsdfFacts, BsdfFormat, Distribution, KlemsTable, MeasuredBsdf, ScatteringMode,
+    Side, read_bsdf,
 };
 use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};
 use quasilux_scene::light::AreaLight;
@@ -50,7 +51,9 @@ pub(crate) fn table(value: impl Fn(DVec3, DVec3) -> f64) -> Distribution {
     Distribution::Klems(KlemsTable::new(basis.clone(), basis, values).expect("a table"))
 }
 
-pub(crate) fn measured(tables: impl IntoIterator<Item = (Side, Way, Distribution)>) -> Bsdf {
+pub(crate) fn measured(
+    tables: impl IntoIterator<Item = (Side, ScatteringMode, Distribution)>,
+) -> Bsdf {
     let facts = BsdfFacts {
         format: BsdfFormat::WindowKlems,
         name: String::new(),
@@ -137,7 +140,10 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
     let known = divided(Bsdf::Translucent(Translucent { reflectance, transmittance }));
     let even = |share: f64| table(move |_, _| share * FRAC_1_PI);
     let tables = Side::ALL.into_iter().flat_map(|side| {
-        [(side, Way::Reflection, even(0.3)), (side, Way::Transmission, even(0.4))]
+        [
+            (side, ScatteringMode::Reflection, even(0.3)),
+            (side, ScatteringMode::Transmission, even(0.4)),
+        ]
     });
     let scene = divided(measured(tables));
     let expected = estimates(&known, EstimatorKind::Path, 1 << 12);
@@ -158,7 +164,7 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
 fn a_furnace_of_tables_is_as_bright_as_it_must_be() {
     let half = || table(|_, _| 0.5 * FRAC_1_PI);
     for side in Side::ALL {
-        let mut scene = room(DVec3::ONE, measured([(side, Way::Reflection, half())]));
+        let mut scene = room(DVec3::ONE, measured([(side, ScatteringMode::Reflection, half())]));
         all_walls_emit(&mut scene, 100.0);
         let middle = DVec3::new(0.4, 0.5, 0.3);
         scene.sensors = vec![
@@ -195,10 +201,10 @@ fn photons_and_paths_agree_on_sheets_that_break_reciprocity() {
         0.9 * toward(DVec3::new(-wi.x, 0.7 - wi.y, wi.z + 0.2), wo, 12.0) + 0.02 * wi.x.max(0.0)
     });
     let scene = divided(measured([
-        (Side::Front, Way::Reflection, front),
-        (Side::Back, Way::Reflection, back.clone()),
-        (Side::Front, Way::Transmission, through.clone()),
-        (Side::Back, Way::Transmission, through),
+        (Side::Front, ScatteringMode::Reflection, front),
+        (Side::Back, ScatteringMode::Reflection, back.clone()),
+        (Side::Front, ScatteringMode::Transmission, through.clone()),
+        (Side::Back, ScatteringMode::Transmission, through),
     ]));
     assert_estimators_agree("made up", &scene, 0.06);
 }

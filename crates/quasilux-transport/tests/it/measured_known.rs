@@ -8,7 +8,7 @@
 use crate::measured::{Mean, REPLICATES, assert_estimators_agree, divided, estimates, measured};
 use crate::scenes::{all_walls_emit, diffuse, level_grid, room};
 use glam::DVec3;
-use quasilux_bsdf::{Distribution, GriddedTable, Side, TensorTree, Way};
+use quasilux_bsdf::{Distribution, GriddedTable, ScatteringMode, Side, TensorTree};
 use quasilux_sampling::warp::sample_disk;
 use quasilux_scene::bsdf::Conductor;
 use quasilux_scene::{Bsdf, Rgb, Scene};
@@ -91,7 +91,7 @@ fn stated_error(alpha: f64, table: &Distribution) -> f64 {
 }
 
 fn of_tables(table: &Distribution) -> Bsdf {
-    measured([(Side::Front, Way::Reflection, table.clone())])
+    measured([(Side::Front, ScatteringMode::Reflection, table.clone())])
 }
 
 /// Boxes make errors of the first order in their width. Lobes are of the second in what lies between them; the slope is

@@ -7,7 +7,7 @@ use crate::measured::{
 };
 use crate::scenes::{diffuse, point_light, points, room};
 use glam::DVec3;
-use quasilux_bsdf::{Distribution, Side, Way};
+use quasilux_bsdf::{Distribution, ScatteringMode, Side};
 use quasilux_scene::{Bsdf, Grid, Quantity, Scene, Sensor, SensorShape};
 use quasilux_transport::{EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::FRAC_1_PI;
@@ -29,8 +29,8 @@ fn photons_and_paths_agree_where_light_goes_from_band_to_band() {
         if goes { 0.8 } else { 0.0 }
     });
     let scene = divided(measured([
-        (Side::Front, Way::Transmission, through.clone()),
-        (Side::Back, Way::Transmission, through),
+        (Side::Front, ScatteringMode::Transmission, through.clone()),
+        (Side::Back, ScatteringMode::Transmission, through),
     ]));
     assert_estimators_agree("bands", &scene, 0.08);
 }
@@ -42,7 +42,7 @@ fn photons_and_paths_agree_where_one_side_lets_nothing_through() {
         let through = |side| {
             if side == open { table(|_, _| 0.7 * FRAC_1_PI) } else { DARK() }
         };
-        let tables = Side::ALL.map(|side| (side, Way::Transmission, through(side)));
+        let tables = Side::ALL.map(|side| (side, ScatteringMode::Transmission, through(side)));
         let scene = divided(measured(tables));
         assert_estimators_agree("one way", &scene, 0.06);
     }
@@ -57,7 +57,7 @@ const SHARE: f64 = 0.9;
 /// centroid is.
 fn half_dark_wall() -> Scene {
     let shines = table(|wi, _| if wi.x < -MIN_X { SHARE * FRAC_1_PI } else { 0.0 });
-    let wall = measured([(Side::Front, Way::Reflection, shines)]);
+    let wall = measured([(Side::Front, ScatteringMode::Reflection, shines)]);
     let mut scene = room(DVec3::splat(2.0), diffuse(0.3));
     let corner = DVec3::new(0.01, 0.1, 0.1);
     add_panel(&mut scene, corner, DVec3::Y * 1.8, DVec3::Z * 1.8, wall);
@@ -102,7 +102,7 @@ fn first_shot_finds_light_on_facets_whose_middle_is_dark() {
 fn a_measured_wall_in_a_picture() {
     let toward = DVec3::new(0.3, 0.4, 0.8).normalize();
     let gloss = table(move |wi, wo| 0.1 + 0.5 * wo.dot(toward).max(0.0) * (1.0 + wi.y));
-    let wall = measured([(Side::Front, Way::Reflection, gloss.clone())]);
+    let wall = measured([(Side::Front, ScatteringMode::Reflection, gloss.clone())]);
     let mut scene = empty();
     add_panel(&mut scene, DVec3::ZERO, DVec3::Y * 4.0, DVec3::Z * 4.0, wall);
     let (lamp, intensity_cd) = (DVec3::new(2.5, 1.0, 3.0), 800.0);
@@ -136,7 +136,7 @@ fn a_sheet_that_gives_more_than_it_gets_is_used_as_it_is() {
         scene
     };
     let bright = table(|_, _| 60.0 * FRAC_1_PI);
-    let bright = with(measured([(Side::Front, Way::Reflection, bright)]));
+    let bright = with(measured([(Side::Front, ScatteringMode::Reflection, bright)]));
     let known = with(diffuse(0.6));
     for (estimator, samples) in [(EstimatorKind::Path, 1 << 10), (EstimatorKind::Photon, 1 << 14)] {
         let [found, expected] = [&bright, &known].map(|scene| estimates(scene, estimator, samples));
@@ -164,7 +164,8 @@ pub(crate) fn grid_below(origin: DVec3) -> Sensor {
 #[test]
 fn light_that_grows_for_ever_ends_with_a_warning() {
     let bright = || table(|_, _| 60.0 * FRAC_1_PI);
-    let mut scene = divided(measured(Side::ALL.map(|side| (side, Way::Reflection, bright()))));
+    let mut scene =
+        divided(measured(Side::ALL.map(|side| (side, ScatteringMode::Reflection, bright()))));
     for material in &mut scene.materials[..1] {
         material.bsdf = diffuse(0.8);
     }

@@ -5,7 +5,7 @@ use crate::measured::measured;
 use crate::measured_known::lobes;
 use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
-use quasilux_bsdf::{Side, Way};
+use quasilux_bsdf::{ScatteringMode, Side};
 use quasilux_scene::{Bsdf, Rgb, Scene, bsdf};
 use quasilux_transport::{Estimates, Scattering, Settings, simulate};
 
@@ -85,7 +85,7 @@ fn what_few_paths_meet_has_no_interval() {
 /// draw their directions from it.
 #[test]
 fn lobes_that_paths_do_not_draw_from_are_missed_too() {
-    let sheet = measured([(Side::Front, Way::Transmission, lobes(0.03, 16))]);
+    let sheet = measured([(Side::Front, ScatteringMode::Transmission, lobes(0.03, 16))]);
     let mut scene = empty();
     let corner = DVec3::new(-1.0, 1.0, -1.0);
     add_panel(&mut scene, corner, DVec3::X * 2.0, DVec3::Z * 2.0, sheet);

@@ -9,7 +9,7 @@ use super::input::{Input, Surface};
 use super::summary::share;
 use crate::arguments::Incidence;
 use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
-use quasilux_bsdf::{Distribution, EnergyBalance, Reciprocity, Side, Way, luminance};
+use quasilux_bsdf::{Distribution, EnergyBalance, Reciprocity, ScatteringMode, Side, luminance};
 use quasilux_report::json;
 use serde::Serialize;
 
@@ -114,8 +114,9 @@ impl<'a> SurfaceEntry<'a> {
         let bsdf = &surface.bsdf;
         let analysis = bsdf.analysis();
         let facts = bsdf.facts();
-        let table =
-            |(side, way, table): (Side, Way, &Distribution)| TableEntry::of(side, way, table);
+        let table = |(side, way, table): (Side, ScatteringMode, &Distribution)| {
+            TableEntry::of(side, way, table)
+        };
         let energy = |balance: &EnergyBalance| EnergyEntry::of(balance, surface, incidences);
         Self {
             format: facts.format.name(),
@@ -132,7 +133,7 @@ impl<'a> SurfaceEntry<'a> {
 }
 
 impl TableEntry {
-    fn of(side: Side, way: Way, table: &Distribution) -> Self {
+    fn of(side: Side, way: ScatteringMode, table: &Distribution) -> Self {
         let incidence = |&wi: &_| {
             let [theta_deg, phi_deg] = Incidence::of(wi).degrees();
             IncidenceEntry { theta_deg, phi_deg, share: luminance(table.albedo(wi)) }
@@ -151,7 +152,7 @@ impl EnergyEntry {
         let light = |&incidence: &Incidence| {
             let [theta_deg, phi_deg] = incidence.degrees();
             let [reflectance, transmittance] =
-                Way::ALL.map(|way| share(surface, balance.side, way, incidence));
+                ScatteringMode::ALL.map(|way| share(surface, balance.side, way, incidence));
             LightEntry { theta_deg, phi_deg, reflectance, transmittance }
         };
         Self {

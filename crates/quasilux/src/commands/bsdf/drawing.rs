@@ -4,7 +4,7 @@ use super::input::{Input, Surface};
 use crate::arguments::Incidence;
 use crate::commands::inputs::stem_of;
 use glam::DVec3;
-use quasilux_bsdf::{Side, Way, luminance};
+use quasilux_bsdf::{ScatteringMode, Side, luminance};
 use quasilux_drawing::svg::{Dash, IntensityCurve, Lobe, LobeDiagram, PALETTE, Stroke, lobes};
 
 /// Directions are looked at in steps of this.
@@ -37,7 +37,7 @@ fn curve(surface: &Surface, side: Side, incidence: Incidence, number: usize) -> 
     let wi = incidence.direction();
     let [_, phi_deg] = incidence.degrees();
     let (sin_phi, cos_phi) = libm::sincos(phi_deg.to_radians());
-    let value = |way: Way, theta_deg: f64| {
+    let value = |way: ScatteringMode, theta_deg: f64| {
         let (sin, cos) = libm::sincos(theta_deg.to_radians());
         let wo = DVec3::new(sin * cos_phi, sin * sin_phi, cos.max(0.0));
         let table = surface.bsdf.scattering(side, way);
@@ -48,9 +48,9 @@ fn curve(surface: &Surface, side: Side, incidence: Incidence, number: usize) -> 
         let gamma_deg = -180.0 + f64::from(step) * STEP_DEG;
         // Positive angles to the normal are on the side of the light, which is left.
         let found = match gamma_deg {
-            gamma if gamma < -90.0 => value(Way::Reflection, 180.0 + gamma),
-            gamma if gamma > 90.0 => value(Way::Reflection, gamma - 180.0),
-            gamma => value(Way::Transmission, -gamma),
+            gamma if gamma < -90.0 => value(ScatteringMode::Reflection, 180.0 + gamma),
+            gamma if gamma > 90.0 => value(ScatteringMode::Reflection, gamma - 180.0),
+            gamma => value(ScatteringMode::Transmission, -gamma),
         };
         [gamma_deg, found]
     };

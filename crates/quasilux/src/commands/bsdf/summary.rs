@@ -3,7 +3,7 @@
 use super::input::{Input, Surface};
 use crate::arguments::Incidence;
 use crate::commands::inputs::{printable, warning_line};
-use quasilux_bsdf::{EnergyBalance, Side, Way, luminance};
+use quasilux_bsdf::{EnergyBalance, ScatteringMode, Side, luminance};
 use quasilux_report::number::brief;
 
 /// A line for the file, lines for each side, and a line for each warning.
@@ -47,7 +47,10 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
         let side = balance.side;
         for incidence in incidences {
             let name = format!("{}, light at {}", side.name(), incidence.text());
-            add(&name, shares(Way::ALL.map(|way| share(surface, side, way, *incidence))));
+            add(
+                &name,
+                shares(ScatteringMode::ALL.map(|way| share(surface, side, way, *incidence))),
+            );
         }
         add(&format!("{}, diffuse light", side.name()), shares(balance.diffuse));
         add(&format!("{}, most scattered", side.name()), most(balance));
@@ -66,7 +69,12 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
 }
 
 /// Reflected or transmitted of light from one direction, luminous.
-pub(super) fn share(surface: &Surface, side: Side, way: Way, incidence: Incidence) -> f64 {
+pub(super) fn share(
+    surface: &Surface,
+    side: Side,
+    way: ScatteringMode,
+    incidence: Incidence,
+) -> f64 {
     let table = surface.bsdf.scattering(side, way);
     table.map_or(0.0, |table| luminance(table.albedo(incidence.direction())))
 }
