@@ -10,6 +10,7 @@ mod cluster;
 mod examples;
 mod expectation;
 mod experiments;
+mod figures;
 mod generated;
 mod octant;
 mod office;
@@ -17,6 +18,7 @@ mod prediction;
 mod same_bits;
 mod steps;
 
+use std::path::Path;
 use std::process::ExitCode;
 use xtask::workspace::root as workspace_root;
 
@@ -36,6 +38,7 @@ cargo xtask order CRATE    an order of a crate's rooms with few imports against 
 cargo xtask order CRATE write   put that order into xtask/order.toml
 cargo xtask ratchet        write the lists of known violations anew, which may only shrink
 cargo xtask ratchet new    the same after a rule was added, when they may grow
+cargo xtask figures [PATH] sizes of all crates and of their module graphs, here or elsewhere
 cargo xtask octant         write the mirror octant in validation/ from its generator
 cargo xtask office         write examples/office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
@@ -58,6 +61,8 @@ fn main() -> ExitCode {
         ["order", name, "write"] => arrows::write_order(&workspace_root(), name),
         ["ratchet"] => xtask::ratchet::write(&workspace_root(), false),
         ["ratchet", "new"] => xtask::ratchet::write(&workspace_root(), true),
+        ["figures"] => figures::print(&workspace_root()),
+        ["figures", path] => figures::print(Path::new(path)),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
         ["octant"] => octant::write(&workspace_root()),
