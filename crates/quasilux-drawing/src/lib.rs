@@ -5,6 +5,7 @@
 //! [`exr`] writes floating-point layers. [`ticks`] and [`number`] choose round numbers and their digits.
 
 pub mod exr;
+mod font;
 pub mod number;
 pub mod picture;
 pub mod svg;
@@ -12,3 +13,8 @@ pub mod ticks;
 
 #[cfg(test)]
 pub(crate) mod example;
+
+/// The example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,7 +1,8 @@
-//! A small canvas: rectangles, and lines with smooth edges. Pixel (0, 0) is at the top left, and its
+//! A small canvas: rectangles, lines and filled outlines with smooth edges. Pixel (0, 0) is at the top left, and its
 //! centre is at (0.5, 0.5).
 
 use super::colour_map::{Colour, mix};
+use ab_glyph_rasterizer::{Rasterizer, point};
 use glam::DVec2;
 
 /// An sRGB picture being drawn.
@@ -66,6 +67,35 @@ impl Canvas {
         }
     }
 
+    /// Fills closed outlines where their winding number is not zero; a pixel at the edge takes the
+    /// colour by the share of its area inside.
+    pub(crate) fn fill_outline(&mut self, pieces: &[Segment], colour: Colour) {
+        let Some(([x0, y0], [w, h])) = self.box_around(pieces, 1.0) else {
+            return;
+        };
+        let corner = DVec2::new(x0 as f64, y0 as f64);
+        // What lies outside the canvas moves to its border; a piece that crosses the border bends.
+        let last = DVec2::new(w as f64, h as f64);
+        let inside = |p: DVec2| {
+            let p = (p - corner).clamp(DVec2::ZERO, last);
+            point(p.x as f32, p.y as f32)
+        };
+        let mut raster = Rasterizer::new(w, h);
+        pieces.iter().for_each(|[a, b]| raster.draw_line(inside(*a), inside(*b)));
+        raster.for_each_pixel(|i, share| {
+            if share > 0.0 {
+                let pixel = &mut self.pixels[(y0 + i / w) * self.width + x0 + i % w];
+                *pixel = mix(*pixel, colour, f64::from(share.min(1.0)));
+            }
+        });
+    }
+
+    /// The colour of a pixel.
+    #[cfg(test)]
+    pub(crate) fn at(&self, x: usize, y: usize) -> Colour {
+        self.pixels[y * self.width + x]
+    }
+
     /// The picture as a PNG file.
     pub(crate) fn to_png(&self) -> Vec<u8> {
         srgb_png([self.width as u32, self.height as u32], self.pixels.as_flattened())
@@ -119,12 +149,34 @@ mod tests {
         assert!((ink / expected - 1.0).abs() < 0.02, "{ink} for {expected}");
     }
 
+    /// A square with a square hole, the hole's outline running the other way round.
+    #[test]
+    fn an_outline_covers_its_area_less_its_holes() {
+        let mut canvas = Canvas::new(40, 30);
+        let ring = |low: f64, high: f64, turned: bool| {
+            let mut corners = [[low, low], [high, low], [high, high], [low, high]];
+            if turned {
+                corners.reverse();
+            }
+            let corners = corners.map(DVec2::from_array);
+            (0..4).map(move |k| [corners[k], corners[(k + 1) % 4]])
+        };
+        let pieces: Vec<Segment> = ring(3.25, 20.5, false).chain(ring(7.0, 11.5, true)).collect();
+        canvas.fill_outline(&pieces, [0; 3]);
+        let ink: f64 = canvas.pixels.iter().map(|p| 1.0 - f64::from(p[0]) / 255.0).sum();
+        let expected = 17.25 * 17.25 - 4.5 * 4.5;
+        assert!((ink / expected - 1.0).abs() < 1e-3, "{ink} for {expected}");
+        assert_eq!(canvas.at(9, 9), [255; 3]);
+    }
+
     #[test]
     fn what_is_outside_is_not_drawn() {
         let mut canvas = Canvas::new(4, 4);
         let far = DVec2::splat(1e9);
         canvas.stroke(&[[far, far * 2.0], [-far, -far]], 2.0, [0; 3]);
         canvas.stroke(&[], 2.0, [0; 3]);
+        canvas.fill_outline(&[[far, far * 2.0], [far * 2.0, far]], [0; 3]);
+        canvas.fill_outline(&[[-far, far], [far, -far], [far, far * 2.0]], [255; 3]);
         canvas.fill([3, 3], [9, 9], [1; 3]);
         assert_eq!(canvas.pixels.iter().filter(|p| **p != [255; 3]).count(), 1);
     }

@@ -32,8 +32,7 @@ pub(crate) struct Legend<'a> {
 pub(crate) fn draw_title(canvas: &mut Canvas, layout: &Layout, name: &str) {
     let left = layout.content_left();
     let title = text::fitted(name, layout::TITLE_PX, layout.content_width());
-    let mut style = TextStyle::new(layout::TITLE_PX, INK, Align::Left);
-    style.stroke_px = 2.4;
+    let style = TextStyle::new(layout::TITLE_PX, INK, Align::Left);
     text::draw(canvas, &title, DVec2::new(left, layout.title_base()), style);
     for (k, line) in layout.summary_lines.iter().enumerate() {
         let at = DVec2::new(left, layout.summary_base(k));

@@ -130,7 +130,10 @@ mod tests {
     fn summary_wraps_between_its_pieces() {
         let pieces = ["average 500 lx", "minimum 200 lx"].map(str::to_owned);
         assert_eq!(Layout::of([1.0, 1.0], &pieces).summary_lines.len(), 1);
-        let many = [pieces.clone(), pieces.clone(), pieces.clone(), pieces].concat();
-        assert_eq!(Layout::of([1.0, 50.0], &many).summary_lines.len(), 3);
+        let many = vec![pieces; 6].concat();
+        let lines = Layout::of([1.0, 50.0], &many).summary_lines;
+        assert_eq!(lines.len(), 3);
+        assert!(lines.iter().all(|l| width_px(l, SUMMARY_PX) <= CONTENT_LEAST as f64));
+        assert_eq!(lines.join(SUMMARY_GAP), many.join(SUMMARY_GAP));
     }
 }

@@ -12,7 +12,6 @@ mod cells;
 mod colour_map;
 mod contour;
 mod frame;
-mod glyphs;
 mod grid;
 mod image;
 mod label;

@@ -104,7 +104,6 @@ impl Plot<'_> {
 
     fn draw_label(&self, canvas: &mut Canvas, number: &str, ink: Colour, place: LabelPlace) {
         let mut style = TextStyle::new(LABEL_PX, ink, Align::Centre);
-        style.stroke_px = 1.7;
         style.direction = place.direction;
         let down = DVec2::new(-place.direction.y, place.direction.x);
         let base = self.corner + place.centre + down * (0.5 * LABEL_PX);

@@ -1,16 +1,18 @@
-//! Text on a canvas, from stroked glyphs.
+//! Lines of text on a canvas: glyphs of the bundled fonts side by side.
+//!
+//! Each character is drawn as its own glyph, [its advance](Glyph::advance_em) after the one
+//! before, from left to right. There is no kerning, no ligature, no reordering and no
+//! normalisation: scripts that need shaping (Arabic, the Indic ones) or run from right to left
+//! are not drawn as they are written, and a combining mark stands over the character before it
+//! without fitting to it. Characters that the fonts do not have are drawn as U+FFFD, visibly.
 
 use super::canvas::{Canvas, Segment};
 use super::colour_map::Colour;
-use super::glyphs::{GLYPHS, MISSING};
+use crate::font::{self, CAPITAL_EM, Glyph};
 use glam::DVec2;
 
-/// Height of a capital in glyph units.
-const CAPITAL_UNITS: f64 = 9.0;
-/// Clear space between two glyphs in glyph units.
-const SPACING_UNITS: f64 = 2.6;
-/// Straight pieces for each quadratic piece of a curve.
-const PIECES: usize = 6;
+/// Width of the halo's pen in pixels: half of it lies outside the glyphs.
+const HALO_PX: f64 = 6.0;
 
 /// Where the reference point lies in a line of text.
 #[derive(Clone, Copy)]
@@ -25,8 +27,6 @@ pub(crate) enum Align {
 pub(crate) struct TextStyle {
     /// Height of a capital in pixels.
     pub(crate) capital_px: f64,
-    /// Thickness of the strokes in pixels.
-    pub(crate) stroke_px: f64,
     pub(crate) colour: Colour,
     pub(crate) align: Align,
     /// Direction of the base line in pixels of the canvas, a unit vector.
@@ -36,27 +36,25 @@ pub(crate) struct TextStyle {
 impl TextStyle {
     /// Level text of a height.
     pub(crate) fn new(capital_px: f64, colour: Colour, align: Align) -> Self {
-        let stroke_px = (0.13 * capital_px).max(1.15);
-        Self { capital_px, stroke_px, colour, align, direction: DVec2::X }
+        Self { capital_px, colour, align, direction: DVec2::X }
     }
 }
 
-/// Width of a line of text in pixels.
+/// Width of a line of text in pixels: from its beginning to where a next glyph would stand.
 pub(crate) fn width_px(text: &str, capital_px: f64) -> f64 {
-    let units: f64 = text.chars().map(|c| f64::from(glyph(c).0) + SPACING_UNITS).sum();
-    (units - SPACING_UNITS).max(0.0) * capital_px / CAPITAL_UNITS
+    font::width_em(text) * capital_px / CAPITAL_EM
 }
 
 /// Draws a line of text; `at` is the point of the base line that `style.align` names.
 pub(crate) fn draw(canvas: &mut Canvas, text: &str, at: DVec2, style: TextStyle) {
-    canvas.stroke(&outline(text, at, style), style.stroke_px, style.colour);
+    canvas.fill_outline(&outline(text, at, style), style.colour);
 }
 
 /// As [`draw`], on a halo that sets the text off from what it covers.
 pub(crate) fn draw_on(canvas: &mut Canvas, text: &str, at: DVec2, style: TextStyle, halo: Colour) {
-    let segments = outline(text, at, style);
-    canvas.stroke(&segments, style.stroke_px + 4.0, halo);
-    canvas.stroke(&segments, style.stroke_px, style.colour);
+    let pieces = outline(text, at, style);
+    canvas.stroke(&pieces, HALO_PX, halo);
+    canvas.fill_outline(&pieces, style.colour);
 }
 
 /// A text cut to a width, with dots at its end where something is missing.
@@ -74,105 +72,85 @@ pub(crate) fn fitted(text: &str, capital_px: f64, most_px: f64) -> String {
     String::new()
 }
 
+/// The outlines of a line of text in pixels of the canvas.
 fn outline(text: &str, at: DVec2, style: TextStyle) -> Vec<Segment> {
-    let unit_px = style.capital_px / CAPITAL_UNITS;
-    let right = style.direction;
+    let em_px = style.capital_px / CAPITAL_EM;
+    let right = style.direction * em_px;
     let up = DVec2::new(right.y, -right.x);
-    let shift_px = match style.align {
+    let share = match style.align {
         Align::Left => 0.0,
         Align::Centre => 0.5,
         Align::Right => 1.0,
-    } * width_px(text, style.capital_px);
-    let mut segments = Vec::new();
-    let mut x = 0.0;
-    for c in text.chars() {
-        let (width, strokes) = glyph(c);
-        for stroke in strokes.split_whitespace() {
-            let points: Vec<DVec2> = flattened(stroke)
-                .into_iter()
-                .map(|p| at + right * ((p.x + x) * unit_px - shift_px) + up * (p.y * unit_px))
-                .collect();
-            segments.extend(points.windows(2).map(|w| [w[0], w[1]]));
-        }
-        x += f64::from(width) + SPACING_UNITS;
-    }
-    segments
-}
-
-fn glyph(c: char) -> (u8, &'static str) {
-    GLYPHS.iter().find(|g| g.0 == c).map_or(MISSING, |&(_, width, strokes)| (width, strokes))
-}
-
-/// The points of a stroke in glyph units, curves cut into straight pieces.
-fn flattened(stroke: &str) -> Vec<DVec2> {
-    let polygon = |text: &str| -> Vec<DVec2> {
-        text.as_bytes()
-            .chunks(2)
-            .map(|xy| DVec2::new(coordinate(xy[0]), coordinate(xy[1])))
-            .collect()
     };
-    if let Some(curve) = stroke.strip_prefix('~') {
-        let controls = polygon(curve);
-        let (inner, last) = (&controls[1..controls.len() - 1], controls[controls.len() - 1]);
-        let mut points = vec![controls[0]];
-        for (i, &control) in inner.iter().enumerate() {
-            let end = inner.get(i + 1).map_or(last, |next| (control + next) / 2.0);
-            bend(&mut points, control, end);
-        }
-        points
-    } else if let Some(closed) = stroke.strip_prefix('o') {
-        let controls = polygon(closed);
-        let between =
-            |i: usize| (controls[i % controls.len()] + controls[(i + 1) % controls.len()]) / 2.0;
-        let mut points = vec![between(0)];
-        for i in 1..=controls.len() {
-            bend(&mut points, controls[i % controls.len()], between(i));
-        }
-        points
-    } else {
-        polygon(stroke)
+    let mut x_em = -share * font::width_em(text);
+    let mut pieces = Vec::new();
+    for glyph in text.chars().map(Glyph::of) {
+        let place = |p: DVec2| at + right * (p.x + x_em) + up * p.y;
+        pieces.extend(glyph.outline_em().into_iter().map(|[a, b]| [place(a), place(b)]));
+        x_em += glyph.advance_em();
     }
-}
-
-/// Appends a quadratic curve from the last of `points` to `end`.
-fn bend(points: &mut Vec<DVec2>, control: DVec2, end: DVec2) {
-    let start = points[points.len() - 1];
-    points.extend((1..=PIECES).map(|i| {
-        let t = i as f64 / PIECES as f64;
-        start.lerp(control, t).lerp(control.lerp(end, t), t)
-    }));
-}
-
-fn coordinate(c: u8) -> f64 {
-    match c {
-        b'0'..=b'9' => f64::from(c - b'0'),
-        _ => -f64::from(c - b'a' + 1),
-    }
+    pieces
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const NAMES: [&str; 6] =
+        ["workplane 2", "机の上", "рабочая плоскость", "작업면", "Ράβδος", "\u{5d0}\u{1f4a1}"];
+
+    /// The first and the last column with ink of a text drawn from x = 50.
+    fn inked_columns(text: &str, capital_px: f64) -> [f64; 2] {
+        let mut canvas = Canvas::new(800, 100);
+        let style = TextStyle::new(capital_px, [0; 3], Align::Left);
+        draw(&mut canvas, text, DVec2::new(50.0, 60.5), style);
+        let inked = |x: &usize| (0..100).any(|y| canvas.at(*x, y) != [255; 3]);
+        let columns: Vec<usize> = (0..800).filter(inked).collect();
+        [columns[0] as f64, columns[columns.len() - 1] as f64 + 1.0]
+    }
+
+    /// The ink of each name fills its measured width but for the side bearings, below a tenth of an
+    /// em each.
     #[test]
-    fn every_glyph_stays_in_its_box() {
-        for (c, width, strokes) in GLYPHS.iter().copied().chain([('\0', MISSING.0, MISSING.1)]) {
-            for stroke in strokes.split_whitespace() {
-                let digits = stroke.trim_start_matches(['~', 'o']);
-                assert!(digits.len() >= 4 && digits.len().is_multiple_of(2), "{c}");
-                assert!(digits.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'c')), "{c}");
-                for p in flattened(stroke) {
-                    assert!((0.0..=f64::from(width)).contains(&p.x), "{c} is too wide");
-                    assert!((-3.0..=9.0).contains(&p.y), "{c} is too high");
-                }
+    fn the_measured_width_is_the_drawn_width() {
+        for capital_px in [9.0, 11.0, 20.0] {
+            for name in NAMES {
+                let [first, last] = inked_columns(name, capital_px);
+                let end = 50.0 + width_px(name, capital_px);
+                let bearing_px = 0.1 * capital_px / CAPITAL_EM + 1.0;
+                assert!((50.0 - 1.0..50.0 + bearing_px).contains(&first), "{name} at {first}");
+                assert!((end - bearing_px..end + 1.0).contains(&last), "{name} to {last} of {end}");
             }
         }
     }
 
     #[test]
-    fn ascii_is_complete_and_glyphs_are_unique() {
-        for c in ' '..='~' {
-            assert_eq!(GLYPHS.iter().filter(|g| g.0 == c).count(), 1, "{c}");
+    fn a_missing_glyph_is_drawn_as_the_replacement() {
+        let pixels = |text| {
+            let mut canvas = Canvas::new(60, 40);
+            let style = TextStyle::new(20.0, [0; 3], Align::Centre);
+            draw(&mut canvas, text, DVec2::new(30.0, 30.5), style);
+            canvas.to_png()
+        };
+        assert_eq!(pixels("\u{1f4a1}"), pixels("\u{fffd}"));
+        assert_ne!(pixels("\u{1f4a1}"), pixels(" "));
+        assert_ne!(pixels("机"), pixels("\u{fffd}"));
+    }
+
+    /// A text that runs upward has the ink of the level one, turned: its pixels sum up to as much.
+    #[test]
+    fn turned_text_has_as_much_ink() {
+        let ink = |direction| {
+            let mut canvas = Canvas::new(200, 200);
+            let mut style = TextStyle::new(12.0, [0; 3], Align::Centre);
+            style.direction = direction;
+            draw(&mut canvas, "Ράβδος 机の上", DVec2::splat(100.0), style);
+            let pixels = (0..200 * 200).map(|i| canvas.at(i % 200, i / 200)[0]);
+            pixels.map(|grey| 255.0 - f64::from(grey)).sum::<f64>()
+        };
+        let level = ink(DVec2::X);
+        for direction in [DVec2::NEG_Y, DVec2::new(0.6, -0.8)] {
+            assert!((ink(direction) / level - 1.0).abs() < 0.01);
         }
     }
 

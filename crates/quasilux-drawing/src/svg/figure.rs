@@ -2,7 +2,7 @@
 
 use super::Panel;
 use super::drawing::{Drawing, Frame};
-use super::style::{Anchor, Stroke, TextStyle};
+use super::style::{Anchor, Stroke, TextStyle, room_px};
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +30,6 @@ const PANEL_PX: [f64; 2] = [248.0, 176.0];
 const TITLE_PX: f64 = 34.0;
 const LEGEND_ROW_PX: f64 = 20.0;
 const LEGEND_LINE_PX: f64 = 30.0;
-/// Width of a letter, in heights: wide enough for the fonts that are asked for.
-const LETTER: f64 = 0.56;
 
 /// The figure as an SVG file.
 #[must_use]
@@ -66,6 +64,6 @@ fn draw_legend_row(drawing: &mut Drawing, [left, y]: [f64; 2], entries: &[Legend
             x += LEGEND_LINE_PX + 6.0;
         }
         drawing.text([x, y], style, &entry.text);
-        x += entry.text.chars().count() as f64 * LETTER * style.size_px + 20.0;
+        x += room_px(&entry.text, style.size_px) + 20.0;
     }
 }

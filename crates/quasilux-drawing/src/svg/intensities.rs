@@ -3,7 +3,7 @@
 use super::curve::IntensityCurve;
 use super::drawing::{Drawing, Frame};
 use super::polar::{Extent, Polar, Zero};
-use super::style::{Anchor, GREY, TextStyle};
+use super::style::{Anchor, GREY, TextStyle, room_px, shortened};
 use super::{Axis, Line, Panel, Scale};
 
 /// Intensities to be drawn.
@@ -40,9 +40,6 @@ pub(super) const LEGEND_PX: f64 = 40.0;
 const LEGEND_LINE_PX: f64 = 34.0;
 pub(super) const MARGIN_PX: f64 = 14.0;
 const PANEL_PX: [f64; 2] = [440.0, 250.0];
-/// Widths of a small letter and of a capital, in heights: enough for the fonts that are asked for.
-const LETTER: f64 = 0.56;
-const CAPITAL: f64 = 0.72;
 
 /// The diagrams as an SVG file.
 #[must_use]
@@ -97,18 +94,8 @@ pub(super) fn draw_head(drawing: &mut Drawing, [title, subtitle]: [&str; 2], wid
     {
         let plain = TextStyle::plain(Anchor::Start);
         let style = TextStyle { size_px, colour: colour.unwrap_or(plain.colour), ..plain };
-        let most = (width_px / (CAPITAL * size_px)) as usize;
-        drawing.text([MARGIN_PX + 4.0, y], style, &shortened(text, most));
+        drawing.text([MARGIN_PX + 4.0, y], style, &shortened(text, size_px, width_px));
     }
-}
-
-/// The text, or its beginning with an ellipsis.
-fn shortened(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.to_owned();
-    }
-    let kept: String = text.chars().take(most.saturating_sub(1)).collect();
-    format!("{}\u{2026}", kept.trim_end())
 }
 
 pub(super) fn draw_legend(drawing: &mut Drawing, curves: &[IntensityCurve], y: f64) {
@@ -118,6 +105,6 @@ pub(super) fn draw_legend(drawing: &mut Drawing, curves: &[IntensityCurve], y: f
         drawing.line(&[[x, y - 4.0], [x + LEGEND_LINE_PX, y - 4.0]], curve.stroke);
         x += LEGEND_LINE_PX + 6.0;
         drawing.text([x, y], style, &curve.name);
-        x += curve.name.chars().count() as f64 * LETTER * style.size_px + 24.0;
+        x += room_px(&curve.name, style.size_px) + 24.0;
     }
 }
