@@ -139,19 +139,43 @@ impl<S: Spectrum> Bsdf<S> {
     pub(crate) fn up(&self) -> Option<DVec3> {
         match self {
             Self::Measured(measured) => measured.up(),
-            _ => None,
+            Self::Diffuse(_)
+            | Self::Mirror(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_) => None,
         }
     }
 
     /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map can
     /// stand on it.
     pub(crate) fn keeps_illuminance(&self) -> bool {
-        matches!(self, Self::Diffuse(_))
+        match self {
+            Self::Diffuse(_) => true,
+            Self::Mirror(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => false,
+        }
     }
 
     /// Whether [`Self::sample_lambertian`] draws its directions.
     pub(crate) fn is_lambertian(&self) -> bool {
-        matches!(self, Self::Diffuse(_))
+        match self {
+            Self::Diffuse(_) => true,
+            Self::Mirror(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => false,
+        }
     }
 
     /// Whether light passes through to the other side by more than finitely many directions.
@@ -159,7 +183,12 @@ impl<S: Spectrum> Bsdf<S> {
         match self {
             Self::Translucent(_) => true,
             Self::Measured(measured) => measured.transmits(),
-            _ => false,
+            Self::Diffuse(_)
+            | Self::Mirror(_)
+            | Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_) => false,
         }
     }
 
@@ -169,7 +198,12 @@ impl<S: Spectrum> Bsdf<S> {
         match self {
             Self::Mirror(mirror) => Some(mirror.reflectance),
             Self::Pane(pane) => Some(pane.pane_reflectance(cos)),
-            _ => None,
+            Self::Diffuse(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => None,
         }
     }
 
@@ -177,7 +211,13 @@ impl<S: Spectrum> Bsdf<S> {
     pub(crate) fn straight_transmittance(&self, cos: f64) -> Option<S> {
         match self {
             Self::Pane(pane) => Some(pane.pane_transmittance(cos)),
-            _ => None,
+            Self::Diffuse(_)
+            | Self::Mirror(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => None,
         }
     }
 
@@ -200,7 +240,13 @@ impl<S: Spectrum> Bsdf<S> {
     pub(crate) fn sample_lambertian(&self, u: [f64; 2]) -> Option<BsdfSample<S>> {
         match self {
             Self::Diffuse(diffuse) => Some(diffuse.sample(u)),
-            _ => None,
+            Self::Mirror(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Measured(_) => None,
         }
     }
 
