@@ -323,6 +323,8 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
                 path: work.dimensions,
             },
             invalid_contributions: self.invalid_points
+                + photons.invalid
+                + self.caustics.as_ref().map_or(0, CausticMap::invalid)
                 + self.light_vertices.as_ref().map_or(0, LightVertexConnections::invalid)
                 + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
             ..Estimates::default()

@@ -15,13 +15,14 @@ use crate::photon::batch::{PhotonBatch, trace_photons_in_view};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::map::{MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::order::Way;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::observer::Snapshot;
+use crate::stats::tally::checked_quanta;
 use crate::stats::targets::{by_sensor, snapshot};
 use crate::stats::watch::Watch;
 use crate::world::flight::Flight;
@@ -82,6 +83,8 @@ struct Counters {
 struct SensorReceiver<'a> {
     receivers: &'a Receivers,
     counters: &'a Counters,
+    /// Contributions that the counters refused.
+    invalid: u64,
 }
 
 impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
@@ -105,7 +108,8 @@ impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
         watch: &mut Watch<'_>,
     ) -> Option<PhotonCounts> {
         let (receivers, counters) = (&self.receivers, &self.counters);
-        let receiver = |r: u32| SensorReceiver { receivers, counters: &counters[r as usize] };
+        let receiver =
+            |r: u32| SensorReceiver { receivers, counters: &counters[r as usize], invalid: 0 };
         let (replicates, windows) = (0..counters.len() as u32, self.plan.windows.as_ref());
         let batch = PhotonBatch {
             stream: Stream::Photons,
@@ -200,6 +204,7 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
                 ..Dimensions::default()
             },
             biased: self.photons.endless > 0,
+            invalid_contributions: self.photons.invalid,
             warnings: self.photons.warning().into_iter().collect(),
             ..Estimates::default()
         }
@@ -352,12 +357,16 @@ impl Counters {
         }
     }
 
-    fn count(&self, counter: usize, photons: f64, bounces: u32) {
-        let quanta = (photons * self.quanta_per_photon).round_ties_even() as u64;
+    /// Adds to a counter; 1 where the contribution was refused.
+    #[inline]
+    fn count(&self, counter: usize, photons: f64, bounces: u32) -> u64 {
+        let Some(quanta) = checked_quanta(photons, self.quanta_per_photon) else { return 1 };
+        let quanta = quanta.cast_unsigned();
         self.all[counter].fetch_add(quanta, Ordering::Relaxed);
         if let Some(counts) = self.by_bounces.get(bounces as usize) {
             counts[counter].fetch_add(quanta, Ordering::Relaxed);
         }
+        0
     }
 }
 
@@ -385,13 +394,33 @@ impl Stored for Counters {
 impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
     fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
         for counter in self.receivers.passed(flight) {
-            self.counters.count(counter, weight.luminance(), bounces);
+            self.invalid += self.counters.count(counter, weight.luminance(), bounces);
         }
     }
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         if let Some(counter) = self.receivers.landed_on(at) {
-            self.counters.count(counter, weight.luminance(), bounces);
+            self.invalid += self.counters.count(counter, weight.luminance(), bounces);
         }
+    }
+
+    fn finish(self) -> ReceiverCounts {
+        ReceiverCounts { rays: 0, invalid: self.invalid }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn invalid_photons_are_refused_and_counted() {
+        let counters = Counters::new(1, 2, QUANTA_PER_PHOTON);
+        for bad in [f64::NAN, f64::INFINITY, -1.0] {
+            assert_eq!(counters.count(0, bad, 1), 1, "{bad}");
+        }
+        assert_eq!((counters.all(0), counters.term(1, 0)), (0, 0));
+        assert_eq!(counters.count(0, 1.0, 1), 0);
+        assert_eq!(counters.all(0), QUANTA_PER_PHOTON as u64);
     }
 }

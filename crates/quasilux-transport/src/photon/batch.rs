@@ -4,7 +4,7 @@ use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{WAVES_PER_FIELD, Waves, Way};
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
@@ -91,8 +91,10 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
             let wave = Wave { points, indices, lead };
             space.trace(context, wave, &mut receiver, &mut counts);
         }
-        counts.connections = receiver.finish();
-        counts.rays += counts.connections;
+        let ReceiverCounts { rays, invalid } = receiver.finish();
+        counts.connections = rays;
+        counts.rays += rays;
+        counts.invalid += invalid;
         counts
     };
     let mut counts = PhotonCounts::default();

@@ -8,13 +8,13 @@
 //! Each replicate has its own photons, which grow in number with its paths: paths to come read all
 //! photons so far.
 
+mod tally;
+
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
-use crate::lights::images::LightPathClass;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::map::QUANTA_PER_PHOTON;
 use crate::photon::order::Way;
-use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -24,11 +24,11 @@ use crate::world::flight::Flight;
 use crate::world::grid_plane::GridPlane;
 use crate::world::{Interaction, World};
 use glam::DVec3;
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
-use std::sync::atomic::{AtomicI64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::PoisonError;
+use std::sync::atomic::Ordering;
+use tally::{HiddenReceiver, Tally};
 
 /// Photons for each path of a sensor point: so many for this many points, in these bounds.
 const TARGETS_PER_PHOTON: u64 = 4;
@@ -47,6 +47,8 @@ pub(crate) struct CausticMap<S> {
     /// Photons of each replicate for each index.
     photons_per_path: u64,
     photons: u64,
+    /// Photons and contributions of photons that were refused.
+    invalid: u64,
     flux_lm: f64,
     /// Of each target that gets no more, the photons of each replicate so far.
     ends: Vec<Option<u64>>,
@@ -93,22 +95,6 @@ struct Disc {
     square_radius_m2: f64,
 }
 
-/// Photons counted in one replicate, in quanta.
-struct Tally {
-    landings: Mutex<BTreeMap<Key, [i64; 3]>>,
-    /// By number of bounces, where terms are listed, and by target.
-    targets: Vec<Vec<AtomicI64>>,
-}
-
-struct HiddenReceiver<'a, S> {
-    world: &'a World<S>,
-    element_m: f64,
-    receivers: &'a Receivers,
-    ends: &'a [Option<u64>],
-    tally: &'a Tally,
-    tells_bounces: bool,
-}
-
 impl<S: Spectrum> CausticMap<S> {
     /// `None` where images show all of it, or where no bounces are wanted: it takes one at least.
     pub(crate) fn new(
@@ -130,6 +116,7 @@ impl<S: Spectrum> CausticMap<S> {
             maps: Vec::new(),
             photons_per_path: (targets.len() as u64 / TARGETS_PER_PHOTON).clamp(least, most),
             photons: 0,
+            invalid: 0,
             flux_lm: context.lights.flux_lm,
             ends: vec![None; targets.len()],
             facets: context.world.facets.len(),
@@ -139,6 +126,11 @@ impl<S: Spectrum> CausticMap<S> {
     /// Photons of each replicate so far.
     pub(crate) fn photons(&self) -> u64 {
         self.photons
+    }
+
+    /// Photons, and contributions of photons, that were not finite, negative or too large.
+    pub(crate) fn invalid(&self) -> u64 {
+        self.invalid
     }
 
     /// Photons that belong to each path.
@@ -164,7 +156,7 @@ impl<S: Spectrum> CausticMap<S> {
         let receiver = |r: u32| {
             let tally = &tallies[r as usize];
             let (world, element_m) = (&context.world, *element_m);
-            HiddenReceiver { world, element_m, receivers, ends, tally, tells_bounces }
+            HiddenReceiver { world, element_m, receivers, ends, tally, tells_bounces, invalid: 0 }
         };
         let batch = PhotonBatch {
             stream: Stream::CausticPhotons,
@@ -175,6 +167,7 @@ impl<S: Spectrum> CausticMap<S> {
         };
         let counts = trace_photons(context, &batch, receiver, watch)?;
         self.photons = end;
+        self.invalid += counts.invalid;
         Some(counts.rays)
     }
 
@@ -186,6 +179,7 @@ impl<S: Spectrum> CausticMap<S> {
     /// Puts out what the photons gave to the targets, without what paths see of them.
     pub(crate) fn put_targets(&self, out: &mut Writer) {
         out.u64(self.photons);
+        out.u64(self.invalid);
         for quanta in self.tallies.iter().flat_map(|tally| tally.targets.iter().flatten()) {
             out.i64(quanta.load(Ordering::Relaxed));
         }
@@ -194,6 +188,7 @@ impl<S: Spectrum> CausticMap<S> {
     /// Takes that in.
     pub(crate) fn take_targets(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         from.add_u64(&mut self.photons)?;
+        from.add_u64(&mut self.invalid)?;
         for quanta in self.tallies.iter_mut().flat_map(|tally| tally.targets.iter_mut().flatten()) {
             from.add_i64(quanta.get_mut())?;
         }
@@ -375,80 +370,5 @@ impl Disc {
         let t = height / approach;
         t < length_m
             && (from + direction * t - self.centre).length_squared() <= self.square_radius_m2
-    }
-}
-
-impl Tally {
-    fn new(targets: usize, listed_terms: u32) -> Self {
-        let zeros = || (0..targets).map(|_| AtomicI64::new(0)).collect();
-        let targets = (0..=listed_terms).map(|_| zeros()).collect();
-        Self { landings: Mutex::new(BTreeMap::new()), targets }
-    }
-
-    fn count(&self, target: usize, photons: f64, bounces: u32) {
-        let term = (self.targets.len() - 1).min(bounces as usize);
-        self.targets[term][target].fetch_add(quanta(photons), Ordering::Relaxed);
-    }
-}
-
-fn quanta(photons: f64) -> i64 {
-    (photons * QUANTA_PER_PHOTON).round_ties_even() as i64
-}
-
-impl<S> HiddenReceiver<'_, S> {
-    fn count(&self, target: usize, photons: f64, bounces: u32) {
-        if self.ends[target].is_none() {
-            self.tally.count(target, photons, bounces);
-        }
-    }
-}
-
-impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
-    const SPECULAR_ONLY: bool = true;
-
-    fn flight(&mut self, _: &Flight, _: S, _: u32) {}
-
-    fn landing(&mut self, _: &Interaction, _: S, _: u32) {}
-
-    fn specular_flight(
-        &mut self,
-        flight: &Flight,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        if path_class != LightPathClass::Caustic {
-            return;
-        }
-        for CellReceiver { plane, behind, first_target, cells } in &self.receivers.planes {
-            for plane in std::iter::once(plane).chain(behind) {
-                if let Some(cell) = plane.cell(flight).filter(|cell| cells.contains(cell)) {
-                    let photons = weight.luminance() * plane.tilt_factor(flight.direction);
-                    self.count(first_target + cell - cells.start, photons, bounces);
-                }
-            }
-        }
-        for disc in self.receivers.discs.iter().filter(|disc| disc.is_met(flight)) {
-            self.count(disc.target, weight.luminance(), bounces);
-        }
-    }
-
-    fn specular_landing(
-        &mut self,
-        at: &Interaction,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        if path_class != LightPathClass::Caustic {
-            return;
-        }
-        let bounces = if self.tells_bounces { bounces } else { 0 };
-        let key = Key::new(self.world, at, self.element_m, bounces);
-        let mut landings = self.tally.landings.lock().unwrap_or_else(PoisonError::into_inner);
-        let counts = landings.entry(key).or_default();
-        for (channel, count) in counts.iter_mut().enumerate().take(S::CHANNELS) {
-            *count += quanta(weight.channel(channel));
-        }
     }
 }

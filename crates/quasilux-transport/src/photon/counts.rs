@@ -23,6 +23,9 @@ pub(crate) struct PhotonCounts {
     pub(crate) endless: u64,
     /// The same of photons that are not in the balance of the flux.
     pub(crate) trapped: u64,
+    /// Photons, and contributions of photons to receivers, that were refused: not finite, negative
+    /// or too large to be counted.
+    pub(crate) invalid: u64,
     pub(crate) rays: u64,
     /// Rays among them that join photons to sensors.
     pub(crate) connections: u64,
@@ -36,8 +39,8 @@ impl PhotonCounts {
     /// What they cost, without where their flux went: those from lit cells do not carry all of it.
     pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
-        let Self { begun, rays, connections, events, dimensions, .. } = self;
-        Self { begun, trapped, rays, connections, events, dimensions, ..Self::default() }
+        let Self { begun, invalid, rays, connections, events, dimensions, .. } = self;
+        Self { begun, trapped, invalid, rays, connections, events, dimensions, ..Self::default() }
     }
 
     /// Flux of some quanta, as a share of all that was emitted.
@@ -55,6 +58,7 @@ impl AddAssign for PhotonCounts {
         self.cut += other.cut;
         self.endless += other.endless;
         self.trapped += other.trapped;
+        self.invalid += other.invalid;
         self.rays += other.rays;
         self.connections += other.connections;
         self.events += other.events;
@@ -72,12 +76,13 @@ impl Stored for PhotonCounts {
             cut,
             endless,
             trapped,
+            invalid,
             rays,
             connections,
             events,
             dimensions,
         } = self;
-        [emitted, begun, endless, trapped, rays, connections, events]
+        [emitted, begun, endless, trapped, invalid, rays, connections, events]
             .into_iter()
             .for_each(|count| out.u64(*count));
         [absorbed, lost, cut].into_iter().for_each(|quanta| out.i64(*quanta));
@@ -93,12 +98,13 @@ impl Stored for PhotonCounts {
             cut,
             endless,
             trapped,
+            invalid,
             rays,
             connections,
             events,
             dimensions,
         } = self;
-        let counts = [emitted, begun, endless, trapped, rays, connections, events];
+        let counts = [emitted, begun, endless, trapped, invalid, rays, connections, events];
         counts.into_iter().try_for_each(|count| from.add_u64(count))?;
         [absorbed, lost, cut].into_iter().try_for_each(|quanta| from.add_i64(quanta))?;
         dimensions.merge_from(from)

@@ -8,5 +8,7 @@ pub(crate) mod lit_cells;
 pub(crate) mod map;
 pub(crate) mod order;
 pub(crate) mod receiver;
+#[cfg(test)]
+mod tests;
 pub(crate) mod trace;
 pub(crate) mod wave;

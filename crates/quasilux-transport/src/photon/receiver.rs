@@ -48,13 +48,22 @@ pub(crate) trait PhotonReceiver<S> {
         self.landing(at, weight, bounces);
     }
 
-    /// Nothing more is to come; how many rays it traced itself.
-    fn finish(self) -> u64
+    /// Nothing more is to come.
+    fn finish(self) -> ReceiverCounts
     where
         Self: Sized,
     {
-        0
+        ReceiverCounts::default()
     }
+}
+
+/// Work of a receiver, and contributions that it refused.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ReceiverCounts {
+    /// Rays that it traced itself.
+    pub(crate) rays: u64,
+    /// Contributions that were not finite, negative or too large to be counted.
+    pub(crate) invalid: u64,
 }
 
 /// The end of a flight.
@@ -114,7 +123,7 @@ impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
         }
     }
 
-    fn finish(self) -> u64 {
-        self.map_or(0, R::finish)
+    fn finish(self) -> ReceiverCounts {
+        self.map_or_else(ReceiverCounts::default, R::finish)
     }
 }

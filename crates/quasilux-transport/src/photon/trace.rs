@@ -19,6 +19,7 @@ use crate::photon::lit_cells::{Drawn, LitCells, LitPlace};
 use crate::photon::receiver::{Arrival, PhotonReceiver};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
+use crate::stats::tally::checked_quanta;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use glam::DVec3;
@@ -234,8 +235,9 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         counts: &mut PhotonCounts,
         mut depart: impl FnMut(Departure<'p, S>),
     ) {
+        let Some(arrived) = self.quanta() else { return counts.refuse(&self) };
         let Some(at) = arrival.found else {
-            counts.lost += self.quanta();
+            counts.lost += arrived;
             return counts.end(&self);
         };
         counts.events += 1;
@@ -243,6 +245,10 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
         let left = (self.weight * bsdf.albedo(wo, at.front, Mode::Flux)).luminance();
+        if quanta(left).is_none() {
+            counts.absorbed += arrived;
+            return counts.refuse(&self);
+        }
         if !self.gain.grow(left / luminance, arrival.bounces + self.bounces) {
             return counts.give_up(&self);
         }
@@ -256,13 +262,13 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let one_more = context
             .draw(&mut self.sampler, bounce, |sampler| sampler.choose_bool(split.expected - whole));
         let count = whole as u32 + u32::from(one_more);
-        let arrived = self.quanta();
         counts.absorbed += arrived;
         if count == 0 {
             return counts.end(&self);
         }
         if context.max_bounces.is_some_and(|most| arrival.bounces + self.bounces >= most) {
-            let goes_on = i64::from(count) * quanta(split.weight);
+            let Some(of_each) = quanta(split.weight) else { return counts.refuse(&self) };
+            let goes_on = i64::from(count) * of_each;
             counts.absorbed -= goes_on;
             counts.cut += goes_on;
             return counts.end(&self);
@@ -276,15 +282,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             let guide = window.map(|window| &window.guide);
             let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);
             match photon.leave(context, bounce, &door, share) {
-                Some(_) if photon.specular_only && photon.path_class == LightPathClass::Found => {
-                    counts.absorbed -= photon.quanta();
-                    counts.cut += photon.quanta();
-                    counts.end(&photon);
-                }
-                Some(start) => {
-                    counts.absorbed -= photon.quanta();
-                    depart(Departure { photon, start });
-                }
+                Some(start) => depart_valid(photon, start, counts, &mut depart),
                 None => counts.end(&photon),
             }
         }
@@ -308,7 +306,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             _ => Some((bsdf.sample(wo, at.front, Mode::Flux, sampler)?, share)),
         })?;
         self.weight = self.weight * next.weight * share;
-        if self.weight.luminance() <= 0.0 {
+        if self.weight.luminance() == 0.0 {
             return None;
         }
         self.path_class = self.path_class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
@@ -316,14 +314,30 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         Some(Emission { from, direction: world.frame(at).to_world(next.wi) })
     }
 
-    /// Its flux.
-    fn quanta(&self) -> i64 {
+    /// Its flux; `None` where it is not finite, negative or too large.
+    fn quanta(&self) -> Option<i64> {
         quanta(self.weight.luminance())
     }
 }
 
-fn quanta(weight: f64) -> i64 {
-    (weight * QUANTA_PER_PHOTON).round_ties_even() as i64
+/// Lets a photon go that leaves a surface, unless it is invalid or nobody looks at it further.
+fn depart_valid<'p, S: Spectrum>(
+    photon: Photon<'p, S>,
+    start: Emission,
+    counts: &mut PhotonCounts,
+    depart: &mut impl FnMut(Departure<'p, S>),
+) {
+    let Some(goes_on) = photon.quanta() else { return counts.refuse(&photon) };
+    counts.absorbed -= goes_on;
+    if photon.specular_only && photon.path_class == LightPathClass::Found {
+        counts.cut += goes_on;
+        return counts.end(&photon);
+    }
+    depart(Departure { photon, start });
+}
+
+fn quanta(weight: f64) -> Option<i64> {
+    checked_quanta(weight, QUANTA_PER_PHOTON)
 }
 
 impl PhotonCounts {
@@ -335,7 +349,16 @@ impl PhotonCounts {
     /// Cuts a photon that would fly on for ever.
     pub(crate) fn give_up<S: Spectrum>(&mut self, photon: &Photon<'_, S>) {
         self.endless += 1;
-        self.cut += photon.quanta();
+        match photon.quanta() {
+            Some(quanta) => self.cut += quanta,
+            None => self.invalid += 1,
+        }
+        self.end(photon);
+    }
+
+    /// Ends a photon whose flux is not finite, negative or too large, and counts it as invalid.
+    fn refuse<S>(&mut self, photon: &Photon<'_, S>) {
+        self.invalid += 1;
         self.end(photon);
     }
 }

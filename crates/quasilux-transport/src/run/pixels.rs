@@ -84,7 +84,8 @@ pub(crate) fn add_pictures<S: Spectrum>(
         }
         complete &= next.is_none();
         let Exposure { figures, invalid } = picture.expect("the first pass is never stopped");
-        estimates.invalid_contributions += invalid;
+        estimates.invalid_contributions +=
+            invalid + darkroom.caustics.as_ref().map_or(0, CausticMap::invalid);
         estimates.cameras.push(figures);
     }
     if !complete {

@@ -12,6 +12,18 @@ const FINENESS: i32 = 80;
 /// Larger contributions, in quanta, are refused; 2^23 of the largest fit the sum.
 const LARGEST: f64 = (1_u128 << 104) as f64;
 
+/// Larger contributions to a counter of 64 bits, in quanta, are refused; 2^7 of the largest fit.
+const LARGEST_COUNTED: f64 = (1_u64 << 56) as f64;
+
+/// Quanta of a contribution to a counter of 64 bits, `per_unit` of them to its unit; `None` where
+/// it is not finite, negative or too large, for the caller to count as invalid.
+#[inline]
+pub(crate) fn checked_quanta(contribution: f64, per_unit: f64) -> Option<i64> {
+    let quanta = contribution * per_unit;
+    let is_valid = (0.0..=LARGEST_COUNTED).contains(&quanta);
+    is_valid.then(|| quanta.round_ties_even() as i64)
+}
+
 /// The size of one step of a tally: a power of two, in the unit of the contributions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Quantum {
@@ -128,6 +140,16 @@ mod tests {
         sum.add_signed(-1.0, quantum);
         sum.add(3.0, quantum);
         assert_eq!((sum.invalid, quantum.value(sum)), (4, 2.0));
+    }
+
+    #[test]
+    fn counters_refuse_what_they_cannot_add() {
+        let refused = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -1e-300, 1e300];
+        for bad in refused {
+            assert_eq!(checked_quanta(bad, 1024.0), None, "{bad}");
+        }
+        let counted = [0.0, -0.0, 0.25, 2.5 / 1024.0].map(|good| checked_quanta(good, 1024.0));
+        assert_eq!(counted, [Some(0), Some(0), Some(256), Some(2)]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::Way;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::watch::Watch;
@@ -157,9 +157,9 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
         }
     }
 
-    fn finish(self) -> u64 {
+    fn finish(self) -> ReceiverCounts {
         let mut sums = lock(self.sums);
         sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
-        0
+        ReceiverCounts::default()
     }
 }

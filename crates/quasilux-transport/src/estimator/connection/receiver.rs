@@ -8,7 +8,7 @@ use super::receiver_element::ReceiverElement;
 use super::view::View;
 use crate::context::Context;
 use crate::importance::Density;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
@@ -216,10 +216,10 @@ impl<S: Spectrum> PhotonReceiver<S> for ConnectionReceiver<'_, S> {
         }
     }
 
-    fn finish(mut self) -> u64 {
+    fn finish(mut self) -> ReceiverCounts {
         self.answer();
         let mut sums = lock(self.sums);
         sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
-        self.rays
+        ReceiverCounts { rays: self.rays, invalid: 0 }
     }
 }

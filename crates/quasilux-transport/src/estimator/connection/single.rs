@@ -63,7 +63,7 @@ impl LightVertexConnections {
         let places = (places, self.quantum);
         let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, &sums);
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
-        counts.rays += receiver.finish();
+        counts.rays += receiver.finish().rays;
         let sums = lock(&sums);
         let of_target = |sums: &[Sum]| sums.iter().map(|sum| self.quantum.value(*sum)).sum();
         sums.chunks(group.terms).map(of_target).collect()

@@ -204,7 +204,8 @@ impl LitCells {
         let incidence = Incidence::new(light, context.world.ray_origin(&at).position(), at.n)?;
         // E over the density of the place (m^-2), which is density_lm_m2 over the sum of all fluxes.
         let flux_share = incidence.illuminance_lx / density_lm_m2 * self.flux_share;
-        let arrives = flux_share > 0.0 && flux_share.is_finite();
+        // What is not finite or negative goes on to where it is counted as invalid.
+        let arrives = incidence.illuminance_lx != 0.0 && flux_share != 0.0;
         arrives.then_some(Drawn::Place(LitPlace { at, light: drawn.light, incidence, flux_share }))
     }
 }

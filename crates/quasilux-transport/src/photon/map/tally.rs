@@ -5,9 +5,10 @@ use super::layout::{MapLayout, Place};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Context;
 use crate::lights::images::LightPathClass;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::settings::Reconstruction;
 use crate::spectrum::Spectrum;
+use crate::stats::tally::checked_quanta;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
@@ -49,6 +50,8 @@ pub(crate) struct MapReceiver<'a, S> {
     most_dimensions: u32,
     /// Whether that which it sees did.
     is_deep: bool,
+    /// Moments that the tally refused.
+    invalid: u64,
 }
 
 impl<S: Spectrum> MapTally<S> {
@@ -61,24 +64,29 @@ impl<S: Spectrum> MapTally<S> {
         Self { sums, layer, layers, reconstruction, quanta_per_photon, channels: PhantomData }
     }
 
-    /// Counts a photon with this colour, which bounced so often, once at least.
-    pub(crate) fn add(&self, place: &Place, weight: S, bounces: u32) {
+    /// Counts a photon with this colour, which bounced so often, once at least; the number of its
+    /// moments that were refused, which are not in the sums.
+    pub(crate) fn add(&self, place: &Place, weight: S, bounces: u32) -> u64 {
         let first = self.first(place) + (bounces.min(self.layers) - 1) as usize * self.layer;
+        let mut refused = 0;
         match self.reconstruction {
             Reconstruction::Constant => {
                 for channel in 0..S::CHANNELS {
-                    self.sums.add(first + channel, self.quanta(weight.channel(channel)));
+                    refused += self.count(first + channel, weight.channel(channel));
                 }
             }
             Reconstruction::Linear => {
+                // By rounding, a place on an edge may lie outside by a little.
+                let shares = place.barycentric.map(|share| if share < 0.0 { 0.0 } else { share });
                 for channel in 0..S::CHANNELS {
-                    for (corner, share) in place.barycentric.into_iter().enumerate() {
-                        let moment = self.quanta(weight.channel(channel) * share);
-                        self.sums.add(first + 3 * channel + corner, moment);
+                    for (corner, share) in shares.into_iter().enumerate() {
+                        let moment = weight.channel(channel) * share;
+                        refused += self.count(first + 3 * channel + corner, moment);
                     }
                 }
             }
         }
+        refused
     }
 
     /// The map at this moment, while no photons fly; one photon carries `flux_lm`.
@@ -86,8 +94,16 @@ impl<S: Spectrum> MapTally<S> {
         IlluminationMap { tally: self, lm_per_quantum: flux_lm / self.quanta_per_photon }
     }
 
-    fn quanta(&self, photons: f64) -> u64 {
-        (photons * self.quanta_per_photon).round_ties_even() as u64
+    /// Adds to a counter; 1 where the moment was refused.
+    #[inline]
+    fn count(&self, counter: usize, photons: f64) -> u64 {
+        match checked_quanta(photons, self.quanta_per_photon) {
+            Some(quanta) => {
+                self.sums.add(counter, quanta.cast_unsigned());
+                0
+            }
+            None => 1,
+        }
     }
 
     fn first(&self, place: &Place) -> usize {
@@ -189,7 +205,7 @@ impl<'a, S: Spectrum> MapReceiver<'a, S> {
         tally: &'a MapTally<S>,
     ) -> Self {
         let most_dimensions = most_dimensions.unwrap_or(u32::MAX);
-        Self { layout, tally, most_bounces, most_dimensions, is_deep: false }
+        Self { layout, tally, most_bounces, most_dimensions, is_deep: false, invalid: 0 }
     }
 }
 
@@ -208,12 +224,16 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         // Light straight from the lights is never read from the map.
         if !self.is_deep && (1..=self.most_bounces).contains(&bounces) {
-            self.tally.add(&self.layout.locate(at), weight, bounces);
+            self.invalid += self.tally.add(&self.layout.locate(at), weight, bounces);
         }
     }
 
     /// Paths count light that images show, and what none shows is added beside the map.
     fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: LightPathClass) {}
+
+    fn finish(self) -> ReceiverCounts {
+        ReceiverCounts { rays: 0, invalid: self.invalid }
+    }
 }
 
 #[cfg(test)]
@@ -222,6 +242,7 @@ mod tests {
     use crate::photon::map::fixture::{Numbers, at, square};
     use crate::settings::Settings;
     use quasilux_sampling::warp::sample_triangle;
+    use quasilux_scene::Rgb;
 
     /// Photons at the three places of a rule that is exact for quadratic functions, as many as a linear
     /// function says: its projection is that function, or its mean.
@@ -254,6 +275,30 @@ mod tests {
                 assert_eq!(map.illuminance_lx(&place, 2), terms[0].1);
                 assert_eq!(map.terms_lx(place, 1).count(), 1);
             }
+        }
+    }
+
+    /// Invalid photons: each moment is refused by itself, and nothing is added for it. A place that
+    /// lies outside its element by rounding is counted.
+    #[test]
+    fn invalid_photons_are_refused_and_counted() {
+        let (world, numbers) = (square(), &mut Numbers(11));
+        for (map_reconstruction, moments) in
+            [(Reconstruction::Constant, 1), (Reconstruction::Linear, 3)]
+        {
+            let settings = Settings { map_reconstruction, ..Settings::default() };
+            let layout = MapLayout::new(&world, &settings);
+            let tally = MapTally::<f64>::new(&layout, 1.0, 1);
+            let place = layout.locate(&at(&world, numbers));
+            for weight in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 1e300] {
+                assert_eq!(tally.add(&place, weight, 1), moments, "{weight}");
+            }
+            let found = tally.read(1.0).illuminance_lx(&place, 1);
+            assert_eq!(found, 0.0, "{map_reconstruction:?}");
+            let outside = Place { barycentric: [-1e-5, 0.5, 0.5 + 1e-5], ..place };
+            assert_eq!(tally.add(&outside, 1.0, 1), 0);
+            let coloured = MapTally::<Rgb>::new(&layout, 1.0, 1);
+            assert_eq!(coloured.add(&place, Rgb([1.0, -0.5, f64::NAN]), 1), 2 * moments);
         }
     }
 
