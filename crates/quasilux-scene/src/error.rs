@@ -15,9 +15,9 @@ pub struct Place {
     pub column: usize,
 }
 
-/// A value and where the project file gives it.
+/// A value with its span: where the project file gives it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placed<T> {
+pub struct Spanned<T> {
     /// The value.
     pub value: T,
     /// Its place in the project file.

@@ -25,7 +25,7 @@ mod solids;
 
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
-pub use error::{LoadError, Place, Placed, Warning};
+pub use error::{LoadError, Place, Spanned, Warning};
 pub use files::Files;
 pub use light::Light;
 pub use load::{Loaded, load};

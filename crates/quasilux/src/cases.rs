@@ -1,6 +1,6 @@
 //! Validation cases: projects with known answers, as data (validation/README.md has the format).
 
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use quasilux_report::{Figure, Report, SensorReport};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -66,9 +66,9 @@ pub(crate) struct Verdict {
 
 impl Case {
     /// Reads a case.
-    pub(crate) fn read(path: &Path) -> Result<Self, Refusal> {
+    pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let refuse =
-            |error: &dyn std::fmt::Display| Refusal::new(format!("{}: {error}", path.display()));
+            |error: &dyn std::fmt::Display| CliError::new(format!("{}: {error}", path.display()));
         let text = std::fs::read_to_string(path).map_err(|error| refuse(&error))?;
         let mut case: Self = toml::from_str(&text).map_err(|error| refuse(&error))?;
         if case.expect.is_empty() {
@@ -89,12 +89,12 @@ impl Case {
 
 impl Expectation {
     /// Judges a report; one verdict a point.
-    pub(crate) fn judge(&self, report: &Report) -> Result<Vec<Verdict>, Refusal> {
+    pub(crate) fn judge(&self, report: &Report) -> Result<Vec<Verdict>, CliError> {
         let direct_lm = match (self.figure, self.direct_lm) {
             (FigureName::FluxLm, None) => Some(0.0),
             (FigureName::IndirectFluxLm, Some(direct_lm)) => Some(direct_lm),
             (FigureName::IndirectFluxLm, None) | (_, Some(_)) => {
-                return Err(Refusal::new(
+                return Err(CliError::new(
                     "an `indirect_flux_lm`, and nothing else, has `direct_lm`",
                 ));
             }
@@ -108,25 +108,25 @@ impl Expectation {
                 Ok(vec![self.verdict(self.sensors.join(" + "), flux_lm)])
             }
             (Some(name), [], None) => self.judge_sensor(sensor(report, name)?),
-            _ => Err(Refusal::new(
+            _ => Err(CliError::new(
                 "an expectation has one `sensor`; one of `flux_lm` or `indirect_flux_lm` has `sensors`, a list of grids",
             )),
         }
     }
 
-    fn judge_sensor(&self, sensor: &SensorReport) -> Result<Vec<Verdict>, Refusal> {
+    fn judge_sensor(&self, sensor: &SensorReport) -> Result<Vec<Verdict>, CliError> {
         let points = match (self.figure.is_of_points(), self.point) {
             (false, None) => {
                 return Ok(vec![self.verdict(sensor.name.clone(), self.summary_figure(sensor))]);
             }
             (false, Some(_)) => {
-                return Err(Refusal::new("a summary figure has no point"));
+                return Err(CliError::new("a summary figure has no point"));
             }
             (true, None) => 0..sensor.points.len(),
             (true, Some(point)) if point < sensor.points.len() => point..point + 1,
             (true, Some(point)) => {
                 let message = format!("sensor \"{}\" has no point {point}", sensor.name);
-                return Err(Refusal::new(message));
+                return Err(CliError::new(message));
             }
         };
         let verdict = |point| {
@@ -199,17 +199,17 @@ impl FigureName {
     }
 }
 
-fn sensor<'a>(report: &'a Report, name: &str) -> Result<&'a SensorReport, Refusal> {
+fn sensor<'a>(report: &'a Report, name: &str) -> Result<&'a SensorReport, CliError> {
     let sensor = report.sensors.iter().find(|sensor| sensor.name == name);
-    sensor.ok_or_else(|| Refusal::new(format!("no sensor \"{name}\" in the project")))
+    sensor.ok_or_else(|| CliError::new(format!("no sensor \"{name}\" in the project")))
 }
 
 /// The flux that lands on grids: average times area. Half-widths are added, as if all errors came together.
-fn flux_lm(sensors: &[&SensorReport]) -> Result<Figure, Refusal> {
+fn flux_lm(sensors: &[&SensorReport]) -> Result<Figure, CliError> {
     let mut flux_lm = Figure { value: Some(0.0), half_width: Some(0.0) };
     for sensor in sensors {
         let grid = sensor.grid.ok_or_else(|| {
-            Refusal::new(format!("a flux lands on grids, and sensor \"{}\" is none", sensor.name))
+            CliError::new(format!("a flux lands on grids, and sensor \"{}\" is none", sensor.name))
         })?;
         let area_m2 = grid.u.cross(grid.v).length();
         let add = |sum: Option<f64>, lx: Option<f64>| Some(sum? + lx? * area_m2);

@@ -3,14 +3,14 @@
 //! A checkpoint is written beside its place and renamed into it, so that it is there whole or not at all; the
 //! one before of the same run stays as `FILE.previous`.
 
+use crate::atomic_file::{self, beside};
 use crate::build::{self, BUILD, VERSION};
+use crate::container::{self, Contents};
 use crate::digest::SceneIdentity;
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::project::{Project, read_bounded};
 use crate::record::SettingsRecord;
 use crate::results;
-use crate::sealed::{seal, unseal};
-use crate::whole::{self, beside};
 use quasilux_report::json;
 use quasilux_transport::Settings;
 use serde::{Deserialize, Serialize};
@@ -41,8 +41,8 @@ pub(crate) struct Checkpoint {
     pub(crate) state: Vec<u8>,
 }
 
-/// Where a run is kept.
-pub(crate) struct Keeping {
+/// Writes the checkpoints of a run to its path.
+pub(crate) struct CheckpointWriter {
     path: PathBuf,
     heading: String,
     before: Before,
@@ -66,17 +66,17 @@ impl Heading {
     }
 }
 
-impl Keeping {
+impl CheckpointWriter {
     /// Of a run from the start: refuses to take the place of one that is not over.
     pub(crate) fn fresh(
         path: &Path,
         file: &Path,
         project: &Project,
         settings: &Settings,
-    ) -> Result<Self, Refusal> {
-        let keeping = Self::new(path, file, project, settings)?;
+    ) -> Result<Self, CliError> {
+        let writer = Self::new(path, file, project, settings)?;
         expect_nothing_to_lose(path, project)?;
-        Ok(keeping)
+        Ok(writer)
     }
 
     /// Makes sure that it can be.
@@ -85,11 +85,11 @@ impl Keeping {
         file: &Path,
         project: &Project,
         settings: &Settings,
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, CliError> {
         results::prepare_file(path, &[file])?;
         results::expect_text(file)?;
-        whole::try_beside(path).map_err(|error| {
-            Refusal::new(format!("{}: cannot keep the run: {error}", path.display()))
+        atomic_file::try_beside(path).map_err(|error| {
+            CliError::new(format!("{}: cannot keep the run: {error}", path.display()))
         })?;
         let heading = Heading {
             version: VERSION.to_owned(),
@@ -110,9 +110,9 @@ impl Keeping {
 
     /// Puts a state in the place of the one before.
     pub(crate) fn write(&mut self, state: &[u8]) -> io::Result<()> {
-        let bytes = seal(FORMAT, &self.heading, state);
+        let bytes = container::encode(FORMAT, &self.heading, state);
         // On disk before it takes the place of one that is.
-        let fresh = whole::write_beside(&self.path, |file| file.write_all(&bytes))?;
+        let fresh = atomic_file::write_beside(&self.path, |file| file.write_all(&bytes))?;
         let previous = beside(&self.path, "previous");
         let made_way = match self.before {
             Before::Own => fs::rename(&self.path, previous),
@@ -134,51 +134,60 @@ impl Keeping {
     }
 }
 
-/// Reads a checkpoint, or the one before it where it is damaged or missing, with a warning.
-pub(crate) fn read(path: &Path) -> Result<(Checkpoint, Option<String>), Refusal> {
-    let refusal = match read_one(path) {
-        Ok(checkpoint) => return Ok((checkpoint, None)),
-        Err(refusal) => refusal,
+/// The newest checkpoint that can be read.
+#[derive(Debug)]
+pub(crate) struct Latest {
+    pub(crate) checkpoint: Checkpoint,
+    /// Where it is the one before, because that at the path is damaged or missing.
+    pub(crate) warning: Option<String>,
+}
+
+/// Reads a checkpoint, or the one before it where it is damaged or missing.
+pub(crate) fn read(path: &Path) -> Result<Latest, CliError> {
+    let error = match read_one(path) {
+        Ok(checkpoint) => return Ok(Latest { checkpoint, warning: None }),
+        Err(error) => error,
     };
     let previous = beside(path, "previous");
     match read_one(&previous) {
         Ok(checkpoint) => {
-            let warning = format!("{refusal}; going on from {}", previous.display());
-            Ok((checkpoint, Some(warning)))
+            let warning = format!("{error}; going on from {}", previous.display());
+            Ok(Latest { checkpoint, warning: Some(warning) })
         }
-        Err(_) => Err(refusal),
+        Err(_) => Err(error),
     }
 }
 
 /// Refuses where a run from the start would take the place of one that is not over, or of something that nobody can
 /// tell. Pictures come after the last checkpoint, so that runs with cameras may lack them still.
-fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), Refusal> {
+fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), CliError> {
     if !path.exists() && !beside(path, "previous").exists() {
         return Ok(());
     }
     let name = path.display();
-    let (Checkpoint { heading, state }, _) = read(path)
-        .map_err(|refusal| Refusal::new(format!("{refusal}; remove it to begin a run there")))?;
+    let Checkpoint { heading, state } = read(path)
+        .map(|latest| latest.checkpoint)
+        .map_err(|error| CliError::new(format!("{error}; remove it to begin a run there")))?;
     let has_pictures = !project.loaded.scene.cameras.is_empty();
     if quasilux_transport::is_over(&state) && !has_pictures {
         return Ok(());
     }
     let project = heading.project.display();
-    Err(Refusal::new(format!(
+    Err(CliError::new(format!(
         "{name}: keeps a run of {project} that may not be over: go on with `quasilux resume {name}`, or remove it to \
          begin anew"
     )))
 }
 
-fn read_one(path: &Path) -> Result<Checkpoint, Refusal> {
+fn read_one(path: &Path) -> Result<Checkpoint, CliError> {
     let name = path.display();
-    let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
-    parse(&bytes).map_err(|what| Refusal::new(format!("{name}: {what}")))
+    let bytes = read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
+    parse(&bytes).map_err(|what| CliError::new(format!("{name}: {what}")))
 }
 
 /// A checkpoint from the bytes of its file.
 fn parse(bytes: &[u8]) -> Result<Checkpoint, String> {
-    let (heading, state) = unseal(FORMAT, bytes)?;
-    let heading = serde_json::from_str(heading).map_err(|error| format!("its header: {error}"))?;
-    Ok(Checkpoint { heading, state: state.to_vec() })
+    let Contents { header, body } = container::decode(FORMAT, bytes)?;
+    let heading = serde_json::from_str(header).map_err(|error| format!("its header: {error}"))?;
+    Ok(Checkpoint { heading, state: body.to_vec() })
 }

@@ -26,21 +26,21 @@ impl From<Exit> for ExitCode {
 
 /// Why the program refuses to do what it was told: one clear message.
 #[derive(Debug)]
-pub(crate) struct Refusal(String);
+pub(crate) struct CliError(String);
 
-impl Refusal {
+impl CliError {
     pub(crate) fn new(message: impl fmt::Display) -> Self {
         Self(message.to_string())
     }
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for CliError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
 }
 
-impl From<quasilux_scene::LoadError> for Refusal {
+impl From<quasilux_scene::LoadError> for CliError {
     fn from(error: quasilux_scene::LoadError) -> Self {
         Self::new(error)
     }

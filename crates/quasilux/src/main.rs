@@ -4,10 +4,12 @@
 //! exit codes. Read on at [`commands::run`] for the main job.
 
 mod arguments;
+mod atomic_file;
 mod build;
 mod cases;
 mod checkpoint;
 mod commands;
+mod container;
 mod digest;
 mod exit;
 mod forecast;
@@ -18,9 +20,7 @@ mod print;
 mod project;
 mod record;
 mod results;
-mod sealed;
 mod watcher;
-mod whole;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -42,8 +42,8 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(exit) => exit.into(),
-        Err(refusal) => {
-            eprintln!("error: {refusal}");
+        Err(error) => {
+            eprintln!("error: {error}");
             Exit::BadInput.into()
         }
     }

@@ -1,8 +1,8 @@
 //! Names of estimators, sequences and randomisations.
 
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use quasilux_sampling::Sequence;
-use quasilux_scene::{LoadError, Placed, SimulationSection, nearest};
+use quasilux_scene::{LoadError, SimulationSection, Spanned, nearest};
 
 /// The sequences by name. Without the number of points those that need it are left out.
 pub(crate) fn sequences(points: Option<u64>) -> Vec<(&'static str, Sequence)> {
@@ -23,26 +23,26 @@ pub(crate) fn on_command_line<T: Copy>(
     what: &str,
     name: &str,
     known: &[(&str, T)],
-) -> Result<T, Refusal> {
+) -> Result<T, CliError> {
     if let Some((_, value)) = known.iter().find(|(other, _)| *other == name) {
         return Ok(*value);
     }
     if let Some(reason) = lacks_points(name) {
-        return Err(Refusal::new(format!("{what}: {reason}")));
+        return Err(CliError::new(format!("{what}: {reason}")));
     }
     let list: Vec<&str> = known.iter().map(|(other, _)| *other).collect();
     let nearest = nearest(name, list.iter().copied())
         .map(|nearest| format!(", did you mean \"{nearest}\""))
         .unwrap_or_default();
     let list = list.join(", ");
-    Err(Refusal::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
+    Err(CliError::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
 }
 
 /// The value that a name in a project file stands for.
 pub(crate) fn in_project<T: Copy>(
     section: &SimulationSection,
     key: &str,
-    name: &Placed<String>,
+    name: &Spanned<String>,
     known: &[(&str, T)],
 ) -> Result<T, LoadError> {
     if let Some((_, value)) = known.iter().find(|(other, _)| *other == name.value) {

@@ -4,11 +4,11 @@
 //! surveys and pilots decided. A part has the plan within it, and the sums of a range of indices.
 
 use crate::build::{self, BUILD, VERSION};
+use crate::container::{self, Contents};
 use crate::digest::{BYTES, SceneIdentity, hex, sha256_hex};
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::project::{Project, read_bounded};
 use crate::record::SettingsRecord;
-use crate::sealed::{seal, unseal};
 use quasilux_report::json;
 use quasilux_scene::project::{RENAMED_KEYS, RenamedKey};
 use quasilux_transport::{Decisions, Settings};
@@ -109,12 +109,13 @@ impl Plan {
     }
 
     /// Reads a plan; `path` is what messages call it.
-    pub(crate) fn read(path: &Path) -> Result<Self, Refusal> {
+    pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.display();
-        let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+        let bytes =
+            read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
         let plan: Self = serde_json::from_slice(&bytes)
-            .map_err(|error| Refusal::new(format!("{name}: {}", why_no_plan(&bytes, &error))))?;
-        plan.check().map_err(|what| Refusal::new(format!("{name}: {what}")))?;
+            .map_err(|error| CliError::new(format!("{name}: {}", why_no_plan(&bytes, &error))))?;
+        plan.check().map_err(|what| CliError::new(format!("{name}: {what}")))?;
         Ok(plan)
     }
 
@@ -125,26 +126,26 @@ impl Plan {
 
     /// The settings of the run; refuses projects that have changed since. `name` is what messages call
     /// the file that the plan stands in.
-    pub(crate) fn settings(&self, name: &str, project: &Project) -> Result<Settings, Refusal> {
+    pub(crate) fn settings(&self, name: &str, project: &Project) -> Result<Settings, CliError> {
         if let Some(change) = project.identity.difference(&self.scene) {
-            return Err(Refusal::new(format!(
+            return Err(CliError::new(format!(
                 "{name}: was made for another scene than {}: {change}",
                 project.name
             )));
         }
         let settings = self.settings.settings(name)?;
         let checked = quasilux_transport::check(&project.loaded.scene, &settings);
-        checked.map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+        checked.map_err(|error| CliError::new(format!("{name}: {error}")))?;
         Ok(settings)
     }
 
     /// Refuses sums that come from other decisions of surveys and pilots, which stand at their front.
-    pub(crate) fn expect_decisions(&self, sums: &[u8], name: &str) -> Result<(), Refusal> {
+    pub(crate) fn expect_decisions(&self, sums: &[u8], name: &str) -> Result<(), CliError> {
         let decided = sums.first_chunk::<BYTES>().map(|digest| hex(digest));
         if decided.as_ref() == Some(&self.decisions.sha256) {
             return Ok(());
         }
-        Err(Refusal::new(format!("{name}: surveys and pilots decide otherwise than in the plan")))
+        Err(CliError::new(format!("{name}: surveys and pilots decide otherwise than in the plan")))
     }
 
     /// What is wrong with it by itself.
@@ -189,39 +190,40 @@ fn why_no_plan(bytes: &[u8], error: &serde_json::Error) -> String {
 /// The bytes of a part.
 pub(crate) fn part(plan: &Plan, range: &Range<u64>, sums: &[u8]) -> Vec<u8> {
     let heading = PartHeading { plan: plan.clone(), index_range: [range.start, range.end] };
-    seal(PART_FORMAT, &json::text(&heading), sums)
+    container::encode(PART_FORMAT, &json::text(&heading), sums)
 }
 
 impl Part {
     /// Reads a part.
-    pub(crate) fn read(path: &Path) -> Result<Self, Refusal> {
+    pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.display().to_string();
-        let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
-        Self::parse(&name, &bytes).map_err(|what| Refusal::new(format!("{name}: {what}")))
+        let bytes =
+            read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
+        Self::parse(&name, &bytes).map_err(|what| CliError::new(format!("{name}: {what}")))
     }
 
     /// A part from the bytes of its file.
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, String> {
-        let (heading, sums) = unseal(PART_FORMAT, bytes)?;
+        let Contents { header, body } = container::decode(PART_FORMAT, bytes)?;
         let heading: PartHeading =
-            serde_json::from_str(heading).map_err(|error| format!("its header: {error}"))?;
+            serde_json::from_str(header).map_err(|error| format!("its header: {error}"))?;
         let PartHeading { plan, index_range: [start, end] } = heading;
         plan.check()?;
         if start >= end || end > plan.samples {
             return Err(format!("has no such indices: {start}..{end} of {}", plan.samples));
         }
-        Ok(Self { name: name.to_owned(), plan, range: start..end, sums: sums.to_vec() })
+        Ok(Self { name: name.to_owned(), plan, range: start..end, sums: body.to_vec() })
     }
 }
 
 /// Sorts parts by their indices, and refuses what does not make a run: parts of other plans, gaps and overlaps.
-pub(crate) fn in_order(mut parts: Vec<Part>) -> Result<Vec<Part>, Refusal> {
+pub(crate) fn in_order(mut parts: Vec<Part>) -> Result<Vec<Part>, CliError> {
     parts.sort_by_key(|part| (part.range.start, part.range.end));
-    let Some(first) = parts.first() else { return Err(Refusal::new("no parts")) };
+    let Some(first) = parts.first() else { return Err(CliError::new("no parts")) };
     let samples = first.plan.samples;
     if let Some(other) = parts.iter().find(|part| part.plan.sha256 != first.plan.sha256) {
         let what = other.plan.differs_in(&first.plan);
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "{} and {} belong to different runs: {what} differs",
             first.name, other.name
         )));
@@ -232,7 +234,7 @@ pub(crate) fn in_order(mut parts: Vec<Part>) -> Result<Vec<Part>, Refusal> {
     for pair in parts.windows(2) {
         let [before, after] = pair else { continue };
         if after.range.start < before.range.end {
-            return Err(Refusal::new(format!(
+            return Err(CliError::new(format!(
                 "{} and {} overlap: {} to {}, and {} to {}",
                 before.name,
                 after.name,
@@ -255,8 +257,8 @@ pub(crate) fn in_order(mut parts: Vec<Part>) -> Result<Vec<Part>, Refusal> {
     }
 }
 
-fn gap(range: Range<u64>, place: &str) -> Refusal {
-    Refusal::new(format!("{place}, the indices {} to {} are missing", range.start, range.end - 1))
+fn gap(range: Range<u64>, place: &str) -> CliError {
+    CliError::new(format!("{place}, the indices {} to {} are missing", range.start, range.end - 1))
 }
 
 impl Plan {

@@ -1,21 +1,21 @@
 //! Text for stdout. A reader that has gone away is no reason to fail, a full disk is.
 
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use std::io::{self, BufWriter, ErrorKind, Write};
 
 /// Prints a text.
-pub(crate) fn print(text: &str) -> Result<(), Refusal> {
+pub(crate) fn print(text: &str) -> Result<(), CliError> {
     to_stdout(|out| out.write_all(text.as_bytes()))
 }
 
 /// Prints piece by piece.
 pub(crate) fn to_stdout(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), Refusal> {
+) -> Result<(), CliError> {
     let mut out = BufWriter::new(io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Refusal::new(format!("cannot write to stdout: {error}")))
+            Err(CliError::new(format!("cannot write to stdout: {error}")))
         }
         _ => Ok(()),
     }

@@ -2,7 +2,7 @@
 
 use crate::arguments::SimulationArguments;
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_scene::{Files, Loaded, load};
@@ -40,9 +40,9 @@ pub(crate) struct Project {
 }
 
 /// Loads a project; messages name its files as the user does.
-pub(crate) fn open(path: &Path) -> Result<Project, Refusal> {
+pub(crate) fn open(path: &Path) -> Result<Project, CliError> {
     let name = path.display().to_string();
-    let bytes = read_bounded(path).map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+    let bytes = read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
     let path_of_folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let folder = Folder { path: path_of_folder, read: RefCell::default() };
     let loaded = load(&name, &bytes, &folder)?;
@@ -77,7 +77,7 @@ pub(crate) fn read_all(reader: impl Read) -> std::io::Result<Vec<u8>> {
 pub(crate) fn settings(
     project: &Project,
     arguments: &SimulationArguments,
-) -> Result<Settings, Refusal> {
+) -> Result<Settings, CliError> {
     let section = &project.loaded.simulation;
     let mut settings = Settings::default();
     if let Some(name) = &section.estimator {
@@ -110,16 +110,16 @@ pub(crate) fn settings(
     if let (Some(_), Some((limit, _))) =
         (settings.sequence.points(), limit.into_iter().find(|(_, is_given)| *is_given))
     {
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "{} fills its first dimension with all of --samples: {limit} cannot end it before",
             settings.sequence.name()
         )));
     }
-    let placed = |at: &Option<quasilux_scene::Placed<f64>>| at.as_ref().map(|at| at.value);
+    let spanned = |at: &Option<quasilux_scene::Spanned<f64>>| at.as_ref().map(|at| at.value);
     let defaults = Settings::default();
-    settings.rel_tol = arguments.rel_tol.or(placed(&section.rel_tol)).unwrap_or(defaults.rel_tol);
+    settings.rel_tol = arguments.rel_tol.or(spanned(&section.rel_tol)).unwrap_or(defaults.rel_tol);
     settings.abs_tol_lx =
-        arguments.abs_tol.or(placed(&section.abs_tol_lx)).unwrap_or(defaults.abs_tol_lx);
+        arguments.abs_tol.or(spanned(&section.abs_tol_lx)).unwrap_or(defaults.abs_tol_lx);
     if let Some(name) = &section.tolerance_on {
         let known = &ToleranceOn::NAMES;
         settings.tolerance_on = names::in_project(section, "tolerance_on", name, known)?;
@@ -129,12 +129,12 @@ pub(crate) fn settings(
         settings.tolerance_on = names::on_command_line("--tolerance-on", name, known)?;
     }
     settings.confidence =
-        arguments.confidence.or(placed(&section.confidence)).unwrap_or(defaults.confidence);
+        arguments.confidence.or(spanned(&section.confidence)).unwrap_or(defaults.confidence);
     if let Some(name) = &section.first_shot {
         let known = &Switch::NAMES;
         settings.first_shot = names::in_project(section, "first shot", name, known)?;
     }
-    settings.map_element_m = placed(&section.map_element_m);
+    settings.map_element_m = spanned(&section.map_element_m);
     settings.map_elements =
         section.map_elements.as_ref().map_or(defaults.map_elements, |at| at.value);
     settings.map_adaptive =
@@ -158,13 +158,13 @@ pub(crate) fn settings(
         && arguments.time.is_none()
         && arguments.rays.is_none()
     {
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "{}: one replicate gives no interval, so no tolerance can end the run: give --samples, \
              --rays or --time, or ask for more replicates and a randomization",
             project.name
         )));
     }
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
-    checked.map_err(|error| Refusal::new(format!("{}: {error}", project.name)))?;
+    checked.map_err(|error| CliError::new(format!("{}: {error}", project.name)))?;
     Ok(settings)
 }

@@ -1,6 +1,6 @@
 //! Settings as they stand in checkpoints and plans: every one of them, defaults too.
 
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::names;
 use quasilux_sampling::Randomization;
 use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
@@ -90,8 +90,8 @@ impl SettingsRecord {
     }
 
     /// The settings; `file` is what messages call the file that they stand in.
-    pub(crate) fn settings(&self, file: &str) -> Result<Settings, Refusal> {
-        fn named<T: Copy>(file: &str, name: &str, known: &[(&str, T)]) -> Result<T, Refusal> {
+    pub(crate) fn settings(&self, file: &str) -> Result<Settings, CliError> {
+        fn named<T: Copy>(file: &str, name: &str, known: &[(&str, T)]) -> Result<T, CliError> {
             names::on_command_line(&format!("{file}: settings"), name, known)
         }
         let is_share = |x: f64| x > 0.0 && x < 1.0;
@@ -107,7 +107,7 @@ impl SettingsRecord {
             && self.rays.is_none_or(|rays| rays > 0)
             && self.map_element_m.is_none_or(is_length);
         if !in_range {
-            return Err(Refusal::new(format!("{file}: its settings are out of range")));
+            return Err(CliError::new(format!("{file}: its settings are out of range")));
         }
         Ok(Settings {
             estimator: named(file, &self.estimator, &EstimatorKind::NAMES)?,

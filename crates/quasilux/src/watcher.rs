@@ -2,7 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
-use crate::checkpoint::Keeping;
+use crate::checkpoint::CheckpointWriter;
 use crate::forecast::Forecast;
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -46,7 +46,7 @@ pub(crate) struct Watcher<'a> {
 
 /// A run that is kept on disk.
 struct Kept {
-    keeping: Keeping,
+    writer: CheckpointWriter,
     every: Duration,
     next: Instant,
     asked: Instant,
@@ -97,9 +97,9 @@ impl<'a> Watcher<'a> {
     }
 
     /// Keeps the run on disk: at once, every so often, and when it is told to stop.
-    pub(crate) fn keeping(mut self, keeping: Keeping, every: Duration) -> Self {
+    pub(crate) fn checkpoints(mut self, writer: CheckpointWriter, every: Duration) -> Self {
         let (next, asked) = (self.start, self.start);
-        self.kept = Some(Kept { keeping, every, next, asked, has_failed: false });
+        self.kept = Some(Kept { writer, every, next, asked, has_failed: false });
         self
     }
 
@@ -132,11 +132,11 @@ impl Observer for Watcher<'_> {
 
     fn state(&mut self, state: &[u8]) {
         let Some(kept) = &mut self.kept else { return };
-        if let Err(error) = kept.keeping.write(state)
+        if let Err(error) = kept.writer.write(state)
             && !kept.has_failed
         {
             kept.has_failed = true;
-            let name = kept.keeping.path().display();
+            let name = kept.writer.path().display();
             self.bar.suspend(|| eprintln!("warning: {name}: cannot keep the run: {error}"));
         }
         // A large state takes no more than a small share of the time.

@@ -14,7 +14,7 @@ mod obj_lines;
 mod polygon;
 
 use crate::project::{Project, UpAxis};
-use crate::{Files, LoadError, Mesh, Placed, Rgb, Warning};
+use crate::{Files, LoadError, Mesh, Rgb, Spanned, Warning};
 use builder::MeshBuilder;
 
 /// The name that triangles without a material get.
@@ -79,7 +79,7 @@ pub(crate) fn read(
 /// Reads a file that the project file names.
 pub(crate) fn read_file(
     project: &Project,
-    name: &Placed<String>,
+    name: &Spanned<String>,
     files: &dyn Files,
 ) -> Result<Vec<u8>, LoadError> {
     files.read(&name.value).map_err(|error| {

@@ -4,7 +4,7 @@ use super::{materials::listed, photometry};
 use crate::geometry::Geometry;
 use crate::light::{AreaLight, Luminaire};
 use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
-use crate::{Files, Light, LoadError, Place, Placed, Warning};
+use crate::{Files, Light, LoadError, Place, Spanned, Warning};
 use glam::DVec3;
 use quasilux_photometry::{LuminousShape, Photometry, TiltSupport};
 use std::collections::HashMap;
@@ -129,7 +129,7 @@ fn shape(
 fn area_light(
     project: &Project,
     geometry: &Geometry,
-    name: &Placed<String>,
+    name: &Spanned<String>,
     emission: Emission,
 ) -> Result<AreaLight, LoadError> {
     let mesh = &geometry.mesh;

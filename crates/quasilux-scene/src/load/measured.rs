@@ -4,7 +4,7 @@ use super::photometry::{load_error, passed_on};
 use crate::bsdf::Measured;
 use crate::geometry::read_file;
 use crate::project::Project;
-use crate::{Files, LoadError, Mesh, Placed, Warning};
+use crate::{Files, LoadError, Mesh, Spanned, Warning};
 use glam::DVec3;
 use quasilux_bsdf::{MeasuredBsdf, read_bsdf_named};
 use std::collections::HashMap;
@@ -28,8 +28,8 @@ impl<'a> MeasuredFiles<'a> {
     /// The sheet of a file; passes warnings on when it is read first.
     pub(super) fn read(
         &mut self,
-        file: &Placed<String>,
-        up: Option<&Placed<DVec3>>,
+        file: &Spanned<String>,
+        up: Option<&Spanned<DVec3>>,
         warnings: &mut Vec<Warning>,
     ) -> Result<Measured, LoadError> {
         let name = file.value.as_str();
@@ -58,7 +58,7 @@ impl<'a> MeasuredFiles<'a> {
     /// Refuses facets of a material that its upward direction stands on.
     pub(super) fn must_lie_across(
         &self,
-        up: Option<&Placed<DVec3>>,
+        up: Option<&Spanned<DVec3>>,
         mesh: &Mesh,
         material: u32,
     ) -> Result<(), LoadError> {

@@ -2,14 +2,14 @@
 
 use crate::geometry::{beside, read_file, reason};
 use crate::project::Project;
-use crate::{Files, LoadError, Place, Placed, Warning};
+use crate::{Files, LoadError, Place, Spanned, Warning};
 use quasilux_photometry::{Format, ParseError, Photometry, Tilt, WarningKind, read_tilt};
 
 /// Reads an IES, EULUMDAT or TM-33 file, as its content or else its extension says, passing its
 /// warnings on.
 pub(super) fn read(
     project: &Project,
-    name: &Placed<String>,
+    name: &Spanned<String>,
     files: &dyn Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Photometry, LoadError> {

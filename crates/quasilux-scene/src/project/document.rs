@@ -4,10 +4,9 @@
 //! what is expected, so that each refusal can.
 
 use super::renamed::RenamedKey;
-use crate::{LoadError, Place, Placed};
+use crate::{LoadError, Place, Spanned};
 use glam::DVec3;
 use std::ops::Range;
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Largest coordinate in m that a project file may give: far beyond any light on Earth, and its
@@ -39,7 +38,7 @@ pub(super) struct Section<'a> {
 pub(super) struct Value<'a> {
     source: &'a Source<'a>,
     pub(super) key: &'a str,
-    value: &'a Spanned<DeValue<'a>>,
+    value: &'a toml::Spanned<DeValue<'a>>,
 }
 
 impl<'a> Source<'a> {
@@ -75,7 +74,7 @@ impl<'a> Section<'a> {
     }
 
     /// All entries, in the order of the file.
-    pub(super) fn entries(&self) -> Vec<(Placed<&'a str>, Value<'a>)> {
+    pub(super) fn entries(&self) -> Vec<(Spanned<&'a str>, Value<'a>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
         entries
@@ -83,7 +82,7 @@ impl<'a> Section<'a> {
             .map(|(key, value)| {
                 let name: &str = key.get_ref();
                 let place = self.source.place(key.span().start);
-                (Placed { value: name, place }, Value { source: self.source, key: name, value })
+                (Spanned { value: name, place }, Value { source: self.source, key: name, value })
             })
             .collect()
     }
@@ -170,8 +169,8 @@ impl<'a> Value<'a> {
         self.source.error(self.value.span().start, message)
     }
 
-    pub(super) fn placed<T>(&self, value: T) -> Placed<T> {
-        Placed { value, place: self.place() }
+    pub(super) fn spanned<T>(&self, value: T) -> Spanned<T> {
+        Spanned { value, place: self.place() }
     }
 
     /// The refusal that repeats the value and says what was expected instead.

@@ -2,7 +2,7 @@
 
 use super::document::Section;
 use crate::light::PointLight;
-use crate::{LoadError, Place, Placed};
+use crate::{LoadError, Place, Spanned};
 
 const AREA_KEYS: [&str; 4] = ["kind", "material", "luminance_cd_m2", "flux_lm"];
 
@@ -13,7 +13,7 @@ const MAX_LIGHT: f64 = 1e60;
 #[derive(Clone, Debug)]
 pub(crate) enum LightEntry {
     Point { place: Place, light: PointLight },
-    Area { material: Placed<String>, emission: Emission },
+    Area { material: Spanned<String>, emission: Emission },
 }
 
 /// How the project file gives the light of a surface.
@@ -62,7 +62,7 @@ fn area(section: &Section<'_>) -> Result<LightEntry, LoadError> {
     section.only(&AREA_KEYS, &[])?;
     let name = "the name of a material in the geometry";
     let material = section.require("material", name)?;
-    let material = material.placed(material.string(name)?.to_owned());
+    let material = material.spanned(material.string(name)?.to_owned());
     let amount = section.exactly_one(&["luminance_cd_m2", "flux_lm"])?;
     let number = |what: &str| amount.number(what, |x| (0.0..=MAX_LIGHT).contains(&x));
     let emission = match amount.key {

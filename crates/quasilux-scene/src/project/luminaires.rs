@@ -2,7 +2,7 @@
 
 use super::document::{Section, Value};
 use crate::light::{Placement, PlacementError};
-use crate::{LoadError, Place, Placed};
+use crate::{LoadError, Place, Spanned};
 use glam::{DMat3, DVec3};
 
 const KEYS: [&str; 7] = ["photometry", "position", "as", "aim", "c0", "rotation_deg", "dimming"];
@@ -15,7 +15,7 @@ const FILE_NAME: &str = "the name of an .ies, .ldt or .xml (TM-33) file";
 pub(crate) struct LuminaireEntry {
     pub(crate) place: Place,
     /// Name of an IES, EULUMDAT or TM-33 file.
-    pub(crate) photometry: Placed<String>,
+    pub(crate) photometry: Spanned<String>,
     pub(crate) position: DVec3,
     pub(crate) world_from_luminaire: DMat3,
     pub(crate) dimming: f64,
@@ -52,11 +52,11 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
     })
 }
 
-fn photometry(value: Value<'_>) -> Result<Placed<String>, LoadError> {
+fn photometry(value: Value<'_>) -> Result<Spanned<String>, LoadError> {
     let name = value.string(FILE_NAME)?;
     let extension = name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
     match extension.as_deref() {
-        Some("ies" | "ldt" | "xml") => Ok(value.placed(name.to_owned())),
+        Some("ies" | "ldt" | "xml") => Ok(value.spanned(name.to_owned())),
         _ => Err(value.unexpected(FILE_NAME)),
     }
 }

@@ -4,7 +4,7 @@ use super::coefficients::{eta, index, reflectance, shares};
 use super::document::Section;
 use super::pane;
 use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
-use crate::{Bsdf, LoadError, Placed};
+use crate::{Bsdf, LoadError, Spanned};
 use glam::DVec3;
 
 /// What each kind may hold beside `kind`.
@@ -31,7 +31,7 @@ const UP: &str = "a direction [x, y, z] with a length";
 /// One material.
 #[derive(Clone, Debug)]
 pub(crate) struct MaterialEntry {
-    pub(crate) name: Placed<String>,
+    pub(crate) name: Spanned<String>,
     pub(crate) scattering: Scattering,
 }
 
@@ -42,9 +42,9 @@ pub(crate) enum Scattering {
     Described(Bsdf),
     /// By the tables of a file.
     Measured {
-        file: Placed<String>,
+        file: Spanned<String>,
         /// Where the `y` axis of the tables points.
-        up: Option<Placed<DVec3>>,
+        up: Option<Spanned<DVec3>>,
     },
 }
 
@@ -56,7 +56,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> 
     entries
         .map(|(name, value)| {
             let section = value.section(format!("[materials.{}]", name.value))?;
-            let name = Placed { value: name.value.to_owned(), place: name.place };
+            let name = Spanned { value: name.value.to_owned(), place: name.place };
             Ok(MaterialEntry { name, scattering: scattering(&section)? })
         })
         .collect()
@@ -90,10 +90,10 @@ fn bsdf(section: &Section<'_>, kind: &str) -> Result<Bsdf, LoadError> {
 
 fn measured(section: &Section<'_>) -> Result<Scattering, LoadError> {
     let file = section.require("file", FILE_NAME)?;
-    let file = file.placed(file.string(FILE_NAME)?.to_owned());
+    let file = file.spanned(file.string(FILE_NAME)?.to_owned());
     let up = section.get("up").map(|value| match value.vector(UP)? {
         DVec3::ZERO => Err(value.unexpected(UP)),
-        up => Ok(value.placed(up)),
+        up => Ok(value.spanned(up)),
     });
     Ok(Scattering::Measured { file, up: up.transpose()? })
 }

@@ -26,7 +26,7 @@ pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::{MaterialEntry, Scattering};
 pub(crate) use sensors::SensorEntry;
 
-use crate::{LoadError, Place, Placed};
+use crate::{LoadError, Place, Spanned};
 use document::{Section, Source};
 use names::Names;
 use toml::de::DeTable;
@@ -43,7 +43,7 @@ pub(crate) enum UpAxis {
 pub(crate) struct Project {
     pub(crate) file: String,
     /// Names of the geometry files, at least one.
-    pub(crate) geometry: Vec<Placed<String>>,
+    pub(crate) geometry: Vec<Spanned<String>>,
     /// `None` where the file does not say: z.
     pub(crate) up: Option<UpAxis>,
     pub(crate) materials: Vec<MaterialEntry>,
@@ -114,7 +114,7 @@ fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, LoadError> {
     })
 }
 
-fn scene_section(root: &Section<'_>) -> Result<(Vec<Placed<String>>, Option<UpAxis>), LoadError> {
+fn scene_section(root: &Section<'_>) -> Result<(Vec<Spanned<String>>, Option<UpAxis>), LoadError> {
     let expected = "[\"room.obj\"]: OBJ, glTF or GLB files, relative to the project file";
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
@@ -125,13 +125,13 @@ fn scene_section(root: &Section<'_>) -> Result<(Vec<Placed<String>>, Option<UpAx
     if files.is_empty() {
         return Err(list.unexpected(expected));
     }
-    let mut geometry: Vec<Placed<String>> = Vec::new();
+    let mut geometry: Vec<Spanned<String>> = Vec::new();
     for file in files {
         let name = file.string("the name of an OBJ, glTF or GLB file")?;
         if geometry.iter().any(|earlier| earlier.value == name) {
             return Err(file.error(format!("\"{name}\" is listed twice; expected each file once")));
         }
-        geometry.push(file.placed(name.to_owned()));
+        geometry.push(file.spanned(name.to_owned()));
     }
     let up = match section.get("up").map(|up| up.name(&["y", "z"], &[])).transpose()? {
         None => None,

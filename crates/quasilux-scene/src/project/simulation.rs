@@ -5,7 +5,7 @@
 
 use super::document::{Section, Value};
 use super::renamed::RENAMED_KEYS;
-use crate::{LoadError, Placed};
+use crate::{LoadError, Spanned};
 
 const KEYS: [&str; 21] = [
     "estimator",
@@ -49,60 +49,60 @@ const MAX_IMAGE_DEPTH: u64 = 1000;
 pub struct SimulationSection {
     file: String,
     /// Name of the estimator.
-    pub estimator: Option<Placed<String>>,
+    pub estimator: Option<Spanned<String>>,
     /// Name of the sequence.
-    pub sequence: Option<Placed<String>>,
+    pub sequence: Option<Spanned<String>>,
     /// Name of the randomisation.
-    pub randomization: Option<Placed<String>>,
+    pub randomization: Option<Spanned<String>>,
     /// Wanted half-width over value, in (0, 1].
-    pub rel_tol: Option<Placed<f64>>,
+    pub rel_tol: Option<Spanned<f64>>,
     /// Half-width in lx that is enough, above 0.
-    pub abs_tol_lx: Option<Placed<f64>>,
+    pub abs_tol_lx: Option<Spanned<f64>>,
     /// Name of what has to reach the tolerance.
-    pub tolerance_on: Option<Placed<String>>,
+    pub tolerance_on: Option<Spanned<String>>,
     /// Confidence level in (0, 1).
-    pub confidence: Option<Placed<f64>>,
+    pub confidence: Option<Spanned<f64>>,
     /// Number of independent randomisations, at least 1.
-    pub replicates: Option<Placed<u32>>,
+    pub replicates: Option<Spanned<u32>>,
     /// Seed of all randomisations.
-    pub seed: Option<Placed<u64>>,
+    pub seed: Option<Spanned<u64>>,
     /// Bounces after which light is cut; the inner `None` is `"unlimited"`.
-    pub max_bounces: Option<Placed<Option<u32>>>,
+    pub max_bounces: Option<Spanned<Option<u32>>>,
     /// Terms of the Neumann series to list beside the rest, 1 to 16.
-    pub list_terms: Option<Placed<u32>>,
+    pub list_terms: Option<Spanned<u32>>,
     /// Name of when the direct light of photons is computed.
-    pub first_shot: Option<Placed<String>>,
+    pub first_shot: Option<Spanned<String>>,
     /// Longest edge of an illumination map element in m, above 0.
-    pub map_element_m: Option<Placed<f64>>,
+    pub map_element_m: Option<Spanned<f64>>,
     /// Most elements of the illumination map, at least 1.
-    pub map_elements: Option<Placed<u64>>,
+    pub map_elements: Option<Spanned<u64>>,
     /// Whether elements are split where the illumination varies.
-    pub map_adaptive: Option<Placed<bool>>,
+    pub map_adaptive: Option<Spanned<bool>>,
     /// Name of what is made of the photons in an element.
-    pub map_reconstruction: Option<Placed<String>>,
+    pub map_reconstruction: Option<Spanned<String>>,
     /// Photons of a map that grows for every path of a sensor point, at least 1.
-    pub map_photons: Option<Placed<u32>>,
+    pub map_photons: Option<Spanned<u32>>,
     /// Coordinates that a photon on a map may have used, at least 1.
-    pub map_dimensions: Option<Placed<u32>>,
+    pub map_dimensions: Option<Spanned<u32>>,
     /// Mirrors, one after the other, that images of point-like lights are followed through.
-    pub image_depth: Option<Placed<u32>>,
+    pub image_depth: Option<Spanned<u32>>,
     /// Name of when photons follow the importance of the sensors.
-    pub importance: Option<Placed<String>>,
+    pub importance: Option<Spanned<String>>,
     /// Name of when photons are connected to the sensors beside paths.
-    pub connections: Option<Placed<String>>,
+    pub connections: Option<Spanned<String>>,
 }
 
 impl SimulationSection {
     /// The error that `message` describes, at the place of `at`.
     #[must_use]
-    pub fn error_at<T>(&self, at: &Placed<T>, message: impl Into<String>) -> LoadError {
+    pub fn error_at<T>(&self, at: &Spanned<T>, message: impl Into<String>) -> LoadError {
         LoadError::new(&self.file, Some(at.place), message)
     }
 
     /// The error that refuses the name at `at`, which is not one of `known`: `what` says what it
     /// names, such as "estimator". Offers the nearest known name.
     #[must_use]
-    pub fn unknown_name(&self, at: &Placed<String>, what: &str, known: &[&str]) -> LoadError {
+    pub fn unknown_name(&self, at: &Spanned<String>, what: &str, known: &[&str]) -> LoadError {
         let list = known.join(", ");
         self.error_at(at, format!("unknown {what} \"{}\"; expected one of {list}", at.value))
             .offer(&at.value, known.iter().copied())
@@ -116,9 +116,9 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
     };
     section.refuse_renamed(&RENAMED_KEYS)?;
     section.only(&KEYS, &[])?;
-    let name = |key| placed(&section, key, |value| Ok(value.string("a name")?.to_owned()));
+    let name = |key| spanned(&section, key, |value| Ok(value.string("a name")?.to_owned()));
     let number = |key, expected: &str, accept: fn(f64) -> bool| {
-        placed(&section, key, |value| value.number(expected, accept))
+        spanned(&section, key, |value| value.number(expected, accept))
     };
     Ok(SimulationSection {
         file,
@@ -133,35 +133,35 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
             x > 0.0 && x < 1.0
         })?,
-        replicates: placed(&section, "replicates", |value| {
+        replicates: spanned(&section, "replicates", |value| {
             let expected = format!("an integer from 1 to {MAX_REPLICATES}");
             value.integer(&expected, 1..=MAX_REPLICATES).map(|n| n as u32)
         })?,
-        seed: placed(&section, "seed", |value| {
+        seed: spanned(&section, "seed", |value| {
             value.integer("an integer from 0 to 18446744073709551615", 0..=u64::MAX)
         })?,
-        max_bounces: placed(&section, "max_bounces", |value| bounces(&value))?,
-        list_terms: placed(&section, "list_terms", |value| {
+        max_bounces: spanned(&section, "max_bounces", |value| bounces(&value))?,
+        list_terms: spanned(&section, "list_terms", |value| {
             let expected = format!("an integer from 1 to {MAX_TERMS}");
             value.integer(&expected, 1..=MAX_TERMS).map(|n| n as u32)
         })?,
         first_shot: name("first_shot")?,
         map_element_m: number("map_element_m", "a length in m above 0", |x| x > 0.0)?,
-        map_elements: placed(&section, "map_elements", |value| {
+        map_elements: spanned(&section, "map_elements", |value| {
             let expected = format!("an integer from 1 to {MAX_MAP_ELEMENTS}");
             value.integer(&expected, 1..=MAX_MAP_ELEMENTS)
         })?,
-        map_adaptive: placed(&section, "map_adaptive", |value| value.boolean())?,
+        map_adaptive: spanned(&section, "map_adaptive", |value| value.boolean())?,
         map_reconstruction: name("map_reconstruction")?,
-        map_photons: placed(&section, "map_photons", |value| {
+        map_photons: spanned(&section, "map_photons", |value| {
             let expected = format!("an integer from 1 to {MAX_MAP_PHOTONS}");
             value.integer(&expected, 1..=MAX_MAP_PHOTONS).map(|n| n as u32)
         })?,
-        map_dimensions: placed(&section, "map_dimensions", |value| {
+        map_dimensions: spanned(&section, "map_dimensions", |value| {
             let expected = format!("an integer from 1 to {}", u32::MAX);
             value.integer(&expected, 1..=u64::from(u32::MAX)).map(|n| n as u32)
         })?,
-        image_depth: placed(&section, "image_depth", |value| {
+        image_depth: spanned(&section, "image_depth", |value| {
             let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");
             value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)
         })?,
@@ -178,10 +178,10 @@ fn bounces(value: &Value<'_>) -> Result<Option<u32>, LoadError> {
     value.integer(expected, 0..=u64::from(u32::MAX)).map(|n| Some(n as u32))
 }
 
-fn placed<'a, T>(
+fn spanned<'a, T>(
     section: &Section<'a>,
     key: &'a str,
     read: impl Fn(Value<'a>) -> Result<T, LoadError>,
-) -> Result<Option<Placed<T>>, LoadError> {
-    section.get(key).map(|value| Ok(value.placed(read(value)?))).transpose()
+) -> Result<Option<Spanned<T>>, LoadError> {
+    section.get(key).map(|value| Ok(value.spanned(read(value)?))).transpose()
 }

@@ -1,14 +1,14 @@
 //! `quasilux experiment NAME`: runs an experiment of `quasilux-experiments`, writes its files and prints its tables.
 
 use crate::arguments::ExperimentArguments;
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::print::print;
 use crate::{digest, results};
 use quasilux_experiments::{EXPERIMENTS, Experiment, Options};
 use std::path::{Path, PathBuf};
 
 /// Runs an experiment, writes its files and prints its table.
-pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusal> {
+pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, CliError> {
     let name = arguments.name.as_str();
     let experiment = Experiment::named(name).ok_or_else(|| refused(name))?;
     let options = Options {
@@ -24,7 +24,7 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
     results::prepare(&folder)?;
     let outcome = experiment.run(&options);
     let file = |ending: &str| -> PathBuf { folder.join(format!("{name}.{ending}")) };
-    results::write_whole(&file("csv"), outcome.csv.as_bytes())?;
+    results::write_atomic(&file("csv"), outcome.csv.as_bytes())?;
     // So that tables and figures are known to belong together, and to be as they were written.
     let [csv, text] =
         [&outcome.csv, &outcome.markdown].map(|text| digest::sha256_hex(text.as_bytes()));
@@ -32,18 +32,18 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, Refusa
         "{}\n<!-- SHA-256 of {name}.csv: {csv}, of the text before: {text} -->\n",
         outcome.markdown
     );
-    results::write_whole(&file("md"), tables.as_bytes())?;
-    results::write_whole(&file("svg"), outcome.svg.as_bytes())?;
+    results::write_atomic(&file("md"), tables.as_bytes())?;
+    results::write_atomic(&file("svg"), outcome.svg.as_bytes())?;
     for picture in &outcome.pictures {
         let path = folder.join(format!("{name}-{}.png", picture.name));
-        results::write_whole(&path, &picture.png)?;
+        results::write_atomic(&path, &picture.png)?;
     }
     print(&format!("{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display()))?;
     Ok(if outcome.passed { Exit::Done } else { Exit::CheckFailed })
 }
 
-fn refused(name: &str) -> Refusal {
+fn refused(name: &str) -> CliError {
     let list = EXPERIMENTS.iter().map(|known| format!("{} ({})", known.name, known.shows));
     let list = list.collect::<Vec<_>>().join(", ");
-    Refusal::new(format!("unknown experiment \"{name}\"; there is {list}"))
+    CliError::new(format!("unknown experiment \"{name}\"; there is {list}"))
 }

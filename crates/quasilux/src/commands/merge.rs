@@ -2,7 +2,7 @@
 
 use super::run::{Folder, count, work};
 use crate::arguments::MergeArguments;
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::{Part, in_order};
 use crate::watcher::Watcher;
@@ -10,13 +10,13 @@ use crate::{interrupt, project};
 use quasilux_transport::MergeError;
 
 /// Puts parts together and writes the results of the run.
-pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Refusal> {
+pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
-    let parts: Result<Vec<Part>, Refusal> =
+    let parts: Result<Vec<Part>, CliError> =
         arguments.parts.iter().map(|path| Part::read(path)).collect();
     let parts = in_order(parts?)?;
     let Some(Part { name, plan, .. }) = parts.first() else {
-        return Err(Refusal::new("no parts"));
+        return Err(CliError::new("no parts"));
     };
     let file = arguments.project.as_ref().unwrap_or(&plan.project);
     let project = project::open(file)?;
@@ -34,9 +34,9 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, Refusal> {
         quasilux_transport::merge(scene, &settings, plan.samples, &sums, watcher).map(Some).map_err(
             |error| match error {
                 MergeError::Part { part, error } => {
-                    Refusal::new(format!("{}: {error}", parts[part].name))
+                    CliError::new(format!("{}: {error}", parts[part].name))
                 }
-                error => Refusal::new(error),
+                error => CliError::new(error),
             },
         )
     };

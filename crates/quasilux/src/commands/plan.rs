@@ -2,7 +2,7 @@
 
 use super::run::{count, pool};
 use crate::arguments::{PlanArguments, PlannedArguments, SimulationArguments};
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::plan::Plan;
 use crate::print::print;
 use crate::project::Project;
@@ -11,7 +11,7 @@ use quasilux_transport::Settings;
 use std::path::Path;
 
 /// Writes the plan of a project.
-pub(crate) fn plan(arguments: &PlanArguments) -> Result<Exit, Refusal> {
+pub(crate) fn plan(arguments: &PlanArguments) -> Result<Exit, CliError> {
     let project = project::open(&arguments.project)?;
     if let Some(path) = &arguments.out {
         results::prepare_file(path, &[&arguments.project])?;
@@ -19,7 +19,7 @@ pub(crate) fn plan(arguments: &PlanArguments) -> Result<Exit, Refusal> {
     let made =
         make(&arguments.project, &project, &arguments.planned, count(arguments.work.threads))?;
     match &arguments.out {
-        Some(path) => results::write_whole(path, made.plan.text().as_bytes())?,
+        Some(path) => results::write_atomic(path, made.plan.text().as_bytes())?,
         None => print(&made.plan.text())?,
     }
     Ok(Exit::Done)
@@ -37,13 +37,13 @@ pub(crate) fn make(
     project: &Project,
     planned: &PlannedArguments,
     threads: usize,
-) -> Result<Made, Refusal> {
+) -> Result<Made, CliError> {
     let Some(samples) = planned.samples else {
-        return Err(Refusal::new("a plan needs --samples: it says where the run ends"));
+        return Err(CliError::new("a plan needs --samples: it says where the run ends"));
     };
     if project.loaded.scene.sensors.is_empty() {
         let name = &project.name;
-        return Err(Refusal::new(format!("{name}: without sensors there is nothing to plan")));
+        return Err(CliError::new(format!("{name}: without sensors there is nothing to plan")));
     }
     results::expect_text(path)?;
     let arguments = SimulationArguments {

@@ -2,48 +2,49 @@
 
 use super::run::{Folder, count, work};
 use crate::arguments::ResumeArguments;
-use crate::checkpoint::{self, Checkpoint, Heading, Keeping};
-use crate::exit::{Exit, Refusal};
+use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest};
+use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
 use std::path::PathBuf;
 
 /// Goes on with a run, and ends with the bits that it would have had.
-pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, Refusal> {
+pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
-    let (Checkpoint { heading, state }, warning) = checkpoint::read(&arguments.checkpoint)?;
+    let Latest { checkpoint, warning } = checkpoint::read(&arguments.checkpoint)?;
+    let Checkpoint { heading, state } = checkpoint;
     if let (Some(warning), false) = (&warning, arguments.output.quiet) {
         eprintln!("warning: {warning}");
     }
     let name = arguments.checkpoint.display().to_string();
-    heading.expect_build().map_err(|what| Refusal::new(format!("{name}: {what}")))?;
+    heading.expect_build().map_err(|what| CliError::new(format!("{name}: {what}")))?;
     let file = project_file(arguments, &heading);
     let project = project::open(&file)?;
     if let Some(change) = project.identity.difference(&heading.scene) {
         let project = &project.name;
-        return Err(Refusal::new(format!("{name}: {project} is another scene now: {change}")));
+        return Err(CliError::new(format!("{name}: {project} is another scene now: {change}")));
     }
     let settings = heading.settings.settings(&name)?;
     let scene = &project.loaded.scene;
     let checked = quasilux_transport::check(scene, &settings);
-    checked.map_err(|error| Refusal::new(format!("{name}: {error}")))?;
+    checked.map_err(|error| CliError::new(format!("{name}: {error}")))?;
     if settings.sequence.points().is_some() && arguments.time.is_some() {
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "{name}: {} needs all of its points: --time cannot end the run before",
             settings.sequence.name()
         )));
     }
     let folder = Folder::prepare(&arguments.output, &file, &project)?;
-    let keeping = Keeping::new(&arguments.checkpoint, &file, &project, &settings)?
+    let writer = CheckpointWriter::new(&arguments.checkpoint, &file, &project, &settings)?
         .going_on(warning.is_some());
     let threads = count(arguments.work.threads);
     let forecast = Forecast::new(scene, &settings, threads);
     let watcher = Watcher::new(forecast, arguments.time, arguments.output.quiet)
-        .keeping(keeping, arguments.checkpoint_every);
+        .checkpoints(writer, arguments.checkpoint_every);
     let go_on = |watcher: &mut Watcher<'_>| {
         let estimates = quasilux_transport::resume(scene, &settings, &state, watcher);
-        estimates.map(Some).map_err(|error| Refusal::new(format!("{name}: {error}")))
+        estimates.map(Some).map_err(|error| CliError::new(format!("{name}: {error}")))
     };
     match work(&project, watcher, go_on)? {
         Some(finished) => folder.deliver(&finished),

@@ -2,8 +2,8 @@
 
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
 use crate::build::{BUILD, VERSION};
-use crate::checkpoint::Keeping;
-use crate::exit::{Exit, Refusal};
+use crate::checkpoint::CheckpointWriter;
+use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::Plan;
 use crate::print::print;
@@ -23,12 +23,12 @@ pub(crate) struct Finished {
 }
 
 /// Runs a project, writes its results and prints what was asked for.
-pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
+pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
     let project = project::open(&arguments.project)?;
     let folder = Folder::prepare(&arguments.output, &arguments.project, &project)?;
     if arguments.explain && project.loaded.scene.sensors.is_empty() {
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "{}: --explain looks at sensors, and the project has none",
             project.name
         )));
@@ -42,8 +42,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, Refusal> {
     let forecast = Forecast::new(scene, &settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, arguments.output.quiet);
     if let Some(path) = &arguments.keeping.checkpoint {
-        let keeping = Keeping::fresh(path, &arguments.project, &project, &settings)?;
-        watcher = watcher.keeping(keeping, arguments.keeping.checkpoint_every);
+        let writer = CheckpointWriter::fresh(path, &arguments.project, &project, &settings)?;
+        watcher = watcher.checkpoints(writer, arguments.keeping.checkpoint_every);
     }
     let simulate = |watcher: &mut Watcher<'_>| {
         Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)))
@@ -65,7 +65,7 @@ fn run_plan(
     project: &Project,
     folder: &Folder<'_>,
     path: &Path,
-) -> Result<Exit, Refusal> {
+) -> Result<Exit, CliError> {
     let plan = Plan::read(path)?;
     let settings = plan.settings(&path.display().to_string(), project)?;
     let scene = &project.loaded.scene;
@@ -78,7 +78,7 @@ fn run_plan(
         let merge = |part: Vec<u8>| {
             plan.expect_decisions(&part, &path.display().to_string())?;
             quasilux_transport::merge(scene, &settings, samples, &[&part], watcher)
-                .map_err(Refusal::new)
+                .map_err(CliError::new)
         };
         part.map(merge).transpose()
     };
@@ -93,7 +93,7 @@ pub(crate) fn simulate(
     project: &Project,
     arguments: &SimulationArguments,
     quiet: bool,
-) -> Result<Finished, Refusal> {
+) -> Result<Finished, CliError> {
     let settings = project::settings(project, arguments)?;
     let scene = &project.loaded.scene;
     let forecast = Forecast::new(scene, &settings, count(arguments.threads));
@@ -110,8 +110,8 @@ pub(crate) fn simulate(
 pub(crate) fn work(
     project: &Project,
     mut watcher: Watcher<'_>,
-    job: impl FnOnce(&mut Watcher<'_>) -> Result<Option<Estimates>, Refusal> + Send,
-) -> Result<Option<Finished>, Refusal> {
+    job: impl FnOnce(&mut Watcher<'_>) -> Result<Option<Estimates>, CliError> + Send,
+) -> Result<Option<Finished>, CliError> {
     let forecast = watcher.forecast;
     let Forecast { scene, settings, threads, .. } = forecast;
     let outcome = pool(threads)?.install(|| job(&mut watcher));
@@ -146,11 +146,11 @@ pub(crate) fn count(threads: Option<u16>) -> usize {
 }
 
 /// So many threads.
-pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
+pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, CliError> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .map_err(|error| Refusal::new(format!("cannot start {threads} threads: {error}")))
+        .map_err(|error| CliError::new(format!("cannot start {threads} threads: {error}")))
 }
 
 /// Where results go.
@@ -165,7 +165,7 @@ impl<'a> Folder<'a> {
         output: &'a OutputArguments,
         file: &Path,
         project: &Project,
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, CliError> {
         if output.json && !output.quiet {
             // The table has the warnings; the document is for programs.
             for warning in &project.loaded.warnings {
@@ -179,7 +179,7 @@ impl<'a> Folder<'a> {
     }
 
     /// Writes results and prints what was asked for.
-    pub(crate) fn deliver(&self, finished: &Finished) -> Result<Exit, Refusal> {
+    pub(crate) fn deliver(&self, finished: &Finished) -> Result<Exit, CliError> {
         let Finished { report, exit } = finished;
         results::write(&self.path, report)?;
         if self.output.json {

@@ -3,7 +3,7 @@
 use super::plan::{Made, make};
 use super::run::{count, pool};
 use crate::arguments::ShardArguments;
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::{Plan, part};
 use crate::watcher::Watcher;
@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Computes a range of the indices of a plan and writes it.
-pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
+pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
     let project = project::open(&arguments.project)?;
     let threads = count(arguments.work.threads);
@@ -48,7 +48,7 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
         return Ok(Exit::Interrupted);
     };
     plan.expect_decisions(&sums, &project.name)?;
-    results::write_whole(&path, &part(&plan, &range, &sums))?;
+    results::write_atomic(&path, &part(&plan, &range, &sums))?;
     if !arguments.quiet {
         let (start, last, of) = (range.start, range.end - 1, plan.samples);
         eprintln!("indices {start} to {last} of {of} in {}, {seconds:.1} s", path.display());
@@ -56,7 +56,7 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, Refusal> {
     Ok(Exit::Done)
 }
 
-fn indices(arguments: &ShardArguments, plan: &Plan) -> Result<Range<u64>, Refusal> {
+fn indices(arguments: &ShardArguments, plan: &Plan) -> Result<Range<u64>, CliError> {
     let samples = plan.samples;
     let range = match (&arguments.index_range, arguments.shard) {
         (Some(range), _) => range.clone(),
@@ -64,11 +64,11 @@ fn indices(arguments: &ShardArguments, plan: &Plan) -> Result<Range<u64>, Refusa
         (None, None) => 0..samples,
     };
     if range.is_empty() {
-        return Err(Refusal::new(format!("--shard: more parts than the {samples} samples")));
+        return Err(CliError::new(format!("--shard: more parts than the {samples} samples")));
     }
     if range.end > samples {
         let Range { start, end } = range;
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "--index-range {start}..{end}: the plan has the indices 0 to {}",
             samples - 1
         )));

@@ -3,7 +3,7 @@
 use super::run::simulate;
 use crate::arguments::{SimulationArguments, ValidateArguments};
 use crate::cases::{Case, Verdict};
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::print::print;
 use crate::{interrupt, project};
 use quasilux_report::number::{brief, exact, figure_text};
@@ -11,13 +11,13 @@ use quasilux_report::{Figure, Report};
 use std::path::PathBuf;
 
 /// Runs the cases; exit code 1 when one fails. An interrupted run is no verdict.
-pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, Refusal> {
+pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
     let folder = arguments.folder.join("cases");
     let cases = case_files(&folder)
-        .map_err(|error| Refusal::new(format!("{}: {error}", folder.display())))?;
+        .map_err(|error| CliError::new(format!("{}: {error}", folder.display())))?;
     if cases.is_empty() {
-        return Err(Refusal::new(format!("{}: no cases, expected *.toml", folder.display())));
+        return Err(CliError::new(format!("{}: no cases, expected *.toml", folder.display())));
     }
     print_row(["estimator", "figure", "expected", "got", "verdict"])?;
     let (mut held, mut failed) = (0, 0);
@@ -54,17 +54,17 @@ fn case_files(folder: &std::path::Path) -> std::io::Result<Vec<PathBuf>> {
 }
 
 /// The verdicts of all expectations of a case.
-fn judge(case: &Case, report: &Report) -> Result<Vec<Verdict>, Refusal> {
+fn judge(case: &Case, report: &Report) -> Result<Vec<Verdict>, CliError> {
     let mut verdicts = Vec::new();
     for expectation in &case.expect {
-        verdicts.extend(expectation.judge(report).map_err(|refusal| {
-            Refusal::new(format!("case \"{}\" ({}): {refusal}", case.name, case.source))
+        verdicts.extend(expectation.judge(report).map_err(|error| {
+            CliError::new(format!("case \"{}\" ({}): {error}", case.name, case.source))
         })?);
     }
     Ok(verdicts)
 }
 
-fn print_verdict(report: &Report, verdict: &Verdict) -> Result<(), Refusal> {
+fn print_verdict(report: &Report, verdict: &Verdict) -> Result<(), CliError> {
     let Verdict { what, expected, got, holds, why } = verdict;
     let judged = if *holds { "holds".to_owned() } else { format!("FAILS: {why}") };
     print_row([
@@ -84,6 +84,6 @@ fn got_text(got: Figure) -> String {
     exact.map_or_else(|| figure_text(got).joined(), |value| brief(value, 7))
 }
 
-fn print_row([estimator, figure, expected, got, verdict]: [&str; 5]) -> Result<(), Refusal> {
+fn print_row([estimator, figure, expected, got, verdict]: [&str; 5]) -> Result<(), CliError> {
     print(&format!("  {estimator:<13}  {figure:<26}  {expected:>18}  {got:<20}  {verdict}\n"))
 }

@@ -10,13 +10,13 @@ mod summary;
 
 use super::drawings;
 use crate::arguments::BsdfArguments;
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::print::print;
 use crate::results;
 use input::{Input, Surface};
 
 /// Reads and reports all files.
-pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, Refusal> {
+pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, CliError> {
     let drawings = match &arguments.svg {
         Some(path) => drawings::plan(path, &arguments.files)?,
         None => Vec::new(),
@@ -31,16 +31,16 @@ pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, Refusal> {
     if arguments.json {
         print(&document::document(&inputs, incidences))?;
     } else {
-        let summary = |(input, surface)| summary::summary(input, surface, incidences);
+        let summary = |read: ReadInput<'_>| summary::summary(read.input, read.surface, incidences);
         print(&read(&inputs).map(summary).collect::<Vec<String>>().join("\n"))?;
     }
     for (input, path) in inputs.iter().zip(&drawings) {
         if let Ok(surface) = &input.surface {
             let drawing = drawing::drawing(input, surface, incidences);
-            results::write_whole(path, drawing.as_bytes())?;
+            results::write_atomic(path, drawing.as_bytes())?;
         }
     }
-    let is_odd = |(_, surface): (&Input, &Surface)| !surface.warnings.is_empty();
+    let is_odd = |read: ReadInput<'_>| !read.surface.warnings.is_empty();
     Ok(if inputs.iter().any(|input| input.surface.is_err()) {
         Exit::BadInput
     } else if arguments.strict && read(&inputs).any(is_odd) {
@@ -50,6 +50,14 @@ pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, Refusal> {
     })
 }
 
-fn read(inputs: &[Input]) -> impl Iterator<Item = (&Input, &Surface)> {
-    inputs.iter().filter_map(|input| input.surface.as_ref().ok().map(|surface| (input, surface)))
+/// A file that could be read.
+struct ReadInput<'a> {
+    input: &'a Input,
+    surface: &'a Surface,
+}
+
+fn read(inputs: &[Input]) -> impl Iterator<Item = ReadInput<'_>> {
+    inputs
+        .iter()
+        .filter_map(|input| input.surface.as_ref().ok().map(|surface| ReadInput { input, surface }))
 }

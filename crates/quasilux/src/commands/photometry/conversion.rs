@@ -2,18 +2,18 @@
 
 use super::input::Luminaire;
 use super::outputs::Conversion;
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::results;
 use quasilux_photometry::{Format, IesStandard, Standard, write_ies, write_ldt};
 
 /// Writes the file; what the format could not hold is said on stderr.
-pub(super) fn convert(luminaire: &Luminaire, wanted: &Conversion) -> Result<(), Refusal> {
+pub(super) fn convert(luminaire: &Luminaire, wanted: &Conversion) -> Result<(), CliError> {
     let photometry = &luminaire.photometry;
     let written = match wanted.format {
         Format::Eulumdat => write_ldt(photometry),
         _ => write_ies(photometry, edition(photometry.facts().standard)),
     };
-    results::write_whole(&wanted.path, written.text.as_bytes())?;
+    results::write_atomic(&wanted.path, written.text.as_bytes())?;
     for note in &written.notes {
         eprintln!("note: {}: {note}", wanted.path.display());
     }

@@ -13,14 +13,14 @@ mod summary;
 mod words;
 
 use crate::arguments::PhotometryArguments;
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::print::print;
 use crate::results;
 use input::{Input, Luminaire};
 use outputs::Outputs;
 
 /// Reads and reports all files.
-pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, Refusal> {
+pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, CliError> {
     let outputs = Outputs::prepare(arguments)?;
     let inputs: Vec<Input> = arguments.files.iter().map(|path| Input::read(path)).collect();
     for input in &inputs {
@@ -32,7 +32,7 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, Refusa
         print(&document::document(&inputs))?;
     } else {
         let summaries: Vec<String> =
-            read(&inputs).map(|(input, luminaire)| summary::summary(input, luminaire)).collect();
+            read(&inputs).map(|read| summary::summary(read.input, read.luminaire)).collect();
         print(&summaries.join("\n"))?;
     }
     for (i, input) in inputs.iter().enumerate() {
@@ -40,21 +40,29 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, Refusa
             && let Some(path) = outputs.drawing(i)
         {
             let drawing = drawing::drawing(input, luminaire, arguments.diagram);
-            results::write_whole(path, drawing.as_bytes())?;
+            results::write_atomic(path, drawing.as_bytes())?;
         }
     }
-    if let (Some(wanted), Some((_, luminaire))) = (&outputs.conversion, read(&inputs).next()) {
-        conversion::convert(luminaire, wanted)?;
+    if let (Some(wanted), Some(first)) = (&outputs.conversion, read(&inputs).next()) {
+        conversion::convert(first.luminaire, wanted)?;
     }
     Ok(exit(&inputs, arguments.strict))
 }
 
-fn read(inputs: &[Input]) -> impl Iterator<Item = (&Input, &Luminaire)> {
-    inputs.iter().filter_map(|input| input.luminaire.as_ref().ok().map(|lamp| (input, lamp)))
+/// A file that could be read.
+struct ReadInput<'a> {
+    input: &'a Input,
+    luminaire: &'a Luminaire,
+}
+
+fn read(inputs: &[Input]) -> impl Iterator<Item = ReadInput<'_>> {
+    inputs.iter().filter_map(|input| {
+        input.luminaire.as_ref().ok().map(|luminaire| ReadInput { input, luminaire })
+    })
 }
 
 fn exit(inputs: &[Input], strict: bool) -> Exit {
-    let is_odd = |(_, luminaire): (&Input, &Luminaire)| luminaire.is_odd();
+    let is_odd = |read: ReadInput<'_>| read.luminaire.is_odd();
     if inputs.iter().any(|input| input.luminaire.is_err()) {
         Exit::BadInput
     } else if strict && read(inputs).any(is_odd) {

@@ -2,7 +2,7 @@
 
 use crate::arguments::PhotometryArguments;
 use crate::commands::drawings::{self, refuse_input};
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::results;
 use quasilux_photometry::Format;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ pub(super) struct Conversion {
 impl Outputs {
     /// Plans the files, and makes sure that they can be written, are all different and replace no
     /// input.
-    pub(super) fn prepare(arguments: &PhotometryArguments) -> Result<Self, Refusal> {
+    pub(super) fn prepare(arguments: &PhotometryArguments) -> Result<Self, CliError> {
         let drawings = match &arguments.svg {
             Some(path) => drawings::plan(path, &arguments.files)?,
             None => Vec::new(),
@@ -42,8 +42,8 @@ impl Outputs {
     }
 }
 
-fn conversion(path: &Path, files: &[PathBuf]) -> Result<Conversion, Refusal> {
-    let refuse = |what: String| Err(Refusal::new(format!("--convert {}: {what}", path.display())));
+fn conversion(path: &Path, files: &[PathBuf]) -> Result<Conversion, CliError> {
+    let refuse = |what: String| Err(CliError::new(format!("--convert {}: {what}", path.display())));
     let format = match Format::of_name(&path.to_string_lossy()) {
         Some(format @ (Format::Lm63 | Format::Eulumdat)) => format,
         _ => return refuse("expected a name that ends in .ies or .ldt".to_owned()),

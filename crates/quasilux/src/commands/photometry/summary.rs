@@ -13,7 +13,7 @@ const DIGITS: i32 = 5;
 /// A line for the file, a line for each fact, and a line for each warning.
 pub(super) fn summary(input: &Input, luminaire: &Luminaire) -> String {
     let mut text = format!("{}\n", printable(&input.name));
-    for (name, value) in facts(luminaire) {
+    for Row { name, value } in rows(luminaire) {
         text += &format!("  {name:<15} {}\n", printable(&value));
     }
     for warning in &luminaire.warnings {
@@ -23,31 +23,38 @@ pub(super) fn summary(input: &Input, luminaire: &Luminaire) -> String {
     text
 }
 
-fn facts(luminaire: &Luminaire) -> Vec<(&'static str, String)> {
+/// A line of the summary.
+struct Row {
+    name: &'static str,
+    value: String,
+}
+
+fn rows(luminaire: &Luminaire) -> Vec<Row> {
     let Luminaire { photometry, analysis, .. } = luminaire;
     let facts = photometry.facts();
     let mut rows = Vec::new();
+    let mut row = |name, value| rows.push(Row { name, value });
     if let Some(name) = words::luminaire(facts) {
-        rows.push(("luminaire", name));
+        row("luminaire", name);
     }
     if let Some(name) = words::keyword_line(facts, "MANUFAC") {
-        rows.push(("manufacturer", name));
+        row("manufacturer", name);
     }
-    rows.push(("standard", standard(luminaire)));
-    rows.push(("symmetry", symmetry(luminaire)));
-    rows.push(("flux", flux(luminaire)));
+    row("standard", standard(luminaire));
+    row("symmetry", symmetry(luminaire));
+    row("flux", flux(luminaire));
     if let Some(ratio) = analysis.light_output_ratio {
-        rows.push(("output ratio", percent(ratio)));
+        row("output ratio", percent(ratio));
     }
     if let Some(efficacy_lm_w) = analysis.efficacy_lm_w {
         let watts = brief(facts.input_watts, DIGITS);
-        rows.push(("efficacy", format!("{} lm/W at {watts} W", brief(efficacy_lm_w, 4))));
+        row("efficacy", format!("{} lm/W at {watts} W", brief(efficacy_lm_w, 4)));
     }
-    rows.push(("maximum", maximum(luminaire)));
+    row("maximum", maximum(luminaire));
     for plane in &analysis.planes {
-        rows.push((words::plane(plane.plane), in_plane(plane)));
+        row(words::plane(plane.plane), in_plane(plane));
     }
-    rows.push(("CIE flux code", flux_code(analysis)));
+    row("CIE flux code", flux_code(analysis));
     rows
 }
 

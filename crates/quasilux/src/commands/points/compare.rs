@@ -1,38 +1,25 @@
 //! `quasilux points --compare`: root mean squares over randomisations, and their slopes.
 
+use super::curve::{Curve, FIT_FROM};
 use super::setup::{Measure, Setup, counts, replicate};
 use super::{comparison_plot, comparison_table};
 use crate::arguments::PointsArguments;
-use crate::exit::Refusal;
+use crate::exit::CliError;
 use crate::print::print;
 use crate::results;
 use quasilux_sampling::quality::fit_power_law;
 use rayon::prelude::*;
 
-/// Slopes are fitted from this many points on.
-pub(super) const FIT_FROM: f64 = 64.0;
-
-/// What was measured of one setup.
-#[derive(Clone, Debug)]
-pub(super) struct Curve {
-    pub(super) measure: Measure,
-    pub(super) setup: Setup,
-    /// (N, root mean square over the replicates).
-    pub(super) points: Vec<[f64; 2]>,
-    /// The order of convergence, where there are enough points for it.
-    pub(super) slope: Option<f64>,
-}
-
 /// Compares, prints the table, and writes the files that were asked for.
-pub(super) fn compare(arguments: &PointsArguments) -> Result<(), Refusal> {
+pub(super) fn compare(arguments: &PointsArguments) -> Result<(), CliError> {
     let curves = curves(arguments.max_n, arguments.seed);
     if let Some(path) = &arguments.csv {
         let csv = comparison_table::csv(&curves);
-        results::write_whole(path, csv.as_bytes())?;
+        results::write_atomic(path, csv.as_bytes())?;
     }
     if let Some(path) = &arguments.svg {
         let svg = comparison_plot::svg(&curves);
-        results::write_whole(path, svg.as_bytes())?;
+        results::write_atomic(path, svg.as_bytes())?;
     }
     print(&comparison_table::table(&curves))
 }

@@ -1,6 +1,6 @@
 //! The comparison as a figure: a plot for each measure, logarithmic both ways.
 
-use super::compare::Curve;
+use super::curve::Curve;
 use super::setup::{Measure, REPLICATES};
 use quasilux_drawing::svg::{
     Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,

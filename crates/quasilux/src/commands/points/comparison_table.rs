@@ -1,6 +1,6 @@
 //! The comparison as a table for people and as one for programs.
 
-use super::compare::{Curve, FIT_FROM};
+use super::curve::{Curve, FIT_FROM};
 use super::setup::{Measure, REPLICATES};
 use quasilux_report::number::exact;
 use std::fmt::Write;

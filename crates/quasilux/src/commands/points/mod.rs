@@ -4,10 +4,11 @@
 mod compare;
 mod comparison_plot;
 mod comparison_table;
+mod curve;
 mod setup;
 
 use crate::arguments::PointsArguments;
-use crate::exit::{Exit, Refusal};
+use crate::exit::{CliError, Exit};
 use crate::print::to_stdout;
 use crate::{names, results};
 use quasilux_drawing::svg::{Scatter, scatter};
@@ -22,7 +23,7 @@ const MAX_DRAWN: u64 = 1 << 16;
 const MAX_MEASURED: usize = 1 << 12;
 
 /// Lists, draws or compares points.
-pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, Refusal> {
+pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, CliError> {
     for path in [&arguments.svg, &arguments.csv].into_iter().flatten() {
         results::prepare_file(path, &[])?;
     }
@@ -33,18 +34,18 @@ pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, Refusal> {
     Ok(Exit::Done)
 }
 
-fn list_or_draw(name: &str, arguments: &PointsArguments) -> Result<(), Refusal> {
+fn list_or_draw(name: &str, arguments: &PointsArguments) -> Result<(), CliError> {
     let sequence = names::on_command_line("sequence", name, &Sequence::names_for(arguments.n))?;
     let randomization =
         names::on_command_line("--randomization", &arguments.randomization, &Randomization::NAMES)?;
     let points = PointSet::new(sequence, randomization, stream_key(arguments.seed, 0, 0));
     if let Some(path) = &arguments.svg {
         let (drawing, facts) = drawing(&points, arguments)?;
-        results::write_whole(path, drawing.as_bytes())?;
+        results::write_atomic(path, drawing.as_bytes())?;
         println!("{}: {facts}", path.display());
     }
     match &arguments.csv {
-        Some(path) => results::stream_whole(path, |file| write_csv(&points, arguments, file)),
+        Some(path) => results::stream_atomic(path, |file| write_csv(&points, arguments, file)),
         None if arguments.svg.is_none() => to_stdout(|out| write_csv(&points, arguments, out)),
         None => Ok(()),
     }
@@ -68,13 +69,13 @@ fn write_csv(
 }
 
 /// The drawing of two dimensions, and what it shows in words.
-fn drawing(points: &PointSet, arguments: &PointsArguments) -> Result<(String, String), Refusal> {
+fn drawing(points: &PointSet, arguments: &PointsArguments) -> Result<(String, String), CliError> {
     let &[first, second] = arguments.dims.as_slice() else {
         let given = arguments.dims.len();
-        return Err(Refusal::new(format!("--svg draws two dimensions, and --dims names {given}")));
+        return Err(CliError::new(format!("--svg draws two dimensions, and --dims names {given}")));
     };
     if arguments.n > MAX_DRAWN {
-        return Err(Refusal::new(format!(
+        return Err(CliError::new(format!(
             "--svg draws at most {MAX_DRAWN} points, and -n asks for {}",
             arguments.n
         )));

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all, and are still there after a power cut.
 //!
-//! A file is written beside its place as `FILE.unfinished`, forced to disk, renamed into its place, and then the
-//! folder is forced to disk, without which the new name may be lost.
+//! A file is written beside its place as `FILE.unfinished`, forced to disk, renamed into its place,
+//! and then the folder is forced to disk, without which the new name may be lost.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

@@ -1,4 +1,4 @@
-//! Files that are whole or refused: checkpoints and parts.
+//! The container format of checkpoints and parts: a file is complete and unchanged, or refused.
 //!
 //! ```text
 //! FORMAT/VERSION line feed      such as quasilux-part/1
@@ -9,13 +9,13 @@
 //! SHA-256 of all bytes before   32 bytes
 //! ```
 //!
-//! Any bit that changes and any cut changes the digest. It is no signature: who can write the file can
-//! write the digest.
+//! Any bit that changes and any cut changes the digest. It is no signature: who can write the file
+//! can write the digest.
 
 use crate::digest::{BYTES, sha256};
 
 /// The bytes of a file of this format.
-pub(crate) fn seal(format: &str, header: &str, body: &[u8]) -> Vec<u8> {
+pub(crate) fn encode(format: &str, header: &str, body: &[u8]) -> Vec<u8> {
     let mut bytes = format!("{format}\n").into_bytes();
     for part in [header.as_bytes(), body] {
         bytes.extend_from_slice(&(part.len() as u64).to_le_bytes());
@@ -26,8 +26,16 @@ pub(crate) fn seal(format: &str, header: &str, body: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Header and body of a file of this format, or what is wrong with it.
-pub(crate) fn unseal<'b>(format: &str, bytes: &'b [u8]) -> Result<(&'b str, &'b [u8]), String> {
+/// The two parts of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Contents<'b> {
+    /// JSON.
+    pub(crate) header: &'b str,
+    pub(crate) body: &'b [u8],
+}
+
+/// The contents of a file of this format, or what is wrong with it.
+pub(crate) fn decode<'b>(format: &str, bytes: &'b [u8]) -> Result<Contents<'b>, String> {
     let name = format.split('/').next().unwrap_or(format);
     let Some(version) = bytes.strip_prefix(format!("{name}/").as_bytes()) else {
         return Err(format!("is no file of the format {format}"));
@@ -38,11 +46,11 @@ pub(crate) fn unseal<'b>(format: &str, bytes: &'b [u8]) -> Result<(&'b str, &'b 
         return Err(format!("has the format {name}/{found}, and this program reads {format}"));
     }
     let damaged = || "is damaged: it was cut short or changed".to_owned();
-    let (sealed, digest) = bytes.split_last_chunk::<BYTES>().ok_or_else(damaged)?;
-    if sha256(sealed) != *digest {
+    let (content, digest) = bytes.split_last_chunk::<BYTES>().ok_or_else(damaged)?;
+    if sha256(content) != *digest {
         return Err(damaged());
     }
-    let mut rest = sealed.get(format.len() + 1..).ok_or_else(damaged)?;
+    let mut rest = content.get(format.len() + 1..).ok_or_else(damaged)?;
     let mut next = || {
         let (length, behind) = rest.split_first_chunk().ok_or_else(damaged)?;
         let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
@@ -52,7 +60,7 @@ pub(crate) fn unseal<'b>(format: &str, bytes: &'b [u8]) -> Result<(&'b str, &'b 
     };
     let (header, body) = (next()?, next()?);
     let header = std::str::from_utf8(header).map_err(|_| damaged())?;
-    if rest.is_empty() { Ok((header, body)) } else { Err(damaged()) }
+    if rest.is_empty() { Ok(Contents { header, body }) } else { Err(damaged()) }
 }
 
 #[cfg(test)]
@@ -64,25 +72,28 @@ mod tests {
     /// Every cut, every bit of a small file, and bytes behind its end.
     #[test]
     fn nothing_but_the_whole_file_is_accepted() {
-        let bytes = seal(FORMAT, "{\"a\": 1}", &[0, 255, 7]);
-        assert_eq!(unseal(FORMAT, &bytes), Ok(("{\"a\": 1}", &[0, 255, 7][..])));
+        let bytes = encode(FORMAT, "{\"a\": 1}", &[0, 255, 7]);
+        assert_eq!(
+            decode(FORMAT, &bytes),
+            Ok(Contents { header: "{\"a\": 1}", body: &[0, 255, 7] })
+        );
         for length in 0..bytes.len() {
-            assert!(unseal(FORMAT, &bytes[..length]).is_err(), "{length}");
+            assert!(decode(FORMAT, &bytes[..length]).is_err(), "{length}");
         }
         for bit in 0..8 * bytes.len() {
             let mut changed = bytes.clone();
             changed[bit / 8] ^= 1 << (bit % 8);
-            assert!(unseal(FORMAT, &changed).is_err(), "{bit}");
+            assert!(decode(FORMAT, &changed).is_err(), "{bit}");
         }
-        assert!(unseal(FORMAT, &[&bytes[..], &[0]].concat()).is_err());
+        assert!(decode(FORMAT, &[&bytes[..], &[0]].concat()).is_err());
     }
 
     #[test]
     fn other_formats_are_named() {
-        let message = |format, bytes: &[u8]| unseal(format, bytes).unwrap_err();
-        let other = message("quasilux-checkpoint/1", &seal(FORMAT, "", &[]));
+        let message = |format, bytes: &[u8]| decode(format, bytes).unwrap_err();
+        let other = message("quasilux-checkpoint/1", &encode(FORMAT, "", &[]));
         assert!(other.contains("no file of the format quasilux-checkpoint/1"), "{other}");
-        let newer = message(FORMAT, &seal("quasilux-part/12", "", &[]));
+        let newer = message(FORMAT, &encode("quasilux-part/12", "", &[]));
         assert!(newer.contains("quasilux-part/12") && newer.contains("reads quasilux-part/1"));
         let damaged = message(FORMAT, b"quasilux-part/1\nshort");
         assert!(damaged.contains("cut short"), "{damaged}");
