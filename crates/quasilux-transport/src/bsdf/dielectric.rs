@@ -6,7 +6,7 @@
 //! `(eta_here / eta_there)^2`, flux is not.
 
 use super::fresnel::Boundary;
-use super::{BsdfSample, Mode};
+use super::{BsdfSample, TransportMode};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 use quasilux_sampling::Sampler;
@@ -27,7 +27,7 @@ impl Dielectric {
         self,
         wo: DVec3,
         front: bool,
-        mode: Mode,
+        mode: TransportMode,
         sampler: &mut Sampler<'_>,
     ) -> BsdfSample<S> {
         let eta = if front { self.eta } else { 1.0 / self.eta };
@@ -39,8 +39,8 @@ impl Dielectric {
             DVec3::new(-wo.x / eta, -wo.y / eta, -boundary.cos_refracted).normalize()
         };
         let scale = match mode {
-            Mode::Radiance if !is_reflected => 1.0 / (eta * eta),
-            Mode::Radiance | Mode::Flux => 1.0,
+            TransportMode::Radiance if !is_reflected => 1.0 / (eta * eta),
+            TransportMode::Radiance | TransportMode::Importance => 1.0,
         };
         BsdfSample { wi, weight: S::white() * scale, pdf_sr: None }
     }
@@ -52,7 +52,13 @@ mod tests {
     use crate::bsdf::fresnel::fresnel;
     use quasilux_sampling::{PointSet, Randomization, Sequence};
 
-    fn sample(eta: f64, wo: DVec3, front: bool, mode: Mode, index: u64) -> BsdfSample<f64> {
+    fn sample(
+        eta: f64,
+        wo: DVec3,
+        front: bool,
+        mode: TransportMode,
+        index: u64,
+    ) -> BsdfSample<f64> {
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
         Dielectric::new(eta).sample(wo, front, mode, &mut Sampler::new(&points, index))
     }
@@ -66,7 +72,7 @@ mod tests {
                 let mut reflected = 0;
                 for index in 0..1024 {
                     let BsdfSample { wi, weight, .. } =
-                        sample(eta, wo, front, Mode::Radiance, index);
+                        sample(eta, wo, front, TransportMode::Radiance, index);
                     assert!((wi.length() - 1.0).abs() < 1e-14);
                     if wi.z > 0.0 {
                         reflected += 1;
@@ -75,7 +81,7 @@ mod tests {
                         // Snell's law within the plane of incidence, and basic radiance.
                         assert!((wo.x + relative * wi.x).abs() < 1e-14 && wi.y.abs() < 1e-14);
                         assert!((weight * relative * relative - 1.0).abs() < 1e-14);
-                        let flux = sample(eta, wo, front, Mode::Flux, index);
+                        let flux = sample(eta, wo, front, TransportMode::Importance, index);
                         assert_eq!((flux.wi, flux.weight), (wi, 1.0));
                     }
                 }
@@ -92,7 +98,8 @@ mod tests {
     fn refraction_is_reciprocal() {
         let scaled_share = |cos: f64, front: bool| {
             let wo = DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-            let samples = (0..1 << 14).map(|index| sample(1.5, wo, front, Mode::Radiance, index));
+            let samples =
+                (0..1 << 14).map(|index| sample(1.5, wo, front, TransportMode::Radiance, index));
             let refracted: Vec<_> = samples.filter(|next| next.wi.z < 0.0).collect();
             let sum: f64 = refracted.iter().map(|next| next.weight).sum();
             (sum / f64::from(1 << 14), -refracted[0].wi.z)

@@ -7,7 +7,7 @@
 //! light is missed.
 
 use super::BsdfSample;
-use super::Mode;
+use super::TransportMode;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 use quasilux_bsdf::{Distribution, MeasuredBsdf, ScatteringMode, Side};
@@ -52,7 +52,7 @@ impl Measured {
     }
 
     /// The share of light that goes on; of paths an estimate where exchanged tables are not at hand.
-    pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool, mode: Mode) -> S {
+    pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool, mode: TransportMode) -> S {
         let side = self.sheet.side(front);
         let share = |way: ScatteringMode| self.lobe(side, way, mode).share(in_table(wo, side));
         let [reflected, passed] = ScatteringMode::ALL.map(share);
@@ -63,7 +63,7 @@ impl Measured {
         &self,
         wo: DVec3,
         front: bool,
-        mode: Mode,
+        mode: TransportMode,
         sampler: &mut Sampler<'_>,
     ) -> Option<BsdfSample<S>> {
         let side = self.sheet.side(front);
@@ -79,12 +79,20 @@ impl Measured {
         Some(BsdfSample { wi, weight: value * (wi.z.abs() / pdf_sr), pdf_sr: Some(pdf_sr) })
     }
 
-    pub(super) fn evaluate<S: Spectrum>(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> S {
+    pub(super) fn evaluate<S: Spectrum>(
+        &self,
+        wo: DVec3,
+        wi: DVec3,
+        front: bool,
+        mode: TransportMode,
+    ) -> S {
         let (side, way) = (self.sheet.side(front), way(wi));
         let (own, other) = (in_table(wo, side), in_table(wi, side));
         let value = match mode {
-            Mode::Flux => self.sheet.table().scattering(side, way).map(|f| f.evaluate(own, other)),
-            Mode::Radiance => {
+            TransportMode::Importance => {
+                self.sheet.table().scattering(side, way).map(|f| f.evaluate(own, other))
+            }
+            TransportMode::Radiance => {
                 let table = self.sheet.table().scattering(source(side, way), way);
                 table.map(|f| f.evaluate(other, own))
             }
@@ -94,10 +102,10 @@ impl Measured {
 
     /// Of paths.
     pub(super) fn pdf_sr(&self, wo: DVec3, wi: DVec3, front: bool) -> f64 {
-        self.pdf_of(wo, wi, front, Mode::Radiance)
+        self.pdf_of(wo, wi, front, TransportMode::Radiance)
     }
 
-    fn pdf_of(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> f64 {
+    fn pdf_of(&self, wo: DVec3, wi: DVec3, front: bool, mode: TransportMode) -> f64 {
         let side = self.sheet.side(front);
         let (from, to) = (in_table(wo, side), in_table(wi, side));
         let Some(p_reflected) = self.p_reflected(from, side, mode) else { return 0.0 };
@@ -106,19 +114,19 @@ impl Measured {
     }
 
     /// By the light that goes each way; `None` where none does.
-    fn p_reflected(&self, from: DVec3, side: Side, mode: Mode) -> Option<f64> {
+    fn p_reflected(&self, from: DVec3, side: Side, mode: TransportMode) -> Option<f64> {
         let share = |way: ScatteringMode| self.lobe(side, way, mode).share(from).luminance();
         let [reflected, passed] = ScatteringMode::ALL.map(share);
         let sum = reflected + passed;
         (sum > 0.0).then(|| reflected / sum)
     }
 
-    fn lobe(&self, side: Side, way: ScatteringMode, mode: Mode) -> Lobe<'_> {
+    fn lobe(&self, side: Side, way: ScatteringMode, mode: TransportMode) -> Lobe<'_> {
         let sheet = self.sheet.table();
         let table = sheet.scattering(side, way);
         match mode {
-            Mode::Flux => Lobe { table, doubt: 0.0 },
-            Mode::Radiance => {
+            TransportMode::Importance => Lobe { table, doubt: 0.0 },
+            TransportMode::Radiance => {
                 let exchanged = sheet.exchanged(source(side, way), way);
                 Lobe { table: exchanged.or(table), doubt: self.doubts[side as usize][way as usize] }
             }

@@ -3,7 +3,7 @@
 //! Directions are local: z is the geometric normal of the side that `wo` is on, so `wo.z > 0`, and
 //! `wi.z < 0` means transmitted; x and y are those of [`Frame`]. Both point away from the surface. For
 //! a path `wo` is where it comes from, for a photon where light comes from: the functions are
-//! reciprocal but for the square of the index of refraction, which [`Mode`] tells apart.
+//! reciprocal but for the square of the index of refraction, which [`TransportMode`] tells apart.
 
 mod albedo_curve;
 mod conductor;
@@ -51,7 +51,7 @@ impl Scattering {
     /// directions.
     #[must_use]
     pub fn evaluate(&self, wi: DVec3, wo: DVec3) -> Rgb {
-        self.0.evaluate(wi, wo, true, Mode::Flux)
+        self.0.evaluate(wi, wo, true, TransportMode::Importance)
     }
 }
 
@@ -70,11 +70,11 @@ pub(crate) enum Bsdf<S> {
 
 /// What travels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mode {
+pub(crate) enum TransportMode {
     /// Paths: `wo` is where radiance goes.
     Radiance,
     /// Photons: `wo` is where flux comes from.
-    Flux,
+    Importance,
 }
 
 /// A direction drawn from a surface.
@@ -222,7 +222,7 @@ impl<S: Spectrum> Bsdf<S> {
     }
 
     /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front side.
-    pub(crate) fn albedo(&self, wo: DVec3, front: bool, mode: Mode) -> S {
+    pub(crate) fn albedo(&self, wo: DVec3, front: bool, mode: TransportMode) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.reflectance,
             Self::Mirror(mirror) => mirror.reflectance,
@@ -256,7 +256,7 @@ impl<S: Spectrum> Bsdf<S> {
         &self,
         wo: DVec3,
         front: bool,
-        mode: Mode,
+        mode: TransportMode,
         sampler: &mut Sampler<'_>,
     ) -> Option<BsdfSample<S>> {
         match self {
@@ -274,7 +274,7 @@ impl<S: Spectrum> Bsdf<S> {
     }
 
     /// The scattering function f in sr^-1, without the cosine; 0 for mirror directions.
-    pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, front: bool, mode: Mode) -> S {
+    pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, front: bool, mode: TransportMode) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.evaluate(wi),
             Self::Translucent(translucent) => translucent.evaluate(wi),

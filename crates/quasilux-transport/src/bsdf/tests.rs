@@ -1,6 +1,6 @@
 //! What holds for all surfaces: energy, reciprocity, and that samples follow their density.
 
-use super::{Bsdf, BsdfSample, Mode};
+use super::{Bsdf, BsdfSample, TransportMode};
 use glam::DVec3;
 use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
 use quasilux_scene::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Pane, Plastic, Translucent};
@@ -45,7 +45,7 @@ fn direction(cos: f64, azimuth: f64) -> DVec3 {
 }
 
 fn evaluate(bsdf: &Bsdf<f64>, wo: DVec3, wi: DVec3) -> f64 {
-    bsdf.evaluate(wo, wi, true, Mode::Radiance)
+    bsdf.evaluate(wo, wi, true, TransportMode::Radiance)
 }
 
 /// The hemisphere by the normals half-way between `wo` and the reflected direction, in logarithmic
@@ -134,7 +134,7 @@ fn white_surfaces_give_all_light_back() {
         for cos in COSINES {
             let wo = direction(cos, 0.4);
             let (albedo, sum) =
-                (bsdf.albedo(wo, true, Mode::Radiance), quadrature(&material, &bsdf, wo));
+                (bsdf.albedo(wo, true, TransportMode::Radiance), quadrature(&material, &bsdf, wo));
             let found = format!("{material:?} at {cos}: {albedo} {sum}");
             assert!((albedo - 1.0).abs() < 1e-9 && (sum - 1.0).abs() < 5e-4, "{found}");
         }
@@ -149,13 +149,14 @@ fn white_surfaces_give_all_light_back() {
             for front in [true, false] {
                 let wo = direction(cos, 0.4);
                 assert!(
-                    (bsdf.albedo(wo, front, Mode::Radiance) - 1.0).abs() < 1e-14,
+                    (bsdf.albedo(wo, front, TransportMode::Radiance) - 1.0).abs() < 1e-14,
                     "{material:?}"
                 );
                 let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
                 for index in 0..64 {
                     let mut sampler = Sampler::new(&points, index);
-                    let next = bsdf.sample(wo, front, Mode::Flux, &mut sampler).unwrap();
+                    let next =
+                        bsdf.sample(wo, front, TransportMode::Importance, &mut sampler).unwrap();
                     assert!((next.weight - 1.0).abs() < 1e-12 && next.pdf_sr.is_none());
                 }
             }
@@ -170,7 +171,7 @@ fn albedo_is_the_integral_of_f_cos() {
         for cos in COSINES {
             let wo = direction(cos, 2.0);
             let (albedo, sum) =
-                (bsdf.albedo(wo, true, Mode::Radiance), quadrature(&material, &bsdf, wo));
+                (bsdf.albedo(wo, true, TransportMode::Radiance), quadrature(&material, &bsdf, wo));
             assert!((albedo - sum).abs() < 5e-4, "{material:?} at {cos}: {albedo} {sum}");
             assert!(albedo <= 1.0 + 1e-12, "{material:?} at {cos}: {albedo}");
         }
@@ -205,7 +206,7 @@ fn weights_are_f_cos_over_pdf() {
             for index in 0..256 {
                 let mut sampler = Sampler::new(&points, index);
                 let Some(BsdfSample { wi, weight, pdf_sr }) =
-                    bsdf.sample(wo, true, Mode::Radiance, &mut sampler)
+                    bsdf.sample(wo, true, TransportMode::Radiance, &mut sampler)
                 else {
                     continue;
                 };
@@ -258,7 +259,7 @@ fn p_value(
     let points = PointSet::new(Sequence::Independent, Randomization::Owen, 4);
     for index in 0..u64::from(samples) {
         let mut sampler = Sampler::new(&points, index);
-        let cell = match drawn.sample(wo, true, Mode::Radiance, &mut sampler) {
+        let cell = match drawn.sample(wo, true, TransportMode::Radiance, &mut sampler) {
             None => cells.len() - 1,
             Some(BsdfSample { wi, .. }) if wi.z < 0.0 => {
                 let ring = ((wi.x * wi.x + wi.y * wi.y) * f64::from(parts[0])) as u32;

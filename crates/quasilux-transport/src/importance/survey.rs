@@ -5,7 +5,7 @@
 //! cell sends as many rays as any other, however little light comes to it, and chains of steps are
 //! left to linear algebra ([`crate::importance::flux_and_importance`]). Cells are discovered as rays land in them.
 
-use crate::bsdf::Mode;
+use crate::bsdf::TransportMode;
 use crate::context::{Context, Stream};
 use crate::importance::cells::{Cells, Regions};
 use crate::lights::Emission;
@@ -322,7 +322,11 @@ impl Survey {
         let cell = *number;
         let known = &mut self.known[cell as usize];
         if known.places.len() < PLACES {
-            let albedo = context.world.bsdf(&at).albedo(DVec3::Z, at.front, Mode::Flux).luminance();
+            let albedo = context
+                .world
+                .bsdf(&at)
+                .albedo(DVec3::Z, at.front, TransportMode::Importance)
+                .luminance();
             known.albedo += (albedo - known.albedo) / (known.places.len() + 1) as f64;
             known.places.push(at);
         }
@@ -361,7 +365,11 @@ fn go_on<S: Spectrum>(
     far_m: f64,
 ) -> Option<Flown> {
     let mut sampler = Sampler::new(points, index);
-    let wi = context.world.bsdf(at).sample(DVec3::Z, at.front, Mode::Flux, &mut sampler)?.wi;
+    let wi = context
+        .world
+        .bsdf(at)
+        .sample(DVec3::Z, at.front, TransportMode::Importance, &mut sampler)?
+        .wi;
     let world = &context.world;
     let u = invert_cosine_hemisphere(wi.abs().to_array()).map(|u| u as f32);
     let from = if wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
@@ -391,7 +399,9 @@ fn fly<S: Spectrum>(context: &Context<'_, S>, start: Emission, sampler: &mut Sam
             return Flown { found, rays, ..Flown::NOWHERE };
         }
         let wo = frame.to_local(-direction);
-        let Some(next) = bsdf.sample(wo, at.front, Mode::Flux, sampler) else { return nothing };
+        let Some(next) = bsdf.sample(wo, at.front, TransportMode::Importance, sampler) else {
+            return nothing;
+        };
         weight *= next.weight.luminance();
         from = if next.wi.z > 0.0 { world.ray_origin(&at) } else { world.ray_origin_behind(&at) };
         direction = frame.to_world(next.wi);

@@ -10,7 +10,7 @@
 //! on, over what a Lambertian surface would. Toward a light at a distance b the lobe's bright place is smaller, as seen from a
 //! distance a, than toward one far away, by `(b / (a + b))^2`. So of n paths about `n / mean(k (a + b)^2 / b^2)` met it.
 
-use crate::bsdf::{Bsdf, Mode};
+use crate::bsdf::{Bsdf, TransportMode};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::lights::PointLikes;
 use crate::spectrum::Spectrum;
@@ -77,9 +77,9 @@ impl Lobes {
 
 /// k of the module, for a path that arrived along `-wo` and drew a direction with this density.
 pub(crate) fn sharpness<S: Spectrum>(bsdf: &Bsdf<S>, wo: DVec3, front: bool, pdf_sr: f64) -> f64 {
-    let albedo = bsdf.albedo(wo, front, Mode::Radiance).luminance();
+    let albedo = bsdf.albedo(wo, front, TransportMode::Radiance).luminance();
     let over_lambert = |wi: DVec3| {
-        let f_sr = bsdf.evaluate(wo, wi, front, Mode::Radiance).luminance();
+        let f_sr = bsdf.evaluate(wo, wi, front, TransportMode::Radiance).luminance();
         if f_sr > 0.0 { PI * f_sr / albedo } else { 0.0 }
     };
     let mirrored = DVec3::new(-wo.x, -wo.y, wo.z);

@@ -12,7 +12,7 @@
 
 mod direct_light;
 
-use crate::bsdf::Mode;
+use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::lights::images::ImageSamples;
@@ -126,6 +126,17 @@ struct Onward {
     everything: f64,
 }
 
+/// A path at a surface that it leaves again.
+struct Scattering<S> {
+    /// Reflections before this one.
+    bounces: u32,
+    /// Direction that it came from, in the surface's frame.
+    wo: DVec3,
+    /// Its throughput times the albedo.
+    goes_on: S,
+    onward: Onward,
+}
+
 impl<S: Spectrum> Start<'_, S> {
     /// The start where it wants all point-like lights tested.
     pub(crate) fn vertex_that_tests_pointlikes(&self) -> Option<Vertex<'static, S>> {
@@ -235,13 +246,38 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
         let Some(at) = at else { return false };
         let bsdf = context.world.bsdf(at);
-        let frame = context.world.frame(at);
-        let wo = frame.to_local(-self.direction);
-        let goes_on = self.beta * bsdf.albedo(wo, at.front, Mode::Radiance);
+        let wo = context.world.frame(at).to_local(-self.direction);
+        let goes_on = self.beta * bsdf.albedo(wo, at.front, TransportMode::Radiance);
         let is_last = context.max_bounces.is_some_and(|most| bounces >= most);
         if is_last || goes_on.max_channel() == 0.0 {
             return false;
         }
+        self.gather(context, bounces, at, work);
+        let albedo = goes_on.max_channel() / self.beta.max_channel();
+        if !self.gain.grow(albedo, bounces) {
+            self.cut();
+            return false;
+        }
+        let onward = self
+            .end_on_map(context, bounces, at, albedo)
+            .unwrap_or_else(|| self.russian_roulette(context, bounces, albedo));
+        let seeks_emitters = onward.emitted != 0.0 && context.lights.emitters.is_some();
+        if onward.everything == 0.0 && !seeks_emitters {
+            return false;
+        }
+        self.scatter(context, at, &Scattering { bounces, wo, goes_on, onward })
+    }
+
+    /// Next-event estimation at a surface: the light that comes there straight from the lights, and
+    /// that of caustics.
+    fn gather(
+        &mut self,
+        context: &Context<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+        work: &mut PathWork<S>,
+    ) {
+        let bsdf = context.world.bsdf(at);
         // Past mirrors alone, paths find nothing but facets that emit.
         self.found.reflected |= !bsdf.is_specular() || context.lights.emitters.is_some();
         self.bounces_asked = bounces + 1;
@@ -256,12 +292,18 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if bsdf.keeps_illuminance() {
             self.add_caustics(context, bounces, at);
         }
-        let albedo = goes_on.max_channel() / self.beta.max_channel();
-        if !self.gain.grow(albedo, bounces) {
-            self.cut();
-            return false;
-        }
-        let from_map = match self.rest {
+    }
+
+    /// Ends it on a map, where there is one that it may end on here; or records that it might have.
+    fn end_on_map(
+        &mut self,
+        context: &Context<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+        albedo: f64,
+    ) -> Option<Onward> {
+        let bsdf = context.world.bsdf(at);
+        match self.rest {
             Rest::Map(end) if bsdf.keeps_illuminance() => self.end_on(end, context, bounces, at),
             Rest::Frozen(end) if bsdf.keeps_illuminance() => {
                 self.end_on_frozen(end, context, bounces, at)
@@ -271,15 +313,21 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 Some(Onward { emitted: 1.0, everything: 1.0 })
             }
             Rest::Path | Rest::Noted | Rest::Map(_) | Rest::Frozen(_) => None,
-        };
-        let onward = from_map.unwrap_or_else(|| self.russian_roulette(context, bounces, albedo));
-        let seeks_emitters = onward.emitted != 0.0 && context.lights.emitters.is_some();
-        if onward.everything == 0.0 && !seeks_emitters {
-            return false;
         }
+    }
+
+    /// Draws the direction in which it goes on; whether there is one.
+    fn scatter(
+        &mut self,
+        context: &Context<'_, S>,
+        at: &Interaction,
+        scattering: &Scattering<S>,
+    ) -> bool {
+        let &Scattering { bounces, wo, goes_on, ref onward } = scattering;
+        let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
         let bounce = Purpose::Bounce { surface: bounces + 1 };
         let next = context.draw(&mut self.sampler, bounce, |sampler| {
-            bsdf.sample(wo, at.front, Mode::Radiance, sampler)
+            bsdf.sample(wo, at.front, TransportMode::Radiance, sampler)
         });
         let Some(next) = next else { return false };
         if let (false, Some(pdf_sr)) = (bsdf.keeps_illuminance(), next.pdf_sr) {

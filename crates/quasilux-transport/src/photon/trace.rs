@@ -8,7 +8,7 @@
 //! to sensors all leave the first surface, with what absorption leaves. What goes on no
 //! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
-use crate::bsdf::Mode;
+use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::importance::{GuidingTree, Split, WeightWindows};
@@ -244,7 +244,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
         let wo = frame.to_local(-arrival.direction);
         let luminance = self.weight.luminance();
-        let left = (self.weight * bsdf.albedo(wo, at.front, Mode::Flux)).luminance();
+        let left = (self.weight * bsdf.albedo(wo, at.front, TransportMode::Importance)).luminance();
         if quanta(left).is_none() {
             counts.absorbed += arrived;
             return counts.refuse(&self);
@@ -303,7 +303,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
                 let guided = guide.sample([sampler.remapped_1d(), sampler.next_1d()]);
                 Some((bsdf.sample_lambertian(guided.u)?, share / guided.density))
             }
-            _ => Some((bsdf.sample(wo, at.front, Mode::Flux, sampler)?, share)),
+            _ => Some((bsdf.sample(wo, at.front, TransportMode::Importance, sampler)?, share)),
         })?;
         self.weight = self.weight * next.weight * share;
         if self.weight.luminance() == 0.0 {

@@ -89,6 +89,12 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     if !(flux_lm > 0.0 && flux_lm.is_finite()) {
         return Err(CheckError::Dark);
     }
+    check_switches(settings)?;
+    if settings.estimator == EstimatorKind::Photon { check_photon_sensors(scene) } else { Ok(()) }
+}
+
+/// Whether each switch that is on has something to switch.
+fn check_switches(settings: &Settings) -> Result<(), CheckError> {
     let ends_on_map = matches!(
         settings.estimator,
         EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap
@@ -126,9 +132,11 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     if settings.connections == Switch::On && settings.estimator != EstimatorKind::Bidirectional {
         return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
     }
-    if settings.estimator != EstimatorKind::Photon {
-        return Ok(());
-    }
+    Ok(())
+}
+
+/// Whether photons can be counted at all sensors: on surfaces and in grids, for no camera.
+fn check_photon_sensors(scene: &Scene) -> Result<(), CheckError> {
     if let Some(camera) = scene.cameras.first() {
         return Err(CheckError::CameraOfPhotons { camera: camera.name.clone() });
     }

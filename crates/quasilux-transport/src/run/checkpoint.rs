@@ -7,6 +7,7 @@ use crate::stats::estimates::{
     Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
 };
 use crate::stats::schedule::Schedule;
+use crate::stats::tolerance::Standing;
 use quasilux_scene::Scene;
 
 /// The course of a run from checkpoint to checkpoint.
@@ -26,6 +27,18 @@ impl Course {
     pub(crate) fn new(schedule: Schedule) -> Self {
         let history = History::default();
         Self { schedule, over: false, is_adaptive: false, history, last: None }
+    }
+
+    /// Records a checkpoint, and predicts the end from all so far.
+    pub(crate) fn record(
+        &mut self,
+        estimates: &mut Estimates,
+        standing: &Standing,
+        settings: &Settings,
+    ) {
+        let Self { history, schedule, is_adaptive, .. } = self;
+        estimates.convergence =
+            history.record(estimates, (standing, *is_adaptive), schedule, settings);
     }
 
     pub(crate) fn put(&self, out: &mut Writer) {

@@ -9,7 +9,7 @@ use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
 use crate::estimator::{Estimator, estimation};
 use crate::run::pixels::add_pictures;
-use crate::run::simulate::look;
+use crate::run::simulate::{Look, look};
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;
@@ -162,7 +162,7 @@ fn put_together<'p, S: Spectrum>(
             .map_err(|error| MergeError::Part { part: part.number, error })?;
     }
     estimation.complete_at(samples);
-    let (mut estimates, _) =
+    let Look { mut estimates, .. } =
         look(&context, scene, settings, estimation.as_ref(), 1.0 - settings.confidence);
     estimates.decisions = decisions;
     drop(estimation);

@@ -91,10 +91,9 @@ fn run<S: Spectrum>(
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
     let mut course = Course::new(Schedule::new(first, limit));
     let decisions = estimation.decisions();
-    let digest = decisions.digest;
     if let Some(state) = state {
         let mut from = Reader::new(state);
-        if from.bytes(digest.len())? != digest {
+        if from.bytes(decisions.digest.len())? != decisions.digest {
             return Err(StateError::Decisions);
         }
         course.read(scene, settings, &mut from)?;
@@ -105,42 +104,29 @@ fn run<S: Spectrum>(
             watch.begin_at(last, Standing::of(last, settings).largest());
         }
     }
-    let preface = |course: &Course, watch: &mut Watch<'_>| {
-        watch.preface(|out| {
-            out.bytes(&digest);
-            course.put(out);
-        });
-    };
-    preface(&course, &mut watch);
+    put_preface(&decisions, &course, &mut watch);
     // The observer has a state before the first sample, too.
     let _ = watch.keep(|out| estimation.put(out));
-    // Part of a set whose number of points is fixed would leave part of its lights out.
-    let may_end = settings.sequence.points().is_none();
-    let mut miss_probability = 1.0 - settings.confidence;
-    if may_end && settings.has_tolerance() {
-        let replicates = settings.effective_replicates();
-        miss_probability = miss_probability_of_a_look(miss_probability, replicates);
-    }
+    let stopping = Stopping::new(settings);
     while !course.over {
         watch.expect(course.last.as_ref().and_then(|last| expected_rays(last, settings)));
         if !estimation.advance(course.schedule.next_checkpoint(), &mut watch) {
             break;
         }
-        let (mut estimates, standing) =
+        let miss_probability = stopping.miss_probability;
+        let Look { mut estimates, standing } =
             look(context, scene, settings, estimation.as_ref(), miss_probability);
         estimates.decisions = decisions.clone();
-        let is_look = may_end && course.schedule.is_look();
+        let is_look = stopping.may_end && course.schedule.is_look();
         let is_enough = is_look && standing.may_end;
         if is_look && !is_enough {
             course.is_adaptive = estimation.freeze_converged(&standing.done);
         }
-        let is_adaptive = course.is_adaptive;
-        estimates.convergence =
-            course.history.record(&estimates, (&standing, is_adaptive), &course.schedule, settings);
+        course.record(&mut estimates, &standing, settings);
         let control = watch.checkpoint(&estimates, standing.largest());
         course.last = Some(estimates);
         course.over = is_enough || !course.schedule.advance();
-        preface(&course, &mut watch);
+        put_preface(&decisions, &course, &mut watch);
         if course.over {
             watch.keep_last(|out| estimation.put(out));
         } else if !watch.keep(|out| estimation.put(out)) || control == Control::Stop {
@@ -155,6 +141,35 @@ fn run<S: Spectrum>(
     Ok(estimates)
 }
 
+/// When a run may end, and what its intervals are to miss.
+struct Stopping {
+    /// Whether it may end before its limit.
+    may_end: bool,
+    /// Of the interval of each target at each look.
+    miss_probability: f64,
+}
+
+impl Stopping {
+    fn new(settings: &Settings) -> Self {
+        // Part of a set whose number of points is fixed would leave part of its lights out.
+        let may_end = settings.sequence.points().is_none();
+        let mut miss_probability = 1.0 - settings.confidence;
+        if may_end && settings.has_tolerance() {
+            let replicates = settings.effective_replicates();
+            miss_probability = miss_probability_of_a_look(miss_probability, replicates);
+        }
+        Self { may_end, miss_probability }
+    }
+}
+
+/// Begins states with all that does not change before the next checkpoint.
+fn put_preface(decisions: &Decisions, course: &Course, watch: &mut Watch<'_>) {
+    watch.preface(|out| {
+        out.bytes(&decisions.digest);
+        course.put(out);
+    });
+}
+
 /// Rays up to the tolerance or a limit: at that on samples, as if all points went on.
 fn expected_rays(last: &Estimates, settings: &Settings) -> Option<u64> {
     let share = |most: u64| most as f64 / last.samples.max(1) as f64;
@@ -162,14 +177,20 @@ fn expected_rays(last: &Estimates, settings: &Settings) -> Option<u64> {
     [last.convergence.rays, at_limit, settings.max_rays].into_iter().flatten().min()
 }
 
-/// What is known at a checkpoint, and how all targets stand there.
+/// Estimates at a checkpoint, and how all targets stand there.
+pub(crate) struct Look {
+    pub(crate) estimates: Estimates,
+    pub(crate) standing: Standing,
+}
+
+/// Looks at the sums of a run.
 pub(crate) fn look<S: Spectrum>(
     context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
     estimation: &(dyn Estimator + '_),
     miss_probability: f64,
-) -> (Estimates, Standing) {
+) -> Look {
     let mut estimates = estimation.estimates();
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
@@ -201,7 +222,7 @@ pub(crate) fn look<S: Spectrum>(
             estimates.samples
         ));
     }
-    (estimates, standing)
+    Look { estimates, standing }
 }
 
 /// What a reader must know of the values of this checkpoint.

@@ -1,6 +1,6 @@
 //! A place that light arrives at: where a path starts, or a surface on its way.
 
-use crate::bsdf::{Bsdf, Mode};
+use crate::bsdf::{Bsdf, TransportMode};
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::{Interaction, RayOrigin, World};
@@ -75,7 +75,7 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
             None => self.beta,
             Some(Surface { bsdf, frame, wo, front, .. }) => {
                 let wi = frame.to_local(direction);
-                self.beta * bsdf.evaluate(*wo, wi, *front, Mode::Radiance)
+                self.beta * bsdf.evaluate(*wo, wi, *front, TransportMode::Radiance)
             }
         }
     }

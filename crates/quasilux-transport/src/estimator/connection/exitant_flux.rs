@@ -1,7 +1,7 @@
 //! What leaves a place where a photon landed.
 
 use super::ConnectionPlan;
-use crate::bsdf::Mode;
+use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::importance::Around;
 use crate::spectrum::Spectrum;
@@ -38,7 +38,8 @@ impl ExitantFlux {
         }
         let bsdf = context.world.bsdf(at);
         let side = |n: DVec3, wi: DVec3| {
-            let scattered = weight * bsdf.evaluate(DVec3::Z, wi, at.front, Mode::Flux);
+            let scattered =
+                weight * bsdf.evaluate(DVec3::Z, wi, at.front, TransportMode::Importance);
             let lm_sr = scattered.luminance() * context.lights.flux_lm;
             let around = match lm_sr > 0.0 {
                 true => connection.partition.landings.around(at.position, n),

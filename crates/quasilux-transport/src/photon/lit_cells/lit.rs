@@ -6,7 +6,7 @@
 //! an estimate: what it has wrong costs variance.
 
 use super::cell::Cell;
-use crate::bsdf::Mode;
+use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::lights::{Incidence, PointLikes};
 use crate::spectrum::Spectrum;
@@ -210,7 +210,7 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
             }
         }
         let wo = world.frame(&at).to_local(direction);
-        let kept = world.bsdf(&at).albedo(wo, self.front, Mode::Flux).luminance();
+        let kept = world.bsdf(&at).albedo(wo, self.front, TransportMode::Importance).luminance();
         let may_keep = kept.max(EVERYWHERE * self.most_kept);
         Look { seen: seen_lx * kept, open: open_lx * may_keep }
     }

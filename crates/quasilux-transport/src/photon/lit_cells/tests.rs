@@ -6,7 +6,7 @@
 //! have standard errors of 0.1 to 0.3 %: an error of 2 % in one of them is found nearly always.
 
 use super::*;
-use crate::bsdf::Mode;
+use crate::bsdf::TransportMode;
 use crate::context::Stream;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
@@ -251,7 +251,11 @@ fn weights_are_nearly_equal() {
                 && place.is_lit(&context)
             {
                 let weight = place.flux_share
-                    * context.world.bsdf(&place.at).albedo(DVec3::Z, true, Mode::Flux);
+                    * context.world.bsdf(&place.at).albedo(
+                        DVec3::Z,
+                        true,
+                        TransportMode::Importance,
+                    );
                 sum += weight;
                 squares += weight * weight;
             }
