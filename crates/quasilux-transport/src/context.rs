@@ -53,8 +53,9 @@ pub(crate) struct Context<'a, S> {
     settings: &'a Settings,
 }
 
-/// What a stream of coordinates is for. Streams never share coordinates; but at one index they have the same
-/// digits in each dimension, permuted, so what is drawn together must come from different dimensions.
+/// What a stream of coordinates is for. Streams never share coordinates; but at one index they have
+/// the same digits in each dimension, permuted, so what is drawn together must come from different
+/// dimensions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Stream {
     /// Photons that enter the estimate.
@@ -75,7 +76,8 @@ pub(crate) enum Stream {
     ConnectedPhotons(u64),
     /// Photons that are counted by the cell they land in.
     CellPhotons,
-    /// Places in the cells of a group that photons are joined to, in dimensions that photons leave alone.
+    /// Places in the cells of a group that photons are joined to, in dimensions that photons leave
+    /// alone.
     ConnectionPlaces(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
@@ -164,7 +166,8 @@ impl<'a, S: Spectrum> Context<'a, S> {
         }
     }
 
-    /// The same of a few points of a trial: those of a set with a fixed number of points are no sample of it.
+    /// The same of a few points of a trial: those of a set with a fixed number of points are no
+    /// sample of it.
     pub(crate) fn points_of_trial(&self, replicate: u32, stream: Stream) -> PointSet {
         let Settings { sequence, randomization, seed, .. } = *self.settings;
         let sequence = if sequence.points().is_some() { Sequence::Halton } else { sequence };

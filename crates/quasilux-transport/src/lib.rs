@@ -4,8 +4,8 @@
 //! independent replicates, from which intervals follow. It cannot fail, and reads neither the clock
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
-//! A run can be kept and gone on with ([`resume`]), or cut into parts and put together ([`trace_part`],
-//! [`merge`]), to the same bits.
+//! A run can be kept and gone on with ([`resume`]), or cut into parts and put together
+//! ([`trace_part`], [`merge`]), to the same bits.
 //!
 //! The folders depend one way, each on those before it:
 //!

@@ -22,7 +22,8 @@ pub enum Purpose {
         /// The surface.
         surface: u32,
     },
-    /// The luminaire with an area that is asked, and the place on it, from a surface or the sensor (0).
+    /// The luminaire with an area that is asked, and the place on it, from a surface or the sensor
+    /// (0).
     AreaLuminaire {
         /// The surface.
         surface: u32,
@@ -64,8 +65,8 @@ impl Ledger {
         self.open.store(open, Ordering::Relaxed);
     }
 
-    /// Notes that dimensions from `first` on, up to where the sampler is now, were drawn. Those of a split
-    /// sample's children are their own, and are left out.
+    /// Notes that dimensions from `first` on, up to where the sampler is now, were drawn. Those of
+    /// a split sample's children are their own, and are left out.
     pub(crate) fn note(&self, first: u32, sampler: &Sampler<'_>, purpose: Purpose) {
         let drew = first != sampler.dimension() && !sampler.is_branch();
         if !drew || !self.open.load(Ordering::Relaxed) {

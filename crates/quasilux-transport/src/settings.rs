@@ -10,7 +10,8 @@ pub enum EstimatorKind {
     /// Paths from the sensors with next-event estimation.
     Path,
     /// Paths from the sensors beside photons that are joined to them, or paths that end on a frozen
-    /// illumination map, corrected so that its elements cause no bias, or paths alone: what pilots find best.
+    /// illumination map, corrected so that its elements cause no bias, or paths alone: what pilots
+    /// find best.
     Bidirectional,
     /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
     /// elements leave a bias.
@@ -104,8 +105,8 @@ pub struct Settings {
     pub randomization: Randomization,
     /// ErrorTarget half-width of the interval over the value; 0 where none is wanted.
     pub rel_tol: f64,
-    /// Half-width in lx that is enough whatever the value; 0 where none is. Without either tolerance
-    /// nothing but a limit ends the run.
+    /// Half-width in lx that is enough whatever the value; 0 where none is. Without either
+    /// tolerance nothing but a limit ends the run.
     pub abs_tol_lx: f64,
     /// What has to reach the tolerance.
     pub tolerance_on: ToleranceOn,
@@ -119,17 +120,17 @@ pub struct Settings {
     pub max_bounces: Option<u32>,
     /// How many terms of the Neumann series are listed, light of 0, 1, .. bounces, beside the rest;
     /// 0 lists none. An illumination map gets one layer for each but the first two, and one for the
-    /// rest: its memory grows so many times. One that is corrected gets one for each wanted bounce but the last, if
-    /// `max_bounces` is 16 or less and its elements are not too many.
+    /// rest: its memory grows so many times. One that is corrected gets one for each wanted bounce
+    /// but the last, if `max_bounces` is 16 or less and its elements are not too many.
     pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
     pub max_samples: Option<u64>,
-    /// Limit on the number of rays: the run ends with the last checkpoint, past the first, that takes no
-    /// more.
+    /// Limit on the number of rays: the run ends with the last checkpoint, past the first, that
+    /// takes no more.
     pub max_rays: Option<u64>,
-    /// Whether photons for the illumination map leave lit places instead of point-like lights, where
-    /// there are any and not too many facets times lights.
+    /// Whether photons for the illumination map leave lit places instead of point-like lights,
+    /// where there are any and not too many facets times lights.
     pub first_shot: Switch,
     /// Longest edge of an illumination map element in m before any is split; `None` derives it from
     /// the scene's size.
@@ -142,22 +143,25 @@ pub struct Settings {
     pub map_adaptive: bool,
     /// What the photons in an element say about its illuminance.
     pub map_reconstruction: Reconstruction,
-    /// Photons of each map that grows for every path of a sensor point, at least 1: with many sensor points,
-    /// one each is few beside the paths.
+    /// Photons of each map that grows for every path of a sensor point, at least 1: with many
+    /// sensor points, one each is few beside the paths.
     pub map_photons: u32,
-    /// Coordinates that a photon may have used when it lands on a map that paths end on, the balance of Voloboy, Dmitriev and Kopylov
-    /// (2003): later events, which quasi-random points do least for, are left out. [`EstimatorKind::Bidirectional`] finds
-    /// their light by its correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
+    /// Coordinates that a photon may have used when it lands on a map that paths end on, the
+    /// balance of Voloboy, Dmitriev and Kopylov (2003): later events, which quasi-random points do
+    /// least for, are left out. [`EstimatorKind::Bidirectional`] finds their light by its
+    /// correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
     pub map_dimensions: Option<u32>,
-    /// How many plane mirrors, one after the other, images of point-like lights are followed through;
-    /// `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
+    /// How many plane mirrors, one after the other, images of point-like lights are followed
+    /// through; `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay
+    /// few.
     pub image_depth: Option<u32>,
-    /// Whether photons that sensors count, and those of maps that grow, are split and ended where that
-    /// helps the sensors; else they keep equal flux.
+    /// Whether photons that sensors count, and those of maps that grow, are split and ended where
+    /// that helps the sensors; else they keep equal flux.
     pub importance: Switch,
-    /// Whether photons are joined to the sensors beside the paths of [`EstimatorKind::Bidirectional`]; with `Off` these end on a
-    /// frozen map, which is corrected, where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`, leave `Auto` the map alone, and
-    /// `importance` that is to be on the joined photons.
+    /// Whether photons are joined to the sensors beside the paths of
+    /// [`EstimatorKind::Bidirectional`]; with `Off` these end on a frozen map, which is corrected,
+    /// where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`,
+    /// leave `Auto` the map alone, and `importance` that is to be on the joined photons.
     pub connections: Switch,
 }
 
@@ -168,8 +172,9 @@ impl Settings {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
     }
 
-    /// Whether [`EstimatorKind::Bidirectional`] joins photons to the sensors, where that is settled before a pilot: photons
-    /// that are to leave lit places, or to be left out, are those of maps; those that are to be steered are joined.
+    /// Whether [`EstimatorKind::Bidirectional`] joins photons to the sensors, where that is settled
+    /// before a pilot: photons that are to leave lit places, or to be left out, are those of maps;
+    /// those that are to be steered are joined.
     #[must_use]
     pub fn connections(&self) -> Option<bool> {
         let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();

@@ -1,12 +1,13 @@
 //! How much light a rough surface reflects at once, by angle: the directional albedo
 //! `E(cos) = integral of f cos` of [`Ggx`] with any Fresnel factor.
 //!
-//! No closed form is known for all angles. A midpoint rule over the coordinates of sampled rays finds
-//! the integral; it is tabulated when a material is made, and cubic polynomials join the values. The
-//! error is below 1e-4 for alpha in [0.0004, 1].
+//! No closed form is known for all angles. A midpoint rule over the coordinates of sampled rays
+//! finds the integral; it is tabulated when a material is made, and cubic polynomials join the
+//! values. The error is below 1e-4 for alpha in [0.0004, 1].
 //!
-//! The curve bends at cosines of about alpha, and with a Fresnel factor at cosines of about 1: places
-//! on it are counted by `s` in [0, 1], `cos = alpha (exp(L s^2) - 1)` with `L = log(1 + 1 / alpha)`.
+//! The curve bends at cosines of about alpha, and with a Fresnel factor at cosines of about 1:
+//! places on it are counted by `s` in [0, 1], `cos = alpha (exp(L s^2) - 1)` with `L = log(1 + 1 /
+//! alpha)`.
 
 use super::ggx::{Ggx, sample_reflection};
 use glam::DVec3;
@@ -56,8 +57,8 @@ impl AlbedoCurve {
         self.albedo_at(self.s_of(cos))
     }
 
-    /// The mean over diffuse light: the integral of `2 cos E(cos)` over the cosine, of the very curve
-    /// that [`Self::at`] gives.
+    /// The mean over diffuse light: the integral of `2 cos E(cos)` over the cosine, of the very
+    /// curve that [`Self::at`] gives.
     pub(super) const fn mean(&self) -> f64 {
         self.mean
     }
@@ -74,8 +75,8 @@ impl AlbedoCurve {
         CurvePlace { cos: self.cos_at(s), cos_by_s, albedo: self.albedo_at(s) }
     }
 
-    /// The part that a cell has of the integral of `2 cos g` over the cosine, by Gauss's rule of three
-    /// points.
+    /// The part that a cell has of the integral of `2 cos g` over the cosine, by Gauss's rule of
+    /// three points.
     pub(super) fn integrate(&self, cell: usize, g: impl Fn(CurvePlace) -> f64) -> f64 {
         let offset = 0.5 * 0.6_f64.sqrt();
         let rule = [(0.5 - offset, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + offset, 5.0 / 18.0)];
@@ -105,8 +106,8 @@ impl AlbedoCurve {
 
 /// The integral of `f cos` over the hemisphere: the mean of the weights of [`sample_reflection`].
 ///
-/// At grazing incidence the weights fall to 0 close to the horizon, at the second coordinate 1: that
-/// coordinate is `1 - v^2`, and midpoints in v.
+/// At grazing incidence the weights fall to 0 close to the horizon, at the second coordinate 1:
+/// that coordinate is `1 - v^2`, and midpoints in v.
 fn directional(ggx: Ggx, cos: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
     let wo = DVec3::new(((1.0 - cos) * (1.0 + cos)).sqrt(), 0.0, cos);
     let mut sum = 0.0;
@@ -129,8 +130,8 @@ mod tests {
     use super::*;
     use crate::bsdf::fresnel::{fresnel, schlick};
 
-    /// The integral over facet normals instead of sampled rays: `f cos d omega_i = D F G2 (wo m) / cos_o
-    /// d omega_m`, with tan = alpha (exp(L v) - 1).
+    /// The integral over facet normals instead of sampled rays: `f cos d omega_i = D F G2 (wo m) /
+    /// cos_o d omega_m`, with tan = alpha (exp(L v) - 1).
     fn by_normals(alpha: f64, cos: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
         let ggx = Ggx::new(alpha);
         let wo = DVec3::new(((1.0 - cos) * (1.0 + cos)).sqrt(), 0.0, cos);
@@ -173,8 +174,8 @@ mod tests {
         assert!(worst < 1e-4, "{worst:e}");
     }
 
-    /// Heitz's closed case: at normal incidence with alpha = 1, `t_o = t_i = 1` for all rays and the
-    /// integral is elementary: `1 - log 2`.
+    /// Heitz's closed case: at normal incidence with alpha = 1, `t_o = t_i = 1` for all rays and
+    /// the integral is elementary: `1 - log 2`.
     #[test]
     fn the_roughest_surface_has_a_closed_form_at_normal_incidence() {
         let curve = AlbedoCurve::new(Ggx::new(1.0), |_| 1.0);

@@ -8,9 +8,10 @@
 //! f_more = R (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
 //! ```
 //!
-//! MultipleScattering light was reflected once and is reflected again; then the share `E` (the mean) leaves and the
-//! rest is caught again. Each time the mean Fresnel factor `F` is kept, so that of the caught light
-//! `R = F^2 E (1 + F (1 - E) + ...) = F^2 E / (1 - F (1 - E))` comes out. With `F0 = 1`, R = 1.
+//! MultipleScattering light was reflected once and is reflected again; then the share `E` (the
+//! mean) leaves and the rest is caught again. Each time the mean Fresnel factor `F` is kept, so
+//! that of the caught light `R = F^2 E (1 + F (1 - E) + ...) = F^2 E / (1 - F (1 - E))` comes out.
+//! With `F0 = 1`, R = 1.
 
 use super::BsdfSample;
 use super::albedo_curve::AlbedoCurve;

@@ -1,8 +1,8 @@
 //! A smooth clear body: Fresnel reflection, refraction, total reflection.
 //!
-//! The front side of its facets is outside. Light is reflected or refracted by chance with Fresnel's
-//! probabilities, and neither way loses any. Along a refracted ray basic radiance `L / eta^2` is kept
-//! (Veach 1997, section 5.2): radiance followed from where it is wanted is scaled by
+//! The front side of its facets is outside. Light is reflected or refracted by chance with
+//! Fresnel's probabilities, and neither way loses any. Along a refracted ray basic radiance `L /
+//! eta^2` is kept (Veach 1997, section 5.2): radiance followed from where it is wanted is scaled by
 //! `(eta_here / eta_there)^2`, flux is not.
 
 use super::fresnel::Boundary;
@@ -92,8 +92,8 @@ mod tests {
         }
     }
 
-    /// `L / eta^2` is kept both ways: the scaled share of a refracted ray is that of its reverse times
-    /// `eta^-4`, the squares of both relative indices (Veach 1997, section 5.2).
+    /// `L / eta^2` is kept both ways: the scaled share of a refracted ray is that of its reverse
+    /// times `eta^-4`, the squares of both relative indices (Veach 1997, section 5.2).
     #[test]
     fn refraction_is_reciprocal() {
         let scaled_share = |cos: f64, front: bool| {

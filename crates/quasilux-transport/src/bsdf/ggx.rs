@@ -2,13 +2,15 @@
 //! height-correlated masking.
 //!
 //! With `m = normalize(wo + wi)`, `D` the density of normals (Walter et al. 2007, equation 33) and
-//! `t(w) = sqrt(alpha^2 sin^2 + cos^2)`, Smith's `G2 = 1 / (1 + Lambda(wo) + Lambda(wi))` (Heitz 2014,
-//! equation 99) becomes `2 cos_o cos_i / (t_o cos_i + t_i cos_o)`, and a mirror-like facet gives
-//! `f = D G2 / (4 cos_o cos_i) = D / (2 (t_o cos_i + t_i cos_o))`, without a cosine to divide by.
+//! `t(w) = sqrt(alpha^2 sin^2 + cos^2)`, Smith's `G2 = 1 / (1 + Lambda(wo) + Lambda(wi))` (Heitz
+//! 2014, equation 99) becomes `2 cos_o cos_i / (t_o cos_i + t_i cos_o)`, and a mirror-like facet
+//! gives `f = D G2 / (4 cos_o cos_i) = D / (2 (t_o cos_i + t_i cos_o))`, without a cosine to divide
+//! by.
 //!
 //! Directions are sampled by visible normals (Heitz 2018): in the space where the distribution is a
-//! hemisphere, the reflected ray is uniform on a spherical cap (Dupuy and Benyoub 2023), whose lower
-//! edge is raised to where reflected rays can still be above the surface (Eto and Tokuyoshi 2023).
+//! hemisphere, the reflected ray is uniform on a spherical cap (Dupuy and Benyoub 2023), whose
+//! lower edge is raised to where reflected rays can still be above the surface (Eto and Tokuyoshi
+//! 2023).
 
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI, TAU};

@@ -5,8 +5,8 @@ use quasilux_sampling::Sampler;
 
 /// How often directions come from the sharp lobe.
 ///
-/// Both lobes share one density, their mean by probability, so that the weight of a direction does not
-/// depend on which lobe proposed it.
+/// Both lobes share one density, their mean by probability, so that the weight of a direction does
+/// not depend on which lobe proposed it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lobes {
     sharp: f64,

@@ -1,10 +1,10 @@
 //! A measured sheet: what its tables say of both sides.
 //!
-//! Photons take the table of light that arrives as they do: its inverse transform draws their directions.
-//! Paths run against the light. They need f with the light coming from where they go: that table with its
-//! directions exchanged. Where that is not at hand, they take the table as if it did not matter which direction comes first
-//! (Helmholtz reciprocity), and a share of their directions, the `doubt`, goes to all sides alike, so that none with
-//! light is missed.
+//! Photons take the table of light that arrives as they do: its inverse transform draws their
+//! directions. Paths run against the light. They need f with the light coming from where they go:
+//! that table with its directions exchanged. Where that is not at hand, they take the table as if
+//! it did not matter which direction comes first (Helmholtz reciprocity), and a share of their
+//! directions, the `doubt`, goes to all sides alike, so that none with light is missed.
 
 use super::BsdfSample;
 use super::TransportMode;
@@ -23,8 +23,8 @@ const MAX_DOUBT: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(crate) struct Measured {
     sheet: scene::Measured,
-    /// The share of directions of paths that do not come from a table, by the side that they look at and the way that
-    /// light reaches them.
+    /// The share of directions of paths that do not come from a table, by the side that they look
+    /// at and the way that light reaches them.
     doubts: [[f64; 2]; 2],
 }
 
@@ -51,7 +51,8 @@ impl Measured {
         self.sheet.transmits()
     }
 
-    /// The share of light that goes on; of paths an estimate where exchanged tables are not at hand.
+    /// The share of light that goes on; of paths an estimate where exchanged tables are not at
+    /// hand.
     pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool, mode: TransportMode) -> S {
         let side = self.sheet.side(front);
         let share = |way: ScatteringMode| self.lobe(side, way, mode).share(in_table(wo, side));
@@ -192,8 +193,8 @@ fn way(wi: DVec3) -> ScatteringMode {
     if wi.z > 0.0 { ScatteringMode::Reflection } else { ScatteringMode::Transmission }
 }
 
-/// A local direction as tables have it. Their x axis points to the right for who sees the back, and z is positive on
-/// either side.
+/// A local direction as tables have it. Their x axis points to the right for who sees the back, and
+/// z is positive on either side.
 fn in_table(local: DVec3, side: Side) -> DVec3 {
     let x = match side {
         Side::Front => -local.x,

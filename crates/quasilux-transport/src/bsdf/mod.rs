@@ -1,8 +1,8 @@
 //! How surfaces scatter light on its way: a closed set, one file a kind.
 //!
 //! Directions are local: z is the geometric normal of the side that `wo` is on, so `wo.z > 0`, and
-//! `wi.z < 0` means transmitted; x and y are those of [`Frame`]. Both point away from the surface. For
-//! a path `wo` is where it comes from, for a photon where light comes from: the functions are
+//! `wi.z < 0` means transmitted; x and y are those of [`Frame`]. Both point away from the surface.
+//! For a path `wo` is where it comes from, for a photon where light comes from: the functions are
 //! reciprocal but for the square of the index of refraction, which [`TransportMode`] tells apart.
 
 mod albedo_curve;
@@ -46,9 +46,9 @@ impl Scattering {
         Self(Bsdf::new(material))
     }
 
-    /// The scattering function f in sr^-1, without the cosine, of light that arrives from `wi` on the front and leaves
-    /// along `wo`: unit vectors away from the surface in its frame, z along the normal. 0 of what goes into single
-    /// directions.
+    /// The scattering function f in sr^-1, without the cosine, of light that arrives from `wi` on
+    /// the front and leaves along `wo`: unit vectors away from the surface in its frame, z along
+    /// the normal. 0 of what goes into single directions.
     #[must_use]
     pub fn evaluate(&self, wi: DVec3, wo: DVec3) -> Rgb {
         self.0.evaluate(wi, wo, true, TransportMode::Importance)
@@ -89,7 +89,8 @@ pub(crate) struct BsdfSample<S> {
 }
 
 impl<S: Spectrum> BsdfSample<S> {
-    /// A direction above the surface with the function's value there (sr^-1), drawn with this density.
+    /// A direction above the surface with the function's value there (sr^-1), drawn with this
+    /// density.
     fn reflected(wi: DVec3, value: S, pdf_sr: f64) -> Self {
         Self { wi, weight: value * (wi.z / pdf_sr), pdf_sr: Some(pdf_sr) }
     }
@@ -122,7 +123,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// Whether it scatters into finitely many directions only, so that no light can be connected to it.
+    /// Whether it scatters into finitely many directions only, so that no light can be connected to
+    /// it.
     pub(crate) fn is_specular(&self) -> bool {
         match self {
             Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => true,
@@ -134,8 +136,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// Where the local y axis points, in so far as it lies in the surface; `None` where the surface may
-    /// be turned in its plane.
+    /// Where the local y axis points, in so far as it lies in the surface; `None` where the surface
+    /// may be turned in its plane.
     pub(crate) fn up(&self) -> Option<DVec3> {
         match self {
             Self::Measured(measured) => measured.up(),
@@ -149,8 +151,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map can
-    /// stand on it.
+    /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map
+    /// can stand on it.
     pub(crate) fn keeps_illuminance(&self) -> bool {
         match self {
             Self::Diffuse(_) => true,
@@ -192,8 +194,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// What it mirrors of light that comes at this cosine, where all of the rest is absorbed or goes straight
-    /// on, so that images can be followed; `None` for other surfaces.
+    /// What it mirrors of light that comes at this cosine, where all of the rest is absorbed or
+    /// goes straight on, so that images can be followed; `None` for other surfaces.
     pub(crate) fn image_reflectance(&self, cos: f64) -> Option<S> {
         match self {
             Self::Mirror(mirror) => Some(mirror.reflectance),
@@ -221,7 +223,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front side.
+    /// The share of the light along `wo` that goes on, for survival. `front`: `wo` is on the front
+    /// side.
     pub(crate) fn albedo(&self, wo: DVec3, front: bool, mode: TransportMode) -> S {
         match self {
             Self::Diffuse(diffuse) => diffuse.reflectance,
@@ -250,8 +253,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// Draws the direction in which light goes on; `None` where none does. What choices left of the open
-    /// coordinate is used first.
+    /// Draws the direction in which light goes on; `None` where none does. What choices left of the
+    /// open coordinate is used first.
     pub(crate) fn sample(
         &self,
         wo: DVec3,

@@ -1,8 +1,8 @@
 //! Where light leaves that met several facets: the density `(1 - E(cos)) cos / (pi (1 - mean E))`.
 //!
-//! On smooth metal only grazing light is caught, and it leaves at grazing angles: a cosine lobe would
-//! seldom go there. The density is taken as constant in `s` within each cell of the [`AlbedoCurve`],
-//! so that inversion is a search in 96 sums.
+//! On smooth metal only grazing light is caught, and it leaves at grazing angles: a cosine lobe
+//! would seldom go there. The density is taken as constant in `s` within each cell of the
+//! [`AlbedoCurve`], so that inversion is a search in 96 sums.
 
 use super::albedo_curve::{AlbedoCurve, CELLS};
 use glam::DVec3;

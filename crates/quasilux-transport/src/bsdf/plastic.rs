@@ -1,8 +1,8 @@
 //! Rough plastic: a clear rough coat over a diffuse base.
 //!
-//! The coat reflects by GGX facets with Fresnel's factor; `E(cos)` of the light is reflected there at
-//! once. What enters is scattered by the base and leaves through the same coat, in the reciprocal
-//! form of Kelemen and Szirmay-Kalos (2001):
+//! The coat reflects by GGX facets with Fresnel's factor; `E(cos)` of the light is reflected there
+//! at once. What enters is scattered by the base and leaves through the same coat, in the
+//! reciprocal form of Kelemen and Szirmay-Kalos (2001):
 //!
 //! ```text
 //! f_base = reflectance (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).

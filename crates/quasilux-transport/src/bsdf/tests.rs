@@ -245,7 +245,8 @@ fn p_value(
             cells.push(CellCount { observed: 0, expected: p * total });
         }
     }
-    // Transmitted ones are cosine-distributed about -z, or there are none: as many in all rings and sectors.
+    // Transmitted ones are cosine-distributed about -z, or there are none: as many in all rings and
+    // sectors.
     let below = bsdf.pdf_sr(wo, DVec3::NEG_Z, true) * PI;
     let above = cells.len();
     let parts = if below > 0.0 { CELLS_BELOW } else { [1, 1] };
@@ -279,7 +280,8 @@ fn p_value(
     chi_square_test(&cells)
 }
 
-/// Seed 4, 2^16 samples, significance 1 % over the whole family; see the next test for what it finds.
+/// Seed 4, 2^16 samples, significance 1 % over the whole family; see the next test for what it
+/// finds.
 #[test]
 fn samples_follow_their_density() {
     let cosines = [0.03, 0.4, 0.93];

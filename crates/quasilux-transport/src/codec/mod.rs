@@ -1,14 +1,17 @@
 //! What a run has summed so far, as bytes, for checkpoints and for parts of a run.
 //!
-//! All that grows with a run is integers, so the bytes of a run that was interrupted lead to the same
-//! bits, and those of several index ranges add up to those of all of them, in any order. What a run decides
-//! before its first sample (surveys, pilots, frozen maps) is a function of scene and settings: it is made
-//! again, and only a digest of it is kept, so that a difference is refused and not silently wrong.
+//! All that grows with a run is integers, so the bytes of a run that was interrupted lead to the
+//! same bits, and those of several index ranges add up to those of all of them, in any order. What
+//! a run decides before its first sample (surveys, pilots, frozen maps) is a function of scene and
+//! settings: it is made again, and only a digest of it is kept, so that a difference is refused and
+//! not silently wrong.
 //!
-//! Points that are done have ended with fewer samples than others: which ones, and with how many, is in a state, and the
-//! checkpoints that the next prediction is made from. Parts have no such points.
+//! Points that are done have ended with fewer samples than others: which ones, and with how many,
+//! is in a state, and the checkpoints that the next prediction is made from. Parts have no such
+//! points.
 //!
-//! Numbers are little-endian; lists have their lengths before them. `docs/formats.md` has the whole.
+//! Numbers are little-endian; lists have their lengths before them. `docs/formats.md` has the
+//! whole.
 
 mod histogram;
 mod reader;
@@ -33,8 +36,8 @@ pub(crate) trait Stored {
     /// Puts it out.
     fn put(&self, out: &mut Writer);
 
-    /// Adds what was put out. What it is added to has the same shape, and may be half changed after an
-    /// error.
+    /// Adds what was put out. What it is added to has the same shape, and may be half changed after
+    /// an error.
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 }
 

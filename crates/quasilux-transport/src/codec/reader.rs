@@ -1,5 +1,5 @@
-//! Bytes to numbers: whatever the bytes are, the answer is numbers or an error, and no length that they
-//! claim takes memory before so many bytes are there.
+//! Bytes to numbers: whatever the bytes are, the answer is numbers or an error, and no length that
+//! they claim takes memory before so many bytes are there.
 
 use thiserror::Error;
 

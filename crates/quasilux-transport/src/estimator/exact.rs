@@ -45,8 +45,8 @@ impl Exact {
     }
 }
 
-/// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of them
-/// tested.
+/// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of
+/// them tested.
 pub(crate) fn exact<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],

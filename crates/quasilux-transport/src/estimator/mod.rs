@@ -33,12 +33,12 @@ pub(crate) trait Estimator {
     /// Puts out all that has grown; called between pieces of the work.
     fn put(&self, out: &mut Writer);
 
-    /// Takes that in before the first sample, so that [`Self::advance`] to the checkpoint `coming` does
-    /// what is left.
+    /// Takes that in before the first sample, so that [`Self::advance`] to the checkpoint `coming`
+    /// does what is left.
     fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
 
-    /// Before the first sample: traces the indices of a part of a run of so many `samples`, and what
-    /// serves all of them; `false` when the observer stopped it.
+    /// Before the first sample: traces the indices of a part of a run of so many `samples`, and
+    /// what serves all of them; `false` when the observer stopped it.
     #[must_use]
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool;
 
@@ -60,8 +60,8 @@ pub(crate) trait Estimator {
     /// What is known now. Settings, intervals and warnings are filled in by the caller.
     fn estimates(&self) -> Estimates;
 
-    /// Leaves it at that for the targets that are `done`, and samples the others alone from now on; `false`
-    /// where samples are for all targets.
+    /// Leaves it at that for the targets that are `done`, and samples the others alone from now on;
+    /// `false` where samples are for all targets.
     fn freeze_converged(&mut self, _done: &[bool]) -> bool {
         false
     }

@@ -128,8 +128,8 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         }
     }
 
-    /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing targets and
-    /// replicates, in the order of [`Self::sums`], are put in one row.
+    /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing
+    /// targets and replicates, in the order of [`Self::sums`], are put in one row.
     fn trace_piece(
         &self,
         piece: &Range<u64>,
@@ -174,8 +174,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.growing[number / replicates] * replicates + number % replicates
     }
 
-    /// Leaves targets that have an end at that, with what else is done for each of them alone; other paths and
-    /// photons stay what they are.
+    /// Leaves targets that have an end at that, with what else is done for each of them alone;
+    /// other paths and photons stay what they are.
     fn keep_to_ends(&mut self) {
         self.growing.retain(|&target| self.ends[target].is_none());
         if let Some(caustics) = &mut self.caustics {
@@ -386,8 +386,8 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 }
 
-/// Whether light whose direct part is sampled may come straight to a target: not to one with all such
-/// luminaires behind it.
+/// Whether light whose direct part is sampled may come straight to a target: not to one with all
+/// such luminaires behind it.
 fn samples_direct<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> bool {
     let luminaires = &context.lights.area_luminaires;
     context.lights.emitters.is_some()

@@ -72,8 +72,8 @@ struct GridReceiver {
     first_counter: usize,
 }
 
-/// Photons counted in one replicate, in quanta: all, and those of 0, 1, .. bounces as far as terms are
-/// listed; those straight from a light always are.
+/// Photons counted in one replicate, in quanta: all, and those of 0, 1, .. bounces as far as terms
+/// are listed; those straight from a light always are.
 struct Counters {
     all: Vec<AtomicU64>,
     by_bounces: Vec<Vec<AtomicU64>>,
@@ -302,7 +302,8 @@ impl Receivers {
         self.counters += grid.cells();
     }
 
-    /// A point off all surfaces reads a counter that nothing feeds; [`crate::run::check`] refuses it.
+    /// A point off all surfaces reads a counter that nothing feeds; [`crate::run::check`] refuses
+    /// it.
     fn add_point(&mut self, at: Option<Interaction>) {
         let fresh = self.counters as u32;
         let (counter, area_m2) = match at {

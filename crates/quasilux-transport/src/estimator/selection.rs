@@ -1,11 +1,13 @@
 //! How the estimator `bidirectional` goes about a scene, by what pilots measure.
 //!
-//! It has three ways. Paths go alone to their ends; or they end on a frozen map, which some of them correct
-//! ([`crate::estimator::control_variate`]); or photons are joined to the targets and share the light with them ([`crate::estimator::connection`]). All
-//! three have the right mean, so any choice is right, and the cheapest is best: by the rays of the whole run,
-//! foreseen from variances and rays of trials ([`ErrorTarget`]). Trials themselves cost rays, most of all those of joined photons, for
-//! which the scene is surveyed. So a few paths are tried first, and a map of a few photons; photons are only joined where what is
-//! best without them takes many rays, or where paths do not find the light that photons do.
+//! It has three ways. Paths go alone to their ends; or they end on a frozen map, which some of them
+//! correct ([`crate::estimator::control_variate`]); or photons are joined to the targets and share
+//! the light with them ([`crate::estimator::connection`]). All three have the right mean, so any
+//! choice is right, and the cheapest is best: by the rays of the whole run, foreseen from variances
+//! and rays of trials ([`ErrorTarget`]). Trials themselves cost rays, most of all those of joined
+//! photons, for which the scene is surveyed. So a few paths are tried first, and a map of a few
+//! photons; photons are only joined where what is best without them takes many rays, or where paths
+//! do not find the light that photons do.
 
 use crate::context::Context;
 use crate::estimator::connection::{self, Alone, LightVertexConnections};
@@ -23,8 +25,8 @@ use quasilux_sampling::Sequence;
 
 /// Runs of fewer rays are not worth a survey, which takes about as many.
 const TRYING_TO_JOIN: f64 = (1 << 20) as f64;
-/// In a run, the variance of paths falls to about this part of what it is in the trial, beyond what more of them
-/// bring: quasi-random points. Random ones bring nothing.
+/// In a run, the variance of paths falls to about this part of what it is in the trial, beyond what
+/// more of them bring: quasi-random points. Random ones bring nothing.
 const LATER: f64 = 0.5;
 
 /// What was decided, and what it took. Without joined photons and map, paths go alone.
@@ -34,7 +36,8 @@ pub(crate) struct Decision<S> {
     pub(crate) frozen: Option<(FrozenMap<S>, PhotonCounts)>,
     /// Photons of a map that was not taken, if they left the lights.
     pub(crate) photons: Option<PhotonCounts>,
-    /// Rays of all trials, and of what joined photons need beforehand; but for those of photons above.
+    /// Rays of all trials, and of what joined photons need beforehand; but for those of photons
+    /// above.
     pub(crate) rays: u64,
 }
 

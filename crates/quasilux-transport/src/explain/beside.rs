@@ -1,4 +1,5 @@
-//! Photons beside paths as a pilot sees them: what each gives to the sensor points whose paths are looked at.
+//! Photons beside paths as a pilot sees them: what each gives to the sensor points whose paths are
+//! looked at.
 //!
 //! What steered photons split off draws coordinates that belong to no block.
 

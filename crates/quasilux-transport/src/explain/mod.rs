@@ -2,12 +2,12 @@
 //!
 //! A pilot traces pseudo-random paths or photons whose coordinates no estimate uses, and finds out
 //! which coordinates feed which decision, as the code that draws them says ([`crate::purpose`]).
-//! Neighbouring coordinates that feed the same decision make a block. The pilot is then repeated with
-//! one block exchanged at a time, which gives the block's share of the variance (`shares`), and with
-//! one block moved a little, which tells jumps from slopes. PartitionWeights are of the variance of one path or
-//! photon: what is even in few coordinates, and smooth, quasi-random points integrate fast (Caflisch,
-//! Morokoff and Owen 1997). What they are worth here is measured, too: independent replicates of the
-//! sequence of the run against the variance of the pilot.
+//! Neighbouring coordinates that feed the same decision make a block. The pilot is then repeated
+//! with one block exchanged at a time, which gives the block's share of the variance (`shares`),
+//! and with one block moved a little, which tells jumps from slopes. PartitionWeights are of the
+//! variance of one path or photon: what is even in few coordinates, and smooth, quasi-random points
+//! integrate fast (Caflisch, Morokoff and Owen 1997). What they are worth here is measured, too:
+//! independent replicates of the sequence of the run against the variance of the pilot.
 //!
 //! Values are kept by index and summed in their order, so that threads change no bit.
 
@@ -49,24 +49,26 @@ const MIN_SHARE: f64 = 0.01;
 pub struct Explanation {
     /// What was traced.
     pub walk: SampleKind,
-    /// Sensor points whose paths were looked at, with the photons beside them, or sensors whose average photons were.
+    /// Sensor points whose paths were looked at, with the photons beside them, or sensors whose
+    /// average photons were.
     pub targets: usize,
     /// Pilot samples, of each target where they are paths.
     pub samples: u64,
-    /// Rays that all samples took; those of the estimate are not in it, nor what must be there before the first.
+    /// Rays that all samples took; those of the estimate are not in it, nor what must be there
+    /// before the first.
     pub rays: u64,
     /// How many coordinates the samples used.
     pub dimensions: DimensionHistogram,
-    /// Standard deviation of what one sample finds over the mean, root mean square over the targets; 0 where nothing
-    /// varies. Of photons beside paths over all the light there.
+    /// Standard deviation of what one sample finds over the mean, root mean square over the
+    /// targets; 0 where nothing varies. Of photons beside paths over all the light there.
     pub relative_deviation: f64,
     /// Coordinates by what they feed, in their order.
     pub blocks: Vec<Block>,
-    /// Sum of all total shares: how many blocks act together on average, 1 where effects just add (the
-    /// mean dimension of Liu and Owen 2006, by blocks). `None` where nothing varies.
+    /// Sum of all total shares: how many blocks act together on average, 1 where effects just add
+    /// (the mean dimension of Liu and Owen 2006, by blocks). `None` where nothing varies.
     pub interacting_blocks: Option<f64>,
-    /// So many first coordinates carry 99 % of the variance, to whole blocks (the effective dimension
-    /// in the truncation sense); `None` where it takes those past the last block.
+    /// So many first coordinates carry 99 % of the variance, to whole blocks (the effective
+    /// dimension in the truncation sense); `None` where it takes those past the last block.
     pub truncation_dimension: Option<u32>,
     /// What the sequence of the run is worth; `None` where nothing is randomised or nothing varies.
     pub gain: Option<Gain>,
@@ -101,7 +103,8 @@ pub enum SampleKind {
 }
 
 impl SampleKind {
-    /// How many samples of their own so many targets have for each index: photons serve all, paths one each.
+    /// How many samples of their own so many targets have for each index: photons serve all, paths
+    /// one each.
     fn samples_an_index(self, targets: usize) -> usize {
         match self {
             Self::Photons | Self::CountedPhotons | Self::ConnectedPhotons => 1,
@@ -123,8 +126,8 @@ pub struct Block {
     pub alone: Option<Share>,
     /// Share of the variance that hangs on it, alone or with others.
     pub total: Option<Share>,
-    /// The power of a small step with which the squared difference falls: 2 where values are smooth in
-    /// the block, 1 where they jump. `None` where it carries too little to tell.
+    /// The power of a small step with which the squared difference falls: 2 where values are smooth
+    /// in the block, 1 where they jump. `None` where it carries too little to tell.
     pub smoothness: Option<f64>,
 }
 
@@ -146,8 +149,8 @@ pub struct Share {
     pub standard_error: f64,
 }
 
-/// Error under the sequence of the run beside that of pseudo-random points, both of means over the same
-/// number of samples.
+/// Error under the sequence of the run beside that of pseudo-random points, both of means over the
+/// same number of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gain {
     /// Samples in a mean.
@@ -158,14 +161,15 @@ pub struct Gain {
     pub factor: f64,
     /// Standard error of the factor, about.
     pub standard_error: f64,
-    /// The error falls like the samples to the power of minus this, from a sixteenth of them on; 0.5
-    /// for pseudo-random points.
+    /// The error falls like the samples to the power of minus this, from a sixteenth of them on;
+    /// 0.5 for pseudo-random points.
     pub exponent: f64,
 }
 
 /// Looks into the variance of one sample, without the run.
 ///
-/// Deterministic for any number of threads. It costs some hundred thousand samples of each kind, up to a million.
+/// Deterministic for any number of threads. It costs some hundred thousand samples of each kind, up
+/// to a million.
 #[must_use]
 pub fn explain(scene: &Scene, settings: &Settings) -> Explanation {
     if is_grey(scene) { on_stage::<f64>(scene, settings) } else { on_stage::<Rgb>(scene, settings) }

@@ -42,7 +42,8 @@ struct PathTarget {
     /// Its number among all.
     number: u64,
     target: Target,
-    /// Light that is no matter of paths: direct light, what joined photons find, and what only photons find.
+    /// Light that is no matter of paths: direct light, what joined photons find, and what only
+    /// photons find.
     given_lx: f64,
 }
 
@@ -95,7 +96,8 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         Self { context, targets, end, caustics, light_vertices, kind }
     }
 
-    /// The photons that find a part of the light, as walks of their own, where the targets get this much in all.
+    /// The photons that find a part of the light, as walks of their own, where the targets get this
+    /// much in all.
     pub(super) fn beside(&self, whole_lx: &[f64]) -> impl Iterator<Item = BesideSource<'_, S>> {
         let walks = self.light_vertices.iter().flat_map(move |light_vertices| {
             // Of a target that is nearly dark, little is known but what was predicted.

@@ -1,10 +1,10 @@
 //! PartitionWeights of the variance, from samples whose coordinates are exchanged in part.
 //!
-//! With f(A) and f(B) of independent points, and f(AB) of points with the block from B and the rest from
-//! A, the block's share of the variance V alone is `E f(B) (f(AB) - f(A)) / V`, and with all that hangs
-//! on it `E (f(A) - f(AB))^2 / 2 V` (Saltelli et al. 2010, table 2, (b) and (f)). Several targets are
-//! taken together, each in units of its mean, or of all the light there. Standard errors are those of
-//! ratios of means, to first order.
+//! With f(A) and f(B) of independent points, and f(AB) of points with the block from B and the rest
+//! from A, the block's share of the variance V alone is `E f(B) (f(AB) - f(A)) / V`, and with all
+//! that hangs on it `E (f(A) - f(AB))^2 / 2 V` (Saltelli et al. 2010, table 2, (b) and (f)).
+//! Several targets are taken together, each in units of its mean, or of all the light there.
+//! Standard errors are those of ratios of means, to first order.
 
 use super::Share;
 

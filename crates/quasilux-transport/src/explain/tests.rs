@@ -4,8 +4,8 @@ use super::*;
 use quasilux_sampling::Sampler;
 use std::f64::consts::PI;
 
-/// The function of Ishigami and Homma (1990), `sin x + 7 sin^2 y + z^4 sin x / 10` on (-pi, pi)^3, and a
-/// step of a fourth coordinate.
+/// The function of Ishigami and Homma (1990), `sin x + 7 sin^2 y + z^4 sin x / 10` on (-pi, pi)^3,
+/// and a step of a fourth coordinate.
 struct Ishigami<'l> {
     ledger: &'l Ledger,
     step: f64,
@@ -47,8 +47,9 @@ fn look(step: f64, settings: &Settings) -> Explanation {
     look_into(&Ishigami { ledger: &ledger, step }, &ledger, settings).explanation
 }
 
-/// Of the variance, `(1 + pi^4 / 50)^2 / 2` is that of x alone, 49 / 8 that of y, and `8 pi^8 / 22500` that
-/// of x and z together: shares of 0.3139, 0.4424 and 0 alone, 0.5576, 0.4424 and 0.2437 in all. Four standard errors: right programs fail once in 2000 seeds; they are 0.01 or less, so
+/// Of the variance, `(1 + pi^4 / 50)^2 / 2` is that of x alone, 49 / 8 that of y, and `8 pi^8 /
+/// 22500` that of x and z together: shares of 0.3139, 0.4424 and 0 alone, 0.5576, 0.4424 and 0.2437
+/// in all. Four standard errors: right programs fail once in 2000 seeds; they are 0.01 or less, so
 /// a share that is 0.05 off is found.
 #[test]
 fn shares_of_a_known_integrand() {
@@ -89,8 +90,9 @@ fn jumps_are_told_from_slopes() {
     assert!((0.8..1.2).contains(&powers[3]), "{powers:?}");
 }
 
-/// Scrambled Sobol' points integrate a smooth function much better than random ones, and random ones
-/// as well as themselves: 16 replicates know that to 18 %, so this is within three standard errors.
+/// Scrambled Sobol' points integrate a smooth function much better than random ones, and random
+/// ones as well as themselves: 16 replicates know that to 18 %, so this is within three standard
+/// errors.
 #[test]
 fn the_gain_is_that_of_the_sequence() {
     let sobol = look(0.0, &Settings::default()).gain.unwrap();

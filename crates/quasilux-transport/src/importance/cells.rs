@@ -1,7 +1,7 @@
 //! CellTally places: boxes of space, and in each the way that a surface faces.
 //!
-//! Bounded whatever the mesh, and the two sides of a wall are apart in it. A box holds what faces one
-//! of six ways together: coarse, which costs effort and never bias.
+//! Bounded whatever the mesh, and the two sides of a wall are apart in it. A box holds what faces
+//! one of six ways together: coarse, which costs effort and never bias.
 
 use crate::codec::Writer;
 use crate::spectrum::Spectrum;
@@ -124,8 +124,8 @@ impl Cells {
         self.cell_in(place.map(|x| x.max(0.0) as usize), n)
     }
 
-    /// The cells in the boxes around a place, and the weights of linear interpolation. Where there is no such box,
-    /// the nearest stands for it.
+    /// The cells in the boxes around a place, and the weights of linear interpolation. Where there
+    /// is no such box, the nearest stands for it.
     fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); CORNERS] {
         let from_middles =
             ((position - self.low) / self.edge_m).to_array().map(|x| (x + 0.5).max(0.0));
@@ -166,7 +166,8 @@ impl Cells {
         })
     }
 
-    /// The area in m^2 in each cell of what keeps illuminance, to the parts that facets are cut into.
+    /// The area in m^2 in each cell of what keeps illuminance, to the parts that facets are cut
+    /// into.
     pub(crate) fn areas_m2<S: Spectrum>(&self, world: &World<S>) -> Vec<f64> {
         let mut areas_m2 = vec![0.0; self.len()];
         for facet in &world.facets {
@@ -217,8 +218,8 @@ fn centroids(parts: u32) -> impl Iterator<Item = [f64; 3]> {
 mod tests {
     use super::*;
 
-    /// Linear interpolation between the middles of boxes gives back each place, and next to the faces of the grid the
-    /// nearest place between middles.
+    /// Linear interpolation between the middles of boxes gives back each place, and next to the
+    /// faces of the grid the nearest place between middles.
     #[test]
     fn corners_interpolate() {
         let (low, edge_m, counts) = (DVec3::new(-1.0, 2.0, 0.5), 0.25, [5, 3, 4]);

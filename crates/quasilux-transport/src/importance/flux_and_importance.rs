@@ -1,16 +1,17 @@
-//! How much light comes to each surveyed cell, and what light that leaves it is worth to the sensors.
+//! How much light comes to each surveyed cell, and what light that leaves it is worth to the
+//! sensors.
 //!
 //! With s the first landings, T the steps between cells (mean over the rays from a cell, absorption
-//! left out) and a the albedo, the flux that lands is `phi = s + T^t a phi`. A photon that lands after
-//! a bounce is read by the sensors: its worth to sensor i is the share `a p / (A E)` of that sensor's
-//! illuminance E, where p is the share of the sensor's view that the cell of area A fills. The sum over
-//! the sensors, r, makes the *relative* errors of all sensors count alike, and photons that leave a
-//! cell are worth `d = T (r + a d)`: forward-weighted importance (J. C. Wagner, D. E. Peplow,
-//! S. W. Mosher, "FW-CADIS method for global and regional variance reduction of Monte Carlo radiation
-//! transport calculations", Nuclear Science and Engineering 176(1), 2014; M. A. Cooper, E. W. Larsen,
-//! "Automated weight windows for global Monte Carlo particle transport calculations", Nuclear Science
-//! and Engineering 137(1), 2001).
-//! Deviation: both systems are solved on one sampled matrix instead of by a deterministic code.
+//! left out) and a the albedo, the flux that lands is `phi = s + T^t a phi`. A photon that lands
+//! after a bounce is read by the sensors: its worth to sensor i is the share `a p / (A E)` of that
+//! sensor's illuminance E, where p is the share of the sensor's view that the cell of area A fills.
+//! The sum over the sensors, r, makes the *relative* errors of all sensors count alike, and photons
+//! that leave a cell are worth `d = T (r + a d)`: forward-weighted importance (J. C. Wagner, D. E.
+//! Peplow, S. W. Mosher, "FW-CADIS method for global and regional variance reduction of Monte Carlo
+//! radiation transport calculations", Nuclear Science and Engineering 176(1), 2014; M. A. Cooper,
+//! E. W. Larsen, "Automated weight windows for global Monte Carlo particle transport calculations",
+//! Nuclear Science and Engineering 137(1), 2001). Deviation: both systems are solved on one sampled
+//! matrix instead of by a deterministic code.
 
 use crate::importance::survey::{Survey, Surveyed, Transition};
 
@@ -76,8 +77,8 @@ fn landing(survey: &Survey) -> Vec<f64> {
     landing
 }
 
-/// The share of a sensor's view that each of its rays found, in m^-2, absorption folded in: what a lumen
-/// that lands in the cell is read as, in lx.
+/// The share of a sensor's view that each of its rays found, in m^-2, absorption folded in: what a
+/// lumen that lands in the cell is read as, in lx.
 fn views<'s>(
     survey: &'s Survey,
     areas_m2: &'s [f64],

@@ -1,7 +1,7 @@
 //! What a survey predicts of a run: where photons will land, and how much light sensors will get.
 //!
-//! Whoever shares work between photons and paths goes by it; a wrong forecast costs effort and never
-//! bias.
+//! Whoever shares work between photons and paths goes by it; a wrong forecast costs effort and
+//! never bias.
 
 use crate::codec::Writer;
 use crate::importance::cells::{Around, Regions};
@@ -11,7 +11,8 @@ use crate::world::Interaction;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Times that light is gathered from what cells see: each evens out what the one before left uneven.
+/// Times that light is gathered from what cells see: each evens out what the one before left
+/// uneven.
 const SWEEPS: u32 = 2;
 
 /// What to expect of photons and sensors.
@@ -64,16 +65,16 @@ impl Forecast {
         Self { landings, places, indirect_lx, step: survey.sensor_step }
     }
 
-    /// Illuminance to expect at a target after reflections, in lx, by its number among all: that of the
-    /// next one that was surveyed.
+    /// Illuminance to expect at a target after reflections, in lx, by its number among all: that of
+    /// the next one that was surveyed.
     pub(crate) fn indirect_lx(&self, target: usize) -> f64 {
         self.indirect_lx[target / self.step]
     }
 }
 
-/// Flux that lands on a square metre of each surveyed cell, as a share of what all lights emit. Few of the
-/// steps that the balance is made of end in any one cell; many cells are seen from it, so what comes
-/// after a bounce is gathered from there.
+/// Flux that lands on a square metre of each surveyed cell, as a share of what all lights emit. Few
+/// of the steps that the balance is made of end in any one cell; many cells are seen from it, so
+/// what comes after a bounce is gathered from there.
 fn lit_per_m2(survey: &Survey, balance: &FluxAndImportance, areas_m2: &[f64]) -> Vec<f64> {
     let per_m2 = |flux: &[f64]| -> Vec<f64> {
         flux.iter().zip(areas_m2).map(|(flux, area_m2)| flux / area_m2).collect()
@@ -112,8 +113,8 @@ impl Landings {
         self.regions.around(position, n)
     }
 
-    /// What to expect at a place with these cells around it; nothing where the survey found nothing. It
-    /// changes smoothly along a surface.
+    /// What to expect at a place with these cells around it; nothing where the survey found
+    /// nothing. It changes smoothly along a surface.
     pub(crate) fn density(&self, around: &Around) -> Density {
         let mut density = Density::default();
         for (number, weight) in around.iter() {

@@ -1,14 +1,15 @@
 //! Guided directions: where photons that leave a cell should go.
 //!
-//! From a lit wall to the far end of a corridor lead few directions, and whole photons that take them
-//! carry far more than the end is due. A photon's direction is made from a point of the unit square; a
-//! density over the square, learnt from the survey's rays and what they were worth where they landed,
-//! makes such points more frequent, and weights as much less (importance sampling of the directions, as
-//! in J. Vorba et al., "On-line learning of parametric mixture models for light transport simulation",
-//! ACM Trans. Graph. 33(4), 2014). The square is halved again and again where much worth is, in the manner of
-//! T. Mueller, M. Gross and J. Novak, "Practical path guiding for efficient light-transport simulation",
-//! Comput. Graph. Forum 36(4), 2017, and the density is constant in what is not halved: the end of a corridor fills
-//! less than a thousandth of what its walls see, at a grazing angle.
+//! From a lit wall to the far end of a corridor lead few directions, and whole photons that take
+//! them carry far more than the end is due. A photon's direction is made from a point of the unit
+//! square; a density over the square, learnt from the survey's rays and what they were worth where
+//! they landed, makes such points more frequent, and weights as much less (importance sampling of
+//! the directions, as in J. Vorba et al., "On-line learning of parametric mixture models for light
+//! transport simulation", ACM Trans. Graph. 33(4), 2014). The square is halved again and again
+//! where much worth is, in the manner of T. Mueller, M. Gross and J. Novak, "Practical path guiding
+//! for efficient light-transport simulation", Comput. Graph. Forum 36(4), 2017, and the density is
+//! constant in what is not halved: the end of a corridor fills less than a thousandth of what its
+//! walls see, at a grazing angle.
 
 use crate::codec::Writer;
 use std::collections::VecDeque;
@@ -30,8 +31,8 @@ const EVEN: f64 = 0.3;
 /// A density over the unit square.
 #[derive(Clone, Debug)]
 pub(crate) struct GuidingTree {
-    /// The regions that are halved, the whole square first: halved along the first edge, its halves along
-    /// the second, and so on. Empty where all points are alike.
+    /// The regions that are halved, the whole square first: halved along the first edge, its halves
+    /// along the second, and so on. Empty where all points are alike.
     forks: Vec<Node>,
 }
 
@@ -64,7 +65,8 @@ struct Stretch {
 /// A ray through a point of the square.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GuidingSample {
-    /// Binary digits of both coordinates in turn, those of the first first: rays of a region follow each other.
+    /// Binary digits of both coordinates in turn, those of the first first: rays of a region follow
+    /// each other.
     digits: u32,
     importance: f64,
 }
@@ -184,7 +186,8 @@ impl GuidingTree {
 }
 
 impl Node {
-    /// Neither half without points; the share of the rarer is rounded up, so that weights hardly grow by it.
+    /// Neither half without points; the share of the rarer is rounded up, so that weights hardly
+    /// grow by it.
     fn new(low_share: f64) -> Self {
         let parts = low_share * WHOLE;
         let parts = if low_share < 0.5 { parts.ceil() } else { parts.floor() };
@@ -248,8 +251,8 @@ mod tests {
         assert!(compared > 1500, "{compared}");
     }
 
-    /// Samples cover the whole square: the mean reciprocal of their density is its area. They are much denser where
-    /// worth is.
+    /// Samples cover the whole square: the mean reciprocal of their density is its area. They are
+    /// much denser where worth is.
     #[test]
     fn much_goes_where_worth_is() {
         let guide = guide();

@@ -1,11 +1,12 @@
 //! Steering photons to where sensors need them.
 //!
-//! In a long corridor lit from one end photons die out, and the far end is found by hardly any. A coarse
-//! [`survey`] of the scene says, by linear algebra ([`balance`]), how much light there is and what it
-//! is worth to the sensors; [`windows`] then say how many photons should follow each that lands, and
-//! [`guide`] in which directions. The survey has pilot rays of its own, their number is fixed and their
-//! coordinates serve nothing else: whatever it says, the estimate has the same mean. It also predicts
-//! what steering saves; where that is little, as in a plain room, photons are left alone.
+//! In a long corridor lit from one end photons die out, and the far end is found by hardly any. A
+//! coarse [`survey`] of the scene says, by linear algebra ([`balance`]), how much light there is
+//! and what it is worth to the sensors; [`windows`] then say how many photons should follow each
+//! that lands, and [`guide`] in which directions. The survey has pilot rays of its own, their
+//! number is fixed and their coordinates serve nothing else: whatever it says, the estimate has the
+//! same mean. It also predicts what steering saves; where that is little, as in a plain room,
+//! photons are left alone.
 
 mod cells;
 mod flux_and_importance;
@@ -29,8 +30,8 @@ use flux_and_importance::FluxAndImportance;
 use std::sync::Arc;
 use survey::Survey;
 
-/// Photons are steered by themselves where the same error then costs this many times fewer rays. A small
-/// gain would not repay the closer look that steering takes.
+/// Photons are steered by themselves where the same error then costs this many times fewer rays. A
+/// small gain would not repay the closer look that steering takes.
 pub(crate) const WORTHWHILE: f64 = 8.0;
 
 /// Times that far cells are connected on a closer look, each time chosen by what was learnt before.
@@ -45,7 +46,8 @@ pub(crate) struct Plan {
     pub(crate) forecast: Option<Forecast>,
     /// Of photons that are steered.
     pub(crate) steered: Option<Performance>,
-    /// Times that the same error costs fewer rays where photons are steered, as predicted before the closer look.
+    /// Times that the same error costs fewer rays where photons are steered, as predicted before
+    /// the closer look.
     pub(crate) gain: f64,
     /// Rays of the survey.
     pub(crate) rays: u64,
@@ -97,8 +99,8 @@ pub(crate) fn foresee<S: Spectrum>(
     Plan { windows, forecast: Some(forecast), steered, gain, rays: survey.rays }
 }
 
-/// Connects cells over distances, to where light is worth most by what is known so far; what follows
-/// from all of it, and the cells' areas in m^2.
+/// Connects cells over distances, to where light is worth most by what is known so far; what
+/// follows from all of it, and the cells' areas in m^2.
 fn look_far<S: Spectrum>(
     context: &Context<'_, S>,
     survey: &mut Survey,
@@ -113,8 +115,8 @@ fn look_far<S: Spectrum>(
     Some((FluxAndImportance::new(survey, &areas_m2, flux_lm)?, areas_m2))
 }
 
-/// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets the
-/// least that another has.
+/// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets
+/// the least that another has.
 fn areas_m2<S: Spectrum>(context: &Context<'_, S>, survey: &Survey) -> Vec<f64> {
     let of_cell = survey.cells.areas_m2(&context.world);
     let least = of_cell.iter().copied().filter(|area| *area > 0.0).fold(f64::INFINITY, f64::min);

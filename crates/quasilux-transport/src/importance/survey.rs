@@ -1,9 +1,10 @@
 //! A coarse survey of where light goes: pilot rays from the lights, from sensors, and on from every
 //! place that any of them finds.
 //!
-//! A pilot of whole photons never sees the far end of a corridor. A survey of single steps does: each
-//! cell sends as many rays as any other, however little light comes to it, and chains of steps are
-//! left to linear algebra ([`crate::importance::flux_and_importance`]). Cells are discovered as rays land in them.
+//! A pilot of whole photons never sees the far end of a corridor. A survey of single steps does:
+//! each cell sends as many rays as any other, however little light comes to it, and chains of steps
+//! are left to linear algebra ([`crate::importance::flux_and_importance`]). Cells are discovered as
+//! rays land in them.
 
 use crate::bsdf::TransportMode;
 use crate::context::{Context, Stream};
@@ -28,8 +29,8 @@ const MAX_SENSORS: usize = 256;
 /// Rays of all of them together, and the least of each.
 const SENSOR_RAYS: u64 = 1 << 12;
 const MIN_SENSOR_RAYS: u64 = 16;
-/// Rays from each cell for a first look, and for a closer one; and how many of them before new cells
-/// are looked at.
+/// Rays from each cell for a first look, and for a closer one; and how many of them before new
+/// cells are looked at.
 const CELL_RAYS: u32 = 16;
 const MORE_CELL_RAYS: u32 = 128;
 const RAYS_A_ROUND: u32 = 8;
@@ -89,8 +90,8 @@ pub(crate) struct Transition {
     pub(crate) share: f64,
     /// What specular surfaces on the way let through.
     pub(crate) weight: f64,
-    /// The share of the light that goes to a square metre there, in m^-2, where a connection may find it
-    /// too; 0 elsewhere.
+    /// The share of the light that goes to a square metre there, in m^-2, where a connection may
+    /// find it too; 0 elsewhere.
     far_per_m2: f32,
     /// The point of the unit square that its direction comes from.
     pub(crate) u: [f32; 2],
@@ -155,14 +156,15 @@ impl Survey {
         self.explore(context, MORE_CELL_RAYS);
     }
 
-    /// Connects each cell to far ones that matter, as many times as rays left it: these are chosen in
-    /// proportion to `importances`. Rays find such ways so seldom that a survey by rays alone takes a dark
-    /// end for darker, and a chance to get there at once for none.
+    /// Connects each cell to far ones that matter, as many times as rays left it: these are chosen
+    /// in proportion to `importances`. Rays find such ways so seldom that a survey by rays alone
+    /// takes a dark end for darker, and a chance to get there at once for none.
     ///
-    /// From a place with normal n the share of the light that goes to one with n' in a cell of area A
-    /// is `p = cos cos' A / (pi d^2)`, if nothing stands between. Where such a cell is chosen with probability q,
-    /// what a ray or a connection finds there counts `p / (p + q)` (balance heuristic, Veach and Guibas 1995): worths that were wrong leave
-    /// the light that goes elsewhere to the rays.
+    /// From a place with normal n the share of the light that goes to one with n' in a cell of area
+    /// A is `p = cos cos' A / (pi d^2)`, if nothing stands between. Where such a cell is chosen
+    /// with probability q, what a ray or a connection finds there counts `p / (p + q)` (balance
+    /// heuristic, Veach and Guibas 1995): worths that were wrong leave the light that goes
+    /// elsewhere to the rays.
     pub(crate) fn connect<S: Spectrum>(
         &mut self,
         context: &Context<'_, S>,
@@ -298,8 +300,8 @@ impl Survey {
         numbers.filter(|number| *number != Regions::UNKNOWN).map(|number| number as usize)
     }
 
-    /// Counts a flight's rays and takes its end to its cell, which may be new; `None` where it ended
-    /// nowhere, or there is no room for new cells.
+    /// Counts a flight's rays and takes its end to its cell, which may be new; `None` where it
+    /// ended nowhere, or there is no room for new cells.
     fn enter<S: Spectrum>(&mut self, context: &Context<'_, S>, flown: Flown) -> Option<Transition> {
         self.rays += flown.rays;
         let Found { at, weight, .. } = flown.found?;

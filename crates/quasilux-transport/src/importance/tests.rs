@@ -6,9 +6,9 @@ use crate::settings::Settings;
 use crate::stats::targets::targets;
 use glam::DVec3;
 
-/// In a long closed room all light that leaves a cell goes somewhere, whichever cells connections are chosen by,
-/// and however often. The mean over all cells is known to about 0.2 %; a part of the far light that is lost or
-/// counted twice would be found.
+/// In a long closed room all light that leaves a cell goes somewhere, whichever cells connections
+/// are chosen by, and however often. The mean over all cells is known to about 0.2 %; a part of the
+/// far light that is lost or counted twice would be found.
 #[test]
 fn rays_and_connections_share_all_light() {
     let mut scene = room(DVec3::new(12.0, 1.0, 1.0), diffuse(0.5));

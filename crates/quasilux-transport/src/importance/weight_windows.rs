@@ -2,10 +2,11 @@
 //!
 //! A photon of weight w that lands where photons leave with weight W is followed by `m = w a / W`
 //! photons on average, a the albedo: splitting where m is above one, roulette and absorption in one
-//! decision where it is below (T. E. Booth and J. S. Hendricks, "Importance estimation in forward Monte
-//! Carlo calculations", Nuclear Technology/Fusion 5(1), 1984). W is in inverse proportion to what a
-//! photon that leaves is worth, in the mean square over its next step, so that rays times variance are
-//! least; a photon at its light is worth as much as the mean of those that leave where it lands.
+//! decision where it is below (T. E. Booth and J. S. Hendricks, "Importance estimation in forward
+//! Monte Carlo calculations", Nuclear Technology/Fusion 5(1), 1984). W is in inverse proportion to
+//! what a photon that leaves is worth, in the mean square over its next step, so that rays times
+//! variance are least; a photon at its light is worth as much as the mean of those that leave where
+//! it lands.
 
 use crate::codec::Writer;
 use crate::importance::cells::Regions;
@@ -72,7 +73,8 @@ impl WeightWindows {
         }
     }
 
-    /// A power of two that no photon leaves below, but for what guiding and rough surfaces take from it.
+    /// A power of two that no photon leaves below, but for what guiding and rough surfaces take
+    /// from it.
     pub(crate) fn lightest(&self) -> f64 {
         let least = self.windows.iter().map(|window| window.weight).fold(1.0, f64::min);
         libm::ldexp(1.0, libm::ilogb(least))
@@ -96,7 +98,8 @@ impl Performance {
         Self::of(survey, balance, &steered_windows(survey, balance))
     }
 
-    /// The same with the sum of the variances at the sensors, if each gets about the same of every photon.
+    /// The same with the sum of the variances at the sensors, if each gets about the same of every
+    /// photon.
     pub(crate) fn of_each_sensor(self, survey: &Survey) -> Self {
         Self { variance: self.variance / survey.sensors.len().max(1) as f64, ..self }
     }
@@ -107,8 +110,8 @@ impl Performance {
     }
 
     /// Sums over all landings of the variance that the decision there and the next step bring. From
-    /// weight w come `m = w a / W` photons, n of them by chance; what one of them brings has mean d and
-    /// mean square q: in all `W^2 (m (q - d^2) + Var n d^2)`.
+    /// weight w come `m = w a / W` photons, n of them by chance; what one of them brings has mean d
+    /// and mean square q: in all `W^2 (m (q - d^2) + Var n d^2)`.
     fn of(survey: &Survey, balance: &FluxAndImportance, windows: &[Window]) -> Self {
         let known = &survey.known;
         let guides = windows.iter().map(|window| &window.guide);
@@ -147,8 +150,8 @@ pub(crate) struct Split {
 }
 
 impl Split {
-    /// Of what is left of a photon after absorption, where photons leave with `target`; of more than
-    /// [`MAX_CHILDREN`] each carries more.
+    /// Of what is left of a photon after absorption, where photons leave with `target`; of more
+    /// than [`MAX_CHILDREN`] each carries more.
     pub(crate) fn new(left: f64, target: f64) -> Self {
         let expected = if left > 0.0 { (left / target).min(MAX_CHILDREN) } else { 0.0 };
         Self { expected, weight: if expected < MAX_CHILDREN { target } else { left / expected } }
@@ -204,9 +207,9 @@ fn next_squares<'g>(
     survey.known.iter().zip(guides).map(of_cell).collect()
 }
 
-/// The weight with which photons leave each known cell: in inverse proportion to the root mean square
-/// of what they are worth next, which makes rays times variance least. Mean squares are those of the
-/// cells around.
+/// The weight with which photons leave each known cell: in inverse proportion to the root mean
+/// square of what they are worth next, which makes rays times variance least. Mean squares are
+/// those of the cells around.
 fn steered_weights(
     survey: &Survey,
     balance: &FluxAndImportance,

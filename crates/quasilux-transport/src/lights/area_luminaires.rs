@@ -1,12 +1,12 @@
 //! Luminaires with a luminous area, seen from a surface: their direct light is sampled.
 //!
-//! The light that the shape S of a luminaire gives to a point x with normal n is
-//! `E = integral over S of I(w) p(w, y) (n.-w) / |x - y|^2 dy`, with w from y to x and p(w, y) the
-//! part of the intensity I(w) that leaves around y (`quasilux_photometry::LuminousShape`). A place y
-//! drawn from the silhouette along w0, from the centre to x, has density p(w0, y), so one place
-//! estimates E by `I(w) p(w, y) / p(w0, y) (n.-w) / |x - y|^2`. The ratio is 1 on flat shapes and at
-//! most `|x - c| / |x - y| A(w0) / A(w)` on others, A the projected area: near the end of a thin tube
-//! it is large. From afar the estimate is that of a point, without noise.
+//! The light that the shape S of a luminaire gives to a point x with normal n is `E = integral over
+//! S of I(w) p(w, y) (n.-w) / |x - y|^2 dy`, with w from y to x and p(w, y) the part of the
+//! intensity I(w) that leaves around y (`quasilux_photometry::LuminousShape`). A place y drawn from
+//! the silhouette along w0, from the centre to x, has density p(w0, y), so one place estimates E by
+//! `I(w) p(w, y) / p(w0, y) (n.-w) / |x - y|^2`. The ratio is 1 on flat shapes and at most `|x - c|
+//! / |x - y| A(w0) / A(w)` on others, A the projected area: near the end of a thin tube it is
+//! large. From afar the estimate is that of a point, without noise.
 //!
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
@@ -62,7 +62,8 @@ impl<'a> AreaLuminaires<'a> {
         self.0.iter().map(|light| (light.luminaire.position, light.flux_lm))
     }
 
-    /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the way.
+    /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the
+    /// way.
     pub(crate) fn may_light(&self, position: DVec3, n: DVec3) -> bool {
         self.0.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
     }
@@ -85,16 +86,16 @@ impl<'a> AreaLuminaires<'a> {
         Some(LightSample { light: light_sample.light * (1.0 / choice.pdf), ..light_sample })
     }
 
-    /// How many have a shape that encloses a volume which surfaces pass through: part of their light
-    /// starts behind these.
+    /// How many have a shape that encloses a volume which surfaces pass through: part of their
+    /// light starts behind these.
     pub(crate) fn cut_by_surfaces<S: Spectrum>(&self, world: &World<S>) -> usize {
         self.0.iter().filter(|light| is_cut(light.luminaire, world)).count()
     }
 }
 
 impl AreaLuminaire<'_> {
-    /// About what it gives to the side `n` of a surface unshadowed, in lx: the light of a point, the
-    /// distance softened by the shape's extent, and a share for what the shape has beside its
+    /// About what it gives to the side `n` of a surface unshadowed, in lx: the light of a point,
+    /// the distance softened by the shape's extent, and a share for what the shape has beside its
     /// centre. 0 only where all of the shape is behind the surface; with no side nothing is behind.
     fn importance_lx(&self, position: DVec3, side: Option<DVec3>) -> f64 {
         let toward = self.luminaire.position - position;

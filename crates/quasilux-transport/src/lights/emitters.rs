@@ -2,8 +2,8 @@
 //!
 //! Light that reaches a surface straight from an area light is estimated both by a point on the
 //! light, uniform over its area within equal luminance, and by the direction in which the path goes
-//! on, which may happen to meet a light; each is weighted by the balance heuristic (Veach 1997, section 9.2.2).
-//! Densities are compared in solid angle, sr^-1.
+//! on, which may happen to meet a light; each is weighted by the balance heuristic (Veach 1997,
+//! section 9.2.2). Densities are compared in solid angle, sr^-1.
 
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
@@ -66,8 +66,8 @@ impl Emitters {
         Place { facet, position: world.facets[facet as usize].point(weights) }
     }
 
-    /// What one point on the lights gives, weighted against the direction in which the path goes on;
-    /// `None` from behind either.
+    /// What one point on the lights gives, weighted against the direction in which the path goes
+    /// on; `None` from behind either.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         world: &World<S>,

@@ -116,8 +116,8 @@ impl<'a> Lights<'a> {
         self.emit_from(Chosen { number: choice.index, u }, world, purposes, sampler)
     }
 
-    /// One photon of a certain light: place and direction from its own distribution. The two coordinates
-    /// come before those of the sampler.
+    /// One photon of a certain light: place and direction from its own distribution. The two
+    /// coordinates come before those of the sampler.
     pub(crate) fn emit_from<S: Spectrum>(
         &self,
         Chosen { number, u }: Chosen,

@@ -43,8 +43,8 @@ impl<'a> PointLikes<'a> {
         intensity_cd(self.0[index as usize], direction)
     }
 
-    /// Illuminance in lx of each that is not behind the side `n` of a place, or of all where both sides count, if nothing
-    /// stands in the way; and how far off it is, in m.
+    /// Illuminance in lx of each that is not behind the side `n` of a place, or of all where both
+    /// sides count, if nothing stands in the way; and how far off it is, in m.
     pub(crate) fn unshadowed(
         &self,
         place: DVec3,
@@ -77,8 +77,9 @@ impl<'a> PointLikes<'a> {
         }
     }
 
-    /// An estimate of what all of them give from one light, chosen with `u` in proportion to what it
-    /// would give unshadowed: its only variance comes from shadows. `light_samples` is working space.
+    /// An estimate of what all of them give from one light, chosen with `u` in proportion to what
+    /// it would give unshadowed: its only variance comes from shadows. `light_samples` is working
+    /// space.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,

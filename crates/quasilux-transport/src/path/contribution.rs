@@ -21,8 +21,8 @@ pub(crate) struct PathContribution<S> {
 }
 
 impl<S: Spectrum> PathContribution<S> {
-    /// Adds light that arrives at the vertex after `bounces` reflections, or that the ray from there
-    /// runs into.
+    /// Adds light that arrives at the vertex after `bounces` reflections, or that the ray from
+    /// there runs into.
     pub(crate) fn add(&mut self, bounces: u32, light: S) {
         *if bounces == 0 { &mut self.direct } else { &mut self.indirect } += light;
         self.add_to_term(bounces, light);

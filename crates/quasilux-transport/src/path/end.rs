@@ -84,8 +84,8 @@ impl<S: Spectrum> GrowingMaps<'_, S> {
 }
 
 impl<S: Spectrum> PathEnd<S> {
-    /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the photons that come
-    /// before all paths, if there are none yet that say where the flux goes.
+    /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the
+    /// photons that come before all paths, if there are none yet that say where the flux goes.
     pub(crate) fn prepare(
         context: &Context<'_, S>,
         settings: &Settings,
@@ -130,8 +130,8 @@ impl<S: Spectrum> PathEnd<S> {
         (own, counts)
     }
 
-    /// Photons of each map that grows, from those so far to those that so many paths of a sensor point ask for;
-    /// `None` where no map grows.
+    /// Photons of each map that grows, from those so far to those that so many paths of a sensor
+    /// point ask for; `None` where no map grows.
     pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
         match self {
             Self::Nothing | Self::Frozen(_) => None,
@@ -167,8 +167,8 @@ impl<S: Spectrum> PathEnd<S> {
         }
     }
 
-    /// Adds the photons up to `end` to maps that grow; `look` sees them grow. `None` when the observer
-    /// stopped it.
+    /// Adds the photons up to `end` to maps that grow; `look` sees them grow. `None` when the
+    /// observer stopped it.
     pub(crate) fn grow(
         &mut self,
         context: &Context<'_, S>,

@@ -1,14 +1,17 @@
 //! Narrow lobes under point-like lights: whether paths may have missed where they are bright.
 //!
-//! A path that meets a glossy surface asks there for the light of a point-like light, and finds nearly always that the
-//! lobe points elsewhere. The few that meet the place from where it points to the light bring nearly all that there is:
-//! before they do, values are too low, and their spread says nothing of it.
+//! A path that meets a glossy surface asks there for the light of a point-like light, and finds
+//! nearly always that the lobe points elsewhere. The few that meet the place from where it points
+//! to the light bring nearly all that there is: before they do, values are too low, and their
+//! spread says nothing of it.
 //!
-//! How many have met it is foreseen from all paths that come to such surfaces. A direction that a surface draws with the density
-//! p stands for a solid angle of about `1 / p`, the part `1 / k` of a hemisphere, with `k = 2 pi p`: about 1 on Lambertian
-//! surfaces. Where directions are not drawn as the surface scatters, k is what it gives to the mirror direction or straight
-//! on, over what a Lambertian surface would. Toward a light at a distance b the lobe's bright place is smaller, as seen from a
-//! distance a, than toward one far away, by `(b / (a + b))^2`. So of n paths about `n / mean(k (a + b)^2 / b^2)` met it.
+//! How many have met it is foreseen from all paths that come to such surfaces. A direction that a
+//! surface draws with the density p stands for a solid angle of about `1 / p`, the part `1 / k` of
+//! a hemisphere, with `k = 2 pi p`: about 1 on Lambertian surfaces. Where directions are not drawn
+//! as the surface scatters, k is what it gives to the mirror direction or straight on, over what a
+//! Lambertian surface would. Toward a light at a distance b the lobe's bright place is smaller, as
+//! seen from a distance a, than toward one far away, by `(b / (a + b))^2`. So of n paths about `n /
+//! mean(k (a + b)^2 / b^2)` met it.
 
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::codec::{Reader, StateError, Stored, Writer};
@@ -96,8 +99,8 @@ impl LobeSums {
         }
     }
 
-    /// Whether the spread of a target that has this illuminance after so many paths says nothing of its error, for too few of
-    /// them were where lobes are bright.
+    /// Whether the spread of a target that has this illuminance after so many paths says nothing of
+    /// its error, for too few of them were where lobes are bright.
     pub(crate) fn are_missed(&self, quantum: Quantum, paths: u64, value_lx: f64) -> bool {
         let even_lx = quantum.value(self.even) / paths.max(1) as f64;
         let surfaces = self.surfaces as f64;

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! The first is the balance heuristic of E. Veach and L. Guibas, SIGGRAPH 1995, with marginal
-//! densities; the second the compensation of clamped virtual point lights by T. Kollig and A. Keller,
-//! Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. `estimator/connection/` has the
-//! photons' side of it.
+//! densities; the second the compensation of clamped virtual point lights by T. Kollig and A.
+//! Keller, Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. `estimator/connection/`
+//! has the photons' side of it.
 
 use crate::importance::{Density, Landings};
 use glam::DVec3;
@@ -50,8 +50,8 @@ impl Partition {
         self.landings.density(&self.landings.around(position, n))
     }
 
-    /// The weights of paths whose first hits have the density `pdf_m2`, in m^-2, where landings have
-    /// this one.
+    /// The weights of paths whose first hits have the density `pdf_m2`, in m^-2, where landings
+    /// have this one.
     pub(crate) fn path_weights(&self, pdf_m2: f64, density: Density) -> PartitionWeights {
         let [first, rest] =
             [density.first, density.rest].map(|per_m2| per_m2 * self.photons as f64);

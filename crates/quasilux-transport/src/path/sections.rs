@@ -1,4 +1,5 @@
-//! Paths of several targets and replicates that travel together, and what each of these gets of them.
+//! Paths of several targets and replicates that travel together, and what each of these gets of
+//! them.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Context;

@@ -4,9 +4,10 @@
 //! density cos / pi, so the light that arrives along it counts pi-fold. At each diffuse surface the
 //! light that comes there straight from the lights is estimated on the spot (next-event
 //! estimation), and the path goes on for the rest. A path may end on an illumination map instead:
-//! the map's value stands for the rest. Where the map is to be corrected, those that survive Russian
-//! roulette go on and take the difference to the map with them, weighted by how few they are: the map
-//! is a control variate, its elements cause no bias, and no light is lost with those that end.
+//! the map's value stands for the rest. Where the map is to be corrected, those that survive
+//! Russian roulette go on and take the difference to the map with them, weighted by how few they
+//! are: the map is a control variate, its elements cause no bias, and no light is lost with those
+//! that end.
 //!
 //! Read on at `asking` for what lights are asked.
 
@@ -39,7 +40,8 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// Bounces after which a path goes on for certain; after later ones by chance.
 const CERTAIN_BOUNCES: u32 = 2;
 
-/// Those that note where they might have ended go on for certain while so much is left, and up to so many notes.
+/// Those that note where they might have ended go on for certain while so much is left, and up to
+/// so many notes.
 const NOTED: f64 = 1.0 / 32.0;
 const MAX_NOTES: usize = 32;
 
@@ -150,8 +152,8 @@ impl<S: Spectrum> Start<'_, S> {
 }
 
 impl<'p, S: Spectrum> Path<'p, S> {
-    /// The path number `number`; where it seeks illuminance it asks for the light of the area lights
-    /// and the luminaires with an area at its start.
+    /// The path number `number`; where it seeks illuminance it asks for the light of the area
+    /// lights and the luminaires with an area at its start.
     pub(crate) fn start(
         context: &Context<'_, S>,
         number: u32,
@@ -226,8 +228,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
     }
 
-    /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere; whether
-    /// the path goes on. All that it asked for before must have arrived.
+    /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere;
+    /// whether the path goes on. All that it asked for before must have arrived.
     pub(crate) fn arrive(
         &mut self,
         context: &Context<'_, S>,
@@ -411,8 +413,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         Some(Onward { emitted: 1.0, everything: 0.0 })
     }
 
-    /// The same on a map that is corrected: those that go on take the difference to it along. Where nothing is known of the
-    /// map, there is none.
+    /// The same on a map that is corrected: those that go on take the difference to it along. Where
+    /// nothing is known of the map, there is none.
     fn end_on_frozen(
         &mut self,
         end: &FrozenEnd<'_, S>,
@@ -435,8 +437,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         Some(Onward { emitted: 1.0, everything })
     }
 
-    /// Adds the terms of what a map says of the light at a surface that it came to after `bounces`, of photons with so
-    /// many bounces at most.
+    /// Adds the terms of what a map says of the light at a surface that it came to after `bounces`,
+    /// of photons with so many bounces at most.
     fn take_terms(
         &mut self,
         map: &IlluminationMap<'_, S>,
@@ -472,9 +474,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
     }
 
-    /// Where photons are joined to the sensor, it takes along from its first surface what they leave to it.
-    /// Else Russian roulette after the first bounces, by the albedo of the channel that is left
-    /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
+    /// Where photons are joined to the sensor, it takes along from its first surface what they
+    /// leave to it. Else Russian roulette after the first bounces, by the albedo of the channel
+    /// that is left strongest, so that the weight of a survivor never grows in it and stays bounded
+    /// in all.
     fn russian_roulette(&mut self, context: &Context<'_, S>, bounces: u32, albedo: f64) -> Onward {
         if bounces == 0 && self.weights_of_paths != PartitionWeights::ALL {
             let PartitionWeights { first, rest } = self.weights_of_paths;

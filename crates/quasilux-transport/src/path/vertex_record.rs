@@ -16,7 +16,8 @@ pub(crate) struct VertexRecord<S> {
     pub(crate) flights: u32,
     /// What had been found by the next surface: before and with what that emits.
     pub(crate) before: Option<[S; 2]>,
-    /// What was found after that: what a path without a map would miss if it ended here, and one with.
+    /// What was found after that: what a path without a map would miss if it ended here, and one
+    /// with.
     pub(crate) beyond: [S; 2],
 }
 

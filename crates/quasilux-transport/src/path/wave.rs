@@ -1,7 +1,7 @@
 //! Many paths at once: they advance together, bounce by bounce.
 //!
-//! All rays of one bounce are traced together, then all that the paths ask of the lights. Every path
-//! takes its coordinates and adds its contributions in the order in which it would alone.
+//! All rays of one bounce are traced together, then all that the paths ask of the lights. Every
+//! path takes its coordinates and adds its contributions in the order in which it would alone.
 
 use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;

@@ -1,12 +1,12 @@
-//! Light that paths cannot find and no image shows: from points and luminaires by curved mirrors, through
-//! refracting bodies, or over more mirrors than images follow.
+//! Light that paths cannot find and no image shows: from points and luminaires by curved mirrors,
+//! through refracting bodies, or over more mirrors than images follow.
 //!
-//! It comes from photon density. Photons are followed until they are scattered, and those that came by
-//! specular surfaces alone, in no image, are counted on map elements for the vertices of paths, on a
-//! disk around each sensor point, and on cells. All but the cells are biased: a mean over an area
-//! stands for the value at a point. What lands on surfaces that are not plain diffuse ones is left out.
-//! Each replicate has its own photons, which grow in number with its paths: paths to come read all
-//! photons so far.
+//! It comes from photon density. Photons are followed until they are scattered, and those that came
+//! by specular surfaces alone, in no image, are counted on map elements for the vertices of paths,
+//! on a disk around each sensor point, and on cells. All but the cells are biased: a mean over an
+//! area stands for the value at a point. What lands on surfaces that are not plain diffuse ones is
+//! left out. Each replicate has its own photons, which grow in number with its paths: paths to come
+//! read all photons so far.
 
 mod tally;
 
@@ -283,8 +283,8 @@ pub(crate) struct CausticLookup<'a, S> {
 }
 
 impl<S: Spectrum> CausticLookup<'_, S> {
-    /// Illuminances in lx at a place, of light that took at most `most_bounces`, by their number; all in
-    /// one where it does not matter.
+    /// Illuminances in lx at a place, of light that took at most `most_bounces`, by their number;
+    /// all in one where it does not matter.
     pub(crate) fn illuminances_lx(
         &self,
         world: &World<S>,

@@ -10,7 +10,8 @@ pub(super) const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
 /// How photons ended, and what they cost. Flux is in quanta.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PhotonCounts {
-    /// Photons that began, until those from lit places are [taken out](Self::apart_from_flux): those that left lights.
+    /// Photons that began, until those from lit places are [taken out](Self::apart_from_flux):
+    /// those that left lights.
     pub(crate) emitted: u64,
     /// Those from lit places too; what splitting added is not among them.
     pub(crate) begun: u64,

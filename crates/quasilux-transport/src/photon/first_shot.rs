@@ -1,11 +1,11 @@
 //! When the first shot is worth it: pilot photons of both kinds tell.
 //!
-//! What counts are photons that leave the first surface. With weights w the variance is that of
-//! `N s` equal ones, `s = (sum w)^2 / (N sum w^2)` (Kish 1965), of N
-//! photons: w is 0 where the photon was absorbed, lost or in the shadow. So rays / (N s) is the work for
-//! one good photon, counted in rays, whose number and order say nothing of how evenly photons lie.
-//! Those from lit places lie more evenly, and few of their weights are far from the others, next to the
-//! lights where it matters to few: see [`EVENNESS`].
+//! What counts are photons that leave the first surface. With weights w the variance is that of `N
+//! s` equal ones, `s = (sum w)^2 / (N sum w^2)` (Kish 1965), of N photons: w is 0 where the photon
+//! was absorbed, lost or in the shadow. So rays / (N s) is the work for one good photon, counted in
+//! rays, whose number and order say nothing of how evenly photons lie. Those from lit places lie
+//! more evenly, and few of their weights are far from the others, next to the lights where it
+//! matters to few: see [`EVENNESS`].
 
 use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;
@@ -23,8 +23,8 @@ const PILOTS: u64 = 1 << 12;
 /// Rays that one takes, about.
 const RAYS_OF_A_PILOT: u64 = 4;
 /// The first shot may take this many times the work that pilots see: in the office of
-/// `docs/first-shot.md` they see 1.07 times the work where the squared error is half, on the cube 0.89 times
-/// where it is 0.64.
+/// `docs/first-shot.md` they see 1.07 times the work where the squared error is half, on the cube
+/// 0.89 times where it is 0.64.
 const EVENNESS: f64 = 1.5;
 
 /// Weights of photons that leave the first surface.
@@ -34,8 +34,8 @@ struct Weights {
     squares: f64,
 }
 
-/// The lit cells that photons leave from where that is asked for, or pays and should not take many more rays than these to
-/// find out; adds what it took.
+/// The lit cells that photons leave from where that is asked for, or pays and should not take many
+/// more rays than these to find out; adds what it took.
 pub(crate) fn decide<S: Spectrum>(
     context: &Context<'_, S>,
     settings: &Settings,

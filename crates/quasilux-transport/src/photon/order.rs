@@ -1,11 +1,11 @@
 //! The order in which photons are taken: neighbours fly together.
 //!
-//! The first coordinates of a photon choose its light, its place and its direction, so photons whose
-//! indices share leading digits of them start at the same light in nearly the same direction
+//! The first coordinates of a photon choose its light, its place and its direction, so photons
+//! whose indices share leading digits of them start at the same light in nearly the same direction
 //! (Voloboy, Dmitriev and Kopylov 2003): they meet the same nodes, facets and counters. A range of
-//! indices is cut into fields, aligned runs of 2^k indices; in a field groups of neighbours follow each
-//! other, near ones after near ones, and a wave takes as many as it holds. Tallies are integers, so
-//! the order changes nothing but the time.
+//! indices is cut into fields, aligned runs of 2^k indices; in a field groups of neighbours follow
+//! each other, near ones after near ones, and a wave takes as many as it holds. Tallies are
+//! integers, so the order changes nothing but the time.
 
 use quasilux_sampling::{CoherentGroups, PointSet};
 use std::ops::Range;

@@ -1,12 +1,13 @@
 //! One photon, from its light to its end: what happens to it at each step.
 //!
-//! Photons start with equal flux. At each surface they survive with the probability that keeps their
-//! luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never changes
-//! (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be drawn in exact
-//! proportion, leave it slightly changed. Photons that are steered ([`crate::importance`]) leave each
-//! place with the weight that belongs to it instead, by one or more of them or none; and those that are joined
-//! to sensors all leave the first surface, with what absorption leaves. What goes on no
-//! more is counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
+//! Photons start with equal flux. At each surface they survive with the probability that keeps
+//! their luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never
+//! changes (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be
+//! drawn in exact proportion, leave it slightly changed. Photons that are steered
+//! ([`crate::importance`]) leave each place with the weight that belongs to it instead, by one or
+//! more of them or none; and those that are joined to sensors all leave the first surface, with
+//! what absorption leaves. What goes on no more is counted as absorbed, whatever was due: so flux
+//! balances exactly, and as it should on average.
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
@@ -52,8 +53,8 @@ pub(crate) enum Source<'s> {
 pub(crate) struct Lead<'s> {
     pub(crate) source: Source<'s>,
     pub(crate) windows: Option<&'s WeightWindows>,
-    /// Where nothing steers them, photons go on for certain with what absorption leaves, if that is so much
-    /// of what the first of them carry.
+    /// Where nothing steers them, photons go on for certain with what absorption leaves, if that is
+    /// so much of what the first of them carry.
     pub(crate) certain_weight: f64,
 }
 

@@ -1,10 +1,10 @@
 //! Photons in flight, many at once.
 //!
 //! All photons of a wave leave their lights, then fly together, then land, then scatter, and those
-//! that go on close ranks. So each step is a short loop over neighbours in memory, and the ray kernel
-//! sees many rays together. Photons that are split bring their children in; what makes a wave too long
-//! waits until the rest has ended, so that memory is bounded. What becomes of a photon depends on its
-//! index and its ancestors alone, never on its company: a wave gives what
+//! that go on close ranks. So each step is a short loop over neighbours in memory, and the ray
+//! kernel sees many rays together. Photons that are split bring their children in; what makes a
+//! wave too long waits until the rest has ended, so that memory is bounded. What becomes of a
+//! photon depends on its index and its ancestors alone, never on its company: a wave gives what
 //! [`crate::photon::trace::trace_photon`] gives.
 
 use crate::context::{Context, Step};
@@ -112,8 +112,8 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         }
     }
 
-    /// Makes sure that there are photons to fly, not too many; after how many bounces. `None` where none
-    /// are left.
+    /// Makes sure that there are photons to fly, not too many; after how many bounces. `None` where
+    /// none are left.
     fn muster(&mut self, bounces: u32) -> Option<u32> {
         while self.photons.len() > LONGEST {
             let rest = self.photons.len() - LONGEST;

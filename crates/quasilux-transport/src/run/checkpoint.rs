@@ -1,4 +1,5 @@
-//! How far a run has come: the schedule of its checkpoints, how half-widths shrank, and what it knew at the last one.
+//! How far a run has come: the schedule of its checkpoints, how half-widths shrank, and what it
+//! knew at the last one.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::settings::Settings;
@@ -218,7 +219,8 @@ mod tests {
     use super::*;
     use quasilux_scene::{Sensor, SensorPoint, SensorShape};
 
-    /// Bytes that a resealed file may hold: all is well with them but the number of rows or of terms.
+    /// Bytes that a resealed file may hold: all is well with them but the number of rows or of
+    /// terms.
     #[test]
     fn rows_and_terms_are_those_of_the_settings() {
         let point = SensorPoint { position: glam::DVec3::ZERO, normal: glam::DVec3::Z };

@@ -1,8 +1,8 @@
-//! How much memory a run takes, predicted from counts alone: of triangles, sensor points, pixels and samples.
-//! `docs/memory.md` has the measurements behind the figures.
+//! How much memory a run takes, predicted from counts alone: of triangles, sensor points, pixels
+//! and samples. `docs/memory.md` has the measurements behind the figures.
 //!
-//! What is only known when photons have landed is counted as the most that it may be: maps as if every landing met an
-//! element of its own, cells of surveys as if all were there.
+//! What is only known when photons have landed is counted as the most that it may be: maps as if
+//! every landing met an element of its own, cells of surveys as if all were there.
 
 use crate::estimator::control_variate::MAX_PHOTONS;
 use crate::importance::{MAX_NODES, Node};
@@ -16,10 +16,11 @@ use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::tally::Sum;
 use quasilux_scene::{Rgb, Scene};
 
-/// Of each triangle while the hierarchy over all of them is built: the peak, and afterwards enough for the
-/// scene, its facets and the hierarchy.
+/// Of each triangle while the hierarchy over all of them is built: the peak, and afterwards enough
+/// for the scene, its facets and the hierarchy.
 const TRIANGLE_BYTES: u64 = 450;
-/// Of a value of a sensor point in a replicate as it is reported: in the estimates, and in copies of them.
+/// Of a value of a sensor point in a replicate as it is reported: in the estimates, and in copies
+/// of them.
 const VALUE_BYTES: u64 = 4 * size_of::<f64>() as u64;
 /// Of a pixel: what is known of it, and its part of the files.
 const PIXEL_BYTES: u64 = 48;
@@ -37,7 +38,8 @@ const COUNTERS_OF_A_LANDING: u64 = 256;
 /// Landings of a photon: as many as at a reflectance of 7/8.
 const LANDINGS: u64 = 8;
 
-/// Where the memory of a run goes, in bytes. The program itself and the buffers of its threads come on top.
+/// Where the memory of a run goes, in bytes. The program itself and the buffers of its threads come
+/// on top.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryNeed {
     /// Triangles, and the hierarchy over them.
@@ -123,8 +125,8 @@ fn point_bytes(settings: &Settings) -> u64 {
     replicates.saturating_mul(sums + values * VALUE_BYTES)
 }
 
-/// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`] cuts them, so many to a
-/// scene's size, and splits them.
+/// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`]
+/// cuts them, so many to a scene's size, and splits them.
 fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 {
     let mesh = &scene.mesh;
     let size_m = mesh.bounds().map_or(0.0, |[low, high]| (high - low).length());
@@ -140,7 +142,8 @@ fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 
     (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
 }
 
-/// What a survey knows of the cells of the scene, and what photons that are joined to sensors bring to them.
+/// What a survey knows of the cells of the scene, and what photons that are joined to sensors bring
+/// to them.
 fn cells_bytes(settings: &Settings, points: u64) -> u64 {
     let photons = settings.estimator != EstimatorKind::Path;
     let guides =

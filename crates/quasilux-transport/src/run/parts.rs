@@ -1,9 +1,10 @@
 //! A run cut into parts by its indices, to be computed anywhere and put together.
 //!
-//! The number of samples is fixed beforehand: every point gets all of them, whatever the tolerance, for no part
-//! knows when the others have enough. There is one checkpoint, and its intervals are those of a single look. A part is a function of scene, settings, the number of samples and its range of
-//! indices. Photons that serve all paths, those of maps that grow and those that find hidden light, are not cut:
-//! every part traces all of them.
+//! The number of samples is fixed beforehand: every point gets all of them, whatever the tolerance,
+//! for no part knows when the others have enough. There is one checkpoint, and its intervals are
+//! those of a single look. A part is a function of scene, settings, the number of samples and its
+//! range of indices. Photons that serve all paths, those of maps that grow and those that find
+//! hidden light, are not cut: every part traces all of them.
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
@@ -33,8 +34,8 @@ pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
     if is_grey(scene) { of::<f64>(scene, settings) } else { of::<Rgb>(scene, settings) }
 }
 
-/// Traces the indices `part` of a run of so many `samples` in all replicates, for [`merge`]; `None` when the
-/// observer stopped it.
+/// Traces the indices `part` of a run of so many `samples` in all replicates, for [`merge`]; `None`
+/// when the observer stopped it.
 #[must_use]
 pub fn trace_part(
     scene: &Scene,
@@ -94,8 +95,9 @@ pub enum MergeError {
     },
 }
 
-/// Puts together what [`trace_part`] made of ranges that follow each other from 0 to `samples` without gaps,
-/// in any order; then takes the pictures of the cameras. The result has the bits of a run in one part.
+/// Puts together what [`trace_part`] made of ranges that follow each other from 0 to `samples`
+/// without gaps, in any order; then takes the pictures of the cameras. The result has the bits of a
+/// run in one part.
 ///
 /// # Errors
 /// When a part is damaged or of another run, when parts overlap, and when indices are missing.
@@ -253,8 +255,8 @@ fn add<'b>(
     from.end()
 }
 
-/// SHA-256 of all that the sums of a part hang on: the settings, the number of samples and the scene without its
-/// cameras.
+/// SHA-256 of all that the sums of a part hang on: the settings, the number of samples and the
+/// scene without its cameras.
 fn fingerprint(scene: &Scene, settings: &Settings, samples: u64) -> [u8; 32] {
     let Scene { mesh, materials, lights, sensors, cameras: _ } = scene;
     let mut text = Hashed(Sha256::new());

@@ -3,15 +3,16 @@
 //! `L_pixel` is the integral of `L(x, w(p))` over the places p of the pixel, a unit square of the
 //! picture (box filter). Its paths start at the pinhole, through the place that their first two
 //! coordinates give, and go on like the paths of sensors; all of them are plain paths, whatever the
-//! estimator does at sensors, so a picture has no bias of a map. Light that no path finds comes from photon density.
+//! estimator does at sensors, so a picture has no bias of a map. Light that no path finds comes
+//! from photon density.
 //!
-//! A picture has a fixed number of paths a pixel, not a tolerance: [`PIXEL_SAMPLES`] in each replicate,
-//! or as many as the run is limited to. It comes after the sensors, in passes of 1, 16, 256, ... paths, each
-//! from scratch: when the observer stops one, the pass before is the picture, at a price of 1/15 of the
-//! work at most.
+//! A picture has a fixed number of paths a pixel, not a tolerance: [`PIXEL_SAMPLES`] in each
+//! replicate, or as many as the run is limited to. It comes after the sensors, in passes of 1, 16,
+//! 256, ... paths, each from scratch: when the observer stops one, the pass before is the picture,
+//! at a price of 1/15 of the work at most.
 //!
-//! No sums are kept for a picture: a run of pixels is traced in all replicates, then summarised, and 24
-//! bytes a pixel stay.
+//! No sums are kept for a picture: a run of pixels is traced in all replicates, then summarised,
+//! and 24 bytes a pixel stay.
 
 use crate::context::{Context, Stream};
 use crate::cutoff;
@@ -142,8 +143,8 @@ struct PixelSums {
 }
 
 impl<S: Spectrum> Darkroom<'_, S> {
-    /// Has as many photons look for light that no path finds as belong to this pass. Whether to go on; it is always so where
-    /// the pass may not be stopped.
+    /// Has as many photons look for light that no path finds as belong to this pass. Whether to go
+    /// on; it is always so where the pass may not be stopped.
     fn look_for_hidden(
         &mut self,
         may_stop: bool,

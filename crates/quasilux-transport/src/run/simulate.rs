@@ -22,13 +22,13 @@ use quasilux_scene::{Rgb, Scene};
 const ROUNDING: f64 = 1e-12;
 
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
-/// first, or the observer stops it; at least up to the first checkpoint. A point that is done before the
-/// others gets no more samples: what it has then is what it would have, were this the end. Then takes the pictures of the
-/// cameras, with a fixed number of paths a pixel.
+/// first, or the observer stops it; at least up to the first checkpoint. A point that is done
+/// before the others gets no more samples: what it has then is what it would have, were this the
+/// end. Then takes the pictures of the cameras, with a fixed number of paths a pixel.
 ///
-/// The result is a function of scene and settings, whatever the number of threads; an observer
-/// that stops a run only picks which checkpoint is the last. Work is shared by the threads of the
-/// rayon pool that the call is made in. [`crate::run::check`] says beforehand whether the settings make
+/// The result is a function of scene and settings, whatever the number of threads; an observer that
+/// stops a run only picks which checkpoint is the last. Work is shared by the threads of the rayon
+/// pool that the call is made in. [`crate::run::check`] says beforehand whether the settings make
 /// sense for the scene.
 #[must_use]
 pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
@@ -50,8 +50,8 @@ pub(crate) fn simulate_on(
     estimates.expect("a run from the start needs no state")
 }
 
-/// Goes on from a state that an observer of [`simulate`] with the same scene and settings got, and ends as that
-/// run would have ended, to the bit.
+/// Goes on from a state that an observer of [`simulate`] with the same scene and settings got, and
+/// ends as that run would have ended, to the bit.
 ///
 /// # Errors
 /// When the state is damaged or of another run.
@@ -68,7 +68,8 @@ pub fn resume(
     }
 }
 
-/// Whether a state that an observer got is that of a run whose checkpoints are over. Bytes that are no state are of none.
+/// Whether a state that an observer got is that of a run whose checkpoints are over. Bytes that are
+/// no state are of none.
 #[must_use]
 pub fn is_over(state: &[u8]) -> bool {
     let mut from = Reader::new(state);

@@ -1,8 +1,8 @@
-//! What must change nothing but the time, to be chosen: the ray kernel of a run, and, for the photon trace by itself,
-//! how photons are taken.
+//! What must change nothing but the time, to be chosen: the ray kernel of a run, and, for the
+//! photon trace by itself, how photons are taken.
 //!
-//! Public because benchmarks and the tests that compare stand outside the crate. The photon trace has no checkpoints and no
-//! intervals: figures come from [`crate::run::simulate`].
+//! Public because benchmarks and the tests that compare stand outside the crate. The photon trace
+//! has no checkpoints and no intervals: figures come from [`crate::run::simulate`].
 
 pub use quasilux_bvh::SimdLevel;
 

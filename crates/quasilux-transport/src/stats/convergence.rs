@@ -1,27 +1,29 @@
 //! How fast half-widths shrink, and what that predicts.
 //!
-//! Half-widths of independent samples shrink like N^(-1/2); those of quasi-random points faster, as far as
-//! the values let them. The exponent is measured while a run goes. Points that are done get no more
-//! samples, so half-widths are compared from one checkpoint to the next, over the points that grew, and the ratios
-//! chained:
+//! Half-widths of independent samples shrink like N^(-1/2); those of quasi-random points faster, as
+//! far as the values let them. The exponent is measured while a run goes. Points that are done get
+//! no more samples, so half-widths are compared from one checkpoint to the next, over the points
+//! that grew, and the ratios chained:
 //!
 //! ```text
 //! y_0 = 0,   y_(k+1) = y_k + mean( ln h_(k+1) - ln h_k ) + 1/2 luck_k,   h half-width over value
 //! ```
 //!
-//! The slope is that of the line through (ln N_k, y_k) with the least squares. The chain begins where half-widths can
-//! be compared: there are none before anything is found.
+//! The slope is that of the line through (ln N_k, y_k) with the least squares. The chain begins
+//! where half-widths can be compared: there are none before anything is found.
 //!
-//! A half-width from R replicates has a logarithm with the variance v = 1 / (2 (R - 1)), so few checkpoints tell
-//! little of a slope: its variance is s^2 = v / sum (ln N_k - mean)^2 where targets err together. What is predicted
-//! therefore uses the mean of the measured slope and of -1/2, weighted by the inverse of s^2 and of P^2, the
-//! variance of slopes among scenes (the posterior mean where all are normal).
+//! A half-width from R replicates has a logarithm with the variance v = 1 / (2 (R - 1)), so few
+//! checkpoints tell little of a slope: its variance is s^2 = v / sum (ln N_k - mean)^2 where
+//! targets err together. What is predicted therefore uses the mean of the measured slope and of
+//! -1/2, weighted by the inverse of s^2 and of P^2, the variance of slopes among scenes (the
+//! posterior mean where all are normal).
 //!
-//! Points that go on are those that seemed worst, in part by chance, and look better the next time. That
-//! part of their half-widths is estimated as empirical Bayes does (B. Efron and C. Morris, Journal of the American
-//! Statistical Association 68, 1973): where the logarithms of all points before the choice vary by T^2 around a mean, the
-//! points that were chosen owe v / T^2 of their distance from it to luck. Half of it is lost at the next
-//! checkpoint, for half of the samples are the same.
+//! Points that go on are those that seemed worst, in part by chance, and look better the next time.
+//! That part of their half-widths is estimated as empirical Bayes does (B. Efron and C. Morris,
+//! Journal of the American Statistical Association 68, 1973): where the logarithms of all points
+//! before the choice vary by T^2 around a mean, the points that were chosen owe v / T^2 of their
+//! distance from it to luck. Half of it is lost at the next checkpoint, for half of the samples are
+//! the same.
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::settings::Settings;
@@ -152,9 +154,10 @@ impl History {
         Ok(Self { checkpoints, outcomes, widths, samples: last.samples, rays: last.rays })
     }
 
-    /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one that has not begun begins here, and
-    /// one that has is at its end: what others told stands for targets that had nothing before. `noise` is the
-    /// variance of logarithms of half-widths by chance. The exponent that is predicted with from now on.
+    /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one
+    /// that has not begun begins here, and one that has is at its end: what others told stands for
+    /// targets that had nothing before. `noise` is the variance of logarithms of half-widths by
+    /// chance. The exponent that is predicted with from now on.
     fn chain(&mut self, now: &[(Option<f64>, u64)], samples: u64, noise: f64) -> Option<f64> {
         let change = self.change(now, noise);
         let width = match (&change, self.checkpoints.last()) {
@@ -181,8 +184,8 @@ impl History {
         exponent
     }
 
-    /// How the logarithms of half-widths changed since the last checkpoint, over the targets that grew; `None` without any.
-    /// `noise` is their variance by chance.
+    /// How the logarithms of half-widths changed since the last checkpoint, over the targets that
+    /// grew; `None` without any. `noise` is their variance by chance.
     fn change(&self, now: &[(Option<f64>, u64)], noise: f64) -> Option<Change> {
         let logarithm = |width: Option<f64>| {
             width.filter(|width| *width > 0.0 && width.is_finite()).map(libm::log)
@@ -278,8 +281,8 @@ mod tests {
     use crate::settings::Settings;
     use crate::stats::estimates::SensorEstimates;
 
-    /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`; what is known at the
-    /// last checkpoint up to `last`.
+    /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`;
+    /// what is known at the last checkpoint up to `last`.
     fn known(slope: f64, scales: [f64; 2], done: u64, last: u64) -> Convergence {
         let settings = Settings { rel_tol: 0.01, ..Settings::default() };
         let (mut history, mut schedule) = (History::default(), Schedule::new(16, None));
@@ -337,7 +340,8 @@ mod tests {
         }
     }
 
-    /// The first checkpoint already says how many rays it takes, as if half-widths shrank like those of random points.
+    /// The first checkpoint already says how many rays it takes, as if half-widths shrank like
+    /// those of random points.
     #[test]
     fn the_first_checkpoint_foretells() {
         let scale = 0.08 * 4.0;
@@ -363,15 +367,16 @@ mod tests {
         assert_eq!(record(256, Some(1.0)), None);
         assert_eq!(record(512, Some(0.5)), None);
         assert!((record(1024, Some(0.25)).unwrap() + 1.0).abs() < 1e-9);
-        // Nor do targets that nothing is found at when all others are done, or those that are found then.
+        // Nor do targets that nothing is found at when all others are done, or those that are found
+        // then.
         for (samples, width) in [(2048, None), (4096, None), (8192, Some(3.0)), (16_384, Some(2.0))]
         {
             assert!((record(samples, width).unwrap() + 1.0).abs() < 1e-9);
         }
     }
 
-    /// Three checkpoints of one target and 16 replicates, v = 1/30, say about as much of its slope as slopes of other scenes do;
-    /// many say all.
+    /// Three checkpoints of one target and 16 replicates, v = 1/30, say about as much of its slope
+    /// as slopes of other scenes do; many say all.
     #[test]
     fn a_slope_of_few_checkpoints_is_half_believed() {
         let of = |checkpoints: u32| {
@@ -388,7 +393,8 @@ mod tests {
         assert!((-1.0..-0.99).contains(&of(12)));
     }
 
-    /// With slope -1/2 the targets end at 64 and 4096 indices; each index of each target takes a ray.
+    /// With slope -1/2 the targets end at 64 and 4096 indices; each index of each target takes a
+    /// ray.
     #[test]
     fn rays_are_those_of_targets_that_go_on() {
         let scale = 0.01 * 45.0_f64.sqrt();

@@ -32,8 +32,8 @@ pub struct Estimates {
     /// Two-sided miss probability that intervals of this checkpoint are made for, at most
     /// `1 - confidence`: less where the run may stop at a good look.
     pub miss_probability: f64,
-    /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and every
-    /// picture got all its paths; never with fewer than 128 samples.
+    /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and
+    /// every picture got all its paths; never with fewer than 128 samples.
     pub tolerance_reached: bool,
     /// How half-widths shrank so far, and what follows from that.
     pub convergence: Convergence,
@@ -55,12 +55,14 @@ pub struct SensorEstimates {
     pub direct_lx: Vec<f64>,
     /// Whether light was found wherever it was looked for; points without have no interval.
     pub resolved: Vec<bool>,
-    /// Whether too few paths met where narrow lobes are bright: such points are not resolved, either, but more paths
-    /// are sure to help.
+    /// Whether too few paths met where narrow lobes are bright: such points are not resolved,
+    /// either, but more paths are sure to help.
     pub missed_lobes: Vec<bool>,
-    /// Indices per replicate behind each point: fewer than of others where it reached its tolerance before.
+    /// Indices per replicate behind each point: fewer than of others where it reached its tolerance
+    /// before.
     pub samples: Vec<u64>,
-    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
+    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be
+    /// listed.
     pub terms: Vec<TermEstimates>,
 }
 
@@ -91,8 +93,9 @@ pub struct FluxBalance {
 pub struct Dimensions {
     /// Of the photons, those that steering split off by themselves.
     pub photon: DimensionHistogram,
-    /// Photons that began, for estimate, map, energy balance and what decided over them together; those that were split off
-    /// are not among them, nor those that look for what paths cannot find.
+    /// Photons that began, for estimate, map, energy balance and what decided over them together;
+    /// those that were split off are not among them, nor those that look for what paths cannot
+    /// find.
     pub photons: u64,
     /// Surfaces that all these photons came to.
     pub photon_events: u64,
@@ -101,9 +104,9 @@ pub struct Dimensions {
 }
 
 impl Estimates {
-    /// The interval of an average or another figure that is linear in the values of one sensor, in lx:
-    /// `statistic` maps them to it. No half-width where nothing was found at a point, here and in the other figures of
-    /// all points: how much is missing there nobody knows.
+    /// The interval of an average or another figure that is linear in the values of one sensor, in
+    /// lx: `statistic` maps them to it. No half-width where nothing was found at a point, here and
+    /// in the other figures of all points: how much is missing there nobody knows.
     #[must_use]
     pub fn interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
         self.where_resolved(sensor, self.found_interval_of(sensor, statistic))
@@ -222,22 +225,24 @@ impl SensorEstimates {
 /// How half-widths shrank so far, and what follows from that.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Convergence {
-    /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or where
-    /// nothing has a half-width above 0. About -0.5 says that the points are no better than random ones.
+    /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or
+    /// where nothing has a half-width above 0. About -0.5 says that the points are no better than
+    /// random ones.
     pub slope: Option<f64>,
-    /// Indices per replicate at which the tolerance should be reached, whatever limit may come first; `None`
-    /// where nothing says when.
+    /// Indices per replicate at which the tolerance should be reached, whatever limit may come
+    /// first; `None` where nothing says when.
     pub samples: Option<u64>,
     /// Rays of the whole run up to there.
     pub rays: Option<u64>,
-    /// Half-widths over what was predicted for them two checkpoints before with a measured slope: the geometric mean
-    /// over checkpoints, each as often as it had targets with one before and after that grew.
+    /// Half-widths over what was predicted for them two checkpoints before with a measured slope:
+    /// the geometric mean over checkpoints, each as often as it had targets with one before and
+    /// after that grew.
     pub against_prediction: Option<f64>,
 }
 
 impl Estimates {
-    /// The interval of the mean luminance of a picture, in cd/m^2. Pictures are not looked at before
-    /// their end, so it has the nominal confidence.
+    /// The interval of the mean luminance of a picture, in cd/m^2. Pictures are not looked at
+    /// before their end, so it has the nominal confidence.
     #[must_use]
     pub fn picture_mean(&self, camera: usize) -> Interval {
         let means = &self.cameras[camera].replicate_mean_cd_m2;

@@ -1,30 +1,32 @@
 //! The lowest of several noisy values, and how sure it is.
 //!
-//! The lowest of noisy means is too low: among many that are equal in truth, one always seems lower. No
-//! estimate without bias exists. The jackknife takes only a part of it, and its intervals cover 90 % in place
-//! of 95 where two points are equal, 56 % where a hundred are. So the two ends of the interval are found
-//! apart, each by what it claims:
+//! The lowest of noisy means is too low: among many that are equal in truth, one always seems
+//! lower. No estimate without bias exists. The jackknife takes only a part of it, and its intervals
+//! cover 90 % in place of 95 where two points are equal, 56 % where a hundred are. So the two ends
+//! of the interval are found apart, each by what it claims:
 //!
 //! ```text
 //! lower end   min over all points of mean - t s
 //! upper end   min over all points of mean + k s
 //! ```
 //!
-//! with the means and standard errors s over replicates. The true minimum is below the lower end only if the mean
-//! of the point where it is attained is too high by t s, whichever point seems lowest. It is above the upper end only if at
-//! one of the points where it is attained the mean is too low by k s. How many points these can be is
-//! estimated: those whose intervals begin below the upper ends of all intervals. For m of them k is the
-//! one-sided quantile of 1 - (1 - b)^(1/m) (Sidak 1967). This is the confidence region for intersection
-//! bounds of V. Chernozhukov, S. Lee and A. M. Rosen (Econometrica 81, 2013), with its selection of points that may be
-//! binding. Points with common noise count for fewer: `m = 1 + (n - 1) (1 - r^2)` for n points with a mean
-//! square r^2 of correlations (D. R. Nyholt, American Journal of Human Genetics 74, 2004, in the form of the
-//! mean square). The lower end errs only if all of these m are too high at once, so of the miss probability a
-//! the upper end gets `b = a - (a / 2)^m`: half of it for one point, nearly all for many.
+//! with the means and standard errors s over replicates. The true minimum is below the lower end
+//! only if the mean of the point where it is attained is too high by t s, whichever point seems
+//! lowest. It is above the upper end only if at one of the points where it is attained the mean is
+//! too low by k s. How many points these can be is estimated: those whose intervals begin below the
+//! upper ends of all intervals. For m of them k is the one-sided quantile of 1 - (1 - b)^(1/m)
+//! (Sidak 1967). This is the confidence region for intersection bounds of V. Chernozhukov, S. Lee
+//! and A. M. Rosen (Econometrica 81, 2013), with its selection of points that may be binding.
+//! Points with common noise count for fewer: `m = 1 + (n - 1) (1 - r^2)` for n points with a mean
+//! square r^2 of correlations (D. R. Nyholt, American Journal of Human Genetics 74, 2004, in the
+//! form of the mean square). The lower end errs only if all of these m are too high at once, so of
+//! the miss probability a the upper end gets `b = a - (a / 2)^m`: half of it for one point, nearly
+//! all for many.
 //!
-//! Between the clear cases (one point far below the others; points with equal values) the interval is
-//! cautious: with points one standard error above the lowest it covers up to 98 % in place of 95, and where some points
-//! are known much worse than others it begins below what these say.
-//! Value and half-width are the middle of the interval and half its width.
+//! Between the clear cases (one point far below the others; points with equal values) the interval
+//! is cautious: with points one standard error above the lowest it covers up to 98 % in place of
+//! 95, and where some points are known much worse than others it begins below what these say. Value
+//! and half-width are the middle of the interval and half its width.
 
 use crate::stats::interval::{Interval, t_quantile_for};
 
@@ -38,8 +40,8 @@ struct SurveyCell {
     error: f64,
 }
 
-/// The interval of the smallest of several means; `rows` has one row of values a replicate. Not a number
-/// where a value is none, or there are no values.
+/// The interval of the smallest of several means; `rows` has one row of values a replicate. Not a
+/// number where a value is none, or there are no values.
 pub(crate) fn interval_of_minimum(rows: &[Vec<f64>], miss_probability: f64) -> Interval {
     let columns = rows.first().map_or(0, Vec::len);
     let points: Vec<SurveyCell> = (0..columns).map(|column| SurveyCell::of(rows, column)).collect();
@@ -66,8 +68,8 @@ pub(crate) fn interval_of_minimum(rows: &[Vec<f64>], miss_probability: f64) -> I
     Interval { value: 0.5 * (low + high), half_width: Some(0.5 * (high - low)) }
 }
 
-/// Rows whose means are the points' means over the average of all points, and whose spread is that of these
-/// ratios to first order (the delta method).
+/// Rows whose means are the points' means over the average of all points, and whose spread is that
+/// of these ratios to first order (the delta method).
 pub(crate) fn ratios(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let columns = rows.first().map_or(0, Vec::len);
     let n = rows.len() as f64;
@@ -99,7 +101,8 @@ fn independent(rows: &[Vec<f64>], points: &[SurveyCell], chosen: &[usize]) -> f6
     if chosen.len() < 2 || degrees < 2.0 {
         return n.max(1.0);
     }
-    // The correlations' squares, from the products of replicates instead of those of points: there are fewer.
+    // The correlations' squares, from the products of replicates instead of those of points: there
+    // are fewer.
     let mut products = vec![0.0; rows.len() * rows.len()];
     let mut own = vec![0.0; rows.len()];
     for &p in chosen {
@@ -127,9 +130,9 @@ mod tests {
 
     const REPLICATES: usize = 16;
 
-    /// How often the interval covers the minimum of `truth`, 0, over 2000 runs; `common` is the share of the noise's
-    /// variance that all points have together. Noise is the sum of four uniform numbers, with unit variance, times `scale`
-    /// at each point.
+    /// How often the interval covers the minimum of `truth`, 0, over 2000 runs; `common` is the
+    /// share of the noise's variance that all points have together. Noise is the sum of four
+    /// uniform numbers, with unit variance, times `scale` at each point.
     fn coverage(truth: &[f64], scale: &[f64], common: f64) -> f64 {
         let points = PointSet::new(Sequence::Independent, Randomization::None, 11);
         let noise = |index: usize, replicate: usize, point: usize| -> f64 {
@@ -156,8 +159,8 @@ mod tests {
         covered.count() as f64 / runs as f64
     }
 
-    /// Points apart and points alike, in standard errors of their means: 95 % where it is clear which are lowest,
-    /// more where it is not. 2000 runs know it to 0.5 %.
+    /// Points apart and points alike, in standard errors of their means: 95 % where it is clear
+    /// which are lowest, more where it is not. 2000 runs know it to 0.5 %.
     #[test]
     fn the_true_minimum_is_covered() {
         let error = (REPLICATES as f64).sqrt().recip();
@@ -180,8 +183,8 @@ mod tests {
         }
     }
 
-    /// The lowest point is known worse than one above it, which often seems lower: the distances are in standard errors of the
-    /// mean of the worse one.
+    /// The lowest point is known worse than one above it, which often seems lower: the distances
+    /// are in standard errors of the mean of the worse one.
     #[test]
     fn a_minimum_that_is_known_badly_is_covered() {
         let error = (REPLICATES as f64).sqrt().recip();

@@ -1,8 +1,8 @@
 //! Exact sums, confidence intervals, and when a run may stop.
 //!
-//! [`tally`] holds the sums, [`interval`] and [`minimum`] the intervals, [`sequential`] what looking
-//! several times costs them, [`schedule`] and [`tolerance`] the decision to stop, [`convergence`] the
-//! prediction of the end, [`observer`] and [`watch`] the way out of a run.
+//! [`tally`] holds the sums, [`interval`] and [`minimum`] the intervals, [`sequential`] what
+//! looking several times costs them, [`schedule`] and [`tolerance`] the decision to stop,
+//! [`convergence`] the prediction of the end, [`observer`] and [`watch`] the way out of a run.
 
 pub mod convergence;
 pub(crate) mod decisions;

@@ -40,17 +40,17 @@ pub struct Progress {
 /// disturbs nothing, has no interval, and is no result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// Illuminance in lx, one row a sensor, one column a sensor point; `None` where nothing is known
-    /// yet. Of all photons or paths so far, whichever replicate they belong to. While photons of maps
-    /// fly, points on surfaces show what the maps have there, others what they had before.
+    /// Illuminance in lx, one row a sensor, one column a sensor point; `None` where nothing is
+    /// known yet. Of all photons or paths so far, whichever replicate they belong to. While photons
+    /// of maps fly, points on surfaces show what the maps have there, others what they had before.
     pub illuminance_lx: Vec<Vec<Option<f64>>>,
 }
 
 /// The one way out of a running simulation: progress, snapshots, states, checkpoints, cancellation.
 pub trait Observer {
-    /// After how many photons or paths, about, it may want a state; `None` where it never does. Work is
-    /// then done in such pieces, each of them whole before the run stops, to the same bits. Asked once,
-    /// before the run.
+    /// After how many photons or paths, about, it may want a state; `None` where it never does.
+    /// Work is then done in such pieces, each of them whole before the run stops, to the same bits.
+    /// Asked once, before the run.
     fn piece(&self) -> Option<u64> {
         None
     }
@@ -60,8 +60,8 @@ pub trait Observer {
         false
     }
 
-    /// Gets the state that it wanted, for [`crate::resume`]; and the last one of a run whose checkpoints are over
-    /// ([`crate::is_over`]).
+    /// Gets the state that it wanted, for [`crate::resume`]; and the last one of a run whose
+    /// checkpoints are over ([`crate::is_over`]).
     fn state(&mut self, _state: &[u8]) {}
 
     /// Whether it wants a snapshot now: asked many times a second, before [`Self::progress`].

@@ -20,7 +20,7 @@ pub struct Pixel {
     pub rgb_cd_m2: [f32; 3],
     /// Luminance in cd/m^2, mean over the replicates.
     pub luminance_cd_m2: f32,
-    /// Half the width of the luminance's interval, at the nominal confidence; `None` where there are
-    /// fewer than two replicates, or where light was looked for and none found.
+    /// Half the width of the luminance's interval, at the nominal confidence; `None` where there
+    /// are fewer than two replicates, or where light was looked for and none found.
     pub half_width_cd_m2: Option<f32>,
 }

@@ -1,31 +1,32 @@
 //! What it costs to look: the miss probability of intervals that a run may stop at.
 //!
-//! At every checkpoint but the first ones, a figure whose half-width has reached its tolerance is done. So an
-//! interval is taken where it happens to be narrow, and with Student's t for one look it would miss too
-//! often: R replicates say what the spread is only to one in sqrt(2 (R - 1)), however long they run.
-//! Stopping rules with consistent estimates of the spread need no correction as the tolerance goes to zero
-//! (P. W. Glynn and W. Whitt, The Annals of Applied Probability 2, 1992); with an estimate that stays
-//! noisy, the interval has to be scaled by what the same rule does to the limit process (J. Dong and
-//! P. W. Glynn, Winter Simulation Conference 2019). Here that process is R means of normal values, looked
-//! at after 1, 2, 4, .. of these. If each look is made for the miss probability
+//! At every checkpoint but the first ones, a figure whose half-width has reached its tolerance is
+//! done. So an interval is taken where it happens to be narrow, and with Student's t for one look
+//! it would miss too often: R replicates say what the spread is only to one in sqrt(2 (R - 1)),
+//! however long they run. Stopping rules with consistent estimates of the spread need no correction
+//! as the tolerance goes to zero (P. W. Glynn and W. Whitt, The Annals of Applied Probability 2,
+//! 1992); with an estimate that stays noisy, the interval has to be scaled by what the same rule
+//! does to the limit process (J. Dong and P. W. Glynn, Winter Simulation Conference 2019). Here
+//! that process is R means of normal values, looked at after 1, 2, 4, .. of these. If each look is
+//! made for the miss probability
 //!
 //! ```text
 //! a' = a^(1 + 1.25 / (R - 1))
 //! ```
 //!
-//! then what is reported at the moment of stopping misses with probability a. The exponent is fitted to
-//! simulations of that process with a of 10, 5 and 1 % and R from 3 to 64. For 16 replicates and 5 % it
-//! gives 3.9 %; half-widths that shrink faster than one over the square root of N come to between 4.5 and
-//! 5 %, for fewer looks are near.
+//! then what is reported at the moment of stopping misses with probability a. The exponent is
+//! fitted to simulations of that process with a of 10, 5 and 1 % and R from 3 to 64. For 16
+//! replicates and 5 % it gives 3.9 %; half-widths that shrink faster than one over the square root
+//! of N come to between 4.5 and 5 %, for fewer looks are near.
 //!
-//! A budget that all looks share (Bonferroni) would be safe too, and too safe: most runs end at their first
-//! good look, and the rest of the budget is left over.
+//! A budget that all looks share (Bonferroni) would be safe too, and too safe: most runs end at
+//! their first good look, and the rest of the budget is left over.
 
 /// See above.
 const EXPONENT: f64 = 1.25;
 
-/// The miss probability of the intervals at each of many looks, so that those where a figure is done miss
-/// with `miss_probability`.
+/// The miss probability of the intervals at each of many looks, so that those where a figure is
+/// done miss with `miss_probability`.
 pub(crate) fn miss_probability_of_a_look(miss_probability: f64, replicates: u32) -> f64 {
     let degrees = f64::from(replicates.max(2) - 1);
     libm::pow(miss_probability, 1.0 + EXPONENT / degrees)
@@ -83,8 +84,8 @@ mod tests {
         covered.count() as f64 / f64::from(runs)
     }
 
-    /// 20 000 runs know 95 % to 0.15 % and 99 % to 0.07 % (one standard error). With what one look may miss,
-    /// runs of 8 replicates would cover 92 %.
+    /// 20 000 runs know 95 % to 0.15 % and 99 % to 0.07 % (one standard error). With what one look
+    /// may miss, runs of 8 replicates would cover 92 %.
     #[test]
     fn what_is_reported_where_a_run_stops_is_covered() {
         for (replicates, miss) in [(4, 0.05), (8, 0.05), (16, 0.05), (16, 0.01), (32, 0.05)] {

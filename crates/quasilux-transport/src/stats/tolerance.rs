@@ -14,8 +14,8 @@ const MIN_TRIES_OF_LOBES: f64 = (1 << 20) as f64;
 pub(crate) struct Standing {
     /// Half-width over value; `None` where there is no half-width.
     pub(crate) relative_widths: Vec<Option<f64>>,
-    /// Half-width over tolerance of what has to reach it: the point, or the average of its sensor. `None`
-    /// where there is no half-width, or nothing to reach.
+    /// Half-width over tolerance of what has to reach it: the point, or the average of its sensor.
+    /// `None` where there is no half-width, or nothing to reach.
     pub(crate) excess: Vec<Option<f64>>,
     /// Whether more samples are of no use to a target.
     pub(crate) done: Vec<bool>,
@@ -23,8 +23,8 @@ pub(crate) struct Standing {
     pub(crate) unresolved: u64,
     /// Whether all that has to reach the tolerance has.
     pub(crate) is_reached: bool,
-    /// Whether the run need not go on: points where nothing was found hold it up until they had a fair
-    /// chance, not for ever.
+    /// Whether the run need not go on: points where nothing was found hold it up until they had a
+    /// fair chance, not for ever.
     pub(crate) may_end: bool,
 }
 

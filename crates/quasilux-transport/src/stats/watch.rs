@@ -43,8 +43,8 @@ impl<'o> Watch<'o> {
         Self { observer, progress, rays_to_end, max_rays, piece, preface, obeys, stopped }
     }
 
-    /// A range of indices, each of so many photons or paths, in pieces between which states are kept; in
-    /// one where there are none.
+    /// A range of indices, each of so many photons or paths, in pieces between which states are
+    /// kept; in one where there are none.
     pub(crate) fn pieces(
         &self,
         range: Range<u64>,
@@ -73,8 +73,8 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// After a piece: gives the observer the state, if it wants it, with the work so far before what is put
-    /// out, and says whether to go on.
+    /// After a piece: gives the observer the state, if it wants it, with the work so far before
+    /// what is put out, and says whether to go on.
     #[must_use]
     pub(crate) fn keep(&mut self, put: impl FnOnce(&mut Writer)) -> bool {
         if self.piece.is_some() && self.observer.wants_state() {
@@ -83,8 +83,8 @@ impl<'o> Watch<'o> {
         !self.stopped
     }
 
-    /// After the last piece: gives the observer the state, whether it wants it or not, so that it knows that the run is
-    /// over.
+    /// After the last piece: gives the observer the state, whether it wants it or not, so that it
+    /// knows that the run is over.
     pub(crate) fn keep_last(&mut self, put: impl FnOnce(&mut Writer)) {
         if self.piece.is_some() {
             self.give_state(put);

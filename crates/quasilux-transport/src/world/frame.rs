@@ -4,8 +4,8 @@ use glam::DVec3;
 
 /// A right-handed frame whose z axis is a unit vector.
 ///
-/// It is continuous in that vector but for one pole (Duff et al. 2017, "Building an Orthonormal Basis,
-/// Revisited", JCGT 6(1)).
+/// It is continuous in that vector but for one pole (Duff et al. 2017, "Building an Orthonormal
+/// Basis, Revisited", JCGT 6(1)).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     tangent: DVec3,
@@ -26,8 +26,8 @@ impl Frame {
         }
     }
 
-    /// The frame around a unit vector whose y axis is `up` in so far as it is square to that vector; any frame around it
-    /// where nothing of `up` is.
+    /// The frame around a unit vector whose y axis is `up` in so far as it is square to that
+    /// vector; any frame around it where nothing of `up` is.
     pub(crate) fn upright(n: DVec3, up: DVec3) -> Self {
         match (up - n * n.dot(up)).try_normalize() {
             Some(bitangent) => Self { tangent: bitangent.cross(n), bitangent, n },

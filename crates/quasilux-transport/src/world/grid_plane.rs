@@ -36,8 +36,8 @@ impl GridPlane {
         }
     }
 
-    /// The same as flights from behind see it, where some of these come to the front of the grid's own normal. A surface
-    /// in the grid's plane ends them before.
+    /// The same as flights from behind see it, where some of these come to the front of the grid's
+    /// own normal. A surface in the grid's plane ends them before.
     pub(crate) fn behind(&self) -> Option<Self> {
         let Self { grid, origin, normal, dual } = *self;
         let is_tilted = grid.normal.cross(normal).length() > TILTED;
@@ -49,8 +49,8 @@ impl GridPlane {
         self.grid.u.cross(self.grid.v).length() / self.grid.cells() as f64
     }
 
-    /// How much a flight through the plane counts for the grid's own normal, which may be tilted: the
-    /// ratio of the cosines.
+    /// How much a flight through the plane counts for the grid's own normal, which may be tilted:
+    /// the ratio of the cosines.
     pub(crate) fn tilt_factor(&self, direction: DVec3) -> f64 {
         (self.grid.normal.dot(direction) / self.normal.dot(direction)).max(0.0)
     }

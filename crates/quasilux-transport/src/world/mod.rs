@@ -168,7 +168,8 @@ impl<S: Spectrum> World<S> {
         &self.bsdfs[facet.material as usize]
     }
 
-    /// Luminous flux that a facet does not absorb, at most, over what meets it: [`quasilux_scene::Bsdf::most_kept`].
+    /// Luminous flux that a facet does not absorb, at most, over what meets it:
+    /// [`quasilux_scene::Bsdf::most_kept`].
     pub(crate) fn most_kept_by(&self, facet: &Facet) -> f64 {
         self.most_kept[facet.material as usize]
     }

@@ -20,7 +20,8 @@ impl<S: Spectrum> Passage<S> {
     }
 }
 
-/// Looks along rays to their ends, in their order; `None` where one meets something else than a pane.
+/// Looks along rays to their ends, in their order; `None` where one meets something else than a
+/// pane.
 pub(crate) fn look_through<S: Spectrum>(
     world: &World<S>,
     shadow_rays: &[RayQuery],

@@ -52,8 +52,8 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         self.from.position()
     }
 
-    /// The cosine that makes illuminance of what arrives from `direction`; not above 0 where nothing
-    /// of it counts.
+    /// The cosine that makes illuminance of what arrives from `direction`; not above 0 where
+    /// nothing of it counts.
     pub(crate) fn cos(&self, direction: DVec3) -> f64 {
         let cos = self.n.dot(direction);
         if self.takes_both_sides() { cos.abs() } else { cos }

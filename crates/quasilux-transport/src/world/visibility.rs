@@ -1,7 +1,8 @@
 //! Light that waits for its visibility: many questions are asked first and answered together.
 //!
-//! Whoever may get light from a place says so with an [`LightSample`] and goes on with what does not depend on
-//! it. The rays toward all these places are traced at once, in the order they were asked for.
+//! Whoever may get light from a place says so with an [`LightSample`] and goes on with what does
+//! not depend on it. The rays toward all these places are traced at once, in the order they were
+//! asked for.
 
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -95,15 +96,16 @@ impl<S: Spectrum> ShadowQueue<S> {
             light_sample.distance_m,
             light_sample.facet,
         ));
-        // Paths run into facets that emit, behind panes too: only light of other places is let through.
+        // Paths run into facets that emit, behind panes too: only light of other places is let
+        // through.
         let most_panes = if light_sample.facet == RayQuery::NONE { self.most_bounces } else { 0 };
         let question =
             Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, most_panes };
         self.questions.push(question);
     }
 
-    /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as they
-    /// follow a way over this many mirrors.
+    /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as
+    /// they follow a way over this many mirrors.
     pub(crate) fn push_polyline(
         &mut self,
         who: u32,

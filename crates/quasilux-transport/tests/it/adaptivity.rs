@@ -1,7 +1,7 @@
 //! Points that are done stop costing, and keep what they had.
 //!
-//! A bright and a dim place need different numbers of samples. Whatever the estimator, a point ends with the bits of a
-//! run that is limited to its own number of samples.
+//! A bright and a dim place need different numbers of samples. Whatever the estimator, a point ends
+//! with the bits of a run that is limited to its own number of samples.
 
 use crate::images::add_panel;
 use crate::scenes::{diffuse, mirror, point_light, points, room};
@@ -122,7 +122,8 @@ fn a_half_width_in_lx_is_enough() {
     }
 }
 
-/// A limit on rays ends a run at a checkpoint before it, with the bits of a run that is limited to the samples there.
+/// A limit on rays ends a run at a checkpoint before it, with the bits of a run that is limited to
+/// the samples there.
 #[test]
 fn rays_only_pick_the_last_checkpoint() {
     let scene = screened();

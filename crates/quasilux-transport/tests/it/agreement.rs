@@ -1,5 +1,5 @@
-//! The estimators agree with each other, bounce by bounce, where there is no closed form. For all bounces see
-//! `dozen.rs`.
+//! The estimators agree with each other, bounce by bounce, where there is no closed form. For all
+//! bounces see `dozen.rs`.
 //!
 //! Means over the four cells of a floor grid, at 2 %: each pair of intervals must overlap when both
 //! are half as wide again. Per cell that fails for right programs once in some 2000 cases (two
@@ -81,8 +81,8 @@ fn photons_and_paths_agree_bounce_by_bounce() {
     }
 }
 
-/// A map that is corrected knows bounces apart, where few are wanted, and else only how many it left out in all: either way
-/// paths that end on it find what they find alone.
+/// A map that is corrected knows bounces apart, where few are wanted, and else only how many it
+/// left out in all: either way paths that end on it find what they find alone.
 #[test]
 fn a_map_that_is_corrected_keeps_to_the_wanted_bounces() {
     let scene = coloured_room_with_mirror();
@@ -152,8 +152,8 @@ fn a_light_on_a_sensor_point_is_reported() {
     assert!(interval.value.is_finite(), "{interval:?}");
 }
 
-/// Paths that travel together do not touch each other: a single path finds the same bits as among the
-/// 208 of a run with more targets and replicates, at a point and in a cell.
+/// Paths that travel together do not touch each other: a single path finds the same bits as among
+/// the 208 of a run with more targets and replicates, at a point and in a cell.
 #[test]
 fn a_path_finds_alone_what_it_finds_in_company() {
     let mut room = coloured_room_with_mirror();

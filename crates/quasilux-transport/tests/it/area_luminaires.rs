@@ -1,8 +1,8 @@
 //! Luminaires that shine from their luminous shape, against closed forms and plain sums.
 //!
 //! Where a reference is given, a value may be off by 1.5 half-widths of its 95 % interval and the
-//! stated share: a right program fails once in some 200 such comparisons at most (16 replicates), and
-//! seeds are fixed. Half-widths are below 0.1 %, so an error of 0.3 % is found nearly always.
+//! stated share: a right program fails once in some 200 such comparisons at most (16 replicates),
+//! and seeds are fixed. Half-widths are below 0.1 %, so an error of 0.3 % is found nearly always.
 
 use crate::scenes::{diffuse, points, room};
 use glam::{DMat3, DVec3};
@@ -362,8 +362,8 @@ fn an_opening_seen_edge_on_has_the_intensity_of_the_file() {
     assert_direct(&in_the_dark(light, &sensors), &[NADIR_CD / 400.0; 2], 1e-4, "edge on");
 }
 
-/// A point that looks away from all openings gets no direct light for certain: nothing is left to be
-/// found.
+/// A point that looks away from all openings gets no direct light for certain: nothing is left to
+/// be found.
 #[test]
 fn a_point_that_looks_away_is_known_to_be_dark() {
     let mut scene = room(DVec3::splat(4.0), diffuse(0.0));

@@ -1,9 +1,9 @@
-//! The same bits from every build and every ray kernel: debug and release, this machine and another, scalar and
-//! vector.
+//! The same bits from every build and every ray kernel: debug and release, this machine and
+//! another, scalar and vector.
 //!
-//! Digests of all replicates' values are written down here. They are no statement about light: where a change is
-//! meant to move values, they change with it; where only the compiler, its options or the processor differ,
-//! they must not.
+//! Digests of all replicates' values are written down here. They are no statement about light:
+//! where a change is meant to move values, they change with it; where only the compiler, its
+//! options or the processor differ, they must not.
 
 use crate::scenes::{diffuse, level_grid, mirror, point_light, points, room};
 use glam::DVec3;

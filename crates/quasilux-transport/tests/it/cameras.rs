@@ -25,8 +25,8 @@ pub(crate) fn camera(position: DVec3, target: DVec3) -> Camera {
     }
 }
 
-/// The mean over each pixel of a luminance by direction, by the midpoint rule with this many steps along each
-/// edge.
+/// The mean over each pixel of a luminance by direction, by the midpoint rule with this many steps
+/// along each edge.
 pub(crate) fn quadrature(
     camera: &Camera,
     steps: u32,
@@ -192,8 +192,8 @@ fn a_dark_pixel_has_no_interval() {
     assert_eq!(simulate(&scene, &alone, &mut ()).cameras[0].pixels[0].half_width_cd_m2, None);
 }
 
-/// Light that a mirror sends to a floor is in a picture of the floor, by images or, where none are followed, by photons:
-/// both know the mean to 1 %, and the mirror adds more than a half.
+/// Light that a mirror sends to a floor is in a picture of the floor, by images or, where none are
+/// followed, by photons: both know the mean to 1 %, and the mirror adds more than a half.
 #[test]
 fn pictures_show_light_that_only_photons_find() {
     let mut scene = empty();

@@ -27,8 +27,9 @@ fn run(scene: &Scene, settings: &Settings) -> Estimates {
     estimates
 }
 
-/// Two rooms: one with a mirror, a red wall, an emitting panel and a lamp; one that a translucent sheet
-/// and a pane divide. Some of the sensor points look into corners, where photons alone are bad.
+/// Two rooms: one with a mirror, a red wall, an emitting panel and a lamp; one that a translucent
+/// sheet and a pane divide. Some of the sensor points look into corners, where photons alone are
+/// bad.
 fn rooms() -> [(&'static str, Scene); 2] {
     let mut mirrored = coloured_room_with_mirror();
     mirrored.lights.push(point_light(DVec3::new(2.5, 1.2, 1.5), 400.0));
@@ -53,10 +54,10 @@ fn rooms() -> [(&'static str, Scene); 2] {
     [("mirrored", mirrored), ("divided", divided)]
 }
 
-/// Each term at each point: the difference is at most three joint standard errors, or 3.6 for the most
-/// unlike of them (44 comparisons; two normal estimates from 16 replicates: right programs fail once in
-/// some hundred seeds, and the seed is fixed). The terms are known to 4 % and better, so a share that
-/// were counted twice or not at all would be seen.
+/// Each term at each point: the difference is at most three joint standard errors, or 3.6 for the
+/// most unlike of them (44 comparisons; two normal estimates from 16 replicates: right programs
+/// fail once in some hundred seeds, and the seed is fixed). The terms are known to 4 % and better,
+/// so a share that were counted twice or not at all would be seen.
 #[test]
 fn photons_and_paths_share_the_light_of_every_term() {
     for (name, scene) in rooms() {

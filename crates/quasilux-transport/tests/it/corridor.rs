@@ -1,4 +1,5 @@
-//! Light that is hard to find: a corridor lit from a niche at one end, with photons steered and not.
+//! Light that is hard to find: a corridor lit from a niche at one end, with photons steered and
+//! not.
 
 use crate::images::add_panel;
 use crate::measured_odd::grid_below;
@@ -72,9 +73,10 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// With fewer rays than unsteered photons take, steered ones know the far half of the corridor at
-/// least twice as well by the median of three seeds, come to the same values within joint intervals (30 points of each seed at twice the joint
-/// 95 % half-widths, about four standard errors: near the niche an error of 3 % would be found, at the
-/// dark end one of 60 %), and spend as much flux as they get.
+/// least twice as well by the median of three seeds, come to the same values within joint intervals
+/// (30 points of each seed at twice the joint 95 % half-widths, about four standard errors: near
+/// the niche an error of 3 % would be found, at the dark end one of 60 %), and spend as much flux
+/// as they get.
 #[test]
 fn steered_photons_know_the_dark_end_better() {
     let gain = |seed| {
@@ -96,10 +98,10 @@ fn steered_photons_know_the_dark_end_better() {
     assert!(median(gains.clone()) > 2.0, "{gains:?}");
 }
 
-/// Steered photons, joined to the sensors, know every cell. Each is compared with the independent tracer: 30
-/// differences at twice the joint 95 % half-widths, about four standard errors; an error of 30 % would be
-/// found in any cell. What is found spans four orders of magnitude, and so does the reference, by three of its standard
-/// errors at either end.
+/// Steered photons, joined to the sensors, know every cell. Each is compared with the independent
+/// tracer: 30 differences at twice the joint 95 % half-widths, about four standard errors; an error
+/// of 30 % would be found in any cell. What is found spans four orders of magnitude, and so does
+/// the reference, by three of its standard errors at either end.
 #[test]
 fn joined_photons_know_all_of_four_orders_of_magnitude() {
     let settings = Settings {
@@ -152,8 +154,8 @@ fn waves_of_split_photons_count_what_single_families_count() {
     assert!(alone.1.rays > 2 * alone.1.photons, "{:?}", alone.1);
 }
 
-/// So is a diffuse sheet in a black room under a cell that looks at it: the survey says that photons are worth nothing where they
-/// land, but it is on their way there that they are counted.
+/// So is a diffuse sheet in a black room under a cell that looks at it: the survey says that
+/// photons are worth nothing where they land, but it is on their way there that they are counted.
 #[test]
 fn a_sheet_in_the_dark_is_left_alone() {
     let mut scene = room(DVec3::ONE, diffuse(0.0));
@@ -164,9 +166,9 @@ fn a_sheet_in_the_dark_is_left_alone() {
     assert_is_left_alone(&scene);
 }
 
-/// Whatever rays the survey happens to find, photons are steered, and all cells are known with an error of 3 % root mean
-/// square. A survey that leaves far light to connections alone loses light on its way with two of these seeds, and
-/// gives up steering.
+/// Whatever rays the survey happens to find, photons are steered, and all cells are known with an
+/// error of 3 % root mean square. A survey that leaves far light to connections alone loses light
+/// on its way with two of these seeds, and gives up steering.
 #[test]
 fn no_seed_loses_the_way() {
     for seed in [0, 5, 10, 15] {

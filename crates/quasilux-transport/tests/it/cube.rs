@@ -45,7 +45,8 @@ fn known_luminances_lie_in_the_intervals() {
 }
 
 /// Photons that pass through a grid on the wall, against paths from all over its cells, and against
-/// the mean over all six walls: flux / (600 m^2 (1 - 2/3)). Joint intervals; the family has 17 tests.
+/// the mean over all six walls: flux / (600 m^2 (1 - 2/3)). Joint intervals; the family has 17
+/// tests.
 #[test]
 fn counted_photons_agree_with_paths_in_the_mean() {
     let mut scene = diffuse_cube(&[]);

@@ -1,12 +1,14 @@
 //! A dozen small scenes and more: all estimators agree at 0.3 %.
 //!
-//! Compared is the mean over the two cells of a scene, a third of it or so direct light. Two estimates agree if they
-//! differ by no more than the joint half-width of their difference: Welch's t for 32 replicates each,
-//! at a significance of 5 % for the whole family (Sidak 1967). That half-width is asserted to be at most 0.3 % of
-//! the value, so that a difference of 0.3 % is found every other time and one of 0.45 % nearly always. Each estimate goes on until its standard error is small enough for that.
+//! Compared is the mean over the two cells of a scene, a third of it or so direct light. Two
+//! estimates agree if they differ by no more than the joint half-width of their difference: Welch's
+//! t for 32 replicates each, at a significance of 5 % for the whole family (Sidak 1967). That
+//! half-width is asserted to be at most 0.3 % of the value, so that a difference of 0.3 % is found
+//! every other time and one of 0.45 % nearly always. Each estimate goes on until its standard error
+//! is small enough for that.
 //!
-//! Photons are joined to the sensors in a run of its own, and not steered: few of them that weigh much would make
-//! intervals of 32 replicates that cannot be trusted at this significance.
+//! Photons are joined to the sensors in a run of its own, and not steered: few of them that weigh
+//! much would make intervals of 32 replicates that cannot be trusted at this significance.
 
 use crate::dozen_scenes as scenes;
 use quasilux_scene::Scene;
@@ -14,7 +16,8 @@ use quasilux_stats::{sidak, student_t_quantile};
 use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, Switch, simulate};
 
 const REPLICATES: u32 = 32;
-/// Scenes of this module, and comparisons in each: every estimator without bias with every other, and paths with the map.
+/// Scenes of this module, and comparisons in each: every estimator without bias with every other,
+/// and paths with the map.
 const FAMILY: usize = 16 * 7;
 const SIGNIFICANCE: f64 = 0.05;
 /// What the joint half-width may be, relative.
@@ -95,8 +98,9 @@ fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mea
     Mean::of(&estimates)
 }
 
-/// Paths, photons, both joined, and paths of the corrected map are without bias; so, in means over all of a room, is
-/// nearly the plain map, whose elements keep all flux where it lands within their size.
+/// Paths, photons, both joined, and paths of the corrected map are without bias; so, in means over
+/// all of a room, is nearly the plain map, whose elements keep all flux where it lands within their
+/// size.
 fn assert_agree(scene: &Scene) {
     let unbiased = [
         ("paths", EstimatorKind::Path, Switch::Off),

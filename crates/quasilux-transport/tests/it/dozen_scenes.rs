@@ -1,5 +1,5 @@
-//! Small scenes, each for one thing that light does on its way. Their sensors are two cells that cross the whole
-//! room; the one that looks down sees few of the lights.
+//! Small scenes, each for one thing that light does on its way. Their sensors are two cells that
+//! cross the whole room; the one that looks down sees few of the lights.
 
 use crate::images::add_panel;
 use crate::materials::{add_ball, add_box, conductor, plastic, translucent};
@@ -16,7 +16,8 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// A room of 4 m by 3 m by 2.5 m with two cells that look up and down from 0.8 m, each over all of the room.
+/// A room of 4 m by 3 m by 2.5 m with two cells that look up and down from 0.8 m, each over all of
+/// the room.
 fn plain(reflectance: f64) -> Scene {
     let mut scene = room(at(4.0, 3.0, 2.5), diffuse(reflectance));
     for (name, normal) in [("up", DVec3::Z), ("down", DVec3::NEG_Z)] {

@@ -1,4 +1,5 @@
-//! The bias of a map without correction: it shrinks with its elements, and faster if they are linear.
+//! The bias of a map without correction: it shrinks with its elements, and faster if they are
+//! linear.
 
 use crate::scenes::{diffuse_cube, points};
 use glam::DVec3;
@@ -29,9 +30,9 @@ fn error(settings: &Settings) -> (f64, f64) {
     (interval.value / KNOWN_LX - 1.0, interval.half_width.unwrap() / KNOWN_LX)
 }
 
-/// Seed 1, three intervals of 95 % each. With elements that are whole halves of walls the map is 0.6 %
-/// low; with those of a quarter of the edge, constant ones are 0.16 % low and linear ones less than
-/// half as much: at least the first and the second order, over two halvings.
+/// Seed 1, three intervals of 95 % each. With elements that are whole halves of walls the map is
+/// 0.6 % low; with those of a quarter of the edge, constant ones are 0.16 % low and linear ones
+/// less than half as much: at least the first and the second order, over two halvings.
 #[test]
 fn bias_shrinks_with_the_elements() {
     let large = error(&settings(Reconstruction::Constant, 14.2));
@@ -71,9 +72,9 @@ pub(crate) fn room_with_points() -> Scene {
     scene
 }
 
-/// Against paths, seed 1: constant elements of 3 m err by 1 %, linear ones of 6 m, which are whole halves of
-/// walls, by 2 %. Two halvings leave at most a quarter of the former, the first order, and one halving a
-/// quarter of the latter, the second.
+/// Against paths, seed 1: constant elements of 3 m err by 1 %, linear ones of 6 m, which are whole
+/// halves of walls, by 2 %. Two halvings leave at most a quarter of the former, the first order,
+/// and one halving a quarter of the latter, the second.
 #[test]
 fn bias_shrinks_where_there_is_no_symmetry() {
     let of_path = Settings {
@@ -111,8 +112,8 @@ fn refined_maps_give_the_same_bits_on_any_number_of_threads() {
     assert_eq!(run(1), run(2));
 }
 
-/// Every path of the sensor point comes with 64 photons: 64 paths in 16 replicates with 2^16, which know the middle of
-/// the wall to about 1 %.
+/// Every path of the sensor point comes with 64 photons: 64 paths in 16 replicates with 2^16, which
+/// know the middle of the wall to about 1 %.
 #[test]
 fn maps_get_the_photons_that_are_asked_for() {
     for sequence in [Sequence::Sobol, Sequence::Hammersley { points: 64 }] {

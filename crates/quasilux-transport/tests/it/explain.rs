@@ -35,9 +35,9 @@ fn weights_of_paths(block: &Block) -> [Share; 2] {
     [block.alone.expect("it varies"), block.total.expect("it varies")]
 }
 
-/// Direct light of an area light is the sum of two estimates, one by a place on the light and one by the
-/// direction, each with its own coordinates: their effects add, so both shares of each block are the
-/// same, and add up to one. Four standard errors: right programs fail once in 10^4 seeds.
+/// Direct light of an area light is the sum of two estimates, one by a place on the light and one
+/// by the direction, each with its own coordinates: their effects add, so both shares of each block
+/// are the same, and add up to one. Four standard errors: right programs fail once in 10^4 seeds.
 #[test]
 fn direct_light_is_a_sum_of_two_blocks() {
     let explanation = explain(&black_room_under_a_ceiling(), &Settings::default());
@@ -72,10 +72,11 @@ fn what_is_computed_has_no_variance() {
     assert_eq!(explanation.gain, None);
 }
 
-/// What is said of the parts of an estimate tells how far it strays: the squared error of a run with random points
-/// over N indices is that of a path, of its counted photons and of its joined ones together, over N. 1024 replicates know
-/// the error to 2.2 %; 8 % are allowed. Paths forgotten would be 13 % and counted photons 49 % (joined ones 2.7 %: what
-/// they give is tested one by one, `join/single.rs`).
+/// What is said of the parts of an estimate tells how far it strays: the squared error of a run
+/// with random points over N indices is that of a path, of its counted photons and of its joined
+/// ones together, over N. 1024 replicates know the error to 2.2 %; 8 % are allowed. Paths forgotten
+/// would be 13 % and counted photons 49 % (joined ones 2.7 %: what they give is tested one by one,
+/// `join/single.rs`).
 #[test]
 fn the_parts_tell_the_error_of_a_run() {
     const REPLICATES: u32 = 1024;
@@ -111,8 +112,8 @@ fn the_parts_tell_the_error_of_a_run() {
     assert!((found / predicted - 1.0).abs() < 0.08, "{found}, foretold {predicted}");
 }
 
-/// The mean that deviations are measured by has all light, also what comes by a mirror that no images are followed in:
-/// half as much again here, and more than a fourth of it would show.
+/// The mean that deviations are measured by has all light, also what comes by a mirror that no
+/// images are followed in: half as much again here, and more than a fourth of it would show.
 #[test]
 fn deviations_are_measured_by_all_light() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.3));
@@ -128,7 +129,8 @@ fn deviations_are_measured_by_all_light() {
     assert!((by_photons / by_images - 1.0).abs() < 0.25, "{by_photons}, {by_images}");
 }
 
-/// Decisions come in the order in which the walk meets them, each with the coordinates that it draws.
+/// Decisions come in the order in which the walk meets them, each with the coordinates that it
+/// draws.
 #[test]
 fn coordinates_are_named_in_their_order() {
     let scene = coloured_room_with_mirror();

@@ -12,7 +12,8 @@ const REFLECTANCE: f64 = 0.8;
 /// Where a mirror beside the panel is so far away that hardly a path meets it.
 const PLACE: DVec3 = DVec3::new(6.0, 0.5, 0.0);
 
-/// A panel of 1 m by 1 m that shines down from 1.5 m, and a mirror at x = -0.5 that shows all of it.
+/// A panel of 1 m by 1 m that shines down from 1.5 m, and a mirror at x = -0.5 that shows all of
+/// it.
 fn scene() -> Scene {
     let mut scene = empty();
     add_panel(&mut scene, DVec3::new(0.0, 0.0, 1.5), DVec3::Y, DVec3::X, diffuse(0.0));
@@ -43,8 +44,8 @@ fn truth_lx() -> f64 {
     LUMINANCE_CD_M2 * sum / f64::from(CELLS * CELLS)
 }
 
-/// Four samples in each replicate: about a third of the intervals are within a tolerance of 20 % and wrong, for no path met the
-/// mirror. Nothing of that is called done.
+/// Four samples in each replicate: about a third of the intervals are within a tolerance of 20 %
+/// and wrong, for no path met the mirror. Nothing of that is called done.
 #[test]
 fn a_tolerance_is_not_reached_by_a_handful_of_samples() {
     let (scene, truth_lx) = (scene(), truth_lx());
@@ -65,7 +66,8 @@ fn a_tolerance_is_not_reached_by_a_handful_of_samples() {
     assert!(wrong > 20, "the test has lost its power: {wrong}");
 }
 
-/// As many as may be relied on, at the only checkpoint of a run: a limit does not stand in the way of a tolerance.
+/// As many as may be relied on, at the only checkpoint of a run: a limit does not stand in the way
+/// of a tolerance.
 #[test]
 fn a_tolerance_is_reached_where_a_limit_leaves_enough_samples() {
     let mut scene = scene();

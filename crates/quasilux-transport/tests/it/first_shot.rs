@@ -1,10 +1,10 @@
 //! Photons that leave lit places against photons that leave the lights, and against paths.
 //!
-//! With and without first shot a map has the same elements, hence the same bias: both must agree within
-//! their errors. Welch's test at each of nine points of three rooms, the family of 27 at 0.1 % in all,
-//! 16 replicates each of 2^8 photons and paths, seeds 1 and 2. Standard errors are up to 0.3 %, so that
-//! a difference of 2 % is found nearly always. Paths know nothing of maps: intervals may be half as
-//! wide again, and for the map's bias there is 1 % more.
+//! With and without first shot a map has the same elements, hence the same bias: both must agree
+//! within their errors. Welch's test at each of nine points of three rooms, the family of 27 at 0.1
+//! % in all, 16 replicates each of 2^8 photons and paths, seeds 1 and 2. Standard errors are up to
+//! 0.3 %, so that a difference of 2 % is found nearly always. Paths know nothing of maps: intervals
+//! may be half as wide again, and for the map's bias there is 1 % more.
 
 use crate::agreement::coloured_room_with_mirror;
 use crate::scenes::{diffuse, point_light, points, room};
@@ -15,7 +15,8 @@ use quasilux_stats::{sidak, student_t_cdf};
 use quasilux_transport::{CheckError, Estimates, EstimatorKind, Settings, Switch};
 use quasilux_transport::{check, simulate};
 
-/// Two narrow beams; a bare lamp 20 cm from a wall; a point light beside an area light, with a mirror.
+/// Two narrow beams; a bare lamp 20 cm from a wall; a point light beside an area light, with a
+/// mirror.
 fn rooms() -> [(&'static str, Scene); 3] {
     let size = DVec3::new(4.0, 3.0, 2.5);
     let mut beams = room(size, diffuse(0.4));

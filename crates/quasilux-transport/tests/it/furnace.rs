@@ -12,7 +12,8 @@ use std::f64::consts::PI;
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
-        // Photons fly for very long where little is absorbed: joined ones need minutes for a point a hair from a corner.
+        // Photons fly for very long where little is absorbed: joined ones need minutes for a point
+        // a hair from a corner.
         let is_quick = |connections| connections != Switch::On || reflectance < 0.9;
         for (estimator, connections) in GATHERERS.into_iter().filter(|way| is_quick(way.1)) {
             let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(reflectance));
@@ -43,7 +44,8 @@ fn illuminance_is_pi_l_over_one_minus_r() {
 }
 
 /// In a room of one saturated colour the light of each channel c is its own furnace: with white
-/// light of flux F and walls of area A, the mean illuminance is F / A times the sum of w_c / (1 - r_c).
+/// light of flux F and walls of area A, the mean illuminance is F / A times the sum of w_c / (1 -
+/// r_c).
 #[test]
 fn a_deep_blue_room_has_the_light_of_its_channels() {
     let reflectance = Rgb([0.05, 0.05, 0.9]);

@@ -1,6 +1,6 @@
-//! Point-like lights in mirrors, against closed forms: the light of an image is `I cos / d^2` times what the
-//! mirrors reflect, d the way over all of them. All surfaces but mirrors are black, so nothing is sampled
-//! and values are exact to rounding.
+//! Point-like lights in mirrors, against closed forms: the light of an image is `I cos / d^2` times
+//! what the mirrors reflect, d the way over all of them. All surfaces but mirrors are black, so
+//! nothing is sampled and values are exact to rounding.
 
 use crate::scenes::{diffuse, mirror, point_light, points};
 use glam::{DMat3, DVec3};
@@ -62,8 +62,8 @@ fn one_mirror_shows_a_light_within_its_frame() {
     add_panel(&mut scene, at(-1., -1., 0.), DVec3::X * 2., DVec3::Y * 2., mirror(0.8));
     let light = at(0.2, 0.1, 2.0);
     scene.lights.push(point_light(light, 1000.0));
-    // The light meets the floor half-way to a sensor at its height: x = 1.9 lies beyond the edge from
-    // x = 1.8 on.
+    // The light meets the floor half-way to a sensor at its height: x = 1.9 lies beyond the edge
+    // from x = 1.8 on.
     let places = [at(-0.7, 0.4, 1.0), at(1.79, 0.1, 2.0), at(1.81, 0.1, 2.0)];
     scene.sensors.push(points("p", &places.map(|place| (place, DVec3::NEG_Z))));
     let image = at(0.2, 0.1, -2.0);
@@ -107,8 +107,8 @@ fn two_facing_mirrors_show_a_series() {
     assert_lx(&scene, &[expected_lx]);
 }
 
-/// Three mirrors in a corner show seven images of a light anywhere, also where light and sensor are on
-/// one diagonal and the ways go through the edges and the corner itself.
+/// Three mirrors in a corner show seven images of a light anywhere, also where light and sensor are
+/// on one diagonal and the ways go through the edges and the corner itself.
 #[test]
 fn a_corner_shows_seven_images() {
     let places = [at(0.5, 0.6, 0.7), at(0.9, 0.9, 0.9), at(0.8, 0.8, 0.3), at(0.31, 0.2, 0.9)];
@@ -133,9 +133,9 @@ fn sign_of_octant(i: u32) -> DVec3 {
     at(sign(0), sign(1), sign(2))
 }
 
-/// The direct light of the sphere octant of Voloboy, Dmitriev and Kopylov (2003), as reconstructed: 83.331125
-/// cd at 0.36510375 m from the centre on the diagonal, R = 1 m. Eight images give 686.598 lx at the
-/// middle of the sphere's eighth, which is at 3^-1/2 in all coordinates.
+/// The direct light of the sphere octant of Voloboy, Dmitriev and Kopylov (2003), as reconstructed:
+/// 83.331125 cd at 0.36510375 m from the centre on the diagonal, R = 1 m. Eight images give 686.598
+/// lx at the middle of the sphere's eighth, which is at 3^-1/2 in all coordinates.
 #[test]
 fn the_octant_has_its_direct_light() {
     let mut scene = empty();
@@ -171,8 +171,8 @@ fn mirrors_colour_what_they_show() {
     assert_lx(&scene, &[share(1) * below + share(2) * corner]);
 }
 
-/// A luminaire with no symmetry, in one mirror and over two: the table is read where the light really
-/// leaves, which no turned luminaire in the image's place would give.
+/// A luminaire with no symmetry, in one mirror and over two: the table is read where the light
+/// really leaves, which no turned luminaire in the image's place would give.
 #[test]
 fn luminaires_are_mirrored_not_turned() {
     // Candela at C0, C90, C180, C270 and nadir angles 0, 90, 180 degrees, linear between.
@@ -264,8 +264,8 @@ fn panes_let_light_through_in_one_line() {
     assert!((value / expected_lx - 1.0).abs() < 2e-4, "{value}, expected {expected_lx}");
 }
 
-/// A measured pane lets through and mirrors what its tables say, between their angles in a straight line; what it
-/// does not mirror at normal incidence it may mirror at others.
+/// A measured pane lets through and mirrors what its tables say, between their angles in a straight
+/// line; what it does not mirror at normal incidence it may mirror at others.
 #[test]
 fn measured_panes_do_as_their_tables_say() {
     let table = |rows: &[[f64; 2]]| {
@@ -290,8 +290,9 @@ fn measured_panes_do_as_their_tables_say() {
     assert_lx(&scene, &[through_lx, mirrored_lx]);
 }
 
-/// Between two panes light that grazes them goes far: what is seldom reflected at normal incidence counts there. After k
-/// reflections it comes from k m beside the light; the fifth is more than 1 % of the straight light.
+/// Between two panes light that grazes them goes far: what is seldom reflected at normal incidence
+/// counts there. After k reflections it comes from k m beside the light; the fifth is more than 1 %
+/// of the straight light.
 #[test]
 fn panes_lead_grazing_light() {
     let mut scene = empty();

@@ -20,7 +20,8 @@ fn values_lx(estimates: &Estimates) -> Vec<f64> {
     estimates.point_intervals(0).iter().map(|interval| interval.value).collect()
 }
 
-/// The more coordinates photons may have used, the more of the light is on the map, up to all of it.
+/// The more coordinates photons may have used, the more of the light is on the map, up to all of
+/// it.
 #[test]
 fn the_paper_s_map_goes_without_what_is_left_out() {
     let of = |most| run(EstimatorKind::BidirectionalMap, most);

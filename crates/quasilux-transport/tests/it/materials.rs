@@ -34,8 +34,8 @@ pub(crate) fn add_box(scene: &mut Scene, low: DVec3, high: DVec3, bsdf: Bsdf) {
     }
 }
 
-/// What stands in a furnace absorbs nothing, whatever it is: all illuminances stay those of the empty
-/// furnace, pi L / (1 - r), in front of it, beside it and behind it, to 0.1 %.
+/// What stands in a furnace absorbs nothing, whatever it is: all illuminances stay those of the
+/// empty furnace, pi L / (1 - r), in front of it, beside it and behind it, to 0.1 %.
 #[test]
 fn white_bodies_vanish_in_a_furnace() {
     let bodies = [
@@ -111,8 +111,8 @@ fn photons_leave_white_bodies_for_the_walls() {
     }
 }
 
-/// In glass of index n in equilibrium with a furnace, radiance is n^2 times as high. At the centre of a
-/// ball no direction is trapped by total reflection.
+/// In glass of index n in equilibrium with a furnace, radiance is n^2 times as high. At the centre
+/// of a ball no direction is trapped by total reflection.
 #[test]
 fn radiance_rises_with_the_square_of_the_index() {
     let mut scene = room(DVec3::splat(2.0), diffuse(0.5));
@@ -145,7 +145,8 @@ fn halls_of_perfect_mirrors_end_with_a_warning() {
             (EstimatorKind::Bidirectional, Switch::Off),
             (EstimatorKind::BidirectionalMap, Switch::Auto),
         ];
-        // Each photon flies until it is given up: the last two have many, and are tried in the plain hall alone.
+        // Each photon flies until it is given up: the last two have many, and are tried in the
+        // plain hall alone.
         let count = if ball.is_some() { 3 } else { ways.len() };
         for (estimator, connections) in ways.into_iter().take(count) {
             let settings = Settings {

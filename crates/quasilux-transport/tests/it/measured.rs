@@ -1,4 +1,5 @@
-//! Measured sheets: all estimators see the same light, and a table of a known surface is that surface.
+//! Measured sheets: all estimators see the same light, and a table of a known surface is that
+//! surface.
 
 use crate::images::add_panel;
 use crate::scenes::{all_walls_emit, level_grid, points, room};
@@ -18,7 +19,8 @@ use std::sync::Arc;
 
 pub(crate) const REPLICATES: u32 = 32;
 
-/// A room with an emitting panel on one side of a wall of the sheet; looked at are two cells on either side and a point behind it.
+/// A room with an emitting panel on one side of a wall of the sheet; looked at are two cells on
+/// either side and a point behind it.
 pub(crate) fn divided(sheet: Bsdf) -> Scene {
     let mut scene = room(DVec3::ONE, Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(0.5) }));
     add_panel(&mut scene, DVec3::new(0.5, 0.0, 0.0), DVec3::Y, DVec3::Z, sheet);
@@ -114,8 +116,8 @@ impl Mean {
     }
 }
 
-/// By Welch's t at a significance of 1 % for all pairs together (Sidak 1967); the joint half-width is asserted to be at
-/// most `widest` of the value, where it is dark of the brightest of all.
+/// By Welch's t at a significance of 1 % for all pairs together (Sidak 1967); the joint half-width
+/// is asserted to be at most `widest` of the value, where it is dark of the brightest of all.
 pub(crate) fn assert_alike(what: &str, pairs: &[(Mean, Mean)], widest: f64) {
     let brightest_lx = pairs.iter().map(|(a, _)| a.value_lx).fold(0.0, f64::max);
     for (a, b) in pairs {
@@ -158,8 +160,8 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
     }
 }
 
-/// Walls that emit 100 cd/m2 and reflect half of all light as a table says that knows one side alone: it is as bright
-/// everywhere, `pi L / (1 - rho)`, whichever side of them looks in.
+/// Walls that emit 100 cd/m2 and reflect half of all light as a table says that knows one side
+/// alone: it is as bright everywhere, `pi L / (1 - rho)`, whichever side of them looks in.
 #[test]
 fn a_furnace_of_tables_is_as_bright_as_it_must_be() {
     let half = || table(|_, _| 0.5 * FRAC_1_PI);
@@ -178,7 +180,8 @@ fn a_furnace_of_tables_is_as_bright_as_it_must_be() {
         {
             for found in estimates(&scene, estimator, samples) {
                 let off_lx = (found.value_lx - expected_lx).abs();
-                // Ten comparisons; 3.7 standard errors of 32 replicates are exceeded by one in a thousand.
+                // Ten comparisons; 3.7 standard errors of 32 replicates are exceeded by one in a
+                // thousand.
                 assert!(
                     off_lx <= 3.7 * found.standard_error_lx.max(1e-9),
                     "{estimator:?}: {found:?}"
@@ -189,8 +192,8 @@ fn a_furnace_of_tables_is_as_bright_as_it_must_be() {
     }
 }
 
-/// A sheet whose sides differ, that turns light to one side and up, and whose table does not care for reciprocity:
-/// photons take f as it is and paths the other way round.
+/// A sheet whose sides differ, that turns light to one side and up, and whose table does not care
+/// for reciprocity: photons take f as it is and paths the other way round.
 #[test]
 fn photons_and_paths_agree_on_sheets_that_break_reciprocity() {
     let toward =

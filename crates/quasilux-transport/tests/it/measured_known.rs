@@ -1,9 +1,10 @@
-//! Tables made of known surfaces stand for these: the rougher they are made, the more they differ, and no more than
-//! they say.
+//! Tables made of known surfaces stand for these: the rougher they are made, the more they differ,
+//! and no more than they say.
 //!
 //! What a table says is its L1 difference from the surface, the mean over diffuse light of
-//! `integral |f_table - f| cos dw / integral f cos dw`: light that goes elsewhere than it should, at most. Rooms are
-//! asked to agree within that share of what the sheet brings, beside their joint intervals.
+//! `integral |f_table - f| cos dw / integral f cos dw`: light that goes elsewhere than it should,
+//! at most. Rooms are asked to agree within that share of what the sheet brings, beside their joint
+//! intervals.
 
 use crate::measured::{Mean, REPLICATES, assert_estimators_agree, divided, estimates, measured};
 use crate::scenes::{all_walls_emit, diffuse, level_grid, room};
@@ -34,7 +35,8 @@ fn tree(alpha: f64, log_side: usize) -> Distribution {
     Distribution::TensorTree(TensorTree::from_function(true, log_side, f(alpha)).expect("a tree"))
 }
 
-/// Incidences `90 / parts` degrees apart; offsets from the mirror direction grow from a share of the lobe's width.
+/// Incidences `90 / parts` degrees apart; offsets from the mirror direction grow from a share of
+/// the lobe's width.
 pub(crate) fn lobes(alpha: f64, parts: u32) -> Distribution {
     let step_rad = FRAC_PI_2 / f64::from(parts);
     let theta_rad: Vec<f64> = (0..=parts).map(|i| f64::from(i) * step_rad).collect();
@@ -58,8 +60,8 @@ fn directions(a_side: u32) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Directions around the mirror direction, and the shares of projected solid angle that they stand for: even over
-/// half-vectors of GGX, so that sharp lobes are met.
+/// Directions around the mirror direction, and the shares of projected solid angle that they stand
+/// for: even over half-vectors of GGX, so that sharp lobes are met.
 fn around_mirror(alpha: f64, wi: DVec3) -> impl Iterator<Item = (DVec3, f64)> {
     directions(EXIT).filter_map(move |h| {
         // Slopes of GGX: tan = alpha r / sqrt(1 - r^2) at radius r of the disk.
@@ -94,8 +96,8 @@ fn of_tables(table: &Distribution) -> Bsdf {
     measured([(Side::Front, ScatteringMode::Reflection, table.clone())])
 }
 
-/// Boxes make errors of the first order in their width. Lobes are of the second in what lies between them; the slope is
-/// that of the last two of three refinements, each by half.
+/// Boxes make errors of the first order in their width. Lobes are of the second in what lies
+/// between them; the slope is that of the last two of three refinements, each by half.
 #[test]
 fn stated_errors_shrink_at_the_expected_order() {
     type Maker = dyn Fn(usize) -> Distribution;
@@ -114,8 +116,8 @@ fn stated_errors_shrink_at_the_expected_order() {
     }
 }
 
-/// The sheet's part of what the first sensor gets differs by no more than the table's error from that of the metal, beside the
-/// joint 99.9 % half-width of both.
+/// The sheet's part of what the first sensor gets differs by no more than the table's error from
+/// that of the metal, beside the joint 99.9 % half-width of both.
 #[test]
 fn tables_of_metals_light_a_room_as_the_metals_do() {
     for (alpha, table) in [(0.35, tree(0.35, 6)), (0.35, lobes(0.35, 24)), (0.03, lobes(0.03, 36))]

@@ -1,4 +1,5 @@
-//! Measured sheets with odd tables: such that tell one way of light apart from the other, or give more than they get.
+//! Measured sheets with odd tables: such that tell one way of light apart from the other, or give
+//! more than they get.
 
 use crate::cameras::{assert_luminances, camera, quadrature};
 use crate::images::{add_panel, empty};
@@ -20,8 +21,8 @@ fn is_between(direction: DVec3, [low_deg, high_deg]: [f64; 2]) -> bool {
     (low_deg..high_deg).contains(&angle_deg)
 }
 
-/// Light of one band goes on into another one, and of no other: paths that ask the table which light leaves as
-/// they do find none.
+/// Light of one band goes on into another one, and of no other: paths that ask the table which
+/// light leaves as they do find none.
 #[test]
 fn photons_and_paths_agree_where_light_goes_from_band_to_band() {
     let through = table(|wi, wo| {
@@ -53,8 +54,8 @@ const MIN_X: f64 = 0.1;
 /// What that table gives of it.
 const SHARE: f64 = 0.9;
 
-/// A wall that shines only where the lamp is to one side of it: the lit part of each facet is not where its
-/// centroid is.
+/// A wall that shines only where the lamp is to one side of it: the lit part of each facet is not
+/// where its centroid is.
 fn half_dark_wall() -> Scene {
     let shines = table(|wi, _| if wi.x < -MIN_X { SHARE * FRAC_1_PI } else { 0.0 });
     let wall = measured([(Side::Front, ScatteringMode::Reflection, shines)]);
@@ -96,8 +97,8 @@ fn first_shot_finds_light_on_facets_whose_middle_is_dark() {
     }
 }
 
-/// The luminance of a measured wall is what its table gives of the lamp's illuminance, line of sight by line of
-/// sight.
+/// The luminance of a measured wall is what its table gives of the lamp's illuminance, line of
+/// sight by line of sight.
 #[test]
 fn a_measured_wall_in_a_picture() {
     let toward = DVec3::new(0.3, 0.4, 0.8).normalize();
@@ -122,8 +123,8 @@ fn a_measured_wall_in_a_picture() {
     assert_luminances(&simulate(&scene, &settings, &mut ()), &wanted);
 }
 
-/// A sheet that gives many times what it gets is taken at its word: in a black room it is a hundred times as bright as a
-/// diffuse one that gives a hundredth of that.
+/// A sheet that gives many times what it gets is taken at its word: in a black room it is a hundred
+/// times as bright as a diffuse one that gives a hundredth of that.
 #[test]
 fn a_sheet_that_gives_more_than_it_gets_is_used_as_it_is() {
     let with = |sheet: Bsdf| {
@@ -159,8 +160,8 @@ pub(crate) fn grid_below(origin: DVec3) -> Sensor {
     Sensor { name: "down".to_owned(), shape: SensorShape::Grid(grid) }
 }
 
-/// Two such sheets face each other, or one faces a bright room: the series of bounces has no sum. All estimators
-/// end, soon, and say so.
+/// Two such sheets face each other, or one faces a bright room: the series of bounces has no sum.
+/// All estimators end, soon, and say so.
 #[test]
 fn light_that_grows_for_ever_ends_with_a_warning() {
     let bright = || table(|_, _| 60.0 * FRAC_1_PI);

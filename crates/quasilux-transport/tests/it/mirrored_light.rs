@@ -1,9 +1,9 @@
-//! Point-like lights in rooms with mirrors: paths that see images agree with photons that are counted, which
-//! know nothing of them.
+//! Point-like lights in rooms with mirrors: paths that see images agree with photons that are
+//! counted, which know nothing of them.
 //!
-//! Means over the four cells of a floor grid, at 1 %: each pair of intervals must overlap when both are half
-//! as wide again. Per cell that fails for right programs once in some 2000 cases; the seed is fixed. What
-//! mirrors add is far more than that in every cell, which is asserted.
+//! Means over the four cells of a floor grid, at 1 %: each pair of intervals must overlap when both
+//! are half as wide again. Per cell that fails for right programs once in some 2000 cases; the seed
+//! is fixed. What mirrors add is far more than that in every cell, which is asserted.
 
 use crate::images::{add_panel, empty};
 use crate::materials::add_ball;
@@ -70,8 +70,8 @@ fn assert_agree(
     }
 }
 
-/// The least share of the light after at most one bounce that mirrors alone make, by photons: the rest of
-/// the room is black.
+/// The least share of the light after at most one bounce that mirrors alone make, by photons: the
+/// rest of the room is black.
 fn mirrored_share(black: &Scene) -> f64 {
     let [none, one] = [Some(0), Some(1)].map(|n| run(black, EstimatorKind::Photon, n));
     let pairs = none.point_intervals(0).into_iter().zip(one.point_intervals(0));
@@ -102,8 +102,8 @@ fn coloured_mirrors_and_a_screen() {
     assert_agree(&scene, &GATHERING[..2], false, &[Some(2), None]);
 }
 
-/// Chains that images do not follow come from photon density, without bias in cells that hang in the room:
-/// a depth of one leaves all longer chains to it.
+/// Chains that images do not follow come from photon density, without bias in cells that hang in
+/// the room: a depth of one leaves all longer chains to it.
 #[test]
 fn chains_past_the_depth_are_not_lost() {
     let mut scene = lit_room(0.0);
@@ -125,8 +125,8 @@ fn chains_past_the_depth_are_not_lost() {
     }
 }
 
-/// A mirrored half cylinder of many facets focuses light on a wall: density finds it at vertices, cells and
-/// points, blurred over an element.
+/// A mirrored half cylinder of many facets focuses light on a wall: density finds it at vertices,
+/// cells and points, blurred over an element.
 #[test]
 fn a_curved_mirror_focuses() {
     let mut scene = lit_room(0.6);
@@ -161,9 +161,9 @@ fn a_pane_and_a_mirror_wall() {
     assert_agree(&scene, &GATHERING[..2], false, &[Some(0), Some(1), Some(2)]);
 }
 
-/// Light that a mirror sends up through a grid whose normal is tilted so far that it counts: as the images say, where
-/// the depth of these is 0 and photons find it. A sixth of the light comes so; a tenth of that would be missed. On a panel
-/// nothing comes so.
+/// Light that a mirror sends up through a grid whose normal is tilted so far that it counts: as the
+/// images say, where the depth of these is 0 and photons find it. A sixth of the light comes so; a
+/// tenth of that would be missed. On a panel nothing comes so.
 #[test]
 fn a_tilted_grid_is_lit_through_its_back() {
     let mut scene = empty();

@@ -60,8 +60,8 @@ fn is_told(estimates: &Estimates) -> bool {
     estimates.warnings.iter().any(|warning| warning.contains("lobes so narrow"))
 }
 
-/// The lobe of a nearly perfect mirror is bright on a spot of the ceiling that few paths meet: nothing is said of the
-/// error until they have, and then what is said holds.
+/// The lobe of a nearly perfect mirror is bright on a spot of the ceiling that few paths meet:
+/// nothing is said of the error until they have, and then what is said holds.
 #[test]
 fn what_few_paths_meet_has_no_interval() {
     let bsdf = metal(0.03);
@@ -81,8 +81,8 @@ fn what_few_paths_meet_has_no_interval() {
     );
 }
 
-/// A sheet that lets light through in narrow lobes, of which the file knows the side with the lamp alone: paths do not
-/// draw their directions from it.
+/// A sheet that lets light through in narrow lobes, of which the file knows the side with the lamp
+/// alone: paths do not draw their directions from it.
 #[test]
 fn lobes_that_paths_do_not_draw_from_are_missed_too() {
     let sheet = measured([(Side::Front, ScatteringMode::Transmission, lobes(0.03, 16))]);

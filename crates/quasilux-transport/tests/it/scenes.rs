@@ -56,8 +56,8 @@ pub(crate) fn points(name: &str, points: &[(DVec3, DVec3)]) -> Sensor {
     Sensor { name: name.to_owned(), shape: SensorShape::Points(points.collect()) }
 }
 
-/// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003): 10 m, reflectance 2/3, 50 000 cd at the
-/// centre; points on the wall x = 0 at coordinates in units of the half side.
+/// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003): 10 m, reflectance 2/3, 50 000 cd at
+/// the centre; points on the wall x = 0 at coordinates in units of the half side.
 pub(crate) fn diffuse_cube(places: &[(f64, f64)]) -> Scene {
     let mut scene = room(DVec3::splat(10.0), diffuse(2.0 / 3.0));
     scene.lights.push(point_light(DVec3::splat(5.0), 50_000.0));

@@ -25,7 +25,8 @@ fn decided(scene: &Scene, rel_tol: f64) -> (Option<u64>, bool) {
     (connected_photons, map_elements.is_some())
 }
 
-/// Loose tolerances are reached before a map has paid for its photons or the scene is surveyed; close ones are not.
+/// Loose tolerances are reached before a map has paid for its photons or the scene is surveyed;
+/// close ones are not.
 #[test]
 fn what_is_wanted_decides() {
     let scene = diffuse_cube(&[(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)]);
@@ -38,8 +39,9 @@ fn what_is_wanted_decides() {
     assert!(light_vertices.is_some() && !on_map);
 }
 
-/// A bright lamp behind a screen in a box with a slit of 2 cm, and a dim one that all paths find at once. Their small spread says
-/// that a short run will do; a few photons show that most of the light comes through the slit, and so photons are joined.
+/// A bright lamp behind a screen in a box with a slit of 2 cm, and a dim one that all paths find at
+/// once. Their small spread says that a short run will do; a few photons show that most of the
+/// light comes through the slit, and so photons are joined.
 #[test]
 fn light_that_is_found_at_once_hides_no_other() {
     let mut scene = room(DVec3::new(4.0, 4.0, 3.0), diffuse(0.7));
@@ -59,8 +61,9 @@ fn light_that_is_found_at_once_hides_no_other() {
     assert!(decided(&scene, 0.05).0.is_some());
 }
 
-/// Of many targets some are looked at closely. One that is not stands in the dark, on a floor whose elements reach from the
-/// light to it: nothing is known there, its paths go alone, and the run gives it up.
+/// Of many targets some are looked at closely. One that is not stands in the dark, on a floor whose
+/// elements reach from the light to it: nothing is known there, its paths go alone, and the run
+/// gives it up.
 #[test]
 fn a_dark_place_among_many_is_given_up() {
     let mut scene = room(DVec3::new(6.0, 3.0, 2.5), diffuse(0.5));
@@ -83,7 +86,8 @@ fn a_dark_place_among_many_is_given_up() {
     assert!(dark.value == 0.0 && beside.value > 0.0, "{dark:?} {beside:?}");
 }
 
-/// An average of many points is known after the shortest run, whatever each of them is; so nothing is spent on a survey.
+/// An average of many points is known after the shortest run, whatever each of them is; so nothing
+/// is spent on a survey.
 #[test]
 fn averages_ask_for_less() {
     let mut scene = diffuse_cube(&[]);
@@ -102,7 +106,8 @@ fn averages_ask_for_less() {
     assert!(average < points / 2, "{average} {points}");
 }
 
-/// One sensor in a sealed box that no light reaches, among others outside: its paths end like those of others.
+/// One sensor in a sealed box that no light reaches, among others outside: its paths end like those
+/// of others.
 #[test]
 fn a_dark_box_costs_nothing() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.85));
@@ -121,6 +126,7 @@ fn a_dark_box_costs_nothing() {
     let with = run(&scene, 0.01, Switch::Off);
     assert!(!with.biased, "{:?}", with.warnings);
     assert_eq!(with.sensors[1].replicate_lx[0][0], 0.0);
-    // Sampled to the limit without ever being done, at plain prices: 20 surfaces at this reflectance.
+    // Sampled to the limit without ever being done, at plain prices: 20 surfaces at this
+    // reflectance.
     assert!(with.rays < without.rays + 128 * 16 * 150, "{} {}", with.rays, without.rays);
 }

@@ -71,10 +71,10 @@ fn settings(estimator: EstimatorKind, samples: u64) -> Settings {
     Settings { estimator, replicates: 8, rel_tol: 0.0, max_samples, ..Settings::default() }
 }
 
-/// They come between the last two checkpoints, whose samples take several rounds; the last one before
-/// a checkpoint is the mean over the replicates there, but for rounding; and those that look get the
-/// same bits as those that do not. Values on the way to the last checkpoint, of half the samples or more, are within
-/// 5 % of it: their standard errors are below 1 %.
+/// They come between the last two checkpoints, whose samples take several rounds; the last one
+/// before a checkpoint is the mean over the replicates there, but for rounding; and those that look
+/// get the same bits as those that do not. Values on the way to the last checkpoint, of half the
+/// samples or more, are within 5 % of it: their standard errors are below 1 %.
 #[test]
 fn snapshots_lead_to_the_checkpoints_and_disturb_nothing() {
     let scene = room();
@@ -105,8 +105,9 @@ fn snapshots_lead_to_the_checkpoints_and_disturb_nothing() {
     }
 }
 
-/// While photons of maps fly, points on the floor show what the maps have there and others what they
-/// had. 2^16 photons in all leave some 7 % of noise on an element of half a metre, and its light varies by as much.
+/// While photons of maps fly, points on the floor show what the maps have there and others what
+/// they had. 2^16 photons in all leave some 7 % of noise on an element of half a metre, and its
+/// light varies by as much.
 #[test]
 fn growing_maps_can_be_read() {
     let scene = room();

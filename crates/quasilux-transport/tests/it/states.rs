@@ -144,8 +144,8 @@ fn a_run_goes_on_from_any_of_its_states() {
     }
 }
 
-/// Stopped again and again, with a state each time, a run comes to the same end; stopped right after
-/// it has gone on, it has the results of its last checkpoint.
+/// Stopped again and again, with a state each time, a run comes to the same end; stopped right
+/// after it has gone on, it has the results of its last checkpoint.
 #[test]
 fn a_run_that_is_stopped_loses_nothing() {
     for (name, scene, settings) in runs() {
@@ -170,8 +170,8 @@ fn a_run_that_is_stopped_loses_nothing() {
     }
 }
 
-/// Points that were done before the run was stopped stay as they are, the others go on; and what is predicted, and
-/// where a limit on rays ends the run, hangs on all that came before.
+/// Points that were done before the run was stopped stay as they are, the others go on; and what is
+/// predicted, and where a limit on rays ends the run, hangs on all that came before.
 #[test]
 fn points_that_are_done_stay_done() {
     let mut mirrored = screened();
@@ -235,8 +235,8 @@ fn merged(
     merge(scene, settings, samples, &parts, &mut ())
 }
 
-/// One part, three, sixteen at random bounds, merged in random order; and the values are those of a plain run,
-/// whose intervals are wider for having been looked at before.
+/// One part, three, sixteen at random bounds, merged in random order; and the values are those of a
+/// plain run, whose intervals are wider for having been looked at before.
 #[test]
 fn parts_make_the_same_run_however_it_is_cut() {
     let mut numbers = Numbers(7);
@@ -308,7 +308,8 @@ fn parts_and_states_of_other_runs_are_refused() {
     }
 }
 
-/// Each index has to be in one part and in one alone, all parts of one scene and one number of samples.
+/// Each index has to be in one part and in one alone, all parts of one scene and one number of
+/// samples.
 #[test]
 fn parts_with_gaps_and_overlaps_are_refused() {
     let scene = closed(0.5);
@@ -345,7 +346,8 @@ fn parts_with_gaps_and_overlaps_are_refused() {
     assert_eq!(wrong.to_string(), "part 2 has the indices from 25 to before 41, of 40");
 }
 
-/// What a resealed file may say: the right decisions, and rows for another number of replicates or of terms.
+/// What a resealed file may say: the right decisions, and rows for another number of replicates or
+/// of terms.
 #[test]
 fn states_whose_rows_do_not_fit_are_refused() {
     let (scene, settings) = runs()
@@ -366,8 +368,8 @@ fn states_whose_rows_do_not_fit_are_refused() {
     }
 }
 
-/// Truncations and changed bits, without the digest over all bytes that files have: errors or other numbers,
-/// never a panic, and no more memory than the bytes say.
+/// Truncations and changed bits, without the digest over all bytes that files have: errors or other
+/// numbers, never a panic, and no more memory than the bytes say.
 #[test]
 fn damage_is_no_panic() {
     let mut numbers = Numbers(11);

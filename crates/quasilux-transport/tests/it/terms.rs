@@ -22,10 +22,10 @@ fn run(scene: &Scene, settings: &Settings) -> Estimates {
     estimates
 }
 
-/// In a furnace of reflectance r, term k is pi L r^k everywhere, and past n terms pi L r^n / (1 - r) is
-/// left. 80 intervals of 95 %, three times as wide (6.8 standard errors, 15 degrees of freedom): right
-/// programs fail once in some 10^3 seeds. A term that were counted one too early or late would be off by half,
-/// more than the 45 % that are allowed at most.
+/// In a furnace of reflectance r, term k is pi L r^k everywhere, and past n terms pi L r^n / (1 -
+/// r) is left. 80 intervals of 95 %, three times as wide (6.8 standard errors, 15 degrees of
+/// freedom): right programs fail once in some 10^3 seeds. A term that were counted one too early or
+/// late would be off by half, more than the 45 % that are allowed at most.
 #[test]
 fn terms_of_a_furnace_are_powers() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
@@ -69,10 +69,11 @@ fn terms_of_a_furnace_are_powers() {
     }
 }
 
-/// Means over the four cells of the floor: each pair of intervals of each term, of paths and of another
-/// estimator with another seed, must overlap when both are half as wide again, as in
-/// [`crate::agreement`]. Each term is four fifths of the one before at most, and known to a seventh. A
-/// point light adds what paths get of its image in the mirror, or, where images are not followed, of photons.
+/// Means over the four cells of the floor: each pair of intervals of each term, of paths and of
+/// another estimator with another seed, must overlap when both are half as wide again, as in
+/// [`crate::agreement`]. Each term is four fifths of the one before at most, and known to a
+/// seventh. A point light adds what paths get of its image in the mirror, or, where images are not
+/// followed, of photons.
 #[test]
 fn estimators_agree_term_by_term() {
     let panel = coloured_room_with_mirror();
@@ -116,7 +117,8 @@ fn estimators_agree_term_by_term() {
     }
 }
 
-/// Terms add up to the whole in each replicate but for rounding, and listing them changes no bit of it.
+/// Terms add up to the whole in each replicate but for rounding, and listing them changes no bit of
+/// it.
 #[test]
 fn terms_add_up_and_disturb_nothing() {
     let scene = coloured_room_with_mirror();

@@ -116,8 +116,8 @@ fn a_room_far_from_the_origin_is_the_same_room() {
     }
 }
 
-/// Where no light was found nobody knows how much is missing: neither the point has an interval nor any figure of
-/// all points. The second place lies behind a closed wall.
+/// Where no light was found nobody knows how much is missing: neither the point has an interval nor
+/// any figure of all points. The second place lies behind a closed wall.
 #[test]
 fn a_dark_point_leaves_no_figure_certain() {
     let mut scene = room(DVec3::splat(2.0), diffuse(0.5));

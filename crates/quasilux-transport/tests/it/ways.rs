@@ -1,4 +1,5 @@
-//! Photons in waves against photons one by one: the same integers, whatever the order and the threads.
+//! Photons in waves against photons one by one: the same integers, whatever the order and the
+//! threads.
 
 use crate::agreement::coloured_room_with_mirror;
 use crate::scenes::{diffuse, diffuse_cube, mirror, point_light, room, wall_grid};
@@ -30,8 +31,8 @@ fn settings(sequence: Sequence, max_bounces: Option<u32>) -> Settings {
     Settings { estimator, sequence, max_bounces, replicates: 3, ..Settings::default() }
 }
 
-/// An area light in a coloured room with a mirror, where photons of one wave come to be at different
-/// coordinates; a point light in a grey room; and a hall of mirrors, open to one side.
+/// An area light in a coloured room with a mirror, where photons of one wave come to be at
+/// different coordinates; a point light in a grey room; and a hall of mirrors, open to one side.
 fn scenes() -> [Scene; 3] {
     let mut cube = diffuse_cube(&[(0.5, 0.0)]);
     cube.sensors.push(wall_grid([5, 7]));

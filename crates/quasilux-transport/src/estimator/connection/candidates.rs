@@ -1,11 +1,12 @@
-//! The ways to join photons, tried: how many are joined for each path, and whether they are steered.
+//! The ways to join photons, tried: how many are joined for each path, and whether they are
+//! steered.
 //!
-//! A trial of each shows variances V of paths and U of a photon, at each sensor point and for one sample, and what
-//! both cost in rays: n photons a path leave `V + U / n`. Of all powers of two for n the cheapest is taken
-//! ([`crate::estimator::selection`]). Where a survey would have photons steered, they are tried steered and
-//! left alone. The best is compared with what needs no joined photons. Variances are relative to the tolerance, or else to the
-//! value. What paths hardly ever find does not show in their spread: what they are short of
-//! counts as an error of theirs.
+//! A trial of each shows variances V of paths and U of a photon, at each sensor point and for one
+//! sample, and what both cost in rays: n photons a path leave `V + U / n`. Of all powers of two for
+//! n the cheapest is taken ([`crate::estimator::selection`]). Where a survey would have photons
+//! steered, they are tried steered and left alone. The best is compared with what needs no joined
+//! photons. Variances are relative to the tolerance, or else to the value. What paths hardly ever
+//! find does not show in their spread: what they are short of counts as an error of theirs.
 
 use super::{ConnectionPlan, LightVertexConnections};
 use crate::context::Context;
@@ -29,16 +30,19 @@ const MAX_PHOTONS: u64 = 64;
 /// The same for photons that are only counted.
 const COARSE_PHOTONS: u64 = 64;
 const MAX_COARSE_PHOTONS: u64 = 1024;
-/// In a longer run, the error of the paths falls to about this part of what photons leave by then: they ask for
-/// fewer coordinates. Measured on the office and the cube, where it makes the error least for the rays.
+/// In a longer run, the error of the paths falls to about this part of what photons leave by then:
+/// they ask for fewer coordinates. Measured on the office and the cube, where it makes the error
+/// least for the rays.
 const LATER: f64 = 0.125;
-/// Photons are not counted by cell where sensors times cells are more than this: they would take 8 bytes each.
+/// Photons are not counted by cell where sensors times cells are more than this: they would take 8
+/// bytes each.
 const MAX_VIEWS: usize = 1 << 24;
-/// A ray that joins costs this part of a ray on a path: it only asks whether anything is in the way, and
-/// its neighbours end where it does.
+/// A ray that joins costs this part of a ray on a path: it only asks whether anything is in the
+/// way, and its neighbours end where it does.
 const JOINING_RAY: f64 = 0.25;
 
-/// What is left to chance of photons that are steered by nothing: measured on the office and the cube.
+/// What is left to chance of photons that are steered by nothing: measured on the office and the
+/// cube.
 const SMALL: f64 = 0.1;
 /// The most that is left to chance.
 const LARGEST: f64 = 64.0;
@@ -150,8 +154,9 @@ impl Ways {
         Self { ways, rays }
     }
 
-    /// The best of them, where that is asked for, or where it promises fewer rays than there are without, or finds much more
-    /// light where that was to be feared: of light that is seldom found, a spread says nothing.
+    /// The best of them, where that is asked for, or where it promises fewer rays than there are
+    /// without, or finds much more light where that was to be feared: of light that is seldom
+    /// found, a spread says nothing.
     pub(crate) fn choose<S: Spectrum>(
         mut self,
         context: &Context<'_, S>,
@@ -206,8 +211,8 @@ impl Ways {
         })
     }
 
-    /// The illuminance at each target, as far as known: the most that any way found, for what is seldom found is
-    /// found too little by most.
+    /// The illuminance at each target, as far as known: the most that any way found, for what is
+    /// seldom found is found too little by most.
     fn means_lx(&self, exact_lx: &[f64], alone: &Trial) -> Vec<f64> {
         let mean_lx = |(target, exact_lx): (usize, &f64)| {
             let found = |way: &Way| way.found_lx(target);
@@ -218,9 +223,10 @@ impl Ways {
     }
 }
 
-/// Photons as the survey says, and how far to doubt what a trial of them promises. Where the survey says that they should
-/// be steered, they are also left alone; their trial then hardly sees what the survey predicts, and what it promises is
-/// taken for as much dearer as the survey is surer of itself.
+/// Photons as the survey says, and how far to doubt what a trial of them promises. Where the survey
+/// says that they should be steered, they are also left alone; their trial then hardly sees what
+/// the survey predicts, and what it promises is taken for as much dearer as the survey is surer of
+/// itself.
 fn plans<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
@@ -307,10 +313,11 @@ fn powers_up_to(most: u64) -> impl Iterator<Item = u64> {
 
 /// The part of what a target gets below which deviations are left to chance.
 ///
-/// Where a deviation c, in parts of what a target gets, is asked for with probability c / t, that adds c t to the
-/// variance of a photon there, and saves 1 - c / t of a ray. Variance times cost is least where `t^2 = V r / R`: V the
-/// sum over the targets of the relative variance of a photon, R its rays, and r what a join costs (compare A. Rath et al.,
-/// "EARS: efficiency-aware Russian roulette and splitting", ACM Trans. Graph. 41(4), 2022). V is what the survey predicts of
+/// Where a deviation c, in parts of what a target gets, is asked for with probability c / t, that
+/// adds c t to the variance of a photon there, and saves 1 - c / t of a ray. Variance times cost is
+/// least where `t^2 = V r / R`: V the sum over the targets of the relative variance of a photon, R
+/// its rays, and r what a join costs (compare A. Rath et al., "EARS: efficiency-aware Russian
+/// roulette and splitting", ACM Trans. Graph. 41(4), 2022). V is what the survey predicts of
 /// photons that are steered: a trial hardly sees the rare ones that make most of it.
 fn left_to_chance(steered: Option<Performance>) -> f64 {
     let of_steered = |Performance { rays, variance }: Performance| {

@@ -20,16 +20,16 @@ use std::sync::Mutex;
 
 /// What leaves each cell of the survey, in all replicates.
 pub(super) struct CellTally {
-    /// Light of 0, 1, .. bounces before it landed, the last all from there on; straight light is always
-    /// told apart.
+    /// Light of 0, 1, .. bounces before it landed, the last all from there on; straight light is
+    /// always told apart.
     slots: usize,
     terms: usize,
     quantum: Quantum,
     cells: usize,
     /// By replicate; of cell c from `c * slots` on, in lm/sr.
     sums: Vec<Mutex<Vec<Sum>>>,
-    /// By replicate, for a photon: of class k of all terms together from cell c at `k * cells + c`, then
-    /// the same of each term.
+    /// By replicate, for a photon: of class k of all terms together from cell c at `k * cells + c`,
+    /// then the same of each term.
     means_lm_sr: Vec<Vec<f64>>,
     replicates: Range<u32>,
 }
@@ -98,8 +98,8 @@ impl CellTally {
         totals.into_iter().map(|sum| self.quantum.value(sum) / photons).collect()
     }
 
-    /// What a target with this outlook got in one replicate, in lx: of one term of the Neumann series, or
-    /// of all.
+    /// What a target with this outlook got in one replicate, in lx: of one term of the Neumann
+    /// series, or of all.
     pub(super) fn lx(
         &self,
         replicate: usize,

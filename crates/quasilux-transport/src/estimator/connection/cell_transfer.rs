@@ -1,8 +1,8 @@
 //! What sensors are expected to see of each cell of the survey.
 //!
-//! What a photon gives to a sensor changes little within a cell. What it gives on the mean is found once, from
-//! the few places that the survey remembers of each cell, before any photon counts: a coarse picture of the
-//! sensors' views. It need not be right, see [`super`].
+//! What a photon gives to a sensor changes little within a cell. What it gives on the mean is found
+//! once, from the few places that the survey remembers of each cell, before any photon counts: a
+//! coarse picture of the sensors' views. It need not be right, see [`super`].
 
 use super::ConnectionPlan;
 use super::exitant_flux::{ExitantFlux, Side};
@@ -15,12 +15,14 @@ use crate::world::Interaction;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Where in cells of grids places are looked at from: each from another quarter than the one before.
+/// Where in cells of grids places are looked at from: each from another quarter than the one
+/// before.
 const IN_CELL: [[f64; 2]; 4] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75], [0.75, 0.25]];
 /// Photons straight from their lights, and others: their shares differ.
 pub(super) const CLASSES: usize = 2;
 
-/// Illuminance in lx that each of some targets gets of a lm/sr that leaves a cell, mean over the cell.
+/// Illuminance in lx that each of some targets gets of a lm/sr that leaves a cell, mean over the
+/// cell.
 pub(super) struct CellTransfer {
     targets: usize,
     /// Of target t by class k from cell c at `(c * CLASSES + k) * targets + t`.
@@ -68,8 +70,8 @@ impl CellTransfer {
     }
 }
 
-/// What all targets see of one cell, first light that comes there straight, then other light; and the
-/// number of rays.
+/// What all targets see of one cell, first light that comes there straight, then other light; and
+/// the number of rays.
 fn look<S: Spectrum>(
     context: &Context<'_, S>,
     connection: &ConnectionPlan,

@@ -24,8 +24,8 @@ pub(super) struct Side {
 }
 
 impl ExitantFlux {
-    /// What a photon of this weight sends on after so many bounces, on a surface that keeps illuminance; `None` where
-    /// no more are wanted.
+    /// What a photon of this weight sends on after so many bounces, on a surface that keeps
+    /// illuminance; `None` where no more are wanted.
     pub(super) fn new<S: Spectrum>(
         context: &Context<'_, S>,
         connection: &ConnectionPlan,
@@ -59,8 +59,8 @@ impl ExitantFlux {
 }
 
 impl Side {
-    /// What is told to each cell around, in lm/sr, in proportion to linear interpolation: where it is told jumps
-    /// nowhere.
+    /// What is told to each cell around, in lm/sr, in proportion to linear interpolation: where it
+    /// is told jumps nowhere.
     pub(super) fn parts_lm_sr(&self) -> impl Iterator<Item = (usize, f64)> {
         self.around.iter().map(|(cell, weight)| (cell, weight * self.lm_sr))
     }

@@ -43,7 +43,8 @@ pub(crate) struct LightVertexConnections {
     samples: u64,
     /// Of each target that gets no more, the indices that it has.
     ends: Vec<Option<u64>>,
-    /// What photons that are counted had given to each of them by then, see [`Self::coarse_parts_lx`].
+    /// What photons that are counted had given to each of them by then, see
+    /// [`Self::coarse_parts_lx`].
     settled: Vec<Option<Vec<f64>>>,
 }
 
@@ -142,8 +143,8 @@ impl LightVertexConnections {
         (light_vertices + self.connection.cell_photons) * self.replicates.len() as u64
     }
 
-    /// Adds the photons that belong to the indices up to `samples`, those that are joined and those that are
-    /// counted; `None` when the observer stopped it.
+    /// Adds the photons that belong to the indices up to `samples`, those that are joined and those
+    /// that are counted; `None` when the observer stopped it.
     pub(crate) fn grow<S: Spectrum>(
         &mut self,
         context: &Context<'_, S>,

@@ -1,13 +1,13 @@
 //! Photons joined to sensors, beside paths: each finds what the other seldom does.
 //!
-//! A photon of flux P that lands at y on a diffuse surface of reflectance a gives
-//! `P a / pi * cos cos' / d^2` to a sensor at distance d that sees y. So a photon tells every sensor
-//! something: light that paths never find, behind corners, comes to all of them. Near corners `1 / d^2`
-//! has no bound, and there paths are good. The light that comes to a sensor by a first surface at y is
-//! therefore shared: the part w of it is left to the paths, and 1 - w to the photons, where w depends on
-//! nothing but the densities at y, in m^-2, of the paths' first hits, `p = cos cos' / (pi d^2)`, and of
-//! the photons' landings, n q (n photons for each path, q as foreseen by a survey). Any such shares have
-//! the right mean.
+//! A photon of flux P that lands at y on a diffuse surface of reflectance a gives `P a / pi * cos
+//! cos' / d^2` to a sensor at distance d that sees y. So a photon tells every sensor something:
+//! light that paths never find, behind corners, comes to all of them. Near corners `1 / d^2` has no
+//! bound, and there paths are good. The light that comes to a sensor by a first surface at y is
+//! therefore shared: the part w of it is left to the paths, and 1 - w to the photons, where w
+//! depends on nothing but the densities at y, in m^-2, of the paths' first hits, `p = cos cos' /
+//! (pi d^2)`, and of the photons' landings, n q (n photons for each path, q as foreseen by a
+//! survey). Any such shares have the right mean.
 //!
 //! ```text
 //! light that comes straight from lights to y:  w = p / (p + n q)         (balance heuristic)
@@ -15,27 +15,31 @@
 //! ```
 //!
 //! The first is Veach and Guibas's balance heuristic (SIGGRAPH 1995) with marginal densities: both
-//! estimates are good. For the second a path must go on, with light that it knows badly; it takes the part w along,
-//! which is 0 wherever a photon's contribution is bounded well enough. This is the compensation of clamped photons by
-//! T. Kollig and A. Keller, "Illumination in the presence of weak singularities", Monte Carlo and
-//! Quasi-Monte Carlo Methods 2004, Springer 2006. Where photons need steering, paths hardly ever find the light,
-//! and w = 0. The densities are interpolated, so that shares are continuous: each jump in what is summed
-//! costs quasi-random points some of their advantage.
+//! estimates are good. For the second a path must go on, with light that it knows badly; it takes
+//! the part w along, which is 0 wherever a photon's contribution is bounded well enough. This is
+//! the compensation of clamped photons by T. Kollig and A. Keller, "Illumination in the presence of
+//! weak singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Where
+//! photons need steering, paths hardly ever find the light, and w = 0. The densities are
+//! interpolated, so that shares are continuous: each jump in what is summed costs quasi-random
+//! points some of their advantage.
 //!
-//! ConnectionPlan is dear: a photon flies a few rays and asks for one to each sensor. Most photons are therefore only
-//! counted, by the survey's cells around where they land (`coarse`), and give each sensor what it is expected to see
-//! of these cells, which was found out before (`outlook`) and is interpolated, so that it has no jumps. Few are
-//! joined, and tell how much more or less than that they give. With A and B independent photons,
+//! ConnectionPlan is dear: a photon flies a few rays and asks for one to each sensor. Most photons
+//! are therefore only counted, by the survey's cells around where they land (`coarse`), and give
+//! each sensor what it is expected to see of these cells, which was found out before (`outlook`)
+//! and is interpolated, so that it has no jumps. Few are joined, and tell how much more or less
+//! than that they give. With A and B independent photons,
 //!
 //! ```text
 //! light by photons = mean over many A of expected(A) + mean over few B of (given by B - expected(B))
 //! ```
 //!
-//! whose mean is right for any expectation: two levels of M. B. Giles, "Multilevel Monte Carlo path simulation",
-//! Operations Research 56(3), 2008. Deviations from the expected that are small beside what the sensor gets are left
-//! to chance, and what survives counts more, so that rays are not spent on them.
+//! whose mean is right for any expectation: two levels of M. B. Giles, "Multilevel Monte Carlo path
+//! simulation", Operations Research 56(3), 2008. Deviations from the expected that are small beside
+//! what the sensor gets are left to chance, and what survives counts more, so that rays are not
+//! spent on them.
 //!
-//! How many photons of each kind come on a path, and whether any, is found out by trials ([`ways`]).
+//! How many photons of each kind come on a path, and whether any, is found out by trials
+//! ([`ways`]).
 
 mod candidates;
 mod cell_tally;
@@ -58,8 +62,8 @@ use crate::stats::tally::Sum;
 use crate::world::Interaction;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Photons that are steered by nothing go on for certain as long as absorption leaves so much of them, and
-/// by chance later: smooth sums are what quasi-random points are good at.
+/// Photons that are steered by nothing go on for certain as long as absorption leaves so much of
+/// them, and by chance later: smooth sums are what quasi-random points are good at.
 const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// How photons are joined to sensors.
@@ -70,7 +74,8 @@ pub(crate) struct ConnectionPlan {
     windows: Option<WeightWindows>,
     /// Photons for each path, that are only counted by the cell they land in.
     cell_photons: u64,
-    /// What deviates from the foreseen by less than this part of what a sensor gets in all is left to chance.
+    /// What deviates from the foreseen by less than this part of what a sensor gets in all is left
+    /// to chance.
     small: f64,
     /// Some places in each cell of the survey.
     places: Arc<[Vec<Interaction>]>,

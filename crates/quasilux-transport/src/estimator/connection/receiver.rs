@@ -20,14 +20,15 @@ use std::sync::Mutex;
 
 /// Rays that are traced together.
 const RAYS: usize = 512;
-/// What is right in the open may be in a shadow: it is asked for as if so large a part of it were wrong.
+/// What is right in the open may be in a shadow: it is asked for as if so large a part of it were
+/// wrong.
 const DOUBT: f64 = 0.25;
-/// The first of the coordinates for places in cells. In two streams a dimension has the same digits, permuted: those
-/// that photons draw first would decide where they are joined.
+/// The first of the coordinates for places in cells. In two streams a dimension has the same
+/// digits, permuted: those that photons draw first would decide where they are joined.
 const PLACE_DIMENSION: u32 = 512;
-/// Steps from target to target, and from bounce to bounce, of the number that decides it, and of the place in a
-/// cell from join to join: the additive sequence in two dimensions with the evenest gaps (M. Roberts, "The
-/// unreasonable effectiveness of quasirandom sequences", 2018).
+/// Steps from target to target, and from bounce to bounce, of the number that decides it, and of
+/// the place in a cell from join to join: the additive sequence in two dimensions with the evenest
+/// gaps (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 /// The same in one dimension, for the number that decides it from join to join.
 const STEP: f64 = 0.618_033_988_749_894_9;

@@ -1,9 +1,9 @@
 //! Where in a sensor's cell a photon is joined.
 //!
-//! A cell's mean counts all of its places alike, but a photon that lands close to its plane, at height h,
-//! matters to few of them, with `1 / d^2`. Half of such photons are joined to a place that is drawn by the
-//! cosine distribution of the plane as seen from there, of density `h^2 / (pi d^4)`, the others to an even
-//! one, and the balance heuristic weighs both (Veach and Guibas 1995).
+//! A cell's mean counts all of its places alike, but a photon that lands close to its plane, at
+//! height h, matters to few of them, with `1 / d^2`. Half of such photons are joined to a place
+//! that is drawn by the cosine distribution of the plane as seen from there, of density `h^2 / (pi
+//! d^4)`, the others to an even one, and the balance heuristic weighs both (Veach and Guibas 1995).
 
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Photons are joined by their own view of a cell up to so many of its edges beside it.
 const BESIDE: f64 = 1.0;
-/// Closer to the centre than so many radii nothing is said about what a photon gives at most: their own view
-/// of a cell is for closer photons alone.
+/// Closer to the centre than so many radii nothing is said about what a photon gives at most: their
+/// own view of a cell is for closer photons alone.
 const CLOSE: f64 = 4.0;
 
 /// A target, as photons see it.
@@ -144,8 +144,8 @@ mod tests {
     use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
     use quasilux_scene::Quantity;
 
-    /// The mean over a cell of what a photon gives, by both ways to draw a place and by a fine even grid.
-    /// Differences of 1 % would be found, near and far.
+    /// The mean over a cell of what a photon gives, by both ways to draw a place and by a fine even
+    /// grid. Differences of 1 % would be found, near and far.
     #[test]
     fn every_place_counts_what_it_should() {
         let grid = Grid {

@@ -45,8 +45,8 @@ impl LightVertexConnections {
         receiver.lx
     }
 
-    /// What they get from a photon that is joined, in lx, beyond what was expected of it; `places` has the
-    /// coordinates of its joins.
+    /// What they get from a photon that is joined, in lx, beyond what was expected of it; `places`
+    /// has the coordinates of its joins.
     pub(crate) fn of_connected_lx<S: Spectrum>(
         &self,
         context: &Context<'_, S>,

@@ -41,8 +41,8 @@ pub(super) struct Price {
 }
 
 impl PathRecord {
-    /// For a start where a unit is worth so much; what ends on the map takes so many rays more, as far as those are
-    /// flights.
+    /// For a start where a unit is worth so much; what ends on the map takes so many rays more, as
+    /// far as those are flights.
     pub(super) fn price(&self, ending: Ending<'_>, importance: f64, at_end: f64) -> Price {
         // Those that are left count more and more.
         let mut factor = importance;
@@ -82,9 +82,11 @@ impl PathRecord {
 mod tests {
     use super::*;
 
-    /// A walk of three surfaces, and what it finds with all chances played through: mean, variance and rays.
+    /// A walk of three surfaces, and what it finds with all chances played through: mean, variance
+    /// and rays.
     fn played(walk: &PathRecord, survival: &Survival, importance: f64) -> [f64; 3] {
-        // What it takes along to a surface is the part that counts there, of the light beyond all of them.
+        // What it takes along to a surface is the part that counts there, of the light beyond all
+        // of them.
         fn on(
             steps: &[Step],
             beyond: f64,
@@ -146,7 +148,8 @@ mod tests {
         }
         let certain = walk.price(Ending::Alone, 1.0, 0.0);
         assert_eq!(certain, Price { variance: 0.0, flights: 7.0 });
-        // Where no map is, paths end with nothing in hand; and on maps they may look for one light more.
+        // Where no map is, paths end with nothing in hand; and on maps they may look for one light
+        // more.
         let mut bare = walk.clone();
         bare.steps.iter_mut().for_each(|step| (step.is_on_map, step.alone) = (false, 0.5));
         let on_map = Ending::OnMap(&survival);

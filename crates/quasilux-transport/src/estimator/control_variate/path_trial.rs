@@ -12,8 +12,8 @@ use crate::stats::targets::Target;
 pub(crate) struct PathTrial<S> {
     pub(crate) trial: Trial,
     pub(crate) walks: PathRecords<S>,
-    /// Whether at every target most replicates whose paths came to surfaces that reflect found light that bounced: a
-    /// spread says nothing of what is hardly ever found.
+    /// Whether at every target most replicates whose paths came to surfaces that reflect found
+    /// light that bounced: a spread says nothing of what is hardly ever found.
     pub(crate) finds_light: bool,
 }
 

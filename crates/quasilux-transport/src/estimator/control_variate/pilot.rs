@@ -1,5 +1,5 @@
-//! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all, by what a trial of
-//! paths predicts.
+//! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all,
+//! by what a trial of paths predicts.
 
 use super::PathRecords;
 use super::path_record::Ending;
@@ -19,7 +19,8 @@ use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use std::f64::consts::SQRT_2;
 
-/// Photons of the pilot for each side of an element, and the part of the run's rays, 1 over this, that they may be.
+/// Photons of the pilot for each side of an element, and the part of the run's rays, 1 over this,
+/// that they may be.
 const PHOTONS_PER_ELEMENT: u64 = 8;
 const PHOTONS_SHARE: u64 = 32;
 /// The part of them, 1 over this, that it may take to find where light lands.
@@ -27,7 +28,8 @@ const FIRST_SHOT_SHARE: u64 = 8;
 /// Bounds on them, and on those of a map.
 const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
 pub(crate) const MAX_PHOTONS: u64 = 1 << 20;
-/// The search begins where paths go on with about the least probability; each step is a factor of sqrt(2).
+/// The search begins where paths go on with about the least probability; each step is a factor of
+/// sqrt(2).
 const STEPS: u32 = 16;
 
 /// A map as a pilot left it, and what is best made of it.
@@ -62,8 +64,8 @@ struct Growing<S> {
 }
 
 impl<S: Spectrum> Choice<S> {
-    /// Tries a map on the paths of a trial, which promise `noted` as they are, and `alone` if they end as paths without a
-    /// map do; `None` where too few bounces are wanted for any.
+    /// Tries a map on the paths of a trial, which promise `noted` as they are, and `alone` if they
+    /// end as paths without a map do; `None` where too few bounces are wanted for any.
     pub(crate) fn new(
         context: &Context<'_, S>,
         settings: &Settings,
@@ -117,7 +119,8 @@ impl<S: Spectrum> Choice<S> {
         self.use_of_it.pilot_cost()
     }
 
-    /// Its photons where it is not taken, if they left the lights and so say where the flux goes; of others it adds the rays.
+    /// Its photons where it is not taken, if they left the lights and so say where the flux goes;
+    /// of others it adds the rays.
     pub(crate) fn give_up(self, rays: &mut u64) -> Option<PhotonCounts> {
         let Growing { lit_cells, counts, .. } = self.map;
         if lit_cells.is_some() {
@@ -126,7 +129,8 @@ impl<S: Spectrum> Choice<S> {
         lit_cells.is_none().then_some(counts)
     }
 
-    /// The map with all its photons, for targets where a lux counts so much; and what it took from the start.
+    /// The map with all its photons, for targets where a lux counts so much; and what it took from
+    /// the start.
     pub(crate) fn freeze(
         mut self,
         context: &Context<'_, S>,

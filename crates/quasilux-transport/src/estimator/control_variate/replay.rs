@@ -193,7 +193,8 @@ impl Replay {
         if sums[1] > 0.0 { (sums[0] / sums[1]).min(MAX_NOISE) } else { 0.0 }
     }
 
-    /// Whether the map has much more light for some target than its paths found: light that is hard for them.
+    /// Whether the map has much more light for some target than its paths found: light that is hard
+    /// for them.
     pub(super) fn miss_light(&self, wanted: &ErrorTarget) -> bool {
         let mut sums = vec![[0.0; 2]; wanted.targets()];
         for (_, trip) in &self.trips {

@@ -51,7 +51,8 @@ struct Bench<'s> {
 }
 
 impl Bench<'_> {
-    /// Mean variance of trials of all targets, by what light counts there, and the rays of such a trial.
+    /// Mean variance of trials of all targets, by what light counts there, and the rays of such a
+    /// trial.
     fn variance_and_rays(&self, paths: Paths<'_>) -> (f64, f64) {
         let (mut variances, mut rays) = (Vec::new(), 0);
         for (number, &target) in self.targets.iter().enumerate() {
@@ -86,8 +87,8 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// A trial of a few hundred paths is itself only good to some tens of percent in variances, which have long tails,
-/// and to a few percent in rays.
+/// A trial of a few hundred paths is itself only good to some tens of percent in variances, which
+/// have long tails, and to a few percent in rays.
 fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let (sequence, randomization) = (Sequence::Independent, Randomization::None);
     let settings = Settings { sequence, randomization, max_bounces, ..Settings::default() };
@@ -138,8 +139,8 @@ fn a_trial_foretells_what_paths_cost_in_a_cube() {
     assert_foretold("a cube, twenty bounces", &scene, Some(20));
 }
 
-/// Walls that emit are looked for where paths end, cells ask all lamps where paths start, and at mirrors no path ends on
-/// a map.
+/// Walls that emit are looked for where paths end, cells ask all lamps where paths start, and at
+/// mirrors no path ends on a map.
 #[test]
 fn a_trial_foretells_what_paths_cost_among_lights_and_mirrors() {
     let mut scene = room(DVec3::new(3.0, 4.0, 2.5), diffuse(0.6));

@@ -1,8 +1,8 @@
-//! The way from one checkpoint to the next: photons that serve all paths, photons that come with each,
-//! and the paths themselves.
+//! The way from one checkpoint to the next: photons that serve all paths, photons that come with
+//! each, and the paths themselves.
 //!
-//! Between pieces of each of them the state can be kept. Each knows how far it is, so that a run that
-//! goes on from a state finds what is left.
+//! Between pieces of each of them the state can be kept. Each knows how far it is, so that a run
+//! that goes on from a state finds what is left.
 
 use super::PathEstimator;
 use crate::estimator::connection::LightVertexConnections;
@@ -18,8 +18,8 @@ use rayon::prelude::*;
 const ROUND: u64 = 1 << 17;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    /// Traces the photons that serve all paths of the indices up to `samples`; `false` when the observer
-    /// stopped it, as below.
+    /// Traces the photons that serve all paths of the indices up to `samples`; `false` when the
+    /// observer stopped it, as below.
     pub(super) fn serve(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         let replicates = u64::from(self.replicates);
         for piece in watch.pieces(self.end.photons(samples).unwrap_or(0..0), replicates) {

@@ -1,4 +1,5 @@
-//! Which targets are known by what their replicates show, and which may get light that paths have not met.
+//! Which targets are known by what their replicates show, and which may get light that paths have
+//! not met.
 
 use super::PathEstimator;
 use crate::path::lobes::LobeSums;
@@ -18,7 +19,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         .collect()
     }
 
-    /// Whether the paths of each target found light where they came to surfaces that reflect, and met lobes.
+    /// Whether the paths of each target found light where they came to surfaces that reflect, and
+    /// met lobes.
     pub(super) fn resolved(&self, missed_lobes: &[bool]) -> Vec<bool> {
         self.sums
             .chunks_exact(self.replicates as usize)

@@ -1,7 +1,8 @@
 //! What the targets show between two checkpoints, for those who look on.
 //!
 //! The sums of all replicates are taken together, over all paths that they stand for: part of the
-//! paths of a replicate is a part of its sequence from the start, so nothing is left out but the rest.
+//! paths of a replicate is a part of its sequence from the start, so nothing is left out but the
+//! rest.
 
 use super::PathEstimator;
 use crate::path::end::GrowingMaps;
@@ -35,8 +36,8 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         Before { gathering: self, moments }
     }
 
-    /// What the sensors show when `done` of the paths `indices` of all growing targets and replicates are
-    /// over, in the order of [`PathEstimator::sums`].
+    /// What the sensors show when `done` of the paths `indices` of all growing targets and
+    /// replicates are over, in the order of [`PathEstimator::sums`].
     pub(super) fn snapshot(&self, indices: &Range<u64>, done: u64) -> Snapshot {
         let replicates = u64::from(self.replicates);
         let each = (indices.end - indices.start) * replicates;
@@ -78,7 +79,8 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
 }
 
 impl<S: Spectrum> Before<'_, '_, S> {
-    /// The same with what growing maps have under the targets, in place of what paths read from them.
+    /// The same with what growing maps have under the targets, in place of what paths read from
+    /// them.
     pub(super) fn snapshot(&self, maps: &GrowingMaps<'_, S>) -> Snapshot {
         let PathEstimator { context, scene, targets, .. } = self.gathering;
         let value_lx = |(target, before): (_, &Moment)| {

@@ -74,8 +74,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         Ok(())
     }
 
-    /// What is the same in all parts of one run: of the photons that serve all paths, what the estimate
-    /// itself needs.
+    /// What is the same in all parts of one run: of the photons that serve all paths, what the
+    /// estimate itself needs.
     pub(super) fn put_shared(&self, out: &mut Writer) {
         self.shared.put(out);
         self.caustics.iter().for_each(|caustics| caustics.put_targets(out));

@@ -1,12 +1,12 @@
 //! Whether steering pays where sensors count photons: pilots of both kinds tell.
 //!
-//! The survey knows what photons are worth where they land. Sensors count them in flight, and a flight
-//! through a cell is a chance that the survey does not weigh: after the last surface before a sensor
-//! it may thin photons out. So what it predicts is tried before it is believed.
+//! The survey knows what photons are worth where they land. Sensors count them in flight, and a
+//! flight through a cell is a chance that the survey does not weigh: after the last surface before
+//! a sensor it may thin photons out. So what it predicts is tried before it is believed.
 //!
-//! With s_i what the i-th of N photons leaves in a counter, the relative variance of their mean is at most
-//! `sum s_i^2 / (sum s_i)^2` (Kish 1965), and 1 is said where none came. Photons of both kinds take as many rays; the
-//! mean over the counters decides.
+//! With s_i what the i-th of N photons leaves in a counter, the relative variance of their mean is
+//! at most `sum s_i^2 / (sum s_i)^2` (Kish 1965), and 1 is said where none came. Photons of both
+//! kinds take as many rays; the mean over the counters decides.
 
 use super::Receivers;
 use crate::context::{Context, Stream};

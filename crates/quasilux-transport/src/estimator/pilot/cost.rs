@@ -1,11 +1,12 @@
 //! What a run costs whose targets have given variances.
 //!
-//! With variances v of one trial, in units of the error that is wanted squared, a target needs a number of samples in
-//! proportion to its v. Paths of a target that is done cost nothing more, so they cost the mean of v times
-//! what a trial of all of them costs. Photons serve all targets at once and fly until the last is done, so they
-//! cost the largest v. Where no target is done before the others, because the number of samples is given or averages
-//! alone are to be known, everything costs in proportion to the mean: the squared error times the rays. How
-//! long the run is says how much that is beside what comes before the first path ([`Budget`]).
+//! With variances v of one trial, in units of the error that is wanted squared, a target needs a
+//! number of samples in proportion to its v. Paths of a target that is done cost nothing more, so
+//! they cost the mean of v times what a trial of all of them costs. Photons serve all targets at
+//! once and fly until the last is done, so they cost the largest v. Where no target is done before
+//! the others, because the number of samples is given or averages alone are to be known, everything
+//! costs in proportion to the mean: the squared error times the rays. How long the run is says how
+//! much that is beside what comes before the first path ([`Budget`]).
 
 use super::trial::{REPLICATES, SAMPLES};
 use crate::settings::{Settings, ToleranceOn};
@@ -25,7 +26,8 @@ enum Cost {
     ForAll,
 }
 
-/// How long a run is. Limits on samples or rays have no part in it: they only say which checkpoint is the last.
+/// How long a run is. Limits on samples or rays have no part in it: they only say which checkpoint
+/// is the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Budget {
     cost: Cost,
@@ -59,7 +61,8 @@ impl<'v> PilotCost<'v> {
 }
 
 impl Budget {
-    /// As these settings end a run, with so many targets, and so many for each that is in the trial.
+    /// As these settings end a run, with so many targets, and so many for each that is in the
+    /// trial.
     pub(crate) fn of(settings: &Settings, (all, targets): (usize, f64)) -> Self {
         let fixed = settings.sequence.points();
         let is_tolerance = settings.has_tolerance() && fixed.is_none();
@@ -93,7 +96,8 @@ impl Budget {
     pub(crate) fn rays(&self, plain: &PilotCost<'_>, pilot_cost: &PilotCost<'_>) -> f64 {
         let each = pilot_cost.of_paths + pilot_cost.of_photons;
         let sampled = if let Some(trials) = self.trials_for_variance {
-            // Paths of different targets are independent, and photons are the same for many of them.
+            // Paths of different targets are independent, and photons are the same for many of
+            // them.
             let averaged = if pilot_cost.of_photons > 0.0 { 1.0 } else { self.averaged };
             (trials * self.effort(pilot_cost) / averaged).max(self.trials * each)
         } else {
@@ -110,7 +114,8 @@ impl Cost {
     fn rays(self, variances: &[f64], of_paths: f64, of_photons: f64) -> f64 {
         let mean = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
         let of_last = match self {
-            // The largest of many that are known badly is too large: it is taken half way to the mean.
+            // The largest of many that are known badly is too large: it is taken half way to the
+            // mean.
             Self::UntilEachIsDone => 0.5 * (mean + variances.iter().copied().fold(mean, f64::max)),
             Self::ForAll => mean,
         };
@@ -159,7 +164,8 @@ mod tests {
         };
         let rays = |settings: &Settings, variance: f64| rays_for(1.0, settings, variance);
         let open = Settings::default();
-        // t of a look is 2.25, and the variance of 16 samples falls to 16 / t^2 after 16 * 1000 t^2 / 16 samples.
+        // t of a look is 2.25, and the variance of 16 samples falls to 16 / t^2 after 16 * 1000 t^2
+        // / 16 samples.
         let t = t_quantile_for(16, miss_probability_of_a_look(0.05, 16)).unwrap();
         let all = 1000.0 * t * t * 100.0 + 1000.0;
         assert!((rays(&open, 1000.0) / all - 1.0).abs() < 1e-4, "{}", rays(&open, 1000.0));
@@ -168,7 +174,8 @@ mod tests {
         assert_eq!(rays_for(3.0, &open, 1e-9), 3.0 * 128.0 * 16.0 * 800.0 / 128.0 + 1000.0);
         let averages = Settings { tolerance_on: ToleranceOn::Summary, ..open.clone() };
         assert!((rays(&averages, 1000.0) / (1000.0 + (all - 1000.0) / 9.0) - 1.0).abs() < 1e-9);
-        // Without a tolerance 4096 samples, or as many as leave the error of 4096 plain ones; limits do not matter.
+        // Without a tolerance 4096 samples, or as many as leave the error of 4096 plain ones;
+        // limits do not matter.
         let given = Settings { max_samples: Some(64), rel_tol: 0.0, ..open };
         assert_eq!(rays(&given, 1000.0), 4096.0 * 16.0 * 800.0 / 128.0 + 1000.0);
         assert_eq!(rays(&given, 500.0), 2048.0 * 16.0 * 800.0 / 128.0 + 1000.0);

@@ -28,8 +28,8 @@ impl ErrorTarget {
         Self { budget, settings: settings.clone(), means_lx, average_lx }
     }
 
-    /// What an error is compared with where the illuminance is this: its tolerance, that of the average where only
-    /// averages are wanted, or itself where there is none.
+    /// What an error is compared with where the illuminance is this: its tolerance, that of the
+    /// average where only averages are wanted, or itself where there is none.
     fn scale_lx(&self, mean_lx: f64) -> f64 {
         let Self { settings, average_lx, .. } = self;
         match settings.tolerance_on {
@@ -69,8 +69,8 @@ impl ErrorTarget {
         self.seen().map(relative).collect()
     }
 
-    /// How much a trial is short of the means, over the scales and squared, mean over the targets: as far as it
-    /// cannot be by chance, where means have this variance.
+    /// How much a trial is short of the means, over the scales and squared, mean over the targets:
+    /// as far as it cannot be by chance, where means have this variance.
     pub(crate) fn shortfall(&self, found_lx: impl Fn(usize) -> f64, noise: f64) -> f64 {
         let (sum, count) = self.seen().fold((0.0, 0.0), |(sum, count), target| {
             let mean_lx = self.means_lx[target];

@@ -1,4 +1,5 @@
-//! Pilots: a few samples at some targets, and the rays that a whole run would take by what they find.
+//! Pilots: a few samples at some targets, and the rays that a whole run would take by what they
+//! find.
 
 mod cost;
 mod error_target;

@@ -108,7 +108,8 @@ impl Trial {
     }
 }
 
-/// What one short look finds at each target, in lx, by paths to their ends in one replicate; and its rays.
+/// What one short look finds at each target, in lx, by paths to their ends in one replicate; and
+/// its rays.
 pub(crate) fn short_looks<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
@@ -131,8 +132,8 @@ pub(crate) struct TrialPaths<'t> {
     pub(crate) quantum: Quantum,
 }
 
-/// Traces the paths of a trial; `record` gets each with the number of its target. Results are in the
-/// order of [`Trial::lx`].
+/// Traces the paths of a trial; `record` gets each with the number of its target. Results are in
+/// the order of [`Trial::lx`].
 pub(crate) fn trace<S: Spectrum, R: Default + Send>(
     context: &Context<'_, S>,
     paths: &TrialPaths<'_>,

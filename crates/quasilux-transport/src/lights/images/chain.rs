@@ -1,12 +1,13 @@
 //! The way of light from an image to a place, unfolded: where it meets each mirror.
 //!
-//! Seen from the place, the last mirror shows the image of the whole chain, and the straight line to it
-//! meets the mirror where the light leaves it; from there the line to the image before meets the
-//! mirror before, and so on to the light. The way exists where each line meets its mirror's facets,
-//! from the side that the light is on, and nothing stands between one mirror and the next.
+//! Seen from the place, the last mirror shows the image of the whole chain, and the straight line
+//! to it meets the mirror where the light leaves it; from there the line to the image before meets
+//! the mirror before, and so on to the light. The way exists where each line meets its mirror's
+//! facets, from the side that the light is on, and nothing stands between one mirror and the next.
 //!
 //! Where mirrors meet in an edge, several chains share an image, and a line through the edge itself
-//! meets the mirrors of all of them: the points agree then ([`Links::are_same`]), and one of them counts.
+//! meets the mirrors of all of them: the points agree then ([`Links::are_same`]), and one of them
+//! counts.
 
 use super::planes::MirrorPlanes;
 use super::tree::Images;
@@ -16,14 +17,14 @@ use glam::DVec3;
 use quasilux_bvh::RayQuery;
 use std::ops::Range;
 
-/// Points in mirrors are drawn this many hairs toward the middle of their facet, so that rays do not
-/// meet what adjoins the facet's edge; lines may pass a facet at one hair.
+/// Points in mirrors are drawn this many hairs toward the middle of their facet, so that rays do
+/// not meet what adjoins the facet's edge; lines may pass a facet at one hair.
 const HAIRS_INWARD: f64 = 4.0;
 /// Points of two chains that are this many hairs apart are one.
 const HAIRS_APART: f64 = 64.0;
 
-/// Where light of images meets its mirrors: the links of many ways in one list, those of one way the
-/// mirror nearest to the place first.
+/// Where light of images meets its mirrors: the links of many ways in one list, those of one way
+/// the mirror nearest to the place first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Links(Vec<Link>);
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// Half-angles are drawn this much too large, in rad: images are left out only where that is certain.
+/// Half-angles are drawn this much too large, in rad: images are left out only where that is
+/// certain.
 const MARGIN_RAD: f64 = 1e-6;
 
 /// All directions no farther than an angle from an axis.

@@ -1,5 +1,5 @@
-//! How a photon came: whether a path that gathers finds its light by itself, sees it in an image, or
-//! neither.
+//! How a photon came: whether a path that gathers finds its light by itself, sees it in an image,
+//! or neither.
 
 use crate::bsdf::Bsdf;
 use crate::lights::images::SpecularImages;
@@ -12,16 +12,16 @@ pub(crate) enum LightPathClass {
     Shown(u32),
     /// From a luminous shape, straight or through panes: paths see it.
     Straight,
-    /// From a light that nothing runs into, by specular surfaces alone, and in no image: paths cannot
-    /// find it.
+    /// From a light that nothing runs into, by specular surfaces alone, and in no image: paths
+    /// cannot find it.
     Caustic,
     /// Any other: paths find it where it was scattered last, or run into its light.
     Found,
 }
 
 impl LightPathClass {
-    /// The trail after one more surface: `bsdf` on `facet`; `mirrored` where the photon stays on its
-    /// side.
+    /// The trail after one more surface: `bsdf` on `facet`; `mirrored` where the photon stays on
+    /// its side.
     pub(crate) fn after<S: Spectrum>(
         self,
         images: &SpecularImages,

@@ -1,7 +1,9 @@
-//! Point-like lights in plane mirrors: light that no sampling finds, since nothing runs into a point.
+//! Point-like lights in plane mirrors: light that no sampling finds, since nothing runs into a
+//! point.
 //!
 //! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
-//! to a place, and `path_class` which photons took such a way and are left out where images are counted.
+//! to a place, and `path_class` which photons took such a way and are left out where images are
+//! counted.
 //!
 //! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
 //! reflect, I in the direction in which the light really leaves.
@@ -28,8 +30,8 @@ pub(crate) use light_path_class::LightPathClass;
 
 /// So many images at a vertex are all tested; of more one is chosen.
 const ALL_TESTED: usize = 8;
-/// So many images, those of least depth, are considered at each vertex, and at most so many of the others,
-/// evenly spaced: far images are many and give little.
+/// So many images, those of least depth, are considered at each vertex, and at most so many of the
+/// others, evenly spaced: far images are many and give little.
 const SURE: usize = 64;
 const THINNED: usize = 64;
 
@@ -150,8 +152,9 @@ impl SpecularImages {
         shadows.answer(world, receive);
     }
 
-    /// Asks for the light that a path gets from images at a vertex, with the coordinate `u`: of all where they are few. Of very many, far ones are thinned out; of those that
-    /// give anything unshadowed, one is chosen in proportion to what it gives where they are more than
+    /// Asks for the light that a path gets from images at a vertex, with the coordinate `u`: of all
+    /// where they are few. Of very many, far ones are thinned out; of those that give anything
+    /// unshadowed, one is chosen in proportion to what it gives where they are more than
     /// [`ALL_TESTED`].
     pub(crate) fn sample_direct<S: Spectrum>(
         &self,

@@ -1,8 +1,9 @@
 //! Mirrors as planes: facets that reflect and lie in one plane are one mirror.
 //!
-//! Every facet is flat, so even a curved mirror is made of planes, of very many. Up to [`FEW_PLANES`] are
-//! taken all; where there are more, only those that hold at least [`MIN_SHARE`] of the area of all
-//! mirrors are, and the others count as curved: their light is not followed from image to image.
+//! Every facet is flat, so even a curved mirror is made of planes, of very many. Up to
+//! [`FEW_PLANES`] are taken all; where there are more, only those that hold at least [`MIN_SHARE`]
+//! of the area of all mirrors are, and the others count as curved: their light is not followed from
+//! image to image.
 
 use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
@@ -15,8 +16,8 @@ use std::sync::Arc;
 const FEW_PLANES: usize = 64;
 /// Share of the mirrors' area that a plane among many has at least.
 const MIN_SHARE: f64 = 0.01;
-/// Normals that agree to this, and heights over a common point that agree to this share of the scene's
-/// size, are one plane's.
+/// Normals that agree to this, and heights over a common point that agree to this share of the
+/// scene's size, are one plane's.
 const SAME_PLANE: f64 = 1e-6;
 /// Steps of the cosine of incidence in which it is known how much is reflected; and looks in each.
 const COSINES: usize = 32;
@@ -140,7 +141,8 @@ impl MostReflected {
 }
 
 impl MirrorPlane {
-    /// The most that is reflected in any channel of light whose cosine of incidence is this or larger.
+    /// The most that is reflected in any channel of light whose cosine of incidence is this or
+    /// larger.
     pub(crate) fn most_reflected(&self, least_cos: f64) -> f64 {
         self.reflectance.0[(least_cos.clamp(0.0, 1.0) * COSINES as f64) as usize]
     }

@@ -1,12 +1,13 @@
 //! The images of lights in plane mirrors: a tree, from each light to what its mirrors show of it.
 //!
-//! An image in a mirror is a light behind the mirror's plane, and its image in the next mirror is found
-//! in the same way (Allen and Berkley 1979, "Image method for efficiently simulating small-room
-//! acoustics"; Borish 1984, "Extension of the image model to arbitrary polyhedra", whose tests of
-//! validity and visibility are the ones here and in `chain`). Left out is what cannot be seen from
-//! anywhere: images of a mirror that the beam of the one before misses. The tree is made level by level
-//! and ends where the mirrors of a chain together reflect less than [`MIN_REFLECTED`], at the
-//! depth that is asked for, or before the level that would make it too large.
+//! An image in a mirror is a light behind the mirror's plane, and its image in the next mirror is
+//! found in the same way (Allen and Berkley 1979, "Image method for efficiently simulating
+//! small-room acoustics"; Borish 1984, "Extension of the image model to arbitrary polyhedra", whose
+//! tests of validity and visibility are the ones here and in `chain`). Left out is what cannot be
+//! seen from anywhere: images of a mirror that the beam of the one before misses. The tree is made
+//! level by level and ends where the mirrors of a chain together reflect less than
+//! [`MIN_REFLECTED`], at the depth that is asked for, or before the level that would make it too
+//! large.
 
 use super::cone::Cone;
 use super::planes::{MirrorPlane, MirrorPlanes};
@@ -17,7 +18,8 @@ use std::ops::Range;
 const MIN_REFLECTED: f64 = 1e-4;
 /// Images that are taken whatever depth is asked for.
 const MAX_IMAGES: usize = 4096;
-/// Where no depth is asked for, levels past [`SURE_DEPTH`] come only while all images stay this few.
+/// Where no depth is asked for, levels past [`SURE_DEPTH`] come only while all images stay this
+/// few.
 const FEW_IMAGES: usize = 1024;
 const SURE_DEPTH: u32 = 4;
 
@@ -155,8 +157,8 @@ impl Images {
         Some(children.start + place as u32)
     }
 
-    /// Numbers of the images in mirrors, without the lights themselves, by depth: the first `sure` of
-    /// them, and of the others every `stride`th, from the one that `phase` in [0, 1) picks.
+    /// Numbers of the images in mirrors, without the lights themselves, by depth: the first `sure`
+    /// of them, and of the others every `stride`th, from the one that `phase` in [0, 1) picks.
     pub(crate) fn mirrored(
         &self,
         sure: usize,
@@ -176,7 +178,8 @@ fn is_before(window: &MirrorPlane, mirror: &MirrorPlane, image: DVec3, slack_m: 
     corners.into_iter().any(|corner| mirror.height_m(corner) * side > slack_m)
 }
 
-/// A cone around all of a mirror that the light of an image may reach, which comes through `window`.
+/// A cone around all of a mirror that the light of an image may reach, which comes through
+/// `window`.
 fn beam_on(
     image: &Image,
     window: Option<&MirrorPlane>,

@@ -1,7 +1,8 @@
-//! A frozen illumination map as a control variate: paths end on it, and those that go on correct it.
+//! A frozen illumination map as a control variate: paths end on it, and those that go on correct
+//! it.
 //!
-//! `estimator/control_variate/` decides how many photons it gets, and with what probability paths go
-//! on ([`survival`]).
+//! `estimator/control_variate/` decides how many photons it gets, and with what probability paths
+//! go on ([`survival`]).
 
 pub(crate) mod survival;
 
@@ -10,8 +11,8 @@ use crate::photon::map::{IlluminationMap, MapLayout, MapTally, Place};
 use crate::spectrum::Spectrum;
 use survival::Survival;
 
-/// With so many wanted bounces or fewer, and no more sides of elements, the map keeps light apart by its bounces, so that
-/// paths may end on it anywhere; else only at the first surface.
+/// With so many wanted bounces or fewer, and no more sides of elements, the map keeps light apart
+/// by its bounces, so that paths may end on it anywhere; else only at the first surface.
 const MAX_LAYERS: u32 = 16;
 const MAX_LAYERED_SIDES: u64 = 1 << 21;
 
@@ -35,7 +36,8 @@ pub(crate) struct FrozenMap<S> {
     /// Whether its photons left lit places.
     pub(crate) first_shot: bool,
     pub(crate) survival: Survival,
-    /// What a lux at each target counts: one over the error that matters there, 0 where that is not known.
+    /// What a lux at each target counts: one over the error that matters there, 0 where that is not
+    /// known.
     pub(crate) importance_per_lx: Vec<f64>,
 }
 
@@ -72,16 +74,16 @@ impl<S: Spectrum> FrozenMap<S> {
 }
 
 impl<S: Spectrum> FrozenEnd<'_, S> {
-    /// With what probability a path goes on from a place where a lux counts `weight` at its start, and the map has
-    /// so much `light` by that measure; `None` where nothing is known of that.
+    /// With what probability a path goes on from a place where a lux counts `weight` at its start,
+    /// and the map has so much `light` by that measure; `None` where nothing is known of that.
     pub(crate) fn chance(&self, place: &Place, weight: f64, light: f64) -> Option<f64> {
         let [weight, light] = [weight, light].map(|lx| lx * self.importance_per_lx);
         self.survival.chance(place.element, weight, light)
     }
 }
 
-/// Layers of a map with so many sides of elements that tell apart what is to be told apart; the last counts all that
-/// bounced more often.
+/// Layers of a map with so many sides of elements that tell apart what is to be told apart; the
+/// last counts all that bounced more often.
 pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32, sides: u64) -> u32 {
     match max_bounces {
         Some(most) if is_layered(most, sides) => most.saturating_sub(1).max(1),
@@ -89,8 +91,8 @@ pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32, sides: u64) ->
     }
 }
 
-/// Most bounces of light on a map with so many sides of elements that may come to a start by a surface that was met after
-/// `bounces`; `None` where paths do not end on it.
+/// Most bounces of light on a map with so many sides of elements that may come to a start by a
+/// surface that was met after `bounces`; `None` where paths do not end on it.
 pub(crate) fn bounces_left(max_bounces: Option<u32>, bounces: u32, sides: u64) -> Option<u32> {
     let Some(most) = max_bounces else { return Some(u32::MAX) };
     let left = most.saturating_sub(bounces + 1);

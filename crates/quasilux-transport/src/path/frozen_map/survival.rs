@@ -4,9 +4,11 @@ use crate::codec::Writer;
 
 /// Paths go on with this probability at least, so that no survivor counts too much.
 pub(crate) const MIN: f64 = 1.0 / 64.0;
-/// Where the map has less than this part of the mean, it is taken as if it had so much: it may have missed something.
+/// Where the map has less than this part of the mean, it is taken as if it had so much: it may have
+/// missed something.
 const DIM: f64 = 0.1;
-/// What is known of all elements counts in each as much as this many paths of its own, of usual light.
+/// What is known of all elements counts in each as much as this many paths of its own, of usual
+/// light.
 const PRIOR: f64 = 16.0;
 
 /// How far a map is off, and what is made of that.
@@ -16,13 +18,15 @@ pub(crate) struct Survival {
     sureness: f64,
     /// Illuminance where paths come to the map: what they find, or what it has where that is more.
     mean_lx: f64,
-    /// Root mean square of what paths find beyond a surface less what the map has, over what it has.
+    /// Root mean square of what paths find beyond a surface less what the map has, over what it
+    /// has.
     usual_off: f64,
     /// The same of single elements where anything is known of them, in their order.
     off: Vec<(usize, f64)>,
 }
 
-/// What one path found beyond an element, and what the map has there, both by what they count at its start.
+/// What one path found beyond an element, and what the map has there, both by what they count at
+/// its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Finding {
     pub(crate) element: usize,
@@ -87,7 +91,8 @@ impl Survival {
         off * self.light(weight, light)
     }
 
-    /// With what probability it goes on; `None` where a lux counts nothing, or neither paths nor photons found any.
+    /// With what probability it goes on; `None` where a lux counts nothing, or neither paths nor
+    /// photons found any.
     pub(crate) fn chance(&self, element: usize, weight: f64, light: f64) -> Option<f64> {
         let is_known = weight > 0.0 && self.mean_lx > 0.0;
         let loss = is_known.then(|| self.loss(element, weight, light))?;

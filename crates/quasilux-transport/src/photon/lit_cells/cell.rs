@@ -5,8 +5,8 @@
 pub(super) struct Cell {
     /// Second and third weight of its first corner.
     origin: [f64; 2],
-    /// How far its other corners lie from there, each along one of the weights; negative where it is
-    /// turned by half a turn.
+    /// How far its other corners lie from there, each along one of the weights; negative where it
+    /// is turned by half a turn.
     step: f64,
 }
 
@@ -20,8 +20,8 @@ impl Cell {
         [(1.0 - b - c).max(0.0), b, c]
     }
 
-    /// The four cells between its corners and the middles of its edges, neighbours in a row but for the
-    /// last: each leaves out of the corners and middles of [`Self::split`] what is not its own.
+    /// The four cells between its corners and the middles of its edges, neighbours in a row but for
+    /// the last: each leaves out of the corners and middles of [`Self::split`] what is not its own.
     pub(super) fn parts(self) -> [Self; 4] {
         let ([b, c], step) = (self.origin, 0.5 * self.step);
         let standing = |b: f64, c: f64| Self { origin: [b, c], step };
@@ -29,8 +29,8 @@ impl Cell {
         [standing(b, c), turned, standing(b + step, c), standing(b, c + step)]
     }
 
-    /// What belongs to the corners of the four [`Self::parts`]: `corners` to those of the cell, `middles`
-    /// to those of the edges opposite to them.
+    /// What belongs to the corners of the four [`Self::parts`]: `corners` to those of the cell,
+    /// `middles` to those of the edges opposite to them.
     pub(super) fn split<T: Copy>(corners: [T; 3], middles: [T; 3]) -> [[T; 3]; 4] {
         let ([a, b, c], [bc, ca, ab]) = (corners, middles);
         [[a, ab, ca], [bc, ca, ab], [ab, b, bc], [ca, bc, c]]

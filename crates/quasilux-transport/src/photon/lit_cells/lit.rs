@@ -1,9 +1,9 @@
 //! Where the light of one point-like light lands: a piecewise linear picture of it.
 //!
-//! A facet that faces the light is cut into cells until its illuminance is linear enough in each: as
-//! far as looks at the corners and the middles of the edges tell, and where the light is so near, or
-//! its beam so narrow, that looks may miss what lies between them. It is a picture to draw places by, not
-//! an estimate: what it has wrong costs variance.
+//! A facet that faces the light is cut into cells until its illuminance is linear enough in each:
+//! as far as looks at the corners and the middles of the edges tell, and where the light is so
+//! near, or its beam so narrow, that looks may miss what lies between them. It is a picture to draw
+//! places by, not an estimate: what it has wrong costs variance.
 
 use super::cell::Cell;
 use crate::bsdf::TransportMode;
@@ -17,7 +17,8 @@ use quasilux_scene::Light;
 const TOLERANCE: f64 = 1.0 / (1 << 10) as f64;
 /// Cells that may get more than this share are cut while they look large from the light.
 const NOTABLE: f64 = 1.0 / (1 << 10) as f64;
-/// How large is too large: edge over distance, for lights that shine evenly and for those with beams.
+/// How large is too large: edge over distance, for lights that shine evenly and for those with
+/// beams.
 const LARGEST: [f64; 2] = [0.5, 0.2];
 /// Lights with a beam are those whose largest intensity is this many times the mean.
 const BEAM: f64 = 6.0;
@@ -25,8 +26,9 @@ const BEAM: f64 = 6.0;
 const DEEPEST: u32 = 24;
 /// Looks at corners are this share of the way to the centroid: other surfaces touch there.
 const INWARD: f64 = 1.0 / 1024.0;
-/// The share of its mean intensity that a light is taken to have where its table has less, and that of what a
-/// surface keeps of all light where it keeps less: looks may miss a narrow beam, or where a surface shines.
+/// The share of its mean intensity that a light is taken to have where its table has less, and that
+/// of what a surface keeps of all light where it keeps less: looks may miss a narrow beam, or where
+/// a surface shines.
 const EVERYWHERE: f64 = 0.1;
 
 /// A light that looks at a facet.
@@ -112,7 +114,8 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         (height_m.abs() > self.context.world.hair_m()).then_some(height_m > 0.0)
     }
 
-    /// Cells of a facet in an order in which most are neighbours, and the number of rays that it took.
+    /// Cells of a facet in an order in which most are neighbours, and the number of rays that it
+    /// took.
     pub(super) fn look_at(&self, facet: u32) -> (Vec<LitCell>, u64) {
         let Some(front) = self.faces(facet) else { return (Vec::new(), 0) };
         let world = &self.context.world;

@@ -1,18 +1,19 @@
 //! First shot: photons that leave from where the light of point-like lights lands.
 //!
 //! The direct light of lights without extent needs no sampling: it can be computed anywhere. So the
-//! first flight of their photons is left out, and lit surfaces take the place of the lights,
-//! `L* = Le - Lep + I Lep` (Voloboy, Dmitriev and Kopylov 2003, after Kopylov 2002). A secondary photon chooses
-//! a pair of cell and light with the flux that goes on there, absorption folded in, by one table; its place
-//! in the cell follows the linear density of [`warp::sample_linear_triangle`](sample_linear_triangle).
-//! No photon is spent on being absorbed where it first lands.
+//! first flight of their photons is left out, and lit surfaces take the place of the lights, `L* =
+//! Le - Lep + I Lep` (Voloboy, Dmitriev and Kopylov 2003, after Kopylov 2002). A secondary photon
+//! chooses a pair of cell and light with the flux that goes on there, absorption folded in, by one
+//! table; its place in the cell follows the linear density of
+//! [`warp::sample_linear_triangle`](sample_linear_triangle). No photon is spent on being absorbed
+//! where it first lands.
 //!
 //! Deviation: the piecewise linear picture only says where to look. At the place that was drawn the
-//! illuminance is computed, shadow ray included, and the photon carries
-//! `E(x) albedo / (density of x)`: the picture's error changes weights and causes no bias, as long as its
-//! density is above 0 wherever light may land. Part of the photons therefore go by what would land if
-//! nothing stood in the way. And a pair says which way the light came, so the scattering function is
-//! sampled as it stands: mirrors, glass and rough surfaces need nothing stored and no photons of their own.
+//! illuminance is computed, shadow ray included, and the photon carries `E(x) albedo / (density of
+//! x)`: the picture's error changes weights and causes no bias, as long as its density is above 0
+//! wherever light may land. Part of the photons therefore go by what would land if nothing stood in
+//! the way. And a pair says which way the light came, so the scattering function is sampled as it
+//! stands: mirrors, glass and rough surfaces need nothing stored and no photons of their own.
 //!
 //! Lights with an area emit as ever, in proportion to their flux.
 //!
@@ -72,8 +73,8 @@ struct DrawnCell {
 pub(crate) enum Drawn {
     /// A lit place, if light reaches it.
     Place(LitPlace),
-    /// A light with an area, and what is left to draw a direction by; the photon stands for this share of
-    /// the usual flux.
+    /// A light with an area, and what is left to draw a direction by; the photon stands for this
+    /// share of the usual flux.
     Light { number: usize, u: [f64; 2], flux_share: f64 },
 }
 
@@ -114,8 +115,8 @@ impl LitPlace {
 }
 
 impl LitCells {
-    /// Looks where the light lands; `None` where no point-like light's goes on, where first looks alone would take more
-    /// rays than these, and for more than [`MAX_PAIRS`].
+    /// Looks where the light lands; `None` where no point-like light's goes on, where first looks
+    /// alone would take more rays than these, and for more than [`MAX_PAIRS`].
     pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, most_rays: u64) -> Option<Self> {
         let beams = Beam::all(context);
         let facets = 0..context.world.facets.len() as u32;
@@ -177,14 +178,14 @@ impl LitCells {
         out.f64(self.flux_share);
     }
 
-    /// Flux that a photon stands for, as a share of that of one photon of all lights, before its place
-    /// changes it.
+    /// Flux that a photon stands for, as a share of that of one photon of all lights, before its
+    /// place changes it.
     pub(crate) fn flux_share(&self) -> f64 {
         self.flux_share
     }
 
-    /// Where the photon of a sampler starts; its first coordinate chooses, what is left of it and the next
-    /// give the place. `None` where no light can arrive.
+    /// Where the photon of a sampler starts; its first coordinate chooses, what is left of it and
+    /// the next give the place. `None` where no light can arrive.
     pub(crate) fn draw<S: Spectrum>(
         &self,
         context: &Context<'_, S>,
@@ -202,7 +203,8 @@ impl LitCells {
         let at = context.world.interaction_on(drawn.facet, drawn.front, drawn.cell.place(weights));
         let light = context.lights.pointlikes.get(drawn.light as usize)?;
         let incidence = Incidence::new(light, context.world.ray_origin(&at).position(), at.n)?;
-        // E over the density of the place (m^-2), which is density_lm_m2 over the sum of all fluxes.
+        // E over the density of the place (m^-2), which is density_lm_m2 over the sum of all
+        // fluxes.
         let flux_share = incidence.illuminance_lx / density_lm_m2 * self.flux_share;
         // What is not finite or negative goes on to where it is counted as invalid.
         let arrives = incidence.illuminance_lx != 0.0 && flux_share != 0.0;

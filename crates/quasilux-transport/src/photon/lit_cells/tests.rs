@@ -1,9 +1,10 @@
 //! Secondary photons against photons that leave the lights.
 //!
-//! What lands on diffuse walls after one, two and three bounces is compared wall by wall: the mean of
-//! 16 replicates of 2^12 photons of each kind, Welch's test with 15 degrees of freedom, which are fewer
-//! than there are, a family of 54 in each room at 0.1 % in all, seed 1. The largest of those figures
-//! have standard errors of 0.1 to 0.3 %: an error of 2 % in one of them is found nearly always.
+//! What lands on diffuse walls after one, two and three bounces is compared wall by wall: the mean
+//! of 16 replicates of 2^12 photons of each kind, Welch's test with 15 degrees of freedom, which
+//! are fewer than there are, a family of 54 in each room at 0.1 % in all, seed 1. The largest of
+//! those figures have standard errors of 0.1 to 0.3 %: an error of 2 % in one of them is found
+//! nearly always.
 
 use super::*;
 use crate::bsdf::TransportMode;
@@ -39,8 +40,8 @@ fn lamp(position: DVec3, intensity_cd: f64) -> Light {
     Light::Point(PointLight { position, intensity_cd })
 }
 
-/// A closed box from the origin, its walls of these materials in the order x = 0, x, y = 0, y, floor,
-/// ceiling; inside, a table of the seventh, a quarter of the box wide, at half its height.
+/// A closed box from the origin, its walls of these materials in the order x = 0, x, y = 0, y,
+/// floor, ceiling; inside, a table of the seventh, a quarter of the box wide, at half its height.
 fn room(size: DVec3, materials: [Bsdf; 7], lights: Vec<Light>) -> Scene {
     let corner =
         |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2 & 1));
@@ -216,10 +217,10 @@ fn both_kinds_of_photons_bring_the_same_light() {
     assert_kinds_agree::<f64>("glass", &room_with_glass());
 }
 
-/// In a closed cube of one reflectance the first landing after the first bounce has `rho` of the flux, all
-/// of them together `rho / (1 - rho)`. Weights vary by little, so the former is known to 1e-3; the
-/// number of later landings is geometric, its mean over 2^17 photons known to 0.23 % (one standard
-/// deviation if they were independent).
+/// In a closed cube of one reflectance the first landing after the first bounce has `rho` of the
+/// flux, all of them together `rho / (1 - rho)`. Weights vary by little, so the former is known to
+/// 1e-3; the number of later landings is geometric, its mean over 2^17 photons known to 0.23 % (one
+/// standard deviation if they were independent).
 #[test]
 fn the_cube_has_its_indirect_flux() {
     let rho = 2.0 / 3.0;
@@ -235,8 +236,8 @@ fn the_cube_has_its_indirect_flux() {
     assert!((total * (1.0 - rho) / rho - 1.0).abs() < 0.007, "{total}");
 }
 
-/// Weights stay near each other: at 2^12 photons the effective number of those that arrive is above 70 %
-/// of all, though the wall next to the lamp is 600 times as bright as a metre away.
+/// Weights stay near each other: at 2^12 photons the effective number of those that arrive is above
+/// 70 % of all, though the wall next to the lamp is 600 times as bright as a metre away.
 #[test]
 fn weights_are_nearly_equal() {
     for (name, scene) in [("spotlights", spotlight_room()), ("near a wall", lamp_near_a_wall())] {

@@ -1,4 +1,5 @@
-//! Many counters of which most may stay zero: memory is taken in blocks, where something is counted.
+//! Many counters of which most may stay zero: memory is taken in blocks, where something is
+//! counted.
 //!
 //! A counter has 32 bits that wrap and, once one of its block has wrapped, 32 more that count how
 //! often. So a counter takes four bytes until it is full, and sums are exact and in any order.
@@ -48,8 +49,8 @@ impl Blocks {
     }
 }
 
-/// Blocks where something was counted: the number of the block, whether it has the second halves, and
-/// the words.
+/// Blocks where something was counted: the number of the block, whether it has the second halves,
+/// and the words.
 impl Stored for Blocks {
     fn put(&self, out: &mut Writer) {
         let taken = || (0_u64..).zip(&self.blocks).filter_map(|(at, cell)| Some((at, cell.get()?)));

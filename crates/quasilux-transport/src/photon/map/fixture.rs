@@ -26,7 +26,8 @@ pub(super) fn square() -> World<f64> {
     World::new(&scene, SimdLevel::fastest())
 }
 
-/// A place anywhere on the rectangle, on either side; even in each triangle, which have the same area.
+/// A place anywhere on the rectangle, on either side; even in each triangle, which have the same
+/// area.
 pub(super) fn at(world: &World<f64>, numbers: &mut Numbers) -> Interaction {
     let facet = u32::from(numbers.next() < 0.5);
     let barycentric = sample_triangle([numbers.next(), numbers.next()]);

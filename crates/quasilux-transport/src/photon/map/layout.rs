@@ -213,8 +213,8 @@ mod tests {
         layout
     }
 
-    /// Corners of all leaves as facet and second and third weights, by bisecting edges: in the order
-    /// of their numbers.
+    /// Corners of all leaves as facet and second and third weights, by bisecting edges: in the
+    /// order of their numbers.
     fn leaves_by_brute_force(layout: &MapLayout) -> Vec<(u32, [[f64; 2]; 3])> {
         fn add(trees: &Trees, entry: u32, facet: u32, t: [[f64; 2]; 3], leaves: &mut [Vec<Leaf>]) {
             if entry & SPLIT == 0 {

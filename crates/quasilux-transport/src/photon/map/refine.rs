@@ -1,11 +1,12 @@
 //! Elements split where the light varies within them.
 //!
-//! Pilot photons, which are left out of all estimates, are counted in 16 equal parts of each element.
-//! If the illuminance were what the reconstruction can follow, the sum of squared deviations from it,
-//! over the mean count, would be chi-square distributed for independent photons, and less for those
-//! of a quasi-random sequence. Elements where it is beyond chance are split in four, those with the
-//! largest deviation in flux first if memory does not suffice for all, and the next pilot photons, twice as
-//! many, look at the new ones. So elements with few photons stay as they are.
+//! Pilot photons, which are left out of all estimates, are counted in 16 equal parts of each
+//! element. If the illuminance were what the reconstruction can follow, the sum of squared
+//! deviations from it, over the mean count, would be chi-square distributed for independent
+//! photons, and less for those of a quasi-random sequence. Elements where it is beyond chance are
+//! split in four, those with the largest deviation in flux first if memory does not suffice for
+//! all, and the next pilot photons, twice as many, look at the new ones. So elements with few
+//! photons stay as they are.
 
 use super::blocks::Blocks;
 use super::layout::{MapLayout, Place};
@@ -179,8 +180,8 @@ impl Misfit {
         let mean = all as f64 / PARTS as f64;
         let mut rests = counts.map(|count| count as f64 - mean);
         if let Some(centres) = &self.centres {
-            // The centred weights have the covariance a (delta - 1 / 3), so that their projections are
-            // independent coefficients.
+            // The centred weights have the covariance a (delta - 1 / 3), so that their projections
+            // are independent coefficients.
             let a: f64 = centres.iter().flatten().map(|x| x * x).sum::<f64>() / 2.0;
             let slopes: [f64; 3] = std::array::from_fn(|i| {
                 rests.iter().zip(centres).map(|(rest, centre)| rest * centre[i]).sum::<f64>() / a
@@ -210,8 +211,8 @@ mod tests {
         }
     }
 
-    /// Leaves of [`square`] chosen after independent photons on its front, accepted by a density along x
-    /// that is at most 1.
+    /// Leaves of [`square`] chosen after independent photons on its front, accepted by a density
+    /// along x that is at most 1.
     fn chosen_under(
         layout: &MapLayout,
         world: &World<f64>,
@@ -229,8 +230,9 @@ mod tests {
         chosen(layout, &parts, affordable)
     }
 
-    /// Seed 7; each element is chosen by chance with a probability of 1e-3, so among 256 elements more
-    /// than 4 are with one of 1e-5. A step to four times the light is found in most elements that it cuts.
+    /// Seed 7; each element is chosen by chance with a probability of 1e-3, so among 256 elements
+    /// more than 4 are with one of 1e-5. A step to four times the light is found in most elements
+    /// that it cuts.
     #[test]
     fn elements_are_split_at_an_edge_and_not_where_light_is_even() {
         let world = square();

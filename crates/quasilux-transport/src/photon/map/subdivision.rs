@@ -7,8 +7,8 @@ pub(super) struct InCell {
     pub(super) number: usize,
     /// Barycentric weights within the cell.
     pub(super) weights: [f64; 3],
-    /// By how much the triangle's second and third weight grow with those of the cell; negative where
-    /// the cell is turned by half a turn.
+    /// By how much the triangle's second and third weight grow with those of the cell; negative
+    /// where the cell is turned by half a turn.
     pub(super) step: f64,
 }
 
