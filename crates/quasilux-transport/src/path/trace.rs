@@ -22,6 +22,7 @@ use crate::path::end::{MapEnd, Rest};
 use crate::path::frozen_map::{FrozenEnd, bounces_left};
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
+use crate::path::start::{Measurement, Start};
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
 use crate::photon::map::{IlluminationMap, Place};
@@ -54,31 +55,6 @@ pub(crate) struct PathResult<S> {
     pub(crate) notes: Vec<VertexRecord<S>>,
     /// Its rays, but for those that ask for light.
     pub(crate) flights: u32,
-}
-
-/// Where a path starts, and on what.
-pub(crate) struct Start<'p, S> {
-    pub(crate) from: RayOrigin,
-    pub(crate) measurement: Measurement,
-    pub(crate) rest: &'p Rest<'p, S>,
-    /// Light that it cannot find by itself.
-    pub(crate) caustics: Option<CausticLookup<'p, S>>,
-    /// What photons leave to it.
-    pub(crate) partition: Option<&'p Partition>,
-    pub(crate) sampler: Sampler<'p>,
-}
-
-/// What a path is to find.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Measurement {
-    /// The illuminance on the side `n`.
-    Illuminance {
-        n: DVec3,
-        /// Whether with the direct light of the point-like lights.
-        tests_pointlikes: bool,
-    },
-    /// The luminance seen along this unit vector.
-    Luminance { direction: DVec3 },
 }
 
 /// A path on its way.
@@ -137,18 +113,6 @@ struct Scattering<S> {
     /// Its throughput times the albedo.
     goes_on: S,
     onward: Onward,
-}
-
-impl<S: Spectrum> Start<'_, S> {
-    /// The start where it wants all point-like lights tested.
-    pub(crate) fn vertex_that_tests_pointlikes(&self) -> Option<Vertex<'static, S>> {
-        match self.measurement {
-            Measurement::Illuminance { n, tests_pointlikes: true } => {
-                Some(Vertex::sensor(self.from, n))
-            }
-            _ => None,
-        }
-    }
 }
 
 impl<'p, S: Spectrum> Path<'p, S> {

@@ -5,7 +5,8 @@
 
 use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;
-use crate::path::trace::{Path, PathWork, Start};
+use crate::path::start::Start;
+use crate::path::trace::{Path, PathWork};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use crate::world::visibility::Receiver;

@@ -18,7 +18,7 @@ use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::path::end::Rest;
 use crate::path::sections::WorkCounts;
-use crate::path::trace::{Measurement, Start};
+use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
 use crate::settings::Settings;

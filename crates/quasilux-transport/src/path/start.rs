@@ -1,0 +1,47 @@
+//! The start of a path: a sensor point or a pixel, and what is measured there.
+
+use crate::path::end::Rest;
+use crate::path::partition::Partition;
+use crate::photon::caustics::CausticLookup;
+use crate::spectrum::Spectrum;
+use crate::world::RayOrigin;
+use crate::world::vertex::Vertex;
+use glam::DVec3;
+use quasilux_sampling::Sampler;
+
+/// Where a path starts, and on what.
+pub(crate) struct Start<'p, S> {
+    pub(crate) from: RayOrigin,
+    pub(crate) measurement: Measurement,
+    pub(crate) rest: &'p Rest<'p, S>,
+    /// Light that it cannot find by itself.
+    pub(crate) caustics: Option<CausticLookup<'p, S>>,
+    /// What photons leave to it.
+    pub(crate) partition: Option<&'p Partition>,
+    pub(crate) sampler: Sampler<'p>,
+}
+
+/// What a path is to find.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Measurement {
+    /// The illuminance on the side `n`.
+    Illuminance {
+        n: DVec3,
+        /// Whether with the direct light of the point-like lights.
+        tests_pointlikes: bool,
+    },
+    /// The luminance seen along this unit vector.
+    Luminance { direction: DVec3 },
+}
+
+impl<S: Spectrum> Start<'_, S> {
+    /// The start where it wants all point-like lights tested.
+    pub(crate) fn vertex_that_tests_pointlikes(&self) -> Option<Vertex<'static, S>> {
+        match self.measurement {
+            Measurement::Illuminance { n, tests_pointlikes: true } => {
+                Some(Vertex::sensor(self.from, n))
+            }
+            _ => None,
+        }
+    }
+}
