@@ -34,7 +34,7 @@ pub enum WarningKind {
     /// nearest one holds.
     TiltFactors,
     /// `TILT=` names a file. Until it is read ([`read_tilt`](crate::read_tilt),
-    /// [`Photometry::with_tilt`]) the factor is 1.
+    /// [`Photometry::with_tilt`](crate::Photometry::with_tilt)) the factor is 1.
     TiltFile,
     /// Semicolons separate numbers. They count as blanks.
     Semicolon,

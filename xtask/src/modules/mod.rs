@@ -5,8 +5,8 @@
 //! stand before it. Modules side by side in one folder need no order, but must not import each
 //! other in a circle.
 //!
-//! [`targets`] finds the crates, [`tree`] parses one, [`paths`] collects the paths in a module,
-//! [`scope`] resolves each to the module that defines its item, [`arrows`] makes them edges
+//! [`targets`] finds the crates, [`tree`] parses one, `paths` collects the paths in a module,
+//! `scope` resolves each to the module that defines its item, [`arrows`] makes them edges
 //! between modules, [`order`] looks for circles and for the order with the fewest upward edges,
 //! and [`rules`] tells the violations.
 

@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// The result is a function of scene and settings, whatever the number of threads; an observer that
 /// stops a run only picks which checkpoint is the last. Work is shared by the threads of the rayon
-/// pool that the call is made in. [`crate::run::check`] says beforehand whether the settings make
+/// pool that the call is made in. [`crate::check`] says beforehand whether the settings make
 /// sense for the scene.
 #[must_use]
 pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {

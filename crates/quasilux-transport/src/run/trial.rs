@@ -2,7 +2,7 @@
 //! photon trace by itself, how photons are taken.
 //!
 //! Public because benchmarks and the tests that compare stand outside the crate. The photon trace
-//! has no checkpoints and no intervals: figures come from [`crate::run::simulate`].
+//! has no checkpoints and no intervals: figures come from [`crate::simulate`].
 
 pub use quasilux_bvh::SimdLevel;
 
@@ -38,7 +38,7 @@ pub trait PhotonTrial: Send {
     fn counters(&self) -> Vec<u64>;
 }
 
-/// What [`crate::run::simulate`] finds with a ray kernel of choice, one of [`SimdLevel::all`].
+/// What [`crate::simulate`] finds with a ray kernel of choice, one of [`SimdLevel::all`].
 #[must_use]
 pub fn simulate_with(simd: SimdLevel, scene: &Scene, settings: &Settings) -> Estimates {
     simulate_on(simd, scene, settings, &mut ())
