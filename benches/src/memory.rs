@@ -1,8 +1,9 @@
 //! cargo run --release -p quasilux-benches --bin memory
 //!
-//! Memory for ten million triangles: a closed room over a rough ground, read from a Wavefront file that
-//! is made on the spot, with an illumination map of as many elements. Each line is a process of its
-//! own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all; and what was foretold for data alone.
+//! Memory for ten million triangles: a closed room over a rough ground, read from a Wavefront file
+//! that is made on the spot, with an illumination map of as many elements. Each line is a process
+//! of its own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all; and
+//! what was foretold for data alone.
 
 use glam::DVec3;
 use quasilux_benches::meshes::Numbers;

@@ -23,7 +23,8 @@ pub(crate) struct Numpy {
 }
 
 impl Numpy {
-    /// Starts it; `count` coordinates a turn, in blocks of `block`. `None` where it is not installed.
+    /// Starts it; `count` coordinates a turn, in blocks of `block`. `None` where it is not
+    /// installed.
     pub(crate) fn start(count: usize, block: usize) -> Option<Self> {
         let mut process = Command::new("python3")
             .args(["-c", SCRIPT, &count.to_string(), &block.to_string()])

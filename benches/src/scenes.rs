@@ -93,7 +93,8 @@ pub fn lamp_near_a_wall() -> Named {
     )
 }
 
-/// A project with this section `[scene]` and what follows it, a light of 10 kcd, and a point that looks up.
+/// A project with this section `[scene]` and what follows it, a light of 10 kcd, and a point that
+/// looks up.
 #[must_use]
 pub fn lamp_and_probe(scene: &str, lamp: [f64; 3], probe: [f64; 3]) -> String {
     format!(

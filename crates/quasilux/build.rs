@@ -1,6 +1,6 @@
-//! Tells builds apart by what they are made of: the SHA-256 of a list of all sources, of the versions of all
-//! dependencies and of what builds them, in `QUASILUX_BUILD`. Debug and release builds of the same sources, wherever they are made,
-//! have the same one.
+//! Tells builds apart by what they are made of: the SHA-256 of a list of all sources, of the
+//! versions of all dependencies and of what builds them, in `QUASILUX_BUILD`. Debug and release
+//! builds of the same sources, wherever they are made, have the same one.
 
 #![allow(clippy::disallowed_methods, reason = "cargo talks to build scripts by the environment")]
 

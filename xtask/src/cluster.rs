@@ -1,5 +1,5 @@
-//! What `examples/cluster/local.sh` does, on every platform: plan, shards as processes at the same time, merge,
-//! and the bits of the single run.
+//! What `examples/cluster/local.sh` does, on every platform: plan, shards as processes at the same
+//! time, merge, and the bits of the single run.
 
 use std::fs;
 use std::path::Path;

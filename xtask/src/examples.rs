@@ -1,4 +1,5 @@
-//! Runs every example and checks the numbers that it promises, and those that it foretold of itself.
+//! Runs every example and checks the numbers that it promises, and those that it foretold of
+//! itself.
 //!
 //! An example is a folder of `examples/` with one or more project files, a `README.md` that gives
 //! the command and the numbers, and the same numbers in `expected.toml`.

@@ -1,8 +1,9 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
-//! [`steps`] is the test command, [`examples`] and [`cluster`] its last step, [`office`] the generator behind
-//! `examples/office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
-//! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in `tests/architecture/`.
+//! [`steps`] is the test command, [`examples`] and [`cluster`] its last step, [`office`] the
+//! generator behind `examples/office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
+//! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in
+//! `tests/architecture/`.
 
 mod arrows;
 mod cie171;

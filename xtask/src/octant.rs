@@ -1,5 +1,6 @@
-//! The mirror octant of Voloboy, Dmitriev and Kopylov (2003), table 3, as a case in `validation/`: an eighth of a
-//! diffuse sphere in flat facets, between three mirrors, with the source as it is reconstructed from the paper's values.
+//! The mirror octant of Voloboy, Dmitriev and Kopylov (2003), table 3, as a case in `validation/`:
+//! an eighth of a diffuse sphere in flat facets, between three mirrors, with the source as it is
+//! reconstructed from the paper's values.
 
 use crate::generated::{self, File};
 use std::fmt::Write;

@@ -3,7 +3,8 @@
 use serde_json::Value;
 use xtask::workspace::Failure;
 
-/// Half-widths may on average be so many times what was foretold two checkpoints before, or one over that.
+/// Half-widths may on average be so many times what was foretold two checkpoints before, or one
+/// over that.
 const FACTOR: f64 = 1.5;
 
 /// Checks `run.prediction` of a result document.

@@ -1,4 +1,5 @@
-//! Debug and release builds give the same bits: part of the step that runs the examples, which has both at hand.
+//! Debug and release builds give the same bits: part of the step that runs the examples, which has
+//! both at hand.
 
 use serde_json::Value;
 use std::path::Path;

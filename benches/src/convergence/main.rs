@@ -1,16 +1,17 @@
 //! cargo run --release -p quasilux-benches --bin convergence [WORD...]
 //!
 //! Words: `cube`, `office`, `spotlights`, `wall`; names of estimators; `2^N` indices; `random`;
-//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`; `connections=` the same, for `bidirectional`.
+//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`; `connections=` the same, for
+//! `bidirectional`.
 //!
-//! How the error falls, and at what price. At each checkpoint: indices per replicate, rays, processor
-//! seconds so far, the relative error of one replicate (from the spread of 16, root mean square over all
-//! sensor points) and of their mean, the slope of the former since four checkpoints before, and the
-//! efficiency 1 / (squared error of the mean x processor seconds).
+//! How the error falls, and at what price. At each checkpoint: indices per replicate, rays,
+//! processor seconds so far, the relative error of one replicate (from the spread of 16, root mean
+//! square over all sensor points) and of their mean, the slope of the former since four checkpoints
+//! before, and the efficiency 1 / (squared error of the mean x processor seconds).
 //!
-//! `cube` is the diffuse cube of Voloboy, Dmitriev and Kopylov (2003) with nine points on each face,
-//! `office` the example with 68 points, `spotlights` and `wall` a small room with two narrow beams, or with a
-//! bare lamp 2 cm from a wall.
+//! `cube` is the diffuse cube of Voloboy, Dmitriev and Kopylov (2003) with nine points on each
+//! face, `office` the example with 68 points, `spotlights` and `wall` a small room with two narrow
+//! beams, or with a bare lamp 2 cm from a wall.
 
 use quasilux_benches::scenes;
 use quasilux_foreign::all_processors_seconds;

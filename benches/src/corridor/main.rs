@@ -1,21 +1,24 @@
 //! cargo run --release -p quasilux-benches --bin corridor [NAME or SECONDS...]
 //!
-//! Light that is hard to find: the error at the sensors of `examples/corridor` against rays and processor
-//! time, for all estimators, with photons steered and left alone, and for a [yardstick](walks) by the name of `walks`.
+//! Light that is hard to find: the error at the sensors of `examples/corridor` against rays and
+//! processor time, for all estimators, with photons steered and left alone, and for a
+//! [yardstick](walks) by the name of `walks`.
 //!
 //! All errors are relative to the reference and weigh every one of the 30 cells equally:
 //!
-//! - `one`: root mean square over the cells of the standard error of one replicate, from the spread of 16;
+//! - `one`: root mean square over the cells of the standard error of one replicate, from the spread
+//!   of 16;
 //! - `mean`: the same of their mean, a quarter of it;
 //! - `off`: root mean square over the cells of how far the mean is off the reference;
 //! - `worst`: the cell that is furthest off, and its number.
 //!
-//! Cells that hardly any photon reaches are too low together, and their spread does not tell: there `off`
-//! is the error. The reference is the result of a photon tracer that shares no code with this project,
-//! good to 0.22 % root mean square and 0.5 % at worst: below that `off` means nothing, and `mean` is the error.
-//! The last line of each tells when the larger of `mean` and of `off` without the reference's share came below
-//! 10 %, 5 %, 2 % and 1 % for good; of the yardstick, whose sensors are points, when `mean` did. It also tells when no
-//! cell was off by more than 2 %, for good.
+//! Cells that hardly any photon reaches are too low together, and their spread does not tell: there
+//! `off` is the error. The reference is the result of a photon tracer that shares no code with this
+//! project, good to 0.22 % root mean square and 0.5 % at worst: below that `off` means nothing, and
+//! `mean` is the error. The last line of each tells when the larger of `mean` and of `off` without
+//! the reference's share came below 10 %, 5 %, 2 % and 1 % for good; of the yardstick, whose
+//! sensors are points, when `mean` did. It also tells when no cell was off by more than 2 %, for
+//! good.
 
 mod walks;
 
@@ -151,8 +154,8 @@ impl<'a> Table<'a> {
         Self { name, reference, start, longest_seconds, reached, reached_everywhere: None }
     }
 
-    /// Prints what there is after so many samples of each replicate; `known` is the reference where it is
-    /// of the same sensors.
+    /// Prints what there is after so many samples of each replicate; `known` is the reference where
+    /// it is of the same sensors.
     fn look(
         &mut self,
         samples: u64,

@@ -1,10 +1,10 @@
 //! cargo run --release -p quasilux-benches --bin photons [SCENE...]
 //!
-//! Whole photons a second, all bounces, counted by sensors: one by one in the order of their indices,
-//! in waves, and in waves of coherent groups, on one thread and two. All take turns in rounds of 2^19
-//! photons, 2^17 of each of four replicates of Owen-scrambled Sobol'; the figures are medians over the
-//! rounds, of the time on the clock and of processor time, and of the ratio of processor times within
-//! a round. Then what a wave spends its time on, on one thread.
+//! Whole photons a second, all bounces, counted by sensors: one by one in the order of their
+//! indices, in waves, and in waves of coherent groups, on one thread and two. All take turns in
+//! rounds of 2^19 photons, 2^17 of each of four replicates of Owen-scrambled Sobol'; the figures
+//! are medians over the rounds, of the time on the clock and of processor time, and of the ratio of
+//! processor times within a round. Then what a wave spends its time on, on one thread.
 
 use quasilux_benches::median;
 use quasilux_benches::scenes::{self, Named};

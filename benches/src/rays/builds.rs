@@ -1,9 +1,9 @@
 //! cargo run --release -p quasilux-benches --bin rays -- builds [SCENE...]
 //!
-//! How long hierarchies take to build, ours and Embree's at both its qualities. All take turns;
-//! the figures are medians over the turns, in seconds by the wall clock and in seconds of all
-//! processors together, and of the ratios within a turn. With `taskset -c 0` in front all run on one
-//! thread.
+//! How long hierarchies take to build, ours and Embree's at both its qualities. All take turns; the
+//! figures are medians over the turns, in seconds by the wall clock and in seconds of all
+//! processors together, and of the ratios within a turn. With `taskset -c 0` in front all run on
+//! one thread.
 
 use quasilux_benches::meshes::Scene;
 use quasilux_benches::{median, timed};

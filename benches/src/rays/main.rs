@@ -3,8 +3,9 @@
 //! Closest hits a second on one core for incoherent rays, those of photons that bounce five times,
 //! against Embree 3 (`rtcIntersect1`) at both its qualities where `libembree3.so.3` is installed
 //! (Debian: `libembree-dev`). All take turns in rounds of 2^14 rays each; the figures are medians
-//! over the rounds, in processor time, and of the ratio within a round. Build times are of one build
-//! on all cores; with `builds` they are measured with more care, and nothing else ([`builds`]).
+//! over the rounds, in processor time, and of the ratio within a round. Build times are of one
+//! build on all cores; with `builds` they are measured with more care, and nothing else
+//! ([`builds`]).
 
 mod builds;
 mod photons;

@@ -150,8 +150,8 @@ impl Block {
 impl Slack {
     /// Bounds for a triangle with these edges.
     ///
-    /// With first corner `v` and edges `e1` and `e2` as stored, `c = v - o`, `r = c x d` and
-    /// `n = e2 x e1`, the ray meets the plane where the determinant `n.d` times distance, second and
+    /// With first corner `v` and edges `e1` and `e2` as stored, `c = v - o`, `r = c x d` and `n =
+    /// e2 x e1`, the ray meets the plane where the determinant `n.d` times distance, second and
     /// third weight are `n.c`, `e2.r` and `e1.r` (Möller and Trumbore 1997). Let `s` be the larger
     /// 1-norm of the edges and `q` the product of both, `q <= 6 s`. In each coordinate, in units of
     /// `h`: `c` is off by `1 + 2.7 + 3.7`, `r` by `sqrt 2 (7.4 + 3.7 + 7.4) < 26.2` and at most

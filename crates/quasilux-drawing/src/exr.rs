@@ -1,9 +1,9 @@
 //! OpenEXR files of several layers in 32-bit floating point.
 //!
 //! Each layer is a part of one multi-part file ("OpenEXR File Layout", Academy Software Foundation,
-//! version 2) with channels of its own, compressed without loss (ZIP, 16 rows a block), and names its
-//! unit in the attribute `unit`. `chromaticities` are those of ITU-R BT.709 and `whiteLuminance` is 1:
-//! R = G = B = 1 is one unit of luminance. Viewers show the first layer.
+//! version 2) with channels of its own, compressed without loss (ZIP, 16 rows a block), and names
+//! its unit in the attribute `unit`. `chromaticities` are those of ITU-R BT.709 and
+//! `whiteLuminance` is 1: R = G = B = 1 is one unit of luminance. Viewers show the first layer.
 
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
@@ -42,7 +42,8 @@ const BT709: Chromaticities = Chromaticities {
 /// Layers of one resolution as an OpenEXR file.
 ///
 /// # Panics
-/// If there is no layer, a layer has no channel, or a channel does not have `width * height` values.
+/// If there is no layer, a layer has no channel, or a channel does not have `width * height`
+/// values.
 #[must_use]
 pub fn exr_bytes([width, height]: [u32; 2], layers: Vec<Layer<'_>>) -> Vec<u8> {
     let size = Vec2(width as usize, height as usize);
@@ -94,8 +95,8 @@ mod tests {
         ]
     }
 
-    /// A reader of the file layout by its own words: what stands at the beginning of the file, and the
-    /// rows of one part. It shares nothing with the library that writes.
+    /// A reader of the file layout by its own words: what stands at the beginning of the file, and
+    /// the rows of one part. It shares nothing with the library that writes.
     struct Reader<'a>(&'a [u8]);
 
     impl Reader<'_> {

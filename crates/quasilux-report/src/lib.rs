@@ -1,11 +1,11 @@
 //! The results of a run with their intervals, as a document, tables, spreadsheets and pictures.
 //!
-//! A [`Report`] is built once from the scene, the settings and the estimates; all forms of output only
-//! read it. Nothing here can fail, and nothing reads the clock or writes a file.
+//! A [`Report`] is built once from the scene, the settings and the estimates; all forms of output
+//! only read it. Nothing here can fail, and nothing reads the clock or writes a file.
 //!
-//! Read on at [`report`] for the figures, [`json`] for the document that other programs rely on, [`csv`]
-//! and [`table`] for spreadsheets and terminals, and [`picture`] for grids and cameras as PNG and
-//! OpenEXR. [`number`] decides how many digits a figure deserves.
+//! Read on at [`report`] for the figures, [`json`] for the document that other programs rely on,
+//! [`csv`] and [`table`] for spreadsheets and terminals, and [`picture`] for grids and cameras as
+//! PNG and OpenEXR. [`number`] decides how many digits a figure deserves.
 
 #[cfg(test)]
 pub(crate) mod example;

@@ -36,8 +36,8 @@ impl FigureText {
 
 /// Rounds a figure to the digits that its half-width leaves it.
 ///
-/// Where the half-width is below the last of six digits, it is rounded up to one unit of that digit:
-/// what is written never claims more than what is known. A half-width of zero stays zero.
+/// Where the half-width is below the last of six digits, it is rounded up to one unit of that
+/// digit: what is written never claims more than what is known. A half-width of zero stays zero.
 #[must_use]
 pub fn figure_text(figure: Figure) -> FigureText {
     let Some(value) = figure.value else {

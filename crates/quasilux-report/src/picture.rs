@@ -60,8 +60,9 @@ pub fn tone_mapped_png(camera: &CameraReport) -> Vec<u8> {
 }
 
 /// The picture of a camera as an OpenEXR file with the layers `rgb` (R, G, B; the first, so that
-/// viewers show it), `luminance` (Y, which is 0.2126 R + 0.7152 G + 0.0722 B) and `half_width` (Y: half
-/// the width of the interval of the luminance, not a number where it is unknown), all in cd/m2.
+/// viewers show it), `luminance` (Y, which is 0.2126 R + 0.7152 G + 0.0722 B) and `half_width` (Y:
+/// half the width of the interval of the luminance, not a number where it is unknown), all in
+/// cd/m2.
 #[must_use]
 pub fn exr(camera: &CameraReport) -> Vec<u8> {
     let channel = |name: &'static str, value: fn(&Pixel) -> f32| Channel {
@@ -92,8 +93,8 @@ pub struct SeriesPicture<'a> {
     pub pixels: &'a [Pixel],
 }
 
-/// Pictures of one resolution in a row, each below its label, as a PNG file. All have the exposure of
-/// the tone-mapped picture `exposure`; brighter pixels are white.
+/// Pictures of one resolution in a row, each below its label, as a PNG file. All have the exposure
+/// of the tone-mapped picture `exposure`; brighter pixels are white.
 #[must_use]
 pub fn series_png(
     resolution: [u32; 2],

@@ -1,8 +1,8 @@
 //! The result of a run, built once; all forms of output are read from it.
 //!
 //! A number that leaves the program carries its interval, the replicates behind it and the settings
-//! that made it. Nothing in a [`Report`] is infinite or not a number: such a figure is `None`, and a
-//! warning says so.
+//! that made it. Nothing in a [`Report`] is infinite or not a number: such a figure is `None`, and
+//! a warning says so.
 
 use crate::CameraReport;
 use crate::figure::{Figure, finite};
@@ -28,7 +28,8 @@ pub struct RunFacts {
     pub earlier_rays: u64,
     /// Threads that worked on it.
     pub threads: usize,
-    /// Memory in bytes that the whole program should take up to the tolerance, as far as anybody can say.
+    /// Memory in bytes that the whole program should take up to the tolerance, as far as anybody
+    /// can say.
     pub expected_bytes: Option<u64>,
     /// Warnings of the loaders.
     pub warnings: Vec<String>,
@@ -62,7 +63,8 @@ pub struct SensorReport {
     pub points: Vec<PointReport>,
     /// Figures of all points together.
     pub summary: Summary,
-    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be listed.
+    /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be
+    /// listed.
     pub terms: Vec<TermReport>,
 }
 
@@ -118,7 +120,8 @@ pub struct Run {
     pub settings: Settings,
     /// Independent replicates behind each interval; 1 where nothing is randomised.
     pub replicates: u32,
-    /// Indices used by each replicate: photons, and paths for each sensor point that needed the most.
+    /// Indices used by each replicate: photons, and paths for each sensor point that needed the
+    /// most.
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
@@ -199,8 +202,8 @@ impl Report {
 }
 
 impl Run {
-    /// Duration in s of the whole run up to the tolerance, at the pace of this one. A run that was gone on with knows its
-    /// pace from its own rays, if it had any.
+    /// Duration in s of the whole run up to the tolerance, at the pace of this one. A run that was
+    /// gone on with knows its pace from its own rays, if it had any.
     #[must_use]
     pub fn expected_seconds(&self) -> Option<f64> {
         let own_rays = self.rays.saturating_sub(self.earlier_rays);

@@ -32,8 +32,8 @@ enum Emphasis {
 /// Columns between two figures.
 const GAP: &str = "   ";
 
-/// Average, minimum, maximum and uniformity of each sensor, the luminances of each picture, how they
-/// were made, and the warnings.
+/// Average, minimum, maximum and uniformity of each sensor, the luminances of each picture, how
+/// they were made, and the warnings.
 #[must_use]
 pub fn table(report: &Report, style: Style) -> String {
     let mut text = sensors(report, style);

@@ -1,9 +1,9 @@
 //! Where a picture is taken from: a pinhole camera, and which way each place in its picture looks.
 //!
-//! Places are in pixels from the top left corner, x to the right and y down; the centre of the first
-//! pixel is at (0.5, 0.5). With `f` the unit vector from position to target, the frame is right-handed:
-//! `right` is f x up, `down` is f x right. The picture plane stands at distance 1, as high as
-//! 2 tan(fov / 2); pixels are square.
+//! Places are in pixels from the top left corner, x to the right and y down; the centre of the
+//! first pixel is at (0.5, 0.5). With `f` the unit vector from position to target, the frame is
+//! right-handed: `right` is f x up, `down` is f x right. The picture plane stands at distance 1, as
+//! high as 2 tan(fov / 2); pixels are square.
 
 use glam::DVec3;
 

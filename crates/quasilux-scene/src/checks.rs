@@ -125,8 +125,8 @@ impl Walls<'_> {
     }
 }
 
-/// Whether a light is inside the solid, on its surface or part of it; `None` when the tests are used
-/// up. A recessed luminaire lies on the surface: it is looked for a hair to each side.
+/// Whether a light is inside the solid, on its surface or part of it; `None` when the tests are
+/// used up. A recessed luminaire lies on the surface: it is looked for a hair to each side.
 pub(crate) fn holds_light(
     scene: &Scene,
     solid: &Solid,

@@ -30,7 +30,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Run the cases of validation/ against their closed forms; exit code 1 when one fails
     Validate(ValidateArguments),
-    /// Repeat one of the experiments of the paper, or one of our own; exit code 1 when what it checks fails
+    /// Repeat one of the experiments of the paper, or one of our own; exit code 1 when what it
+    /// checks fails
     Experiment(ExperimentArguments),
     /// Print or draw points of a sequence, or compare all sequences
     Points(PointsArguments),
@@ -38,8 +39,8 @@ pub(crate) enum Command {
     Photometry(PhotometryArguments),
     /// Summarise or draw measured surfaces
     Bsdf(BsdfArguments),
-    /// Write down what a run of a fixed number of samples does, for shards: every point gets them all, whatever
-    /// the tolerance
+    /// Write down what a run of a fixed number of samples does, for shards: every point gets them
+    /// all, whatever the tolerance
     Plan(PlanArguments),
     /// Compute a part of a project's samples
     Shard(ShardArguments),
@@ -63,8 +64,8 @@ pub(crate) struct RunArguments {
     pub(crate) plan: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) keeping: KeepingArguments,
-    /// Also say which coordinates carry the variance, and what the sequence is worth here; takes some
-    /// seconds more
+    /// Also say which coordinates carry the variance, and what the sequence is worth here; takes
+    /// some seconds more
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]
@@ -154,8 +155,8 @@ pub(crate) struct ExperimentArguments {
     /// Runs of each setup, where the experiment has such, 2 or more [default: the experiment's own]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub(crate) seeds: Option<u32>,
-    /// Time for one setup at the most, like 60s or 5m, where errors are shown against time [default: the
-    /// experiment's own]
+    /// Time for one setup at the most, like 60s or 5m, where errors are shown against time
+    /// [default: the experiment's own]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) seconds_per_point: Option<Duration>,
     /// Seed of all randomisations; the first one where there are several

@@ -2,7 +2,8 @@
 
 /// Its version.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// What it was made of: the first 16 digits of a digest of all sources and of the versions of all dependencies.
+/// What it was made of: the first 16 digits of a digest of all sources and of the versions of all
+/// dependencies.
 pub(crate) const BUILD: &str = env!("QUASILUX_BUILD");
 
 /// Refuses another version, and another build of the same.

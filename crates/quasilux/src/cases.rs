@@ -204,7 +204,8 @@ fn sensor<'a>(report: &'a Report, name: &str) -> Result<&'a SensorReport, CliErr
     sensor.ok_or_else(|| CliError::new(format!("no sensor \"{name}\" in the project")))
 }
 
-/// The flux that lands on grids: average times area. Half-widths are added, as if all errors came together.
+/// The flux that lands on grids: average times area. Half-widths are added, as if all errors came
+/// together.
 fn flux_lm(sensors: &[&SensorReport]) -> Result<Figure, CliError> {
     let mut flux_lm = Figure { value: Some(0.0), half_width: Some(0.0) };
     for sensor in sensors {

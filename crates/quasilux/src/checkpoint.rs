@@ -1,7 +1,7 @@
 //! Checkpoints: a run on disk, to go on from.
 //!
-//! A checkpoint is written beside its place and renamed into it, so that it is there whole or not at all; the
-//! one before of the same run stays as `FILE.previous`.
+//! A checkpoint is written beside its place and renamed into it, so that it is there whole or not
+//! at all; the one before of the same run stays as `FILE.previous`.
 
 use crate::atomic_file::{self, beside};
 use crate::build::{self, BUILD, VERSION};
@@ -158,8 +158,9 @@ pub(crate) fn read(path: &Path) -> Result<Latest, CliError> {
     }
 }
 
-/// Refuses where a run from the start would take the place of one that is not over, or of something that nobody can
-/// tell. Pictures come after the last checkpoint, so that runs with cameras may lack them still.
+/// Refuses where a run from the start would take the place of one that is not over, or of something
+/// that nobody can tell. Pictures come after the last checkpoint, so that runs with cameras may
+/// lack them still.
 fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), CliError> {
     if !path.exists() && !beside(path, "previous").exists() {
         return Ok(());

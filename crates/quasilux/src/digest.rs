@@ -31,9 +31,9 @@ pub(crate) struct SceneFile {
     pub(crate) sha256: Option<String>,
 }
 
-/// What identifies a scene: the bytes of all files that were read for it, the project file first. Bytes and not
-/// what was made of them, so that a user can check with `sha256sum` what has changed, and no change of a
-/// parser passes for the same scene.
+/// What identifies a scene: the bytes of all files that were read for it, the project file first.
+/// Bytes and not what was made of them, so that a user can check with `sha256sum` what has changed,
+/// and no change of a parser passes for the same scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneIdentity {

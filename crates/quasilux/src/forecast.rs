@@ -3,8 +3,8 @@
 use quasilux_scene::Scene;
 use quasilux_transport::{EstimatorKind, MemoryNeed, Settings};
 
-/// The program with small files in memory, and what a thread that traces paths, or photons too, keeps at hand:
-/// measured on the examples (`docs/memory.md`).
+/// The program with small files in memory, and what a thread that traces paths, or photons too,
+/// keeps at hand: measured on the examples (`docs/memory.md`).
 const PROGRAM_BYTES: u64 = 18 << 20;
 const PATH_THREAD_BYTES: u64 = 1 << 20;
 const PHOTON_THREAD_BYTES: u64 = 4 << 20;

@@ -1,7 +1,8 @@
 //! Plans and parts of a run that is spread over machines.
 //!
-//! A plan is a readable file that says all about a run of a fixed number of samples: scene, settings, and what
-//! surveys and pilots decided. A part has the plan within it, and the sums of a range of indices.
+//! A plan is a readable file that says all about a run of a fixed number of samples: scene,
+//! settings, and what surveys and pilots decided. A part has the plan within it, and the sums of a
+//! range of indices.
 
 use crate::build::{self, BUILD, VERSION};
 use crate::container::{self, Contents};
@@ -124,8 +125,8 @@ impl Plan {
         json::text(self)
     }
 
-    /// The settings of the run; refuses projects that have changed since. `name` is what messages call
-    /// the file that the plan stands in.
+    /// The settings of the run; refuses projects that have changed since. `name` is what messages
+    /// call the file that the plan stands in.
     pub(crate) fn settings(&self, name: &str, project: &Project) -> Result<Settings, CliError> {
         if let Some(change) = project.identity.difference(&self.scene) {
             return Err(CliError::new(format!(
@@ -139,7 +140,8 @@ impl Plan {
         Ok(settings)
     }
 
-    /// Refuses sums that come from other decisions of surveys and pilots, which stand at their front.
+    /// Refuses sums that come from other decisions of surveys and pilots, which stand at their
+    /// front.
     pub(crate) fn expect_decisions(&self, sums: &[u8], name: &str) -> Result<(), CliError> {
         let decided = sums.first_chunk::<BYTES>().map(|digest| hex(digest));
         if decided.as_ref() == Some(&self.decisions.sha256) {
@@ -216,7 +218,8 @@ impl Part {
     }
 }
 
-/// Sorts parts by their indices, and refuses what does not make a run: parts of other plans, gaps and overlaps.
+/// Sorts parts by their indices, and refuses what does not make a run: parts of other plans, gaps
+/// and overlaps.
 pub(crate) fn in_order(mut parts: Vec<Part>) -> Result<Vec<Part>, CliError> {
     parts.sort_by_key(|part| (part.range.start, part.range.end));
     let Some(first) = parts.first() else { return Err(CliError::new("no parts")) };

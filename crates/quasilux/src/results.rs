@@ -1,5 +1,5 @@
-//! Results on disk: a document, a spreadsheet for each sensor, a picture for each grid, three for each
-//! camera.
+//! Results on disk: a document, a spreadsheet for each sensor, a picture for each grid, three for
+//! each camera.
 
 use crate::atomic_file;
 use crate::exit::CliError;
@@ -34,7 +34,8 @@ pub(crate) fn write(folder: &Path, report: &Report) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Makes sure that `path` can become a file before anything is computed, and none of those that are read.
+/// Makes sure that `path` can become a file before anything is computed, and none of those that are
+/// read.
 pub(crate) fn prepare_file(path: &Path, read: &[&Path]) -> Result<(), CliError> {
     if path.is_dir() {
         return Err(CliError::new(format!("{}: is a folder, expected a file", path.display())));

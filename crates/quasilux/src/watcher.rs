@@ -174,8 +174,8 @@ impl Observer for Watcher<'_> {
     }
 }
 
-/// Photons, paths, rays a second, the largest relative half-width and how it shrinks, the time left to the
-/// end, and that of the whole run to the tolerance.
+/// Photons, paths, rays a second, the largest relative half-width and how it shrinks, the time left
+/// to the end, and that of the whole run to the tolerance.
 fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     let rays = progress.rays as f64;
     let own_rays = progress.rays.saturating_sub(progress.earlier_rays).max(1) as f64;

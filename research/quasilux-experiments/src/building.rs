@@ -1,17 +1,18 @@
-//! The simple scenes that experiments are made of: rooms and quadrilaterals, lamps and sensor points.
+//! The simple scenes that experiments are made of: rooms and quadrilaterals, lamps and sensor
+//! points.
 
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::light::{AreaLight, PointLight};
 use quasilux_scene::{Bsdf, Light, Material, Mesh, Rgb, Scene, Sensor, SensorPoint, SensorShape};
 
-/// Corners of a box's sides, low and high along z, x and y, as seen from within. A corner's bits say where
-/// along x, y and z it is.
+/// Corners of a box's sides, low and high along z, x and y, as seen from within. A corner's bits
+/// say where along x, y and z it is.
 const BOX: [[u32; 4]; 6] =
     [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6]];
 
-/// A closed box from the origin to `size_m`, all of one material, its normals inward: floor, ceiling, then the
-/// walls at low and high x, at low and high y, two triangles each.
+/// A closed box from the origin to `size_m`, all of one material, its normals inward: floor,
+/// ceiling, then the walls at low and high x, at low and high y, two triangles each.
 pub(super) fn room(size_m: DVec3, bsdf: Bsdf) -> Scene {
     let mut scene = Scene::default();
     let material = add_material(&mut scene, bsdf);

@@ -9,8 +9,9 @@ pub(super) struct Claim {
 }
 
 impl Claim {
-    /// With the figures in the text, and the significance where chance plays a part. What it rests on is given again as
-    /// numbers: where one of them is none, or not finite, nothing was found, and the claim does not hold.
+    /// With the figures in the text, and the significance where chance plays a part. What it rests
+    /// on is given again as numbers: where one of them is none, or not finite, nothing was found,
+    /// and the claim does not hold.
     pub(super) fn new(
         text: String,
         evidence: impl IntoIterator<Item = f64>,
@@ -45,7 +46,8 @@ impl Claim {
     }
 }
 
-/// The largest value. No number where one of them is none, which `f64::max` would pass over, or where there are none.
+/// The largest value. No number where one of them is none, which `f64::max` would pass over, or
+/// where there are none.
 pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
     values.into_iter().reduce(larger).unwrap_or(f64::NAN)

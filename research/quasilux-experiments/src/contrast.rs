@@ -1,18 +1,20 @@
-//! Ratios of root mean squares that come from randomisations, and how sure they are: the one way in which errors are
-//! compared here.
+//! Ratios of root mean squares that come from randomisations, and how sure they are: the one way in
+//! which errors are compared here.
 //!
-//! Replicate r of all setups belongs together: it may have the same randomisation. Each setup has a sum S of squared
-//! errors, and replicate r the share s_r of it. What is tested is the logarithm of a product of powers of root mean
-//! squares, its standard error by leaving out one replicate after the other (the jackknife, J. W. Tukey 1958):
+//! Replicate r of all setups belongs together: it may have the same randomisation. Each setup has a
+//! sum S of squared errors, and replicate r the share s_r of it. What is tested is the logarithm of
+//! a product of powers of root mean squares, its standard error by leaving out one replicate after
+//! the other (the jackknife, J. W. Tukey 1958):
 //!
 //! ```text
 //! l_r = sum over setups of power / 2 * log((R - 1) / R * S - s_r)
 //! ```
 //!
-//! over R replicates. Without replicate r that is the sum about the mean of the others, where s_r is the squared distance from the mean
-//! of all times R / (R - 1); for squared distances from a known truth it is a little less than what is left, which is
-//! careful. The logarithm over this error is compared with Student's t of R - 1 degrees of freedom. That holds its
-//! level from 8 randomisations of one place on, as the tests here show; with fewer no ratio is significant.
+//! over R replicates. Without replicate r that is the sum about the mean of the others, where s_r
+//! is the squared distance from the mean of all times R / (R - 1); for squared distances from a
+//! known truth it is a little less than what is left, which is careful. The logarithm over this
+//! error is compared with Student's t of R - 1 degrees of freedom. That holds its level from 8
+//! randomisations of one place on, as the tests here show; with fewer no ratio is significant.
 
 use quasilux_transport::interval::t_quantile_for;
 
@@ -57,8 +59,8 @@ impl Contrast {
         Self::of(&[(1.0, worse), (-1.0, better)])
     }
 
-    /// The same for a ratio of cost as well, which is taken as known: how many times as efficient, one over squared error
-    /// times cost.
+    /// The same for a ratio of cost as well, which is taken as known: how many times as efficient,
+    /// one over squared error times cost.
     pub(super) fn efficiency(self, cost_ratio: f64) -> Self {
         let ratio = self.ratio * self.ratio * cost_ratio;
         Self { ratio, log_error: 2.0 * self.log_error, ..self }
@@ -147,8 +149,8 @@ mod tests {
         assert!(!Contrast::gain(&worse, &[f64::NAN; 8]).is_above(1.0, 0.01));
     }
 
-    /// Mean squares of twelve uniform errors each, half of them common to both setups: where none is better, a test at
-    /// 5 % finds one in 5 % of 4000 cases, which these know to 0.35 %.
+    /// Mean squares of twelve uniform errors each, half of them common to both setups: where none
+    /// is better, a test at 5 % finds one in 5 % of 4000 cases, which these know to 0.35 %.
     #[test]
     fn chance_is_taken_for_a_gain_as_often_as_stated() {
         let points = PointSet::new(Sequence::Independent, Randomization::None, 5);
@@ -166,8 +168,9 @@ mod tests {
         assert!((share - 0.05).abs() < 4.0 * 0.0035, "{share}");
     }
 
-    /// The hardest case: a single place, its errors the distances from the mean of few randomisations, each a sum of twelve
-    /// uniform numbers. The same cases, which are known as well.
+    /// The hardest case: a single place, its errors the distances from the mean of few
+    /// randomisations, each a sum of twelve uniform numbers. The same cases, which are known as
+    /// well.
     #[test]
     fn errors_about_their_own_mean_at_one_place_are_no_exception() {
         let points = PointSet::new(Sequence::Independent, Randomization::None, 6);

@@ -1,8 +1,9 @@
-//! What a run knows at each of its checkpoints, and when: one run gives the errors of all smaller ones.
+//! What a run knows at each of its checkpoints, and when: one run gives the errors of all smaller
+//! ones.
 //!
-//! Replicates are independent randomisations, so that the spread of a run's replicates at a checkpoint is the
-//! error of a single run of that many samples. Its time is that of the whole over the number of replicates, all
-//! threads at work.
+//! Replicates are independent randomisations, so that the spread of a run's replicates at a
+//! checkpoint is the error of a single run of that many samples. Its time is that of the whole over
+//! the number of replicates, all threads at work.
 
 use quasilux_scene::Scene;
 use quasilux_transport::interval::t_quantile_for;
@@ -33,8 +34,8 @@ struct Watch {
 }
 
 impl Course {
-    /// Runs to `max_samples` whatever the tolerance, or up to the checkpoint before the one that would come
-    /// after the limit: the number of samples doubles from one to the next.
+    /// Runs to `max_samples` whatever the tolerance, or up to the checkpoint before the one that
+    /// would come after the limit: the number of samples doubles from one to the next.
     #[expect(clippy::disallowed_methods, reason = "errors are shown against time")]
     pub(super) fn run(scene: &Scene, settings: &Settings, limit: Option<Duration>) -> Self {
         let settings = Settings { rel_tol: 0.0, abs_tol_lx: 0.0, ..settings.clone() };

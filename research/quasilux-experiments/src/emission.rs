@@ -10,8 +10,8 @@ use quasilux_sampling::warp::sample_uniform_hemisphere;
 pub(super) enum Method {
     /// Two coordinates, by the table's inverse transform.
     InverseTransform,
-    /// Uniform directions below the horizon, where all the light goes, accepted with probability intensity over maximum: three
-    /// coordinates a trial, all of the same point.
+    /// Uniform directions below the horizon, where all the light goes, accepted with probability
+    /// intensity over maximum: three coordinates a trial, all of the same point.
     Rejection,
 }
 

@@ -1,5 +1,5 @@
-//! Photons in a closed box: what they hit after each number of them, in each randomisation, and how far that is from
-//! the mean of all.
+//! Photons in a closed box: what they hit after each number of them, in each randomisation, and how
+//! far that is from the mean of all.
 
 use super::closed_box::CELLS;
 use super::contrast::Contrast;

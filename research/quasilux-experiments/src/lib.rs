@@ -1,8 +1,9 @@
-//! Experiments on quasi-Monte Carlo light transport: those of Voloboy, Dmitriev and Kopylov (2003), and our own on
-//! coverage of intervals, rejection sampling and next-event estimation of photons.
+//! Experiments on quasi-Monte Carlo light transport: those of Voloboy, Dmitriev and Kopylov (2003),
+//! and our own on coverage of intervals, rejection sampling and next-event estimation of photons.
 //!
-//! An [`Experiment`] takes [`Options`] and gives an [`Outcome`]: tables, plots and pictures as bytes, and whether what it
-//! claims holds. It reads the clock where it compares times, and touches no file.
+//! An [`Experiment`] takes [`Options`] and gives an [`Outcome`]: tables, plots and pictures as
+//! bytes, and whether what it claims holds. It reads the clock where it compares times, and touches
+//! no file.
 
 mod batwing;
 mod bsdf_rejection;
@@ -113,13 +114,15 @@ impl Experiment {
         EXPERIMENTS.iter().find(|experiment| experiment.name == name)
     }
 
-    /// Runs the experiment, which takes seconds to minutes on all threads of the current `rayon` pool.
+    /// Runs the experiment, which takes seconds to minutes on all threads of the current `rayon`
+    /// pool.
     #[must_use]
     pub fn run(&self, options: &Options) -> Outcome {
         (self.run)(options)
     }
 
-    /// The first of the options given that changes nothing here, as it is spelt on the command line.
+    /// The first of the options given that changes nothing here, as it is spelt on the command
+    /// line.
     #[must_use]
     pub fn unheeded(&self, options: &Options) -> Option<&'static str> {
         let given = [

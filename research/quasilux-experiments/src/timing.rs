@@ -1,5 +1,5 @@
-//! What a ray takes in several kinds of runs, each timed by short runs in turn: what else the machine does hits all
-//! of them alike.
+//! What a ray takes in several kinds of runs, each timed by short runs in turn: what else the
+//! machine does hits all of them alike.
 
 /// Rounds, each with one run of each kind.
 const ROUNDS: usize = 15;
@@ -7,7 +7,8 @@ const ROUNDS: usize = 15;
 /// Rays of a short run, all replicates together.
 pub(super) const SHORT_RAYS: f64 = 1e6;
 
-/// Seconds that a ray of each kind takes. `short_run` makes a run of a kind, by its number, and says what a ray took in it.
+/// Seconds that a ray of each kind takes. `short_run` makes a run of a kind, by its number, and
+/// says what a ray took in it.
 ///
 /// The share of each kind in the mean of a round and these means are medians over the rounds.
 pub(super) fn seconds_of_a_ray(kinds: usize, short_run: impl Fn(usize) -> f64) -> Vec<f64> {

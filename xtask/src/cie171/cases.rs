@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 const PANEL_CD_M2: f64 = 1000.0;
 /// Of the sources of cases 5.4 and 5.8.
 const FLUX_LM: f64 = 10_000.0;
-/// Of the lit surface of cases 5.6 and 5.7, so that what it sends to a point is in % of what falls on it and
-/// is reflected.
+/// Of the lit surface of cases 5.6 and 5.7, so that what it sends to a point is in % of what falls
+/// on it and is reflected.
 const SENT_LX: f64 = 100.0;
 /// Of the floor of case 5.6, and of the wall of case 5.7.
 const FLOOR: f64 = 0.3;
@@ -19,7 +19,8 @@ const WALL: f64 = 0.6;
 /// Where the luminaires of these cases are: in the middle of the ceiling, and between box and wall.
 const ABOVE_FLOOR: Point = [2.0, 2.0, 3.0];
 const BEFORE_WALL: Point = [2.0, 2.8, 1.5];
-/// Reflectances of case 5.8, which the standard takes in steps from 0 to 0.95, with their part of file names.
+/// Reflectances of case 5.8, which the standard takes in steps from 0 to 0.95, with their part of
+/// file names.
 const CUBES: [(f64, &str); 4] = [(0.05, "05"), (0.3, "30"), (0.7, "70"), (0.95, "95")];
 
 /// Corners of floor and far wall.
@@ -247,8 +248,8 @@ fn face_average((face, name): (usize, &&'static str)) -> Expectation {
     }
 }
 
-/// What a place before the box sees of the wall y = 4 over it: the box reaches from wall to wall, so its two upper
-/// edges cut the wall at a height.
+/// What a place before the box sees of the wall y = 4 over it: the box reaches from wall to wall,
+/// so its two upper edges cut the wall at a height.
 fn seen_over_box(at: Point) -> [Point; 4] {
     let [low, high] = BOX;
     let cut = |y: f64| at[2] + (high[2] - at[2]) * (ROOM_M[1] - at[1]) / (y - at[1]);
@@ -385,8 +386,8 @@ fn face_means(size_m: Point) -> Vec<Sensor> {
 mod tests {
     use super::*;
 
-    /// The values that the standard prints, to the digits that it has; table 19 (case 5.7) is printed with errors, so
-    /// its values are those of the formula elsewhere.
+    /// The values that the standard prints, to the digits that it has; table 19 (case 5.7) is
+    /// printed with errors, so its values are those of the formula elsewhere.
     #[test]
     fn values_are_those_of_the_standard() {
         let printed: [(&str, &str, &[f64]); 7] = [

@@ -1,12 +1,14 @@
-//! How much of its view a point has of a flat polygon, in closed form: the references of diffuse light.
+//! How much of its view a point has of a flat polygon, in closed form: the references of diffuse
+//! light.
 
 pub(crate) type Point = [f64; 3];
 
-/// The share of a point's illuminance that a polygon gives, of what a whole hemisphere of its luminance would
-/// (configuration factor), where all of it stands above the point's horizon.
+/// The share of a point's illuminance that a polygon gives, of what a whole hemisphere of its
+/// luminance would (configuration factor), where all of it stands above the point's horizon.
 ///
-/// E = L / 2 times the sum over edges of the angle that the edge subtends times the cosine between the normal
-/// and that of the edge's plane through the point (J. H. Lambert, Photometria, 1760); the factor is E / (pi L).
+/// E = L / 2 times the sum over edges of the angle that the edge subtends times the cosine between
+/// the normal and that of the edge's plane through the point (J. H. Lambert, Photometria, 1760);
+/// the factor is E / (pi L).
 pub(crate) fn configuration_factor(at: Point, normal: Point, corners: &[Point]) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let edge = |(a, b): (&Point, &Point)| {
@@ -18,8 +20,8 @@ pub(crate) fn configuration_factor(at: Point, normal: Point, corners: &[Point]) 
     (edges.map(edge).sum::<f64>() / std::f64::consts::TAU).abs()
 }
 
-/// The part of a sphere that a rectangle hides from a point at `distance` in front of its middle, in sr:
-/// 4 atan(a b / (d sqrt(a^2 + b^2 + d^2))) with half edges a and b.
+/// The part of a sphere that a rectangle hides from a point at `distance` in front of its middle,
+/// in sr: 4 atan(a b / (d sqrt(a^2 + b^2 + d^2))) with half edges a and b.
 pub(crate) fn solid_angle_sr([a, b]: [f64; 2], distance: f64) -> f64 {
     4.0 * libm::atan(a * b / (distance * libm::sqrt(a * a + b * b + distance * distance)))
 }

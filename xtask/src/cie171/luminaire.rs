@@ -19,8 +19,8 @@ pub(crate) fn cosine_file() -> String {
     Beam { title: "1000 cd after the cosine law", table: (0..=180).map(value).collect() }.file()
 }
 
-/// Lights a plane evenly: I = E h^2 / cos^3 gamma until past `last_deg`, in steps of a tenth of a degree,
-/// where interpolation is 5e-5 too high at most; nothing beyond.
+/// Lights a plane evenly: I = E h^2 / cos^3 gamma until past `last_deg`, in steps of a tenth of a
+/// degree, where interpolation is 5e-5 too high at most; nothing beyond.
 pub(crate) fn even_file(illuminance_lx: f64, height_m: f64, last_deg: u32) -> String {
     let value = |k: u32| {
         let gamma_deg = 0.1 * f64::from(k);

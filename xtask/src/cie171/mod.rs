@@ -1,8 +1,8 @@
-//! The closed-form cases of CIE 171:2006, Test cases to assess the accuracy of lighting computer programs, as data in
-//! `validation/`: scenes after the standard's description, values by formula.
+//! The closed-form cases of CIE 171:2006, Test cases to assess the accuracy of lighting computer
+//! programs, as data in `validation/`: scenes after the standard's description, values by formula.
 //!
-//! All rooms begin at the origin. Places are named as in the standard: A to F on the wall y = 0 above the middle of its
-//! foot, G to N along the floor's centre line.
+//! All rooms begin at the origin. Places are named as in the standard: A to F on the wall y = 0
+//! above the middle of its foot, G to N along the floor's centre line.
 
 mod cases;
 mod factors;

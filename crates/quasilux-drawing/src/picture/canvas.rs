@@ -1,5 +1,5 @@
-//! A small canvas: rectangles, lines and filled outlines with smooth edges. Pixel (0, 0) is at the top left, and its
-//! centre is at (0.5, 0.5).
+//! A small canvas: rectangles, lines and filled outlines with smooth edges. Pixel (0, 0) is at the
+//! top left, and its centre is at (0.5, 0.5).
 
 use super::colour_map::{Colour, mix};
 use ab_glyph_rasterizer::{Rasterizer, point};

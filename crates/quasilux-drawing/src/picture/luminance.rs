@@ -1,5 +1,5 @@
-//! The false-colour picture of luminances: each pixel in the colour of its luminance, and a legend in
-//! cd/m2.
+//! The false-colour picture of luminances: each pixel in the colour of its luminance, and a legend
+//! in cd/m2.
 
 use super::canvas::Canvas;
 use super::frame::{self, Caption};

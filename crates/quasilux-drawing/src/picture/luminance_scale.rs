@@ -1,8 +1,8 @@
 //! Which luminance gets which colour.
 //!
-//! Luminances of a room span decades, so the scale is logarithmic, between numbers 1, 2 or 5 times a
-//! power of ten. It ends above the brightest pixel and begins below all but the darkest 1 % of those
-//! with light, at most four decades lower. What is below has the colour of its low end.
+//! Luminances of a room span decades, so the scale is logarithmic, between numbers 1, 2 or 5 times
+//! a power of ten. It ends above the brightest pixel and begins below all but the darkest 1 % of
+//! those with light, at most four decades lower. What is below has the colour of its low end.
 
 use super::colour_map::{self, Colour};
 use super::frame::Legend;

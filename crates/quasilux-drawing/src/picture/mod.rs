@@ -1,10 +1,10 @@
-//! Raster pictures: false colours with a scale for grids and images, tone-mapped images, alone or side
-//! by side.
+//! Raster pictures: false colours with a scale for grids and images, tone-mapped images, alone or
+//! side by side.
 //!
 //! The false-colour picture of a grid has flat cells in true proportion, contour lines at round
-//! values, the number of each cell where it fits, axes in metres and a legend. Cells show one computed
-//! value each; only the contour lines interpolate (bilinear between cell centres, linear beyond them
-//! up to the border).
+//! values, the number of each cell where it fits, axes in metres and a legend. Cells show one
+//! computed value each; only the contour lines interpolate (bilinear between cell centres, linear
+//! beyond them up to the border).
 
 mod axis;
 mod canvas;

@@ -13,7 +13,8 @@ const MAX_TICKS: usize = 14;
 pub(crate) struct ValueScale {
     low: f64,
     high: f64,
-    /// Levels of the contour lines; none where the values do not differ by more than their intervals.
+    /// Levels of the contour lines; none where the values do not differ by more than their
+    /// intervals.
     pub(crate) levels: Ticks,
     /// Ticks of the legend, both ends among them.
     pub(crate) ticks: Ticks,

@@ -22,9 +22,9 @@ pub struct LabelledImage<'a> {
     pub image: Image<'a>,
 }
 
-/// Images of one resolution in a row, each below its label, as a PNG file. All have the exposure that
-/// [`tone_mapped_png`](super::tone_mapped_png) gives an image with the luminances `exposure`; brighter
-/// pixels are white.
+/// Images of one resolution in a row, each below its label, as a PNG file. All have the exposure
+/// that [`tone_mapped_png`](super::tone_mapped_png) gives an image with the luminances `exposure`;
+/// brighter pixels are white.
 #[must_use]
 pub fn series_png(
     [width, height]: [u32; 2],

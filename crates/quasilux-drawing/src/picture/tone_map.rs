@@ -1,12 +1,12 @@
 //! What a camera sees, on a screen: luminances compressed into what a screen can show.
 //!
 //! The global operator of Reinhard, Stark, Shirley and Ferwerda (2002), equations 1, 2 and 4: with
-//! `L_avg` the log-average luminance and `L = a L_w / L_avg`, the display shows
-//! `L (1 + L / L_white^2) / (1 + L)`, with the key a = 0.18 and `L_white` the largest L of the
-//! picture, so that white is the brightest place. Deviation: pixels without light are left out of the
-//! log-average, where the paper adds a small number to all. Each channel is scaled like the luminance
-//! and cut at 1, then encoded for sRGB (IEC 61966-2-1:1999, clause 5.2), whose primaries are those of
-//! the channels.
+//! `L_avg` the log-average luminance and `L = a L_w / L_avg`, the display shows `L (1 + L /
+//! L_white^2) / (1 + L)`, with the key a = 0.18 and `L_white` the largest L of the picture, so that
+//! white is the brightest place. Deviation: pixels without light are left out of the log-average,
+//! where the paper adds a small number to all. Each channel is scaled like the luminance and cut at
+//! 1, then encoded for sRGB (IEC 61966-2-1:1999, clause 5.2), whose primaries are those of the
+//! channels.
 
 use super::canvas::srgb_png;
 use super::image::Image;

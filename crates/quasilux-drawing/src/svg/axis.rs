@@ -114,8 +114,8 @@ impl Axis {
         (first..=last).map(tick).collect()
     }
 
-    /// Where the axis spans less than a power: 1, 2 and 5 times powers of ten, or else evenly spaced
-    /// round numbers.
+    /// Where the axis spans less than a power: 1, 2 and 5 times powers of ten, or else evenly
+    /// spaced round numbers.
     fn numbers(&self, most: usize) -> Vec<Tick> {
         let (first, last) = (libm::log10(self.low).floor(), libm::log10(self.high).ceil());
         let powers = (first as i32..=last as i32).map(|power| libm::exp10(f64::from(power)));

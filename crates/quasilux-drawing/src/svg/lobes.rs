@@ -1,4 +1,5 @@
-//! Where a surface sends light: polar diagrams of scattering lobes in the plane of incidence, the side of the light up.
+//! Where a surface sends light: polar diagrams of scattering lobes in the plane of incidence, the
+//! side of the light up.
 
 use super::curve::IntensityCurve;
 use super::drawing::Drawing;
@@ -22,14 +23,16 @@ pub struct LobeDiagram {
 /// Where light from one direction goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lobe {
-    /// The angle between that direction and the normal, in degrees; it is drawn to the left of the normal.
+    /// The angle between that direction and the normal, in degrees; it is drawn to the left of the
+    /// normal.
     pub incidence_deg: f64,
-    /// f times the cosine, in sr^-1, over the angle from the normal that points down, -180 to 180 degrees, negative to
-    /// the left.
+    /// f times the cosine, in sr^-1, over the angle from the normal that points down, -180 to 180
+    /// degrees, negative to the left.
     pub curve: IntensityCurve,
 }
 
-/// Diagrams side by side as an SVG file; those of one incidence have the same names and strokes in all of them.
+/// Diagrams side by side as an SVG file; those of one incidence have the same names and strokes in
+/// all of them.
 #[must_use]
 pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> String {
     let curves: Vec<Vec<IntensityCurve>> = diagrams.iter().map(curves_and_rays).collect();

@@ -1,8 +1,9 @@
 //! Drawings and plots as SVG 1.1 files (W3C 2011), for print and the web.
 //!
-//! [`scatter`] and [`scatters`] draw points of the unit square, [`figure`] a grid of line plots with a common legend,
-//! [`intensities`] what a luminaire sends where. All stand on [`Drawing`], which writes the elements. Text is text, so that it can be searched and
-//! read aloud. Colours are [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
+//! [`scatter`] and [`scatters`] draw points of the unit square, [`figure`] a grid of line plots
+//! with a common legend, [`intensities`] what a luminaire sends where. All stand on [`Drawing`],
+//! which writes the elements. Text is text, so that it can be searched and read aloud. Colours are
+//! [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
 
 mod axis;
 mod curve;
@@ -29,8 +30,8 @@ pub use style::{Anchor, Dash, PALETTE, Stroke, TextStyle};
 mod tests {
     use super::*;
 
-    /// Every element is closed in order, every attribute is quoted, and no number is missing: what a
-    /// reader of XML insists on. Our files have neither comments nor sections of other kinds.
+    /// Every element is closed in order, every attribute is quoted, and no number is missing: what
+    /// a reader of XML insists on. Our files have neither comments nor sections of other kinds.
     fn assert_well_formed(file: &str) {
         let body =
             file.strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>").expect("a prolog");

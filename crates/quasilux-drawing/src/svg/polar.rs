@@ -1,5 +1,5 @@
-//! The polar diagram of luminous intensities, as European data sheets have it (EN 13032-2): gamma = 0
-//! points down, distance from the centre is the intensity.
+//! The polar diagram of luminous intensities, as European data sheets have it (EN 13032-2): gamma =
+//! 0 points down, distance from the centre is the intensity.
 
 use super::curve::IntensityCurve;
 use super::drawing::{Drawing, Frame};
@@ -213,8 +213,8 @@ fn bent(centre: [f64; 2], scale_px: f64, points: &[[f64; 2]], extent: Extent) ->
     refined(points).into_iter().map(shown).collect()
 }
 
-/// Points of a curve that is linear in gamma, so close that straight lines between their places show
-/// how it is bent.
+/// Points of a curve that is linear in gamma, so close that straight lines between their places
+/// show how it is bent.
 fn refined(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut refined: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
     for pair in points.windows(2) {

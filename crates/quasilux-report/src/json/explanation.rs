@@ -1,8 +1,8 @@
 //! The entry `explain` of the result document: which coordinates carry the variance.
 //!
-//! Coordinates count from 0; a block without a `last` one has all that follow. Shares are of the variance
-//! of one sample, `alone` without what hangs on other blocks too, `total` with it. `beside` has the same of
-//! photons that stand beside paths, so many for each path.
+//! Coordinates count from 0; a block without a `last` one has all that follow. Shares are of the
+//! variance of one sample, `alone` without what hangs on other blocks too, `total` with it.
+//! `beside` has the same of photons that stand beside paths, so many for each path.
 
 use quasilux_transport::Explanation;
 use quasilux_transport::explain::{Beside, Block, Gain, SampleKind, Share};

@@ -1,21 +1,24 @@
 //! The result document, format "quasilux-result/1": the form that other programs rely on.
 //!
 //! The order of keys is fixed and numbers are the shortest that read back exactly, so two runs of
-//! one project write the same bytes but for what is called `seconds`, `threads` or `bytes`. Unknown figures are `null`.
-//! Beyond the agreed keys the document says, at the top, whether values may be `biased`; in a grid
-//! sensor its `counts` along u and v; where terms of the Neumann series are listed, `terms_lx` in
-//! each point and `average_terms_lx` in each summary, the last of them with `"bounces": "rest"`; in
-//! `cameras` the files of each camera, the paths of each pixel
-//! in each replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a
-//! run repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`, `tolerance_on`, `max_bounces`, `map_element_m`,
-//! `map_elements`, `map_adaptive`, `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`, `importance`, `connections`, `first_shot`),
-//! `decisions`, what pilots made of those (photons connected for each path (`connected_photons`), whether photons follow `importance` and leave lit places, sides of elements
-//! of the map that paths end on, photons for each path that look for light which paths cannot find; `null` where there are none),
-//! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1, 2, ..
-//! coordinates, in one list each, all of more than 1023 together at its end, `photons`, how many began in all, `null` where none did, and
-//! `mean_events`, surfaces that a `photon` came to on average. A point that reached its
-//! tolerance before others has its own number of `samples`. Where it was asked for,
-//! `explain` says which coordinates carry the variance.
+//! one project write the same bytes but for what is called `seconds`, `threads` or `bytes`. Unknown
+//! figures are `null`. Beyond the agreed keys the document says, at the top, whether values may be
+//! `biased`; in a grid sensor its `counts` along u and v; where terms of the Neumann series are
+//! listed, `terms_lx` in each point and `average_terms_lx` in each summary, the last of them with
+//! `"bounces": "rest"`; in `cameras` the files of each camera, the paths of each pixel in each
+//! replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a run
+//! repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`,
+//! `tolerance_on`, `max_bounces`, `map_element_m`, `map_elements`, `map_adaptive`,
+//! `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`,
+//! `importance`, `connections`, `first_shot`), `decisions`, what pilots made of those (photons
+//! connected for each path (`connected_photons`), whether photons follow `importance` and leave lit
+//! places, sides of elements of the map that paths end on, photons for each path that look for
+//! light which paths cannot find; `null` where there are none), `prediction` (see `prediction.rs`),
+//! `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and
+//! paths used 0, 1, 2, .. coordinates, in one list each, all of more than 1023 together at its end,
+//! `photons`, how many began in all, `null` where none did, and `mean_events`, surfaces that a
+//! `photon` came to on average. A point that reached its tolerance before others has its own number
+//! of `samples`. Where it was asked for, `explain` says which coordinates carry the variance.
 
 mod camera;
 mod explanation;

@@ -1,4 +1,5 @@
-//! What the run says of its own convergence: one line, with what is left to do where a limit came first.
+//! What the run says of its own convergence: one line, with what is left to do where a limit came
+//! first.
 
 use super::plural;
 use crate::Report;

@@ -11,7 +11,8 @@ const NO_GAIN: f64 = 1.1;
 /// Powers of the step below this are nearer to jumps than to slopes.
 const JUMPS: f64 = 1.5;
 
-/// A table of the blocks, and sentences on what quasi-random points are worth here; the same of photons beside paths.
+/// A table of the blocks, and sentences on what quasi-random points are worth here; the same of
+/// photons beside paths.
 #[must_use]
 pub fn explanation(explanation: &Explanation, style: Style) -> String {
     let mut text = part(explanation, style);

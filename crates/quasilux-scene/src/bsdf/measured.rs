@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 /// A thin sheet whose scattering was measured: tables for light that arrives on its two sides.
 ///
-/// The front of the table is on the front of the facets. A table of one side alone that lets nothing through is that of an opaque
-/// sample, and holds for both sides.
+/// The front of the table is on the front of the facets. A table of one side alone that lets
+/// nothing through is that of an opaque sample, and holds for both sides.
 #[derive(Clone, Debug)]
 pub struct Measured {
     table: Arc<MeasuredBsdf>,
@@ -59,8 +59,8 @@ impl Measured {
         self.table.distributions().any(|(_, way, _)| way == ScatteringMode::Transmission)
     }
 
-    /// The share of diffuse light that is not absorbed, on the side where that is more; above 1 where the
-    /// table breaks the conservation of energy.
+    /// The share of diffuse light that is not absorbed, on the side where that is more; above 1
+    /// where the table breaks the conservation of energy.
     #[must_use]
     pub const fn most_kept(&self) -> f64 {
         self.most_kept

@@ -101,8 +101,8 @@ impl Bsdf {
         }
     }
 
-    /// Of the light that meets it, the most that is not absorbed, for whatever direction but grazing
-    /// ones: less than 1 where light ends.
+    /// Of the light that meets it, the most that is not absorbed, for whatever direction but
+    /// grazing ones: less than 1 where light ends.
     #[must_use]
     pub fn most_kept(&self) -> Rgb {
         match self {

@@ -3,7 +3,8 @@
 use super::{AngularNode, AngularTable};
 use crate::Rgb;
 
-/// A flat pane drawn as a single sheet, both sides alike: light goes straight through or is mirrored.
+/// A flat pane drawn as a single sheet, both sides alike: light goes straight through or is
+/// mirrored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pane {
     /// Clear: both boundaries reflect, and light goes to and fro between them.
@@ -43,8 +44,8 @@ impl Pane {
         }
     }
 
-    /// What a clear pane of this index lets through at normal incidence: `2 eta / (eta^2 + 1)`, from
-    /// `(1 - r) / (1 + r)` with `r = ((eta - 1) / (eta + 1))^2` at each boundary.
+    /// What a clear pane of this index lets through at normal incidence: `2 eta / (eta^2 + 1)`,
+    /// from `(1 - r) / (1 + r)` with `r = ((eta - 1) / (eta + 1))^2` at each boundary.
     #[must_use]
     pub fn clear_transmittance(eta: f64) -> f64 {
         2.0 * eta / (eta * eta + 1.0)

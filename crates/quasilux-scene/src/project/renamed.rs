@@ -1,4 +1,5 @@
-//! Keys of `[simulation]` that were renamed: the old names are refused, and messages give the new ones.
+//! Keys of `[simulation]` that were renamed: the old names are refused, and messages give the new
+//! ones.
 
 /// A key of `[simulation]`, of plans and of checkpoints that was renamed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,12 +6,12 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct BsdfArguments {
-    /// Files of measured surfaces (WINDOW XML, MERL, ASTM E1392, DDR and DDT), told apart by their content, only DDT
-    /// from DDR by the name; - is stdin, where both count as DDR
+    /// Files of measured surfaces (WINDOW XML, MERL, ASTM E1392, DDR and DDT), told apart by their
+    /// content, only DDT from DDR by the name; - is stdin, where both count as DDR
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Incident directions to report and draw: degrees from the normal, or from the normal and around it from x
-    /// towards y; may be repeated
+    /// Incident directions to report and draw: degrees from the normal, or from the normal and
+    /// around it from x towards y; may be repeated
     #[arg(
         long = "incidence",
         value_name = "THETA[,PHI]",
@@ -19,8 +19,8 @@ pub(crate) struct BsdfArguments {
         value_parser = incidence,
     )]
     pub(crate) incidences: Vec<Incidence>,
-    /// Draw where light goes in the plane of incidence: a file that ends in .svg, or a folder for one drawing of
-    /// each FILE
+    /// Draw where light goes in the plane of incidence: a file that ends in .svg, or a folder for
+    /// one drawing of each FILE
     #[arg(long, value_name = "PATH")]
     pub(crate) svg: Option<PathBuf>,
     /// Print a document in JSON, format "quasilux-bsdf/1", and nothing else

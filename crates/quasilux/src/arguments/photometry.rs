@@ -8,8 +8,8 @@ pub(crate) struct PhotometryArguments {
     /// Luminaire files (IES LM-63, EULUMDAT, TM-33), told apart by their content; - is stdin
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Draw the planes C0-C180 and C90-C270: a file that ends in .svg, or a folder for one drawing of
-    /// each FILE
+    /// Draw the planes C0-C180 and C90-C270: a file that ends in .svg, or a folder for one drawing
+    /// of each FILE
     #[arg(long, value_name = "PATH")]
     pub(crate) svg: Option<PathBuf>,
     /// What to draw

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 /// Endings of pictures that are not drawn: nobody means a folder by them.
 const OTHER_PICTURES: [&str; 5] = ["png", "jpg", "jpeg", "gif", "pdf"];
 
-/// A file for the drawing of each input, all different, and none of the inputs: the file that `--svg` names, or files in
-/// the folder.
+/// A file for the drawing of each input, all different, and none of the inputs: the file that
+/// `--svg` names, or files in the folder.
 pub(super) fn plan(path: &Path, files: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     let drawings = drawings(path, files)?;
     for (i, path) in drawings.iter().enumerate() {

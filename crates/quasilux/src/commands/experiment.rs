@@ -1,4 +1,5 @@
-//! `quasilux experiment NAME`: runs an experiment of `quasilux-experiments`, writes its files and prints its tables.
+//! `quasilux experiment NAME`: runs an experiment of `quasilux-experiments`, writes its files and
+//! prints its tables.
 
 use crate::arguments::ExperimentArguments;
 use crate::exit::{CliError, Exit};

@@ -105,8 +105,8 @@ pub(crate) fn simulate(
     Ok(finished.expect("a run has results once it has begun"))
 }
 
-/// Does a job on the threads that its watcher knows of; `None` when the user interrupted it before it had
-/// results.
+/// Does a job on the threads that its watcher knows of; `None` when the user interrupted it before
+/// it had results.
 pub(crate) fn work(
     project: &Project,
     mut watcher: Watcher<'_>,

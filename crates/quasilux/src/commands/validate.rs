@@ -1,4 +1,5 @@
-//! `quasilux validate`: every case of a folder against its known answer, in one table, a case after the other.
+//! `quasilux validate`: every case of a folder against its known answer, in one table, a case after
+//! the other.
 
 use super::run::simulate;
 use crate::arguments::{SimulationArguments, ValidateArguments};
@@ -76,7 +77,8 @@ fn print_verdict(report: &Report, verdict: &Verdict) -> Result<(), CliError> {
     ])
 }
 
-/// A figure with its half-width; one that has none, or none but of rounding, with the digits that a closed form may differ in.
+/// A figure with its half-width; one that has none, or none but of rounding, with the digits that a
+/// closed form may differ in.
 fn got_text(got: Figure) -> String {
     let is_exact =
         |value: &f64| got.half_width.is_none_or(|half_width| half_width <= 1e-9 * value.abs());

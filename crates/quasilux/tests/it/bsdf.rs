@@ -3,7 +3,8 @@
 use crate::support::{Folder, Run, number, parsed};
 use std::f64::consts::PI;
 
-/// A sheet that reflects 40 % and lets 20 % through, both as Lambert says, over quarter Klems patches.
+/// A sheet that reflects 40 % and lets 20 % through, both as Lambert says, over quarter Klems
+/// patches.
 fn sheet() -> String {
     let block = |direction: &str, share: f64| {
         let row = vec![format!("{:.12}", share / PI); 41].join(", ");
@@ -107,7 +108,8 @@ fn what_cannot_be_read_is_refused_by_name() {
     assert!(beside.stderr.contains("--incidence"), "{}", beside.stderr);
 }
 
-/// A translucent wall between a lamp and a sensor, as a table and as the material that it was made from.
+/// A translucent wall between a lamp and a sensor, as a table and as the material that it was made
+/// from.
 #[test]
 fn a_project_uses_the_table() {
     let folder = folder("project");

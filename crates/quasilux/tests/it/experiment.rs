@@ -15,9 +15,9 @@ fn run(name: &str, arguments: &[&str]) -> Folder {
 }
 
 /// The paper's claim, at 2^14 photons. Random points: both methods have the error of counting,
-/// sqrt((1 - p) p / N) in a cell of probability p, so their ratio is 1. Sobol' points gain by inverse
-/// transform, and lose most of it by rejection. Root mean squares over 32 randomisations of 256 cells
-/// scatter by about 2 %.
+/// sqrt((1 - p) p / N) in a cell of probability p, so their ratio is 1. Sobol' points gain by
+/// inverse transform, and lose most of it by rejection. Root mean squares over 32 randomisations of
+/// 256 cells scatter by about 2 %.
 #[test]
 fn rejection_spoils_what_sobol_points_gain() {
     let folder = run("rejection", &["--max-n", "16384"]);

@@ -37,7 +37,8 @@ fn terms_add_up_in_the_document() {
     }
 }
 
-/// The explanation is the same on any number of threads, adds to the document, and changes nothing else.
+/// The explanation is the same on any number of threads, adds to the document, and changes nothing
+/// else.
 #[test]
 fn the_explanation_stands_beside_the_results() {
     let folder = Folder::new("explain_run");

@@ -28,7 +28,8 @@ fn go_on(folder: &Folder, more: &[&str]) -> Run {
     folder.quasilux(&[&["resume", "run.ck", "--out", "kept"][..], more].concat())
 }
 
-/// Kill -9 at 20 random moments of three runs in turn, some of them while they are starting or writing.
+/// Kill -9 at 20 random moments of three runs in turn, some of them while they are starting or
+/// writing.
 #[test]
 fn runs_that_are_killed_again_and_again_end_with_the_same_bits() {
     let runs = [("path", "8192"), ("bidirectional", "2048"), ("photon", "131072")];

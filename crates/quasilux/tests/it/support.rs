@@ -79,8 +79,8 @@ pub(crate) fn interrupt(child: &std::process::Child) {
     assert!(kill.is_ok_and(|status| status.success()), "the program is gone");
 }
 
-/// A document without what may differ between runs of one project: how long it took and on how many threads,
-/// the time that was foretold, and the memory of those threads.
+/// A document without what may differ between runs of one project: how long it took and on how many
+/// threads, the time that was foretold, and the memory of those threads.
 pub(crate) fn without_seconds_and_threads(document: &str) -> String {
     let mut text = document.to_owned();
     for (key, times) in [("\"seconds\": ", 2), ("\"threads\": ", 1), ("\"bytes\": ", 1)] {
@@ -169,8 +169,8 @@ pub(crate) fn damaged(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     bytes
 }
 
-/// A checkpoint or part with another text of the same length in its header, and the digest that belongs to
-/// it.
+/// A checkpoint or part with another text of the same length in its header, and the digest that
+/// belongs to it.
 pub(crate) fn forged(bytes: &[u8], old: &str, new: &str) -> Vec<u8> {
     use sha2::{Digest, Sha256};
     assert_eq!(old.len(), new.len());

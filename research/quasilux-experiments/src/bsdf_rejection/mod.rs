@@ -1,9 +1,9 @@
-//! `quasilux experiment bsdf-rejection`: photons between measured surfaces, their directions by inverse transform and by
-//! rejection, each with random and with Sobol' points.
+//! `quasilux experiment bsdf-rejection`: photons between measured surfaces, their directions by
+//! inverse transform and by rejection, each with random and with Sobol' points.
 //!
-//! Voloboy, Dmitriev and Kopylov (2003) draw directions from the table of a BSDF as from that of a luminaire: two
-//! coordinates, by inverse transform. Rejection takes three for each trial. Here all walls of a closed box have one
-//! table, of a glossy surface, and a point lights it from within.
+//! Voloboy, Dmitriev and Kopylov (2003) draw directions from the table of a BSDF as from that of a
+//! luminaire: two coordinates, by inverse transform. Rejection takes three for each trial. Here all
+//! walls of a closed box have one table, of a glossy surface, and a point lights it from within.
 
 mod picture;
 mod report;
@@ -21,7 +21,8 @@ use walk::{Glossy, Method};
 const REPLICATES: u32 = 64;
 /// The largest number of photons, unless the command line says otherwise.
 const MAX: u64 = 1 << 16;
-/// Comparisons in all; the one of likeness has two sides, of which only one can be passed by chance.
+/// Comparisons in all; the one of likeness has two sides, of which only one can be passed by
+/// chance.
 const TESTS: usize = 3;
 /// What the text says of them.
 const TESTED: &str = "significance 1 % for all three comparisons together";

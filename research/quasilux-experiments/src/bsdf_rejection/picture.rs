@@ -17,8 +17,8 @@ pub(super) fn svg(setups: &[Setup]) -> String {
     error_plot("Directions of measured surfaces", "a box of one glossy table", &lines)
 }
 
-/// Colours are methods, dashes are points; of the two curves of random points, which fall together, the lower one is
-/// wider.
+/// Colours are methods, dashes are points; of the two curves of random points, which fall together,
+/// the lower one is wider.
 fn stroke(setup: &Setup) -> Stroke {
     let (colour, random_px) = match setup.method {
         Method::InverseTransform => (PALETTE[0], 2.0),

@@ -20,8 +20,8 @@ const LIGHT: DVec3 = DVec3::new(0.3, -0.4, 0.5);
 /// A way to make directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Method {
-    /// Uniform directions, accepted with probability f times the cosine over its bound: three coordinates a trial, all of
-    /// the same point.
+    /// Uniform directions, accepted with probability f times the cosine over its bound: three
+    /// coordinates a trial, all of the same point.
     Rejection,
     /// Two coordinates, one of them what the choice between absorption and scattering left.
     InverseTransform,
@@ -44,8 +44,8 @@ impl Method {
 }
 
 impl Glossy {
-    /// From Phong's lobe in the form of E. P. Lafortune and Y. D. Willems (1994), which is reciprocal, at the middles of the
-    /// patches.
+    /// From Phong's lobe in the form of E. P. Lafortune and Y. D. Willems (1994), which is
+    /// reciprocal, at the middles of the patches.
     pub(super) fn new() -> Self {
         let basis = AngleBasis::known(BASIS).expect("a basis");
         let even = vec![1.0; basis.patches() * basis.patches()];

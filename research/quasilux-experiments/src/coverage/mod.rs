@@ -1,11 +1,12 @@
 //! `quasilux experiment coverage`: how often the intervals hold the truth.
 //!
-//! Seven scenes whose illuminances are known exactly, or far better than the runs know them, are run with many
-//! seeds, with Sobol' and with pseudo-random points, to tolerances that small budgets reach, at one look or
-//! another. Intervals are looked at twice: at the first checkpoint, where the number of samples is fixed,
-//! and where the run stops. Each point, the average and the minimum of a sensor has its own count of how often its 95 %
-//! interval covers the truth. A count fails where a binomial test refuses that it comes from a coverage of 93.5 %
-//! to 96.5 %, all counts together at 1 % (Sidak 1967).
+//! Seven scenes whose illuminances are known exactly, or far better than the runs know them, are
+//! run with many seeds, with Sobol' and with pseudo-random points, to tolerances that small budgets
+//! reach, at one look or another. Intervals are looked at twice: at the first checkpoint, where the
+//! number of samples is fixed, and where the run stops. Each point, the average and the minimum of
+//! a sensor has its own count of how often its 95 % interval covers the truth. A count fails where
+//! a binomial test refuses that it comes from a coverage of 93.5 % to 96.5 %, all counts together
+//! at 1 % (Sidak 1967).
 
 mod count;
 mod picture;
@@ -88,9 +89,10 @@ fn counts(scenes: &[Known], first_seed: u64, seeds: u32) -> Vec<Count> {
 mod tests {
     use super::*;
 
-    /// 24 seeds from 0 on, as a whole and with both sequences together: each of six counts is of 288 intervals.
-    /// With a coverage of 95 % one of them fails once in 500 choices of the seeds. Intervals that are 30 % too
-    /// narrow cover about 85 % by Student's t, which is missed once in 200.
+    /// 24 seeds from 0 on, as a whole and with both sequences together: each of six counts is of
+    /// 288 intervals. With a coverage of 95 % one of them fails once in 500 choices of the seeds.
+    /// Intervals that are 30 % too narrow cover about 85 % by Student's t, which is missed once in
+    /// 200.
     #[test]
     fn intervals_cover_and_narrow_ones_would_be_noticed() {
         let counts = counts(&scenes::all(), 0, 24);

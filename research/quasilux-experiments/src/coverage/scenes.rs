@@ -1,6 +1,7 @@
 //! Scenes whose illuminances are known.
 //!
-//! In each of them every point has noise: what is computed without sampling has no interval to test.
+//! In each of them every point has noise: what is computed without sampling has no interval to
+//! test.
 
 use crate::building::{add_material, add_quad, grey, lamp, points, room, shine};
 use glam::DVec3;
@@ -17,8 +18,8 @@ pub(super) struct Known {
     pub(super) scene: Scene,
     pub(super) truth_lx: Vec<f64>,
     pub(super) estimator: EstimatorKind,
-    /// Reached after a few checkpoints, with points of each kind in the order of [`super::SEQUENCES`]: so that runs of
-    /// both stop at two looks or more.
+    /// Reached after a few checkpoints, with points of each kind in the order of
+    /// [`super::SEQUENCES`]: so that runs of both stop at two looks or more.
     pub(super) rel_tol: [f64; 2],
 }
 
@@ -115,9 +116,9 @@ fn mirror() -> Known {
     }
 }
 
-/// The panel over two places beside a mirror, which they get 41 % of their light from and which few paths find, and
-/// two that get about as much from the panel alone and have the mirror below their horizon: the lowest of
-/// four that are within 0.3 % is known worse than the next.
+/// The panel over two places beside a mirror, which they get 41 % of their light from and which few
+/// paths find, and two that get about as much from the panel alone and have the mirror below their
+/// horizon: the lowest of four that are within 0.3 % is known worse than the next.
 fn unequal() -> Known {
     let mut scene = Scene::default();
     let corners = add_panel(&mut scene);
@@ -135,8 +136,8 @@ fn unequal() -> Known {
     Known { name: "unequal", why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol }
 }
 
-/// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose luminance is
-/// known to 1e-5 from the solution of its integral equation.
+/// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose
+/// luminance is known to 1e-5 from the solution of its integral equation.
 fn cube() -> Known {
     let mut scene = room(DVec3::splat(10.0), grey(2.0 / 3.0));
     lamp(&mut scene, DVec3::splat(5.0), 50_000.0);
@@ -175,9 +176,10 @@ fn walls() -> Known {
     }
 }
 
-/// What a polygon with the luminance of all lights gives to a place that sees all of it from above its horizon
-/// (J. H. Lambert, Photometria, 1760): half the luminance times the sum over edges of the angle that an edge
-/// subtends times the cosine of its plane's normal. Corners run counter-clockwise as the place sees them.
+/// What a polygon with the luminance of all lights gives to a place that sees all of it from above
+/// its horizon (J. H. Lambert, Photometria, 1760): half the luminance times the sum over edges of
+/// the angle that an edge subtends times the cosine of its plane's normal. Corners run
+/// counter-clockwise as the place sees them.
 fn polygon_lx(at: DVec3, n: DVec3, corners: &[DVec3]) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let edge = |(a, b): (&DVec3, &DVec3)| {
@@ -198,7 +200,8 @@ fn add_panel(scene: &mut Scene) -> [DVec3; 4] {
     corners
 }
 
-/// A mirror in the plane of one x, its corners as (y, z); returns the corners of the panel's image in it.
+/// A mirror in the plane of one x, its corners as (y, z); returns the corners of the panel's image
+/// in it.
 fn add_mirror(scene: &mut Scene, x_m: f64, corners: [[f64; 2]; 4]) -> [DVec3; 4] {
     let bsdf = Bsdf::Mirror(Mirror { reflectance: Rgb::grey(MIRROR) });
     let material = add_material(scene, bsdf);
@@ -227,8 +230,8 @@ mod tests {
         assert!(truth_lx[1..].iter().all(is_near), "{truth_lx:?}");
     }
 
-    /// Below the middle of a square of half side a at height a, the configuration factor is 4/pi times 1/sqrt 2 times
-    /// atan(1/sqrt 2) (Howell's catalogue, B-3, four times).
+    /// Below the middle of a square of half side a at height a, the configuration factor is 4/pi
+    /// times 1/sqrt 2 times atan(1/sqrt 2) (Howell's catalogue, B-3, four times).
     #[test]
     fn the_contour_integral_is_right_for_a_square() {
         let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];

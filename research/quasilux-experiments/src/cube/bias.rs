@@ -1,8 +1,9 @@
 //! What is left of the error after very many replicates: the floor under one replicate's error.
 //!
-//! The mean of R replicates with variance v at a place is off the truth by the bias b, and by v / R more on average
-//! of squares; so the squared error of the mean less v / R estimates b^2 without bias, summed over the places. How sure it is, is
-//! found by leaving out one replicate after the other (the jackknife, J. W. Tukey 1958).
+//! The mean of R replicates with variance v at a place is off the truth by the bias b, and by v / R
+//! more on average of squares; so the squared error of the mean less v / R estimates b^2 without
+//! bias, summed over the places. How sure it is, is found by leaving out one replicate after the
+//! other (the jackknife, J. W. Tukey 1958).
 
 use super::task::Task;
 use crate::claim::largest;

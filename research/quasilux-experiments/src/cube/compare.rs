@@ -1,8 +1,9 @@
 //! Columns at equal cost, as in the paper's table 5, and whether one beats another.
 //!
-//! Columns that read maps of the same elements have the same bias, for each randomisation leaves every point uniform. Of
-//! two such columns the one errs less that spreads less about its mean, and that is told apart from chance even where
-//! both come near their floor. Other columns are compared by their errors.
+//! Columns that read maps of the same elements have the same bias, for each randomisation leaves
+//! every point uniform. Of two such columns the one errs less that spreads less about its mean, and
+//! that is told apart from chance even where both come near their floor. Other columns are compared
+//! by their errors.
 
 use super::curve::{Currency, Curve, Look, root_mean_square};
 use crate::contrast::Contrast;
@@ -50,8 +51,8 @@ pub(super) struct Round {
     pub(super) compared: Contrast,
 }
 
-/// Costs begin where the error of pseudo-random photons is this, as in the paper, or where the last column begins: below,
-/// there are no errors to compare.
+/// Costs begin where the error of pseudo-random photons is this, as in the paper, or where the last
+/// column begins: below, there are no errors to compare.
 const FIRST_ERROR: f64 = 0.46;
 
 impl Column {
@@ -108,8 +109,8 @@ impl Table {
         Duel { worse, better, has_same_floor, rounds: self.rows.iter().filter_map(both).collect() }
     }
 
-    /// Beside a row of the paper's table 5: the columns at the cost at which pseudo errs as much as there, `None` where it never
-    /// does.
+    /// Beside a row of the paper's table 5: the columns at the cost at which pseudo errs as much as
+    /// there, `None` where it never does.
     pub(super) fn at_error_of_pseudo(curves: &[Curve; 5], error: f64) -> Option<Row> {
         let pseudo = curves[Column::Pseudo as usize].by_cost(Currency::Seconds);
         let pair = pseudo.windows(2).find(|pair| pair[0][1] >= error && error > pair[1][1])?;

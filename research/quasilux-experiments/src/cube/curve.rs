@@ -117,8 +117,8 @@ impl Curve {
         fit_power_law(&points).map(|law| law.exponent)
     }
 
-    /// Errors or spreads of all replicates at a cost, on straight lines in logarithms between checkpoints; `None`
-    /// before the first and after the last.
+    /// Errors or spreads of all replicates at a cost, on straight lines in logarithms between
+    /// checkpoints; `None` before the first and after the last.
     pub(super) fn at(
         &self,
         cost: f64,

@@ -1,6 +1,7 @@
 //! The floor under the errors of the paper's forms, for elements of several sizes.
 //!
-//! Were it noise, it would not know the elements; as the bias of a map of finite elements it grows with them.
+//! Were it noise, it would not know the elements; as the bias of a map of finite elements it grows
+//! with them.
 
 use super::bias::Bias;
 use super::curve::Curve;
@@ -46,7 +47,8 @@ impl Floor {
         fit_power_law(&points)
     }
 
-    /// By how many standard errors each floor is below the one before, of their squares: the least of all.
+    /// By how many standard errors each floor is below the one before, of their squares: the least
+    /// of all.
     pub(super) fn least_step(floors: &[Self], of: fn(&Self) -> &End) -> f64 {
         let step = |pair: &[Self]| {
             let [large, small] = [of(&pair[0]).bias, of(&pair[1]).bias];

@@ -1,18 +1,20 @@
-//! `quasilux experiment cube`: the diffuse cube of Voloboy, Dmitriev and Kopylov (2003), tables 4 and 5.
+//! `quasilux experiment cube`: the diffuse cube of Voloboy, Dmitriev and Kopylov (2003), tables 4
+//! and 5.
 //!
-//! A closed cube of 10 m, reflectance 2/3, one isotropic point light of 50 000 cd in the middle. The error is
-//! the L2 norm over 25 places on each of the six walls, over that of the truth, which is computed here (`truth`).
-//! The paper's four columns are photons that are counted on a map and paths that end on one, each with random points
-//! and with Halton's; ours are paths that correct the map, with Owen's scrambling of Sobol' points. The paper
-//! shows one run of each; here errors are root mean squares over independent randomisations, against N and against time.
-//! The floor under the paper's errors is looked for in the size of the map's elements (`floor`).
+//! A closed cube of 10 m, reflectance 2/3, one isotropic point light of 50 000 cd in the middle.
+//! The error is the L2 norm over 25 places on each of the six walls, over that of the truth, which
+//! is computed here (`truth`). The paper's four columns are photons that are counted on a map and
+//! paths that end on one, each with random points and with Halton's; ours are paths that correct
+//! the map, with Owen's scrambling of Sobol' points. The paper shows one run of each; here errors
+//! are root mean squares over independent randomisations, against N and against time. The floor
+//! under the paper's errors is looked for in the size of the map's elements (`floor`).
 //!
-//! Half of the places lie at edges, where joined photons are bad and inside of walls good, so that the engine's pilot finds both
-//! ways of our own form about as good and chance decides; here the column takes the map, and the other is measured
-//! beside it.
+//! Half of the places lie at edges, where joined photons are bad and inside of walls good, so that
+//! the engine's pilot finds both ways of our own form about as good and chance decides; here the
+//! column takes the map, and the other is measured beside it.
 //!
-//! WarningKind: the paper does not tell the size of its elements, nor how many photons come with a path. Direct light
-//! is computed, not read from the map, where paths end on it.
+//! WarningKind: the paper does not tell the size of its elements, nor how many photons come with a
+//! path. Direct light is computed, not read from the map, where paths end on it.
 
 mod bias;
 mod claims;
@@ -41,22 +43,22 @@ use truth::Truth;
 
 /// Randomisations of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 64;
-/// The largest N, and the time for all replicates of a column, unless the command line says otherwise: whichever comes
-/// first.
+/// The largest N, and the time for all replicates of a column, unless the command line says
+/// otherwise: whichever comes first.
 const MAX: u64 = 1 << 20;
 const SECONDS: Duration = Duration::from_secs(80);
-/// N of what is beside the columns, unless the command line asks for less, however long it takes: photons with other
-/// sequences, paths with joined photons, photons of elements of other sizes.
+/// N of what is beside the columns, unless the command line asks for less, however long it takes:
+/// photons with other sequences, paths with joined photons, photons of elements of other sizes.
 const OTHER_PHOTONS: u64 = 1 << 16;
 const JOINED_PATHS: u64 = 1 << 6;
 const FLOOR_PHOTONS: u64 = 1 << 17;
 /// Legs of the map's elements: 16 on a side, 3072 elements in all.
 const ELEMENT_M: f64 = 0.625;
-/// Photons of a map for each path from a place: about twice as many as make the error of pseudo2 least for its rays, which
-/// costs little and leaves more of the error to the paths.
+/// Photons of a map for each path from a place: about twice as many as make the error of pseudo2
+/// least for its rays, which costs little and leaves more of the error to the paths.
 const PHOTONS_PER_PATH: u32 = 1024;
-/// Paths from each place where the floor of our own form is looked for, unless the command line asks for less, however
-/// long it takes.
+/// Paths from each place where the floor of our own form is looked for, unless the command line
+/// asks for less, however long it takes.
 const DEEP: u64 = 1 << 16;
 
 /// All that is measured.
@@ -116,7 +118,8 @@ fn columns(element_m: f64, photons_per_path: u32) -> [Setup; 5] {
     ]
 }
 
-/// The paper's forms with the sequences that its columns leave out, and our own with joined photons.
+/// The paper's forms with the sequences that its columns leave out, and our own with joined
+/// photons.
 fn other_setups() -> impl Iterator<Item = Setup> {
     let forms = [
         Form::Photons { element_m: ELEMENT_M },
@@ -155,8 +158,9 @@ fn deep(task: &Task, truth: &Truth) -> Curve {
 mod tests {
     use super::*;
 
-    /// What the claims say, at equal rays instead of equal times, on elements of 1.25 m: seed 0, 32 randomisations, all
-    /// costs of a duel together at 1 %, and each of six intervals so that all hold the truth in 99 of 100 cases.
+    /// What the claims say, at equal rays instead of equal times, on elements of 1.25 m: seed 0, 32
+    /// randomisations, all costs of a duel together at 1 %, and each of six intervals so that all
+    /// hold the truth in 99 of 100 cases.
     #[test]
     fn the_claims_hold_in_small() {
         let truth = Truth::solve();

@@ -16,8 +16,8 @@ pub(super) struct Row {
     pub(super) ratios: [f64; 2],
 }
 
-/// Table 5: s, pseudo, pseudo2, quasi, quasi2, and two ratios of errors. The paper heads the last column as quasi2 against
-/// pseudo2; its figures are pseudo over quasi2.
+/// Table 5: s, pseudo, pseudo2, quasi, quasi2, and two ratios of errors. The paper heads the last
+/// column as quasi2 against pseudo2; its figures are pseudo over quasi2.
 const TABLE_5: &str = "\
 10 45.9204 5.86363 12.4468 3.82236 3.689334 12.01363
 20 16.5406 4.73141 9.41761 2.93786 1.756348 5.630153

@@ -93,7 +93,8 @@ fn by_elements(findings: &Findings) -> Panel {
     )
 }
 
-/// The luminances of table 4 less those by collocation: the paper's, two solves made before, and the interval of our own.
+/// The luminances of table 4 less those by collocation: the paper's, two solves made before, and
+/// the interval of our own.
 fn by_place(findings: &Findings) -> Panel {
     let solved = solved_cd_m2(&findings.truth);
     let own = luminances(&findings.deep, &findings.truth);
@@ -101,7 +102,8 @@ fn by_place(findings: &Findings) -> Panel {
         let point = |place: usize| [place as f64 + 1.0, of(place) - solved[place]];
         line((0..solved.len()).map(point).collect(), stroke)
     };
-    // The sensor stands a little off the edge: what it finds is taken to be off by as much as its own truth is.
+    // The sensor stands a little off the edge: what it finds is taken to be off by as much as its
+    // own truth is.
     let end = |place: usize, sign: f64| {
         let Luminance { value_cd_m2, half_width_cd_m2, truth_cd_m2 } = own[place];
         value_cd_m2 - truth_cd_m2 + solved[place] + sign * half_width_cd_m2

@@ -14,8 +14,8 @@ pub(super) const REFLECTANCE: f64 = 2.0 / 3.0;
 /// Places of a wall that symmetry leaves different, in units of half a side.
 pub(super) const CLASSES: [[f64; 2]; 6] =
     [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [1.0, 0.0], [1.0, 0.5], [1.0, 1.0]];
-/// Places on an edge belong to two walls or three. Each is read once for each wall, as a place of that wall that is
-/// so far from the edge, in units of half a side: 5 micrometres.
+/// Places on an edge belong to two walls or three. Each is read once for each wall, as a place of
+/// that wall that is so far from the edge, in units of half a side: 5 micrometres.
 pub(super) const INSET: f64 = 1e-6;
 /// Along a line of places.
 const LINE: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];

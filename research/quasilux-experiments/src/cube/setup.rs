@@ -7,13 +7,14 @@ use std::f64::consts::SQRT_2;
 /// How light is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Form {
-    /// The paper's direct method: photons are counted on the elements of a map, whose legs have this length, and a
-    /// place reads its element.
+    /// The paper's direct method: photons are counted on the elements of a map, whose legs have
+    /// this length, and a place reads its element.
     Photons { element_m: f64 },
-    /// The paper's bidirectional method: so many photons for each path from a place, which ends on the same map.
+    /// The paper's bidirectional method: so many photons for each path from a place, which ends on
+    /// the same map.
     Map { element_m: f64, photons_per_path: u32 },
-    /// Our own: paths from the places that are corrected where they end on a map, or beside photons that are joined to
-    /// the places.
+    /// Our own: paths from the places that are corrected where they end on a map, or beside photons
+    /// that are joined to the places.
     Own { joins: bool },
 }
 
@@ -54,7 +55,8 @@ impl Points {
         }
     }
 
-    /// What makes replicates independent: for the paper's points a rotation, which leaves them what they are.
+    /// What makes replicates independent: for the paper's points a rotation, which leaves them what
+    /// they are.
     pub(super) fn randomization(self) -> Randomization {
         match self {
             Self::Random | Self::PlainHalton => Randomization::None,
@@ -64,8 +66,9 @@ impl Points {
         }
     }
 
-    /// Plain points with low indices are near 0 in all high coordinates, and such photons would never be absorbed: that of
-    /// index 0 goes to and fro between two walls. With the reflectance of the cube (2/3)^21 of the light is left out, 0.02 %.
+    /// Plain points with low indices are near 0 in all high coordinates, and such photons would
+    /// never be absorbed: that of index 0 goes to and fro between two walls. With the reflectance
+    /// of the cube (2/3)^21 of the light is left out, 0.02 %.
     pub(super) fn max_bounces(self) -> Option<u32> {
         (self == Self::PlainHalton).then_some(20)
     }
@@ -100,7 +103,8 @@ impl Form {
         }
     }
 
-    /// Photons for each index of a run; one path for each place with it, but where only photons count.
+    /// Photons for each index of a run; one path for each place with it, but where only photons
+    /// count.
     fn photons_per_index(self) -> u64 {
         match self {
             Self::Photons { .. } | Self::Own { .. } => 1,
@@ -128,8 +132,8 @@ impl Form {
 }
 
 impl Setup {
-    /// What the engine is asked for: in the paper's forms nothing that the paper does not have, so that photons keep equal
-    /// flux and elements are of one size and hold one number.
+    /// What the engine is asked for: in the paper's forms nothing that the paper does not have, so
+    /// that photons keep equal flux and elements are of one size and hold one number.
     pub(super) fn settings(self, samples: u64, replicates: u32, seed: u64) -> Settings {
         let own = Settings {
             estimator: EstimatorKind::Bidirectional,
@@ -148,7 +152,8 @@ impl Setup {
             importance: Switch::Off,
             map_adaptive: false,
             map_reconstruction: Reconstruction::Constant,
-            // Walls are two triangles, cut by their longest edge; a little more, lest rounding adds a part.
+            // Walls are two triangles, cut by their longest edge; a little more, lest rounding adds
+            // a part.
             map_element_m: Some(element_m * SQRT_2 * (1.0 + 1e-9)),
             ..own.clone()
         };

@@ -1,4 +1,5 @@
-//! Table 5: the columns where pseudo errs as much as in the paper, at equal time, and as single runs.
+//! Table 5: the columns where pseudo errs as much as in the paper, at equal time, and as single
+//! runs.
 
 use super::Findings;
 use super::claims::CLAIMED;

@@ -6,11 +6,12 @@
 //! E(P) = I / h^2 (1 + x^2 + y^2)^(-3/2) + rho * integral of K(P, Q) E(Q) dQ
 //! ```
 //!
-//! with K the cosines over pi and the squared distance. It is solved by collocation (K. E. Atkinson, The Numerical
-//! Solution of Integral Equations of the Second Kind, 1997): E is the polynomial through its values at Chebyshev
-//! points in a variable t with `1 - |x| = (1 - t)^3`, for toward an edge E grows like the 0.69th power of the
-//! distance. For the opposite wall K is smooth. For one that meets P's at distance d, in height z and direction y along the edge,
-//! `r^2 = d^2 + z^2` and `y = v + r tan(alpha)` make it
+//! with K the cosines over pi and the squared distance. It is solved by collocation (K. E.
+//! Atkinson, The Numerical Solution of Integral Equations of the Second Kind, 1997): E is the
+//! polynomial through its values at Chebyshev points in a variable t with `1 - |x| = (1 - t)^3`,
+//! for toward an edge E grows like the 0.69th power of the distance. For the opposite wall K is
+//! smooth. For one that meets P's at distance d, in height z and direction y along the edge, `r^2 =
+//! d^2 + z^2` and `y = v + r tan(alpha)` make it
 //!
 //! ```text
 //! K dQ = cos^2(alpha) dalpha / pi * d z / r^3 dz
@@ -43,8 +44,8 @@ struct Node {
     weight: f64,
 }
 
-/// Polynomials in t through [`NODES`] points, by the barycentric formula (J.-P. Berrut and L. N. Trefethen, SIAM
-/// Review 46, 2004).
+/// Polynomials in t through [`NODES`] points, by the barycentric formula (J.-P. Berrut and L. N.
+/// Trefethen, SIAM Review 46, 2004).
 struct Interpolation {
     t: Vec<f64>,
     weights: Vec<f64>,
@@ -177,7 +178,8 @@ fn direct_lx([x, y]: [f64; 2]) -> f64 {
     INTENSITY_CD / (HALF_M * HALF_M) / (squared * squared.sqrt())
 }
 
-/// Nodes in height above the edge, from 0 to 2: as fine as `d` at first, on intervals that double then.
+/// Nodes in height above the edge, from 0 to 2: as fine as `d` at first, on intervals that double
+/// then.
 fn heights(rule: &[Node], d: f64) -> Vec<Node> {
     let mut low = d.min(1.0);
     let mut nodes: Vec<Node> = graded(rule, [low, 0.0]).collect();
@@ -244,8 +246,8 @@ mod tests {
         }
     }
 
-    /// All light is absorbed in the end: the mean is the flux over the area over 1 - reflectance, and what E is at the
-    /// nodes of the rule says so.
+    /// All light is absorbed in the end: the mean is the flux over the area over 1 - reflectance,
+    /// and what E is at the nodes of the rule says so.
     #[test]
     fn the_mean_is_that_of_the_energy_balance() {
         let truth = Truth::solve();

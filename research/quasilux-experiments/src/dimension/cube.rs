@@ -60,9 +60,9 @@ impl Cube {
         Self { photons, uncounted, separate, paths, count }
     }
 
-    /// A photon has n hits with probability a^(n - 1) (1 - a): 3 in the mean, sqrt a / (1 - a) = 2.45 deviation. With two
-    /// coordinates a hit, or three without superposition, that is the standard error of random points;
-    /// Sobol' points stay within it.
+    /// A photon has n hits with probability a^(n - 1) (1 - a): 3 in the mean, sqrt a / (1 - a) =
+    /// 2.45 deviation. With two coordinates a hit, or three without superposition, that is the
+    /// standard error of random points; Sobol' points stay within it.
     pub(super) fn claims(&self) -> Vec<Claim> {
         let deviation = libm::sqrt(REFLECTANCE) / (1.0 - REFLECTANCE);
         let error = |each: f64| 4.0 * each * deviation / libm::sqrt(self.count as f64);

@@ -1,10 +1,12 @@
-//! `quasilux experiment dimension`: what superposition and inverse transform save in coordinates and in error.
+//! `quasilux experiment dimension`: what superposition and inverse transform save in coordinates
+//! and in error.
 //!
-//! Voloboy, Dmitriev and Kopylov (2003) bring the dimension of photons down by two means: one coordinate serves
-//! a choice and then what hangs on it (modified superposition), and directions of measured luminaires take
-//! two coordinates by inverse transform instead of three for each trial of rejection. Here a room with four measured luminaires is
-//! lit by photons with all of it, with each feature turned off by itself, and with none; and the coordinates of the
-//! paper's cube are counted.
+//! Voloboy, Dmitriev and Kopylov (2003) bring the dimension of photons down by two means: one
+//! coordinate serves a choice and then what hangs on it (modified superposition), and directions of
+//! measured luminaires take two coordinates by inverse transform instead of three for each trial of
+//! rejection. Here a room with four measured luminaires is lit by photons with all of it, with each
+//! feature turned off by itself, and with none; and the coordinates of the paper's cube are
+//! counted.
 
 mod cube;
 mod picture;

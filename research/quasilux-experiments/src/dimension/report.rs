@@ -6,7 +6,8 @@ use quasilux_report::number::exact;
 use quasilux_sampling::Sequence;
 use std::fmt::Write;
 
-/// One line for each setup and number of photons; the cube's coordinates behind them, without errors.
+/// One line for each setup and number of photons; the cube's coordinates behind them, without
+/// errors.
 pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
     let mut text = "scene,setup,sequence,mean_coordinates,n,rms_error\n".to_owned();
     for setup in setups {

@@ -35,15 +35,16 @@ impl Features {
         ("no sharing and rejection", Self { light: false, event: false, inverse: false }),
     ];
 
-    /// Whether turning these off must be seen in the error; what superposition saves is small, and told without a claim.
+    /// Whether turning these off must be seen in the error; what superposition saves is small, and
+    /// told without a claim.
     pub(super) fn must_show(self) -> bool {
         !self.inverse
     }
 }
 
 impl Walk<'_> {
-    /// Sends a photon, and tells of every cell that it lands in. Returns how many coordinates the sampler had handed out
-    /// before the event that absorbed it.
+    /// Sends a photon, and tells of every cell that it lands in. Returns how many coordinates the
+    /// sampler had handed out before the event that absorbed it.
     pub(super) fn photon(&self, sampler: &mut Sampler<'_>, landed: &mut dyn FnMut(usize)) -> u32 {
         let (mut origin, mut direction) = self.start(sampler);
         loop {

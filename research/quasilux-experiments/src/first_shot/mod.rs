@@ -1,11 +1,12 @@
-//! `quasilux experiment first-shot`: photons that leave lit places against photons that leave the lights.
+//! `quasilux experiment first-shot`: photons that leave lit places against photons that leave the
+//! lights.
 //!
-//! Voloboy, Dmitriev and Kopylov (2003), after Kopylov (2002), take the light of point-like sources out of the
-//! integral: it is computed where it lands, and photons start there, in proportion to what goes on. A photon
-//! then never dies on its first surface, its dimension is lower by a flight, and the jumps of the first flight
-//! are gone. Two rooms with and without it, with pseudo-random numbers and with Sobol' points, in the paper's
-//! form: paths that end on an illumination map of fixed elements, so that both have the same bias, and the
-//! spread of replicates is all the rest.
+//! Voloboy, Dmitriev and Kopylov (2003), after Kopylov (2002), take the light of point-like sources
+//! out of the integral: it is computed where it lands, and photons start there, in proportion to
+//! what goes on. A photon then never dies on its first surface, its dimension is lower by a flight,
+//! and the jumps of the first flight are gone. Two rooms with and without it, with pseudo-random
+//! numbers and with Sobol' points, in the paper's form: paths that end on an illumination map of
+//! fixed elements, so that both have the same bias, and the spread of replicates is all the rest.
 
 mod picture;
 mod report;
@@ -20,7 +21,8 @@ use trial::Trial;
 
 /// Replicates of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 64;
-/// Photons, and paths for each point, at most in each of them, unless the command line says otherwise.
+/// Photons, and paths for each point, at most in each of them, unless the command line says
+/// otherwise.
 const MAX: u64 = 1 << 13;
 
 /// How much is done.
@@ -59,9 +61,9 @@ fn trials(rooms: &[Room], sequences: &[Sequence], effort: &Effort) -> Vec<Trial>
 mod tests {
     use super::*;
 
-    /// Seed 0, Sobol' points, 32 replicates of 2^9 samples: errors are divided by 1.4 or so, known to a
-    /// seventh (95 %). Each claim states its significance. Photons from lit places that carried 20 % too much
-    /// would be noticed.
+    /// Seed 0, Sobol' points, 32 replicates of 2^9 samples: errors are divided by 1.4 or so, known
+    /// to a seventh (95 %). Each claim states its significance. Photons from lit places that
+    /// carried 20 % too much would be noticed.
     #[test]
     fn first_shot_finds_the_same_light_with_less_noise() {
         let effort = Effort { replicates: 32, samples: 1 << 9, seed: 0, limit: None };

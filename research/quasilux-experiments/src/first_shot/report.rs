@@ -133,8 +133,8 @@ fn gains(trials: &[Trial]) -> String {
     text
 }
 
-/// What may lie between means that are found with it and without, whatever their noise: in the published run it is a tenth of
-/// this.
+/// What may lie between means that are found with it and without, whatever their noise: in the
+/// published run it is a tenth of this.
 const APART: f64 = 0.1;
 /// What is compared of each trial: error, efficiency by rays and by time.
 const COMPARISONS: usize = 3;

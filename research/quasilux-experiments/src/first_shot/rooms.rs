@@ -1,5 +1,5 @@
-//! The two rooms: one where a narrow beam lights a small part of the floor, and one where most light of a bare
-//! lamp lands on a small part of the wall beside it.
+//! The two rooms: one where a narrow beam lights a small part of the floor, and one where most
+//! light of a bare lamp lands on a small part of the wall beside it.
 
 use crate::building::{grey, lamp, points, room};
 use glam::{DMat3, DVec3};

@@ -16,7 +16,8 @@ use quasilux_transport::{EstimatorKind, Settings, Switch};
 pub(super) const SEQUENCES: [Sequence; 2] = [Sequence::Independent, Sequence::Sobol];
 /// Longest edge of an element of the map.
 const ELEMENT_M: f64 = 0.5;
-/// Light of no and of one bounce is found by paths alone; photons bring the rest, which is the third term then.
+/// Light of no and of one bounce is found by paths alone; photons bring the rest, which is the
+/// third term then.
 const TERMS_OF_PATHS: u32 = 2;
 /// Slopes are fitted from here on.
 pub(super) const FIT_FROM: u64 = 256;
@@ -57,7 +58,8 @@ impl Trial {
         Self { room: room.name, why: room.why, sequence, off, on }
     }
 
-    /// Times all runs by short ones: from what a ray of each takes follows what all checkpoints take.
+    /// Times all runs by short ones: from what a ray of each takes follows what all checkpoints
+    /// take.
     pub(super) fn time(trials: &mut [Self], rooms: &[Room], effort: &Effort) {
         let of_a_ray = seconds_of_a_ray(2 * trials.len(), |k| {
             let trial = &trials[k / 2];
@@ -118,8 +120,8 @@ impl Trial {
         self.gain(part).efficiency(off.seconds / on.seconds)
     }
 
-    /// Welch's test of what photons bring at each point, by Student's t with the fewer degrees of freedom,
-    /// which is careful; of so many trials.
+    /// Welch's test of what photons bring at each point, by Student's t with the fewer degrees of
+    /// freedom, which is careful; of so many trials.
     pub(super) fn agreement(&self, trials: usize) -> Agreement {
         let [off, on] = self.last();
         let columns = [off, on].map(|stage| columns(stage, Part::OfPhotons));
@@ -155,7 +157,8 @@ fn settings(first_shot: Switch, sequence: Sequence, effort: &Effort) -> Settings
     }
 }
 
-/// Root mean square over points and replicates of the distance from the mean, over the mean of all points.
+/// Root mean square over points and replicates of the distance from the mean, over the mean of all
+/// points.
 pub(super) fn error(stage: &Stage, part: Part) -> f64 {
     let squares = squares(stage, part);
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
@@ -175,7 +178,8 @@ pub(super) fn slope(course: &Course, part: Part) -> Option<f64> {
     fit_power_law(&errors).map(|law| law.exponent)
 }
 
-/// Of each replicate: mean over the points of its squared distance from the mean of all, freed from bias.
+/// Of each replicate: mean over the points of its squared distance from the mean of all, freed from
+/// bias.
 fn squares(stage: &Stage, part: Part) -> Vec<f64> {
     let columns = columns(stage, part);
     let means: Vec<f64> = columns.iter().map(|column| moments(column).mean).collect();

@@ -1,8 +1,10 @@
-//! `quasilux experiment neumann`: the terms of the Neumann series, table 1 of Voloboy, Dmitriev and Kopylov (2003).
+//! `quasilux experiment neumann`: the terms of the Neumann series, table 1 of Voloboy, Dmitriev and
+//! Kopylov (2003).
 //!
-//! Light propagates as `L = Le + I Le + I^2 Le + ...`; the paper shows a room with the first n terms, n = 0, 1,
-//! 2 and 4. Here are five pictures of a furnished room under one exposure, these four and all light, and the
-//! flux that each term adds: landing on all surfaces and through a plane, by photons and by paths.
+//! Light propagates as `L = Le + I Le + I^2 Le + ...`; the paper shows a room with the first n
+//! terms, n = 0, 1, 2 and 4. Here are five pictures of a furnished room under one exposure, these
+//! four and all light, and the flux that each term adds: landing on all surfaces and through a
+//! plane, by photons and by paths.
 
 mod pictures;
 mod plot;
@@ -73,9 +75,9 @@ mod tests {
     use super::*;
     use crate::course::mean_interval;
 
-    /// Seed 0, 16 replicates of few paths and photons, pictures of a few pixels. The claims state their
-    /// significance; a term that were counted one too early or late would be off by half, and terms are known
-    /// to a seventh at least.
+    /// Seed 0, 16 replicates of few paths and photons, pictures of a few pixels. The claims state
+    /// their significance; a term that were counted one too early or late would be off by half, and
+    /// terms are known to a seventh at least.
     #[test]
     fn terms_add_up_and_fall() {
         let effort = Effort {

@@ -11,8 +11,8 @@ use quasilux_transport::interval::t_quantile_for;
 use std::fmt::Write;
 
 const COLUMNS: &str = "kind,estimator,bounces,values,mean,half_width,unit\n";
-/// From so many bounces on the light has forgotten where it came from: ratios of terms differ by so much, and
-/// no more.
+/// From so many bounces on the light has forgotten where it came from: ratios of terms differ by so
+/// much, and no more.
 const SETTLED: usize = 3;
 const GEOMETRIC: f64 = 0.01;
 
@@ -188,8 +188,8 @@ fn sums(terms: &Terms) -> Claim {
     )
 }
 
-/// No two of the settled ratios differ by more than is granted, beyond chance: all pairs together at 1 %. The ratios must be known
-/// to a share, lest nothing known is taken for likeness.
+/// No two of the settled ratios differ by more than is granted, beyond chance: all pairs together
+/// at 1 %. The ratios must be known to a share, lest nothing known is taken for likeness.
 fn falls(terms: &Terms, known: f64) -> Claim {
     let settled = &terms.ratios()[SETTLED..];
     let values = || settled.iter().map(|ratio| ratio.value);

@@ -1,7 +1,7 @@
 //! The furnished room: a lamp over a table, and what else stands in a living room, all of blocks.
 //!
-//! Blocks stay 1 mm apart and off the walls, so that no two faces coincide. The lamp shines down alone: the
-//! ceiling is dark before the second bounce.
+//! Blocks stay 1 mm apart and off the walls, so that no two faces coincide. The lamp shines down
+//! alone: the ceiling is dark before the second bounce.
 
 use crate::building::{add_block, add_material, add_quad, coloured, grey, room, shine};
 use glam::DVec3;

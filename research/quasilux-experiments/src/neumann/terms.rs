@@ -1,8 +1,8 @@
 //! What the terms are, measured in four ways.
 //!
-//! Term k is the light of k bounces. Photons of one bounce less that go on are the flux that lands as term k in
-//! a closed room: what `max_bounces` cuts. Paths and photons each list terms of the illuminance of a plane;
-//! runs cut after n bounces must give their sums.
+//! Term k is the light of k bounces. Photons of one bounce less that go on are the flux that lands
+//! as term k in a closed room: what `max_bounces` cuts. Paths and photons each list terms of the
+//! illuminance of a plane; runs cut after n bounces must give their sums.
 
 use super::{CUTS, Effort, room};
 use crate::course::mean_interval;
@@ -17,7 +17,8 @@ pub(super) const LISTED: u32 = 6;
 pub(super) struct Terms {
     /// Flux that lands on all surfaces, term by term, in lm: one value a run.
     pub(super) landing_lm: Vec<Vec<f64>>,
-    /// Illuminance of the plane by paths and by photons: a term and the rest each, one value a replicate, in lx.
+    /// Illuminance of the plane by paths and by photons: a term and the rest each, one value a
+    /// replicate, in lx.
     pub(super) by_paths_lx: Vec<Vec<f64>>,
     pub(super) by_photons_lx: Vec<Vec<f64>>,
     /// The same of runs that are cut after so many bounces, or not at all.
@@ -109,8 +110,8 @@ impl Distance {
         }
     }
 
-    /// What is allowed for all of a family together at a significance of 1 %, by Sidak (1967) and Student's t
-    /// with the degrees of one.
+    /// What is allowed for all of a family together at a significance of 1 %, by Sidak (1967) and
+    /// Student's t with the degrees of one.
     pub(super) fn allowed(family: usize, values: usize) -> f64 {
         t_quantile_for(values, each_of(family)).unwrap_or(f64::NAN)
     }

@@ -19,8 +19,9 @@ const NEAR: f64 = 2e-4;
 const LEFT: f64 = 5e-5;
 /// How far the order may be from 2.
 const GRANTED: f64 = 0.2;
-/// How well the indirect light must be known at each place, as a share of it: to a third of what the mesh of 16 facets along
-/// an edge is off, so that its facets would be found. The published run knows it to a sixth of this.
+/// How well the indirect light must be known at each place, as a share of it: to a third of what
+/// the mesh of 16 facets along an edge is off, so that its facets would be found. The published run
+/// knows it to a sixth of this.
 const KNOWN: f64 = 1e-3;
 /// Comparisons of two ways: those of [`better`] and [`through`].
 const COMPARISONS: usize = 2;
@@ -101,8 +102,8 @@ fn left(ladder: &Ladder) -> Claim {
     )
 }
 
-/// Expected is 2 in the limit. On the coarsest mesh, which is 4 % off, the next term takes a sixth of the first,
-/// which lowers the logarithm to base four by 0.13.
+/// Expected is 2 in the limit. On the coarsest mesh, which is 4 % off, the next term takes a sixth
+/// of the first, which lowers the logarithm to base four by 0.13.
 pub(super) fn order(ladder: &Ladder) -> Claim {
     let Interval { value, half_width } = ladder.order(Part::Indirect);
     let half_width = half_width.unwrap_or(f64::NAN);
@@ -116,7 +117,8 @@ pub(super) fn order(ladder: &Ladder) -> Claim {
     )
 }
 
-/// All places together at the significance. The values must be known to a share, lest nothing known is taken for likeness.
+/// All places together at the significance. The values must be known to a share, lest nothing known
+/// is taken for likeness.
 pub(super) fn uniform(ladder: &Ladder, known: f64) -> Claim {
     let places = ladder.octants[0].places.len();
     let one = each_of(places);
@@ -158,8 +160,8 @@ fn curves(ladder: &Ladder, curves: &[Curve]) -> Vec<Claim> {
     ]
 }
 
-/// Photons count what an element gets on a mesh, which is less than the place in the middle of the sphere does.
-/// Both means together at the significance, by Sidak (1967).
+/// Photons count what an element gets on a mesh, which is less than the place in the middle of the
+/// sphere does. Both means together at the significance, by Sidak (1967).
 fn element(ladder: &Ladder, photons: [&Curve; 2]) -> Claim {
     let finest = LEVELS - 1;
     let octant = &ladder.octants[finest];
@@ -200,7 +202,8 @@ fn slope(curve: &Curve, [low, high]: [f64; 2]) -> Claim {
     )
 }
 
-/// Over all N, each as much as the others: squares are divided by the mean of the pseudo-random ones of that N.
+/// Over all N, each as much as the others: squares are divided by the mean of the pseudo-random
+/// ones of that N.
 fn better(pseudo: &Curve, quasi: &Curve) -> Claim {
     let gain = Contrast::gain(&scores(pseudo, pseudo), &scores(quasi, pseudo));
     let last = quasi.last();

@@ -12,8 +12,8 @@ use quasilux_transport::{EstimatorKind, Settings, Switch};
 
 /// Photons fly on the finest mesh of the ladder.
 const MAP_LEVEL: u32 = LEVELS as u32 - 1;
-/// Slopes of photons are fitted from here on, where the element has some ten; those of ours where its pilots
-/// are over.
+/// Slopes of photons are fitted from here on, where the element has some ten; those of ours where
+/// its pilots are over.
 const FITTED_PHOTONS: u64 = 1 << 8;
 const FITTED_OURS: u64 = 1 << 6;
 
@@ -22,8 +22,8 @@ const FITTED_OURS: u64 = 1 << 6;
 pub(super) enum Way {
     /// Pseudo-random numbers.
     Pseudo,
-    /// Halton's points, Owen-scrambled anew in each randomisation; a rotation keeps them nearer to what they are, and the cube
-    /// uses one.
+    /// Halton's points, Owen-scrambled anew in each randomisation; a rotation keeps them nearer to
+    /// what they are, and the cube uses one.
     Quasi,
     /// Halton's points as they are: one run, as in the paper.
     QuasiOnce,
@@ -33,7 +33,8 @@ pub(super) enum Way {
 pub(super) struct Curve {
     pub(super) name: &'static str,
     pub(super) stops: Vec<Stop>,
-    /// The order of convergence of the spread: elements and facets are not in it. None for a single run.
+    /// The order of convergence of the spread: elements and facets are not in it. None for a single
+    /// run.
     pub(super) slope: Option<f64>,
 }
 
@@ -68,7 +69,8 @@ impl Way {
 }
 
 impl Curve {
-    /// In the paper's form: photons of equal flux, each absorbed or scattered, counted by the element.
+    /// In the paper's form: photons of equal flux, each absorbed or scattered, counted by the
+    /// element.
     pub(super) fn of_photons(way: Way, effort: &Effort) -> Self {
         let octant = Octant::new(MAP_LEVEL);
         let (mut scene, element) = (octant.scene.clone(), octant.element());

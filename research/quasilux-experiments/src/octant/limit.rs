@@ -1,11 +1,12 @@
 //! From three meshes to the sphere: our estimator on each, and the limit where facets become small.
 //!
-//! What a mesh of n facets along an edge leaves is `E(n) = E + c / n^2 + d / n^4`, for facets around a place
-//! keep their shape where n grows fourfold. Two meshes give `E = E(4 n) + (E(4 n) - E(n)) / 15` (Richardson
-//! 1911), in each replicate by itself: the spread of replicates then is that of the limit. A third mesh shows
-//! the order, and what is left.
+//! What a mesh of n facets along an edge leaves is `E(n) = E + c / n^2 + d / n^4`, for facets
+//! around a place keep their shape where n grows fourfold. Two meshes give `E = E(4 n) + (E(4 n) -
+//! E(n)) / 15` (Richardson 1911), in each replicate by itself: the spread of replicates then is
+//! that of the limit. A third mesh shows the order, and what is left.
 //!
-//! Light in mirrors is direct here, as in the paper, though it bounced: a black sphere tells what comes so.
+//! Light in mirrors is direct here, as in the paper, though it bounced: a black sphere tells what
+//! comes so.
 
 use super::sphere::Octant;
 use crate::course::{Course, mean_interval};
@@ -88,15 +89,16 @@ impl Ladder {
         differences(&after, &before)
     }
 
-    /// What may be left of the mesh in the limit, in lx: the third mesh moves it by the terms of fourth order
-    /// and above, which the next would divide by 256. By 64, in case there is a third order.
+    /// What may be left of the mesh in the limit, in lx: the third mesh moves it by the terms of
+    /// fourth order and above, which the next would divide by 256. By 64, in case there is a third
+    /// order.
     pub(super) fn left_lx(&self, part: Part, place: usize) -> f64 {
         let Interval { value, half_width } = mean_interval(&self.moved(part, place));
         (value.abs() + half_width.unwrap_or(f64::INFINITY)) / (FINER * FINER * FINER)
     }
 
-    /// The order in 1/n: the logarithm of how many times smaller the second step between meshes is than the
-    /// first, of the mean over all places; its half-width by the propagation of errors.
+    /// The order in 1/n: the logarithm of how many times smaller the second step between meshes is
+    /// than the first, of the mean over all places; its half-width by the propagation of errors.
     pub(super) fn order(&self, part: Part) -> Interval {
         let places = self.octants[0].places.len();
         let step = |level: usize| {

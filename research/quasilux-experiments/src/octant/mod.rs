@@ -1,14 +1,15 @@
-//! `quasilux experiment octant`: the eighth of a sphere between three mirrors, table 3 of Voloboy, Dmitriev and
-//! Kopylov (2003).
+//! `quasilux experiment octant`: the eighth of a sphere between three mirrors, table 3 of Voloboy,
+//! Dmitriev and Kopylov (2003).
 //!
-//! The mirrors complete the sphere, in which the indirect illuminance is known and the same everywhere; the
-//! direct one is that of the light and its seven images. The paper does not give its light: the one here is a
-//! reconstruction, from both values that it prints, see `sphere`.
+//! The mirrors complete the sphere, in which the indirect illuminance is known and the same
+//! everywhere; the direct one is that of the light and its seven images. The paper does not give
+//! its light: the one here is a reconstruction, from both values that it prints, see `sphere`.
 //!
-//! Two questions. Are the paper's values hit? Our bidirectional estimator on three meshes, extrapolated to the
-//! sphere, at five places (`limit`). And how fast does the error fall? The paper's way, photons counted by the
-//! element of an illumination map that the place lies on, pseudo-random and by Halton's points, over
-//! randomisations where the paper has one run each, and beside them our estimator (`curve`).
+//! Two questions. Are the paper's values hit? Our bidirectional estimator on three meshes,
+//! extrapolated to the sphere, at five places (`limit`). And how fast does the error fall? The
+//! paper's way, photons counted by the element of an illumination map that the place lies on,
+//! pseudo-random and by Halton's points, over randomisations where the paper has one run each, and
+//! beside them our estimator (`curve`).
 
 mod claims;
 mod curve;
@@ -91,10 +92,10 @@ mod tests {
     use crate::course::mean_interval;
     use quasilux_transport::interval::t_quantile_for;
 
-    /// Seed 0, 16 randomisations of few paths, every statement at a significance of 1 %: where the full run claims
-    /// that 95 % intervals hold the paper's values, intervals here are of 99 %, so that bits may change. A sphere
-    /// that reflected 2 % too much would be found: these are at most 1 % of the values wide on either side, and those at
-    /// other places 2 %.
+    /// Seed 0, 16 randomisations of few paths, every statement at a significance of 1 %: where the
+    /// full run claims that 95 % intervals hold the paper's values, intervals here are of 99 %, so
+    /// that bits may change. A sphere that reflected 2 % too much would be found: these are at most
+    /// 1 % of the values wide on either side, and those at other places 2 %.
     #[test]
     fn the_octant_is_what_the_paper_says() {
         let effort = Effort { randomisations: 16, photons: 0, paths: 1 << 8, seed: 0, limit: None };

@@ -64,7 +64,8 @@ mod tests {
         for (line, [pseudo, quasi]) in TABLE.iter().zip(errors) {
             assert!((100.0 * line.pseudo_error() - pseudo).abs() < 6e-4, "{}", line.seconds);
             assert!((100.0 * line.quasi_error() - quasi).abs() < 6e-4, "{}", line.seconds);
-            // The last quasi-random run errs by so little that the printed value has too few digits for it.
+            // The last quasi-random run errs by so little that the printed value has too few digits
+            // for it.
             let ratio = line.pseudo_error() / line.quasi_error();
             assert!((ratio / line.ratio - 1.0).abs() < 0.01, "{}: {ratio}", line.seconds);
         }

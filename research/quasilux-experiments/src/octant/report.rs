@@ -18,8 +18,8 @@ use std::fmt::Write;
 const COLUMNS: &str = "kind,method,part,place,facets_along_edge,samples,randomisations,seconds,value_lx,\
     half_width_lx,reference_lx,relative_error,relative_bias,left_lx,exponent,gain_of_points,gain_of_points_t\n";
 
-/// One line for each value on each mesh and on the sphere, the order, each point of each curve, and what the paper
-/// prints.
+/// One line for each value on each mesh and on the sphere, the order, each point of each curve, and
+/// what the paper prints.
 pub(super) fn csv(findings: &Findings) -> String {
     let mut text = COLUMNS.to_owned();
     let ladder = &findings.ladder;
@@ -118,8 +118,8 @@ fn error_line(text: &mut String, findings: &Findings, curve: &Curve, stop: &Stop
     .expect("strings grow");
 }
 
-/// The closed form at a place of a mesh; on the sphere only that in the middle has a direct part, for others
-/// move from mesh to mesh.
+/// The closed form at a place of a mesh; on the sphere only that in the middle has a direct part,
+/// for others move from mesh to mesh.
 fn reference_lx(part: Part, place: DVec3, is_sphere: bool) -> Option<f64> {
     let is_fixed = !is_sphere || (place - super::sphere::diagonal()).length() < 1e-9;
     match part {

@@ -1,9 +1,11 @@
-//! The scene: one eighth of a diffuse sphere between three mirrors, and what its light gives directly.
+//! The scene: one eighth of a diffuse sphere between three mirrors, and what its light gives
+//! directly.
 //!
-//! The sphere is a mesh of `n * n` facets an eighth, all corners on one sphere. Where the foot of the centre's
-//! perpendicular on a facet lies, the facet touches a sphere around the centre: there the normal is the
-//! sphere's. The mesh is as large as makes its middle facet touch the unit sphere, at the place that the paper
-//! names, so that the direct light has no error there, and the indirect light has one of the order of `n^-2`.
+//! The sphere is a mesh of `n * n` facets an eighth, all corners on one sphere. Where the foot of
+//! the centre's perpendicular on a facet lies, the facet touches a sphere around the centre: there
+//! the normal is the sphere's. The mesh is as large as makes its middle facet touch the unit
+//! sphere, at the place that the paper names, so that the direct light has no error there, and the
+//! indirect light has one of the order of `n^-2`.
 
 use crate::building::{add_material, add_quad, grey, lamp, points};
 use glam::DVec3;
@@ -11,21 +13,23 @@ use quasilux_scene::bsdf::Mirror;
 use quasilux_scene::{Bsdf, Mesh, Rgb, Scene};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The source as reconstructed; the paper does not give it. On the diagonal, so far along each axis.
+/// The source as reconstructed; the paper does not give it. On the diagonal, so far along each
+/// axis.
 pub(super) const LIGHT_M: f64 = 0.210_792_8;
 /// Its intensity.
 pub(super) const INTENSITY_CD: f64 = 83.331_125;
 /// Of the sphere, as reconstructed.
 pub(super) const REFLECTANCE: f64 = 0.5;
-/// Facets along an edge of the coarsest mesh. It is cut by four from mesh to mesh, as each facet then has one
-/// of the same shape in its middle.
+/// Facets along an edge of the coarsest mesh. It is cut by four from mesh to mesh, as each facet
+/// then has one of the same shape in its middle.
 const COARSEST: u32 = 4;
 
 /// The octant on a mesh.
 pub(super) struct Octant {
     /// Facets along each edge.
     pub(super) n: u32,
-    /// Its sensor has one point in each facet of the coarsest mesh, but for those that symmetry makes equal.
+    /// Its sensor has one point in each facet of the coarsest mesh, but for those that symmetry
+    /// makes equal.
     pub(super) scene: Scene,
     /// These points; all normals look at the centre.
     pub(super) places: Vec<DVec3>,
@@ -43,7 +47,8 @@ pub(super) struct Facet {
 }
 
 impl Facet {
-    /// Mean of what the light and its images give: by the middles of the edges, exact to third order.
+    /// Mean of what the light and its images give: by the middles of the edges, exact to third
+    /// order.
     fn direct_lx(&self) -> f64 {
         let [a, b, c] = self.corners;
         let middles = [(a, b), (b, c), (c, a)].map(|(a, b)| 0.5 * (a + b));
@@ -85,8 +90,8 @@ impl Octant {
         scene
     }
 
-    /// The facets in the middle that together are an element of an illumination map, on a mesh fine enough:
-    /// those of a triangle that would be one facet of eight along an edge.
+    /// The facets in the middle that together are an element of an illumination map, on a mesh fine
+    /// enough: those of a triangle that would be one facet of eight along an edge.
     pub(super) fn element(&self) -> Vec<Facet> {
         let mesh = &self.scene.mesh;
         let inner = |(_, facet): &(u32, Steps)| {
@@ -126,17 +131,18 @@ fn direct_to_lx(place: DVec3, normal: DVec3) -> f64 {
     images.map(lx).sum()
 }
 
-/// The same at the place in the middle of a unit sphere: `I` times the sum of `(1 - s c) / (1 + s^2 - 2 s
-/// c)^1.5`, s the distance of the light from the centre, c the cosine of the angle between an image and the
-/// place.
+/// The same at the place in the middle of a unit sphere: `I` times the sum of
+/// `(1 - s c) / (1 + s^2 - 2 s c)^1.5`, s the distance of the light from the centre, c the cosine
+/// of the angle between an image and the place.
 pub(super) fn direct_in_the_middle_lx() -> f64 {
     let s = 3.0_f64.sqrt() * LIGHT_M;
     let term = |c: f64| (1.0 - s * c) / libm::pow(1.0 + s * s - 2.0 * s * c, 1.5);
     INTENSITY_CD * (term(1.0) + 3.0 * term(1.0 / 3.0) + 3.0 * term(-1.0 / 3.0) + term(-1.0))
 }
 
-/// A sphere's points all see each other alike, `cos cos / (pi r^2) = 1 / (4 pi R^2)`: the flux of the eight
-/// images is spread evenly at the first reflection and stays so at the others, `E = 8 I rho / (1 - rho) / R^2`.
+/// A sphere's points all see each other alike, `cos cos / (pi r^2) = 1 / (4 pi R^2)`: the flux of
+/// the eight images is spread evenly at the first reflection and stays so at the others, `E = 8 I
+/// rho / (1 - rho) / R^2`.
 pub(super) fn indirect_lx() -> f64 {
     let flux_lm = 8.0 * 4.0 * PI * INTENSITY_CD;
     flux_lm / (4.0 * PI) * REFLECTANCE / (1.0 - REFLECTANCE)

@@ -1,10 +1,10 @@
-//! `quasilux experiment periodicity`: table 2 of Voloboy, Dmitriev and Kopylov (2003), and how close together the
-//! members of coherent groups are.
+//! `quasilux experiment periodicity`: table 2 of Voloboy, Dmitriev and Kopylov (2003), and how
+//! close together the members of coherent groups are.
 //!
-//! The radical inverses of i and i + n b^k differ by less than b^-k (the paper's equation 11), so photons whose
-//! indices agree modulo the product of b_j^k_j form a group that starts at the same light in nearly the same
-//! direction. The same holds of Sobol' points for cosets of indices. Measured is how wide groups are, beside as many
-//! consecutive indices.
+//! The radical inverses of i and i + n b^k differ by less than b^-k (the paper's equation 11), so
+//! photons whose indices agree modulo the product of b_j^k_j form a group that starts at the same
+//! light in nearly the same direction. The same holds of Sobol' points for cosets of indices.
+//! Measured is how wide groups are, beside as many consecutive indices.
 
 mod inverse;
 mod picture;

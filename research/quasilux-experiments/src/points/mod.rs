@@ -1,9 +1,9 @@
-//! `quasilux experiment points`: figures 5 and 6 of Voloboy, Dmitriev and Kopylov (2003), 64 pseudo-random
-//! and 64 Sobol' points on 8 x 8 cells.
+//! `quasilux experiment points`: figures 5 and 6 of Voloboy, Dmitriev and Kopylov (2003), 64
+//! pseudo-random and 64 Sobol' points on 8 x 8 cells.
 //!
-//! Sobol' points put exactly one point into each cell, and into each cell of every other division into 64
-//! rectangles whose sides are powers of two; random points leave a third of the cells empty. The other
-//! sequences stand beside them, with their star discrepancies, computed exactly.
+//! Sobol' points put exactly one point into each cell, and into each cell of every other division
+//! into 64 rectangles whose sides are powers of two; random points leave a third of the cells
+//! empty. The other sequences stand beside them, with their star discrepancies, computed exactly.
 
 mod report;
 
@@ -35,8 +35,8 @@ struct Seen {
     empty: usize,
     most: u64,
     star_discrepancy: f64,
-    /// Divisions of the square into 64 rectangles 2^-a by 2^-(6 - a), and how many of them have exactly one
-    /// point in each.
+    /// Divisions of the square into 64 rectangles 2^-a by 2^-(6 - a), and how many of them have
+    /// exactly one point in each.
     even_divisions: u32,
 }
 

@@ -11,8 +11,8 @@ use std::fmt::Write;
 const COLUMNS: &str = "method,sequence,replicates,n,rms_error,slope,mean_dimension,\
     random_over_this,random_over_this_t,rejection_over_this,rejection_over_this_t";
 
-/// One line for each setup and number of photons. Errors over this one are those of random points with the same method,
-/// and those of rejection with the same points; t is of their logarithms.
+/// One line for each setup and number of photons. Errors over this one are those of random points
+/// with the same method, and those of rejection with the same points; t is of their logarithms.
 pub(super) fn csv(curves: &[Curve]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for curve in curves {

@@ -19,8 +19,8 @@ use std::ops::Range;
 pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
 
 /// The photons counted by each element, writable by all threads, in layers by the number of their
-/// bounces. Elements where nothing lands take next to no memory; others take 4 bytes for each moment
-/// and channel in each layer that counts something there.
+/// bounces. Elements where nothing lands take next to no memory; others take 4 bytes for each
+/// moment and channel in each layer that counts something there.
 pub(crate) struct MapTally<S> {
     /// Layer after layer.
     sums: Blocks,
@@ -122,8 +122,8 @@ impl<S> Stored for MapTally<S> {
 }
 
 impl<S: Spectrum> IlluminationMap<'_, S> {
-    /// Illuminance in lx at a place, by photons with so many bounces at most; the last layer counts whole. Linear ones may be
-    /// negative in places.
+    /// Illuminance in lx at a place, by photons with so many bounces at most; the last layer counts
+    /// whole. Linear ones may be negative in places.
     pub(crate) fn illuminance_lx(&self, place: &Place, most_bounces: u32) -> S {
         self.of_layers_lx(place, 0..self.tally.layers.min(most_bounces))
     }
@@ -138,11 +138,13 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
             .map(move |layer| (layer + 1, self.of_layers_lx(&place, layer..layer + 1)))
     }
 
-    /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order would leave it.
+    /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order
+    /// would leave it.
     ///
-    /// With N photons that all weigh the least, of flux P, on an element of area A it is `sqrt(N) P / A`, for linear ones times the root mean
-    /// square of the kernel at the place: of three `k = 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre
-    /// and 3 at corners, for `E[b_i b_j]` of a uniform place is 1/6 and 1/12.
+    /// With N photons that all weigh the least, of flux P, on an element of area A it is `sqrt(N) P
+    /// / A`, for linear ones times the root mean square of the kernel at the place: of three `k =
+    /// 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre and 3 at corners, for `E[b_i
+    /// b_j]` of a uniform place is 1/6 and 1/12.
     pub(crate) fn noise_lx(&self, place: &Place, most_bounces: u32) -> S {
         let MapTally { sums, layer, layers, reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
@@ -244,8 +246,8 @@ mod tests {
     use quasilux_sampling::warp::sample_triangle;
     use quasilux_scene::Rgb;
 
-    /// Photons at the three places of a rule that is exact for quadratic functions, as many as a linear
-    /// function says: its projection is that function, or its mean.
+    /// Photons at the three places of a rule that is exact for quadratic functions, as many as a
+    /// linear function says: its projection is that function, or its mean.
     #[test]
     fn linear_illumination_is_projected_exactly() {
         let (world, numbers) = (square(), &mut Numbers(3));
@@ -302,8 +304,8 @@ mod tests {
         }
     }
 
-    /// Photons without order at random places of an element, in many tallies: the deviation of what they say of a place is
-    /// what one tally predicts, on average, whatever they weigh.
+    /// Photons without order at random places of an element, in many tallies: the deviation of what
+    /// they say of a place is what one tally predicts, on average, whatever they weigh.
     #[test]
     fn noise_is_how_far_maps_are_off() {
         let (world, numbers) = (square(), &mut Numbers(5));

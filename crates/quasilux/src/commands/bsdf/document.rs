@@ -1,9 +1,10 @@
 //! The document in JSON, format "quasilux-bsdf/1", for programs.
 //!
-//! `files` has an entry for each file, in the order of the command line: its name in `file`, and either
-//! `surface` with its `warnings`, or `error`; the other is `null`. Shares are luminous and run from 0 to 1.
-//! Angles of incidence are those of the table: theta from the normal of the side that the light arrives on, phi from
-//! the x axis towards y, up. `energy` has for each side the shares of light from the directions of `--incidence`.
+//! `files` has an entry for each file, in the order of the command line: its name in `file`, and
+//! either `surface` with its `warnings`, or `error`; the other is `null`. Shares are luminous and
+//! run from 0 to 1. Angles of incidence are those of the table: theta from the normal of the side
+//! that the light arrives on, phi from the x axis towards y, up. `energy` has for each side the
+//! shares of light from the directions of `--incidence`.
 
 use super::input::{Input, Surface};
 use super::summary::share;

@@ -31,8 +31,8 @@ pub(super) fn drawing(input: &Input, surface: &Surface, incidences: &[Incidence]
     lobes(if facts.name.is_empty() { &stem } else { &facts.name }, &diagrams)
 }
 
-/// f times the cosine, over the angle around the surface: 180 degrees is the normal of the side with the light, which comes
-/// from the left.
+/// f times the cosine, over the angle around the surface: 180 degrees is the normal of the side
+/// with the light, which comes from the left.
 fn curve(surface: &Surface, side: Side, incidence: Incidence, number: usize) -> IntensityCurve {
     let wi = incidence.direction();
     let [_, phi_deg] = incidence.degrees();

@@ -1,7 +1,8 @@
-//! `quasilux bsdf FILE...`: what files of measured surfaces say, as a summary, a document or drawings.
+//! `quasilux bsdf FILE...`: what files of measured surfaces say, as a summary, a document or
+//! drawings.
 //!
-//! As with luminaires, a file that cannot be read does not keep the others from being reported; the exit code
-//! is 2 all the same. Warnings leave it at 0, or make it 1 with `--strict`.
+//! As with luminaires, a file that cannot be read does not keep the others from being reported; the
+//! exit code is 2 all the same. Warnings leave it at 0, or make it 1 with `--strict`.
 
 mod document;
 mod drawing;

@@ -1,10 +1,10 @@
 //! The document in JSON, format "quasilux-photometry/1", for programs.
 //!
 //! `files` has an entry for each file, in the order of the command line: its name in `file`, and
-//! either `luminaire` with its `warnings`, or `error`; the other is `null`. Units stand in the names
-//! of the keys, shares run from 0 to 1, unknown figures are `null`. Angles are those of the luminaire
-//! frame; in planes gamma is negative on the side of C180 or C270, and above 180 where an arc passes
-//! zenith. `zones_lm` are 18 zones of 10 degrees from nadir to zenith.
+//! either `luminaire` with its `warnings`, or `error`; the other is `null`. Units stand in the
+//! names of the keys, shares run from 0 to 1, unknown figures are `null`. Angles are those of the
+//! luminaire frame; in planes gamma is negative on the side of C180 or C270, and above 180 where an
+//! arc passes zenith. `zones_lm` are 18 zones of 10 degrees from nadir to zenith.
 
 use super::input::{Input, Luminaire};
 use super::words::{self, degrees};

@@ -51,8 +51,8 @@ fn luminaire(name: &str, bytes: &[u8]) -> Result<Luminaire, Failure> {
 }
 
 impl Luminaire {
-    /// Whether there are warnings, other than that the luminaire gives less light than its lamps: each
-    /// luminaire does.
+    /// Whether there are warnings, other than that the luminaire gives less light than its lamps:
+    /// each luminaire does.
     pub(super) fn is_odd(&self) -> bool {
         let has_losses = self.analysis.light_output_ratio.is_some_and(|ratio| ratio < 1.0)
             && matches!(self.photometry.facts().standard, Standard::Lm63(_));

@@ -105,7 +105,8 @@ pub(super) fn counts(most: u64) -> Vec<u64> {
         .collect()
 }
 
-/// One replicate: the measures, each for each number of points where it is computed. Errors are signed.
+/// One replicate: the measures, each for each number of points where it is computed. Errors are
+/// signed.
 pub(super) fn replicate(setup: &Setup, counts: &[u64], seed: u64, number: u32) -> Vec<Vec<f64>> {
     let measures = Measure::all();
     let mut values = vec![Vec::new(); measures.len()];
