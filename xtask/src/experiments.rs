@@ -7,6 +7,7 @@
 //! share per cent. What an experiment writes for people names the CSV file written with it, and
 //! itself, by their SHA-256: with other files nothing is generated.
 
+use crate::wrap::wrap;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use xtask::workspace::Failure;
@@ -40,7 +41,7 @@ fn page(root: &Path) -> Result<String, Failure> {
         page.push_str(&replaced.map_err(|failure| format!("page.md: {{{{{what}}}}}: {failure}"))?);
         rest = after;
     }
-    Ok(page + rest)
+    Ok(wrap(&(page + rest)))
 }
 
 /// All of what the experiment wrote but its title, headings a level lower.

@@ -18,6 +18,7 @@ mod office;
 mod prediction;
 mod same_bits;
 mod steps;
+mod wrap;
 
 use std::path::Path;
 use std::process::ExitCode;

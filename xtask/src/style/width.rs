@@ -5,8 +5,8 @@ use super::files::TextFile;
 /// Most characters of a line.
 pub const MAX_COLUMNS: usize = 100;
 
-/// The numbers of the long lines of a Rust or Markdown file. Rows of tables and lines with a link
-/// may be long, and so may what a page shows as code.
+/// The numbers of the long lines of a Rust or Markdown file. Rows of tables, lines with a link or a
+/// placeholder `{{..}}`, and code on pages may be long.
 #[must_use]
 pub fn long_lines(file: &TextFile) -> Vec<usize> {
     let is_page = file.path.ends_with(".md");
@@ -18,7 +18,8 @@ pub fn long_lines(file: &TextFile) -> Vec<usize> {
         is_fenced ^= is_fence && is_page;
         let is_code = is_page && (is_fenced || is_fence || line.starts_with("    "));
         let is_row = prose.starts_with('|') && (is_page || line.trim_start().starts_with("//"));
-        let has_link = line.contains("://") || (is_page && line.contains("]("));
+        let has_link =
+            line.contains("://") || (is_page && (line.contains("](") || line.contains("{{")));
         if line.chars().count() > MAX_COLUMNS && !is_code && !is_row && !has_link {
             found.push(i + 1);
         }
@@ -58,6 +59,7 @@ mod tests {
             ("a.rs", format!("// https://{long}")),
             ("a.md", format!("| {long} |")),
             ("a.md", format!("[paper]({long})")),
+            ("a.md", format!("{{{{{long}}}}}")),
             ("a.md", format!("```\n{long}x\n```")),
             ("a.md", format!("    {long}")),
         ] {
