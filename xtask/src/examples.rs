@@ -1,4 +1,4 @@
-//! Runs every example and checks the numbers that it promises, and those that it foretold of
+//! Runs every example and checks the numbers that it promises, and those that it predicted of
 //! itself.
 //!
 //! An example is a folder of `examples/` with one or more project files, a `README.md` that gives

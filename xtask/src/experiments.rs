@@ -35,7 +35,7 @@ fn page(root: &Path) -> Result<String, Failure> {
         page.push_str(before);
         let replaced = match what.strip_prefix("table ") {
             Some(name) => tables(&read(&format!("{name}.md"))?, &read(&format!("{name}.csv"))?),
-            None => Place::parse(what)
+            None => CsvCell::parse(what)
                 .and_then(|place| figure(&place, &read(&format!("{}.csv", place.experiment))?)),
         };
         page.push_str(&replaced.map_err(|failure| format!("page.md: {{{{{what}}}}}: {failure}"))?);
@@ -67,7 +67,7 @@ fn digest(text: &str) -> String {
 }
 
 /// Where a figure is, and how it is written.
-struct Place<'a> {
+struct CsvCell<'a> {
     experiment: &'a str,
     column: &'a str,
     keys: Vec<(&'a str, &'a str)>,
@@ -75,7 +75,7 @@ struct Place<'a> {
     is_share: bool,
 }
 
-impl<'a> Place<'a> {
+impl<'a> CsvCell<'a> {
     fn parse(what: &'a str) -> Result<Self, Failure> {
         let wrong = || "expected NAME: COLUMN where KEY=VALUE, .. as DIGITS".to_owned();
         let (experiment, what) = what.split_once(": ").ok_or_else(wrong)?;
@@ -96,7 +96,7 @@ impl<'a> Place<'a> {
     }
 }
 
-fn figure(place: &Place<'_>, csv: &str) -> Result<String, Failure> {
+fn figure(place: &CsvCell<'_>, csv: &str) -> Result<String, Failure> {
     let mut lines = csv.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
     let column = |name: &str| {
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn figures_are_taken_from_the_one_row_that_is_meant() {
-        let got = |what: &str| figure(&Place::parse(what)?, CSV);
+        let got = |what: &str| figure(&CsvCell::parse(what)?, CSV);
         assert_eq!(got("x: error where method=a, n=128 as 3"), Ok("0.125".into()));
         assert_eq!(got("x: error where method=b, n=64 as 0 %"), Ok("50 %".into()));
         for wrong in [

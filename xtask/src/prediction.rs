@@ -1,21 +1,21 @@
-//! Whether half-widths shrank as a run foretold: part of the check of every example.
+//! Whether half-widths shrank as a run predicted: part of the check of every example.
 
 use serde_json::Value;
 use xtask::workspace::Failure;
 
-/// Half-widths may on average be so many times what was foretold two checkpoints before, or one
+/// Half-widths may on average be this many times the prediction of two checkpoints before, or one
 /// over that.
 const FACTOR: f64 = 1.5;
 
 /// Checks `run.prediction` of a result document.
 pub(crate) fn check(result: &Value) -> Result<(), Failure> {
     let prediction = &result["run"]["prediction"];
-    let ratio = prediction["half_width_ratio"].as_f64().ok_or("no half-width was foretold")?;
+    let ratio = prediction["half_width_ratio"].as_f64().ok_or("no half-width was predicted")?;
     if (1.0 / FACTOR..=FACTOR).contains(&ratio) {
         return Ok(());
     }
     Err(format!(
-        "half-widths are {ratio:.2} times what was foretold for them, with a slope of {}",
+        "half-widths are {ratio:.2} times the predicted ones, with a slope of {}",
         prediction["slope"]
     ))
 }

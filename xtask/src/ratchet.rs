@@ -7,29 +7,30 @@
 
 use crate::modules::{arrows::Graph, rules, targets};
 use crate::packages;
-use crate::style::{files, functions, width};
+use crate::style::{files, functions, width, words};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Places of the violations of a rule by their keys.
-pub type Found = BTreeMap<String, Vec<String>>;
+pub type Violations = BTreeMap<String, Vec<String>>;
 
 /// A rule about the sources.
 pub struct Rule {
     /// Name of its list.
     pub name: &'static str,
     /// Finds the violations in the workspace at a path.
-    pub find: fn(&Path) -> Result<Found, String>,
+    pub find: fn(&Path) -> Result<Violations, String>,
 }
 
 /// All rules that may have a list.
-pub const RULES: [Rule; 5] = [
+pub const RULES: [Rule; 6] = [
     Rule { name: "order", find: against_the_order },
     Rule { name: "long_functions", find: long_functions },
     Rule { name: "tuples", find: unlike_tuples },
     Rule { name: "packages", find: lacking_packages },
     Rule { name: "width", find: long_lines },
+    Rule { name: "old_words", find: old_words },
 ];
 
 /// Reads the import graphs of all crates of a workspace.
@@ -51,11 +52,11 @@ pub fn orders(root: &Path) -> Result<rules::Orders, String> {
     rules::parse_orders(&text)
 }
 
-fn against_the_order(root: &Path) -> Result<Found, String> {
+fn against_the_order(root: &Path) -> Result<Violations, String> {
     let (graphs, orders) = (graphs(root)?, orders(root)?);
     let violations = graphs.iter().flat_map(|graph| rules::violations(graph, &orders));
     let strangers = orders.keys().filter(|name| graphs.iter().all(|g| g.tree.crate_name != **name));
-    let mut found: Found =
+    let mut found: Violations =
         strangers.map(|name| (format!("{name}: no such crate"), Vec::new())).collect();
     found.extend(violations.map(|violation| (violation.key, violation.places)));
     // However many imports join two rooms, it is one arrow: its number may change freely.
@@ -64,7 +65,7 @@ fn against_the_order(root: &Path) -> Result<Found, String> {
 }
 
 /// Functions of too many lines, by file and name.
-fn long_functions(root: &Path) -> Result<Found, String> {
+fn long_functions(root: &Path) -> Result<Violations, String> {
     let functions = of_all_crates(root)?.into_iter();
     Ok(grouped(functions.filter(|function| function.lines > functions::MAX_LINES).map(
         |function| {
@@ -75,7 +76,7 @@ fn long_functions(root: &Path) -> Result<Found, String> {
 }
 
 /// Tuples of unlike types in signatures, by file and function.
-fn unlike_tuples(root: &Path) -> Result<Found, String> {
+fn unlike_tuples(root: &Path) -> Result<Violations, String> {
     let functions = of_all_crates(root)?.into_iter();
     Ok(grouped(functions.flat_map(|function| {
         let key = format!("{}: {}", function.file, function.name);
@@ -86,7 +87,7 @@ fn unlike_tuples(root: &Path) -> Result<Found, String> {
 }
 
 /// Files and keys that crates lack before others can take them, by crate and name.
-fn lacking_packages(root: &Path) -> Result<Found, String> {
+fn lacking_packages(root: &Path) -> Result<Violations, String> {
     Ok(grouped(packages::of_workspace(root)?.into_iter().flat_map(|package| {
         let tell = |missing| (format!("{}: {missing}", package.name), "is missing".to_owned());
         package.missing.iter().map(tell).collect::<Vec<_>>()
@@ -94,12 +95,30 @@ fn lacking_packages(root: &Path) -> Result<Found, String> {
 }
 
 /// Lines of too many columns, by file.
-fn long_lines(root: &Path) -> Result<Found, String> {
+fn long_lines(root: &Path) -> Result<Violations, String> {
     let files = files::of_workspace(root, &[".rs", ".md"])?;
     Ok(grouped(files.into_iter().flat_map(|file| {
         let lines = width::long_lines(&file).into_iter();
         lines.map(move |line| (file.path.clone(), format!("{}:{line}", file.path)))
     })))
+}
+
+/// Old words by file and word, and exceptions that no file needs.
+fn old_words(root: &Path) -> Result<Violations, String> {
+    let path = root.join("xtask/old_words.toml");
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let list = words::OldWords::parse(&text)?;
+    let mut files = files::of_workspace(root, &[".rs", ".md", ".toml", ".yml"])?;
+    files.retain(|file| file.path != "CHANGELOG.md" && file.path != "xtask/old_words.toml");
+    let idle = list.idle_exceptions(&files).into_iter();
+    let mut found: Violations = idle.map(|exception| (exception, Vec::new())).collect();
+    for file in &files {
+        for words::Leftover { word, line, new } in list.leftovers(file)? {
+            let place = format!("{}:{line}: `{word}` is called {new}", file.path);
+            found.entry(format!("{}: {word}", file.path)).or_default().push(place);
+        }
+    }
+    Ok(found)
 }
 
 fn of_all_crates(root: &Path) -> Result<Vec<functions::Function>, String> {
@@ -108,15 +127,15 @@ fn of_all_crates(root: &Path) -> Result<Vec<functions::Function>, String> {
 }
 
 /// Places by key.
-fn grouped(places: impl Iterator<Item = (String, String)>) -> Found {
-    let mut found = Found::new();
+fn grouped(places: impl Iterator<Item = (String, String)>) -> Violations {
+    let mut found = Violations::new();
     places.for_each(|(key, place)| found.entry(key).or_default().push(place));
     found
 }
 
 /// What differs between the violations found and those listed, one line each.
 #[must_use]
-pub fn differences(found: &Found, listed: &BTreeMap<String, usize>) -> Vec<String> {
+pub fn differences(found: &Violations, listed: &BTreeMap<String, usize>) -> Vec<String> {
     let mut told = Vec::new();
     for (key, places) in found {
         let count = places.len().max(1);
@@ -186,7 +205,7 @@ mod tests {
     #[test]
     fn new_more_fewer_and_vanished_violations_are_told_and_known_ones_are_not() {
         let two = vec!["a.rs:1".to_owned(), "a.rs:2".to_owned()];
-        let found = Found::from([("a".to_owned(), two)]);
+        let found = Violations::from([("a".to_owned(), two)]);
         let told = |known: &[(&str, usize)]| {
             let listed = known.iter().map(|(key, count)| ((*key).to_owned(), *count)).collect();
             differences(&found, &listed)

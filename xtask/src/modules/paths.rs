@@ -10,7 +10,7 @@ use syn::{Attribute, ImplItem, Item, ItemUse, Macro, Meta, Path, TraitItem, UseT
 
 /// A path, as written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Written {
+pub(crate) struct WrittenPath {
     /// Its names; `*` stands last in a glob.
     pub(crate) names: Vec<String>,
     pub(crate) line: usize,
@@ -21,25 +21,25 @@ pub(crate) struct Written {
 }
 
 /// The paths in a module's items, tests left out.
-pub(crate) fn in_items(items: &[Item]) -> Vec<Written> {
+pub(crate) fn in_items(items: &[Item]) -> Vec<WrittenPath> {
     let mut collector = Collector { found: Vec::new() };
     items.iter().for_each(|item| collector.visit_item(item));
     collector.found
 }
 
 struct Collector {
-    found: Vec<Written>,
+    found: Vec<WrittenPath>,
 }
 
 impl Collector {
     fn add(&mut self, names: Vec<String>, line: usize) {
-        self.found.push(Written { names, line, alias: None, is_reexport: false });
+        self.found.push(WrittenPath { names, line, alias: None, is_reexport: false });
     }
 
     fn tree(&mut self, tree: &UseTree, before: &[String], is_reexport: bool) {
         let extended = |name: String| before.iter().cloned().chain([name]).collect::<Vec<_>>();
         let mut leaf = |names: Vec<String>, line: usize, alias: Option<String>| {
-            self.found.push(Written { names, line, alias, is_reexport });
+            self.found.push(WrittenPath { names, line, alias, is_reexport });
         };
         match tree {
             UseTree::Path(path) => {

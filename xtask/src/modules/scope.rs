@@ -1,6 +1,6 @@
 //! Names in scope of each module, and the module that defines what a path names.
 
-use super::paths::Written;
+use super::paths::WrittenPath;
 use super::tree::{Module, ModuleTree};
 use std::collections::HashMap;
 use syn::Item;
@@ -39,7 +39,7 @@ pub(crate) struct Scopes<'a> {
 
 impl<'a> Scopes<'a> {
     /// Of a crate, with the paths that each module writes.
-    pub(crate) fn new(tree: &'a ModuleTree, written: &[Vec<Written>]) -> Self {
+    pub(crate) fn new(tree: &'a ModuleTree, written: &[Vec<WrittenPath>]) -> Self {
         let scopes = tree.modules.iter().zip(written).map(|(m, w)| scope(m, w)).collect();
         Self { tree, scopes }
     }
@@ -119,7 +119,7 @@ impl<'a> Scopes<'a> {
     }
 }
 
-fn scope(module: &Module, written: &[Written]) -> Scope {
+fn scope(module: &Module, written: &[WrittenPath]) -> Scope {
     let mut scope = Scope {
         defined: module.items.iter().filter_map(defined_name).collect(),
         ..Scope::default()

@@ -84,10 +84,10 @@ impl Reader<'_> {
         let text = (self.read)(file).ok_or_else(|| format!("{file} is missing"))?;
         let parsed = syn::parse_file(&text)
             .map_err(|error| format!("{file}:{}: {error}", error.span().start().line))?;
-        self.module(Place { path, parent, file, folder }, parsed.items)
+        self.module(FilePosition { path, parent, file, folder }, parsed.items)
     }
 
-    fn module(&mut self, place: Place<'_>, items: Vec<Item>) -> Result<usize, String> {
+    fn module(&mut self, place: FilePosition<'_>, items: Vec<Item>) -> Result<usize, String> {
         let me = self.modules.len();
         self.modules.push(Module {
             path: place.path.clone(),
@@ -109,14 +109,20 @@ impl Reader<'_> {
         Ok(me)
     }
 
-    fn child(&mut self, place: &Place<'_>, me: usize, child: ItemMod) -> Result<usize, String> {
+    fn child(
+        &mut self,
+        place: &FilePosition<'_>,
+        me: usize,
+        child: ItemMod,
+    ) -> Result<usize, String> {
         let name = child.ident.to_string();
         let mut path = place.path.clone();
         path.push(name.clone());
         let folder = format!("{}/{name}", place.folder);
         let parent = Some(me);
         if let Some((_, items)) = child.content {
-            return self.module(Place { path, parent, file: place.file, folder: &folder }, items);
+            return self
+                .module(FilePosition { path, parent, file: place.file, folder: &folder }, items);
         }
         let written = path_attribute(&child.attrs)
             .map(|written| format!("{}/{written}", folder_of(place.file)));
@@ -129,7 +135,7 @@ impl Reader<'_> {
 }
 
 /// Where a module stands.
-struct Place<'a> {
+struct FilePosition<'a> {
     path: Vec<String>,
     parent: Option<usize>,
     file: &'a str,

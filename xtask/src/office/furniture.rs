@@ -25,7 +25,7 @@ const DESK_SIZE_MM: [i32; 2] = [1600, 800];
 pub(crate) fn objects() -> Vec<Object> {
     let mut objects = Vec::new();
     for (i, (corner, looks_up)) in DESKS_MM.into_iter().enumerate() {
-        let place = Place { corner_mm: corner, mirrored: !looks_up };
+        let place = Seat { corner_mm: corner, mirrored: !looks_up };
         objects.push(named(format!("desk_{}", i + 1), desk(&place)));
         objects.push(named(format!("screen_{}", i + 1), screen(&place)));
         objects.push(named(format!("chair_{}", i + 1), chair(&place)));
@@ -53,12 +53,12 @@ fn named(name: impl Into<String>, blocks: Vec<Block>) -> Object {
 }
 
 /// Where a desk stands: its parts are given as if the user sat at low y and looked toward +y.
-struct Place {
+struct Seat {
     corner_mm: [i32; 2],
     mirrored: bool,
 }
 
-impl Place {
+impl Seat {
     /// A box in the frame of the desk, turned by half a turn about its centre where mirrored.
     fn block(&self, material: &'static str, low_mm: [i32; 3], size_mm: [i32; 3]) -> Block {
         let turned = |axis: usize| match self.mirrored {
@@ -70,7 +70,7 @@ impl Place {
     }
 }
 
-fn desk(place: &Place) -> Vec<Block> {
+fn desk(place: &Seat) -> Vec<Block> {
     vec![
         place.block("desk", [0, 0, 715], [1600, 800, 25]),
         place.block("metal", [20, 50, 1], [30, 700, 713]),
@@ -80,7 +80,7 @@ fn desk(place: &Place) -> Vec<Block> {
     ]
 }
 
-fn screen(place: &Place) -> Vec<Block> {
+fn screen(place: &Seat) -> Vec<Block> {
     vec![
         place.block("plastic", [680, 470, 741], [240, 180, 10]),
         place.block("plastic", [780, 545, 752], [40, 30, 117]),
@@ -89,7 +89,7 @@ fn screen(place: &Place) -> Vec<Block> {
     ]
 }
 
-fn chair(place: &Place) -> Vec<Block> {
+fn chair(place: &Seat) -> Vec<Block> {
     vec![
         place.block("fabric", [570, -440, 430], [460, 460, 60]),
         place.block("fabric", [580, -500, 520], [440, 40, 430]),

@@ -4,7 +4,7 @@ use crate::Violation;
 use crate::source::{RustFile, end_of_group, line_of, places};
 
 /// Most lines a source file may have.
-pub(crate) const LONGEST_FILE: usize = 500;
+pub(crate) const MAX_FILE_LINES: usize = 500;
 
 /// Ways to the clock, the file system, the environment, the network, other programs, and random
 /// numbers that belong to a thread.
@@ -80,16 +80,16 @@ fn is_test_module(file: &RustFile, files: &[RustFile]) -> bool {
         .any(|parent| parent.code.contains(&declaration) && !parent.shipped.contains(&declaration))
 }
 
-/// Files over [`LONGEST_FILE`] lines that are not on the list, and listed ones that are short.
+/// Files over [`MAX_FILE_LINES`] lines that are not on the list, and listed ones that are short.
 pub(crate) fn long_files(files: &[RustFile], listed: &[(&str, &str)]) -> Vec<Violation> {
     let mut violations = Vec::new();
     for file in files {
         let lines = file.text.lines().count();
         let is_listed = listed.iter().any(|(path, _)| *path == file.path);
-        if lines > LONGEST_FILE && !is_listed {
-            violations.push(format!("{}: {lines} lines, over {LONGEST_FILE}", file.path));
+        if lines > MAX_FILE_LINES && !is_listed {
+            violations.push(format!("{}: {lines} lines, over {MAX_FILE_LINES}", file.path));
         }
-        if lines <= LONGEST_FILE && is_listed {
+        if lines <= MAX_FILE_LINES && is_listed {
             violations.push(format!("{}: {lines} lines, need not be listed", file.path));
         }
     }
@@ -195,8 +195,8 @@ mod tests {
 
     #[test]
     fn a_long_file_is_rejected_unless_listed_with_a_reason() {
-        let long = RustFile::new(LIBRARY, &"\n".repeat(LONGEST_FILE + 1));
-        let short = RustFile::new(LIBRARY, &"\n".repeat(LONGEST_FILE));
+        let long = RustFile::new(LIBRARY, &"\n".repeat(MAX_FILE_LINES + 1));
+        let short = RustFile::new(LIBRARY, &"\n".repeat(MAX_FILE_LINES));
         let listed = [(LIBRARY, "a table of a standard")];
         assert_eq!(long_files(std::slice::from_ref(&long), &[]).len(), 1);
         assert_eq!(long_files(&[long], &listed).len(), 0);

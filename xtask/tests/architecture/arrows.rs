@@ -125,7 +125,7 @@ fn arrows(manifest: &Table) -> Vec<(&'static str, String)> {
 mod tests {
     use super::*;
 
-    fn of(folder: &str, sections: &str) -> Vec<Violation> {
+    fn checked(folder: &str, sections: &str) -> Vec<Violation> {
         let manifest = format!("[package]\nname = \"{folder}\"\n{sections}");
         violations(&[(folder.to_owned(), manifest.parse().unwrap())])
     }
@@ -133,9 +133,9 @@ mod tests {
     #[test]
     fn arrows_of_the_table_are_allowed() {
         let sections = "[dependencies]\nquasilux-photometry.workspace = true\nserde = '1'";
-        assert_eq!(of("quasilux-scene", sections), [""; 0]);
+        assert_eq!(checked("quasilux-scene", sections), [""; 0]);
         let dev = "[dev-dependencies]\nquasilux-stats.workspace = true";
-        assert_eq!(of("quasilux-sampling", dev), [""; 0]);
+        assert_eq!(checked("quasilux-sampling", dev), [""; 0]);
     }
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
             "[dev-dependencies]\nquasilux-transport = '1'",
             "[target.'cfg(unix)'.dependencies]\nquasilux-transport = '1'",
         ] {
-            let found = of("quasilux-scene", sections);
+            let found = checked("quasilux-scene", sections);
             assert_eq!(found.len(), 1, "{sections}");
             assert!(found[0].contains("must not use quasilux-transport"), "{found:?}");
         }
@@ -168,12 +168,12 @@ mod tests {
 
     #[test]
     fn the_test_tool_is_rejected_outside_tests() {
-        assert_eq!(of("quasilux-scene", "[dependencies]\nquasilux-stats = '1'").len(), 1);
+        assert_eq!(checked("quasilux-scene", "[dependencies]\nquasilux-stats = '1'").len(), 1);
     }
 
     #[test]
     fn unknown_and_misnamed_crates_are_rejected() {
-        assert!(of("quasilux-extra", "")[0].contains("table of crates"));
+        assert!(checked("quasilux-extra", "")[0].contains("table of crates"));
         let manifest = "[package]\nname = 'light'".parse().unwrap();
         let found = violations(&[("quasilux-scene".to_owned(), manifest)]);
         assert!(found[0].contains("is named"), "{found:?}");

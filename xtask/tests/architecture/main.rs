@@ -11,7 +11,7 @@ use source::RustFile;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Files that may be longer than [`absences::LONGEST_FILE`], each with the reason.
+/// Files that may be longer than [`absences::MAX_FILE_LINES`], each with the reason.
 const LONG_FILES: [(&str, &str); 0] = [];
 
 /// What a rule found, as told to the reader of a failed test.
