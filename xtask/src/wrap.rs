@@ -2,8 +2,9 @@
 
 use xtask::style::width::MAX_COLUMNS;
 
-/// The page with every paragraph and list item filled to [`MAX_COLUMNS`] characters. Headings, rows of tables, quotations, references and code keep their lines. A line
-/// breaks at spaces, but never within a span of code.
+/// The page with every paragraph and list item filled to [`MAX_COLUMNS`] characters. Headings, rows
+/// of tables, quotations, references and code keep their lines. A line breaks at spaces, but never
+/// within a span of code.
 pub(crate) fn wrap(page: &str) -> String {
     let mut wrapped = String::new();
     let mut block: Vec<&str> = Vec::new();

@@ -39,8 +39,8 @@ pub(super) fn warn_of_defects(bsdf: &MeasuredBsdf, at: Position, warnings: &mut 
     let is_off = |found: &&Reciprocity| found.mean > RECIPROCITY_TOLERANCE;
     for reciprocity in analysis.reciprocity.iter().filter(is_off) {
         let found = format!(
-            "{} {} that differs from that of exchanged directions by {:.1} % in the mean",
-            reciprocity.way.name(),
+            "{} {} that differs from that of swapped directions by {:.1} % in the mean",
+            reciprocity.mode.name(),
             reciprocity.side.name(),
             100.0 * reciprocity.mean,
         );

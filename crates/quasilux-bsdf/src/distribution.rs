@@ -1,10 +1,11 @@
-//! How one side of a surface scatters light one way: a closed set of tables, one file each.
+//! The scattering distribution function of one side of a surface, reflected or transmitted: a
+//! closed set of tables, one file each.
 
 use crate::gridded::GriddedTable;
 use crate::hemisphere::Incident;
 use crate::hemisphere::ScatterSample;
 use crate::klems::KlemsTable;
-use crate::tree::ExchangedTree;
+use crate::tree::AdjointTree;
 use crate::tree::TensorTree;
 use glam::DVec3;
 
@@ -18,8 +19,8 @@ pub enum Distribution {
     Klems(KlemsTable),
     /// Constant in boxes of varied size.
     TensorTree(TensorTree),
-    /// An isotropic tree of boxes for light that goes the other way round.
-    ExchangedTree(ExchangedTree),
+    /// The adjoint of an isotropic tree of boxes, for light that travels in reverse.
+    AdjointTree(AdjointTree),
     /// Lobes over a grid of incident directions.
     Gridded(GriddedTable),
 }
@@ -35,7 +36,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => [table.value(wi, wo); 3],
             Self::TensorTree(tree) => [tree.value(wi, wo); 3],
-            Self::ExchangedTree(tree) => [tree.value(wi, wo); 3],
+            Self::AdjointTree(tree) => [tree.value(wi, wo); 3],
             Self::Gridded(table) => table.value(wi, wo),
         }
     }
@@ -47,7 +48,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => [table.albedo(wi); 3],
             Self::TensorTree(tree) => [tree.albedo(wi); 3],
-            Self::ExchangedTree(tree) => [tree.albedo(wi); 3],
+            Self::AdjointTree(tree) => [tree.albedo(wi); 3],
             Self::Gridded(table) => table.albedo(wi),
         }
     }
@@ -62,7 +63,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.sample(wi, u),
             Self::TensorTree(tree) => tree.sample(wi, u),
-            Self::ExchangedTree(tree) => tree.sample(wi, u),
+            Self::AdjointTree(tree) => tree.sample(wi, u),
             Self::Gridded(table) => table.sample(wi, u),
         }
     }
@@ -76,7 +77,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.pdf_sr(wi, wo),
             Self::TensorTree(tree) => tree.pdf_sr(wi, wo),
-            Self::ExchangedTree(tree) => tree.pdf_sr(wi, wo),
+            Self::AdjointTree(tree) => tree.pdf_sr(wi, wo),
             Self::Gridded(table) => table.pdf_sr(wi, wo),
         }
     }
@@ -90,7 +91,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.invert(wi, wo),
             Self::TensorTree(tree) => Some(tree.invert(wi, wo)),
-            Self::ExchangedTree(tree) => Some(tree.invert(wi, wo)),
+            Self::AdjointTree(tree) => Some(tree.invert(wi, wo)),
             Self::Gridded(table) => table.invert(wi, wo),
         }
     }
@@ -103,12 +104,12 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.max_value(wi),
             Self::TensorTree(tree) => tree.max_value(wi),
-            Self::ExchangedTree(tree) => tree.max_value(wi),
+            Self::AdjointTree(tree) => tree.max_value(wi),
             Self::Gridded(table) => table.max_value(wi),
         }
     }
 
-    /// The incident directions that the table is stored for: centres of cells or knots of a grid,
+    /// The incident directions that the table is stored for: centres of cells or nodes of a grid,
     /// along the half-plane of positive `x` where a grid or a tree is isotropic. Trees finer than
     /// 32 cells a side are shown at that resolution.
     #[must_use]
@@ -116,7 +117,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.incidences(),
             Self::TensorTree(tree) => tree.incidences(),
-            Self::ExchangedTree(tree) => tree.original().incidences(),
+            Self::AdjointTree(tree) => tree.original().incidences(),
             Self::Gridded(table) => table.incidences(),
         }
     }
@@ -127,7 +128,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.parts(),
             Self::TensorTree(tree) => tree.parts(),
-            Self::ExchangedTree(tree) => tree.parts(),
+            Self::AdjointTree(tree) => tree.parts(),
             Self::Gridded(table) => table.parts(),
         }
     }
@@ -138,7 +139,7 @@ impl Distribution {
         match self {
             Self::Klems(table) => table.is_isotropic(),
             Self::TensorTree(tree) => tree.is_isotropic(),
-            Self::ExchangedTree(_) => true,
+            Self::AdjointTree(_) => true,
             Self::Gridded(table) => table.is_isotropic(),
         }
     }
@@ -147,7 +148,7 @@ impl Distribution {
     #[must_use]
     pub fn is_coloured(&self) -> bool {
         match self {
-            Self::Klems(_) | Self::TensorTree(_) | Self::ExchangedTree(_) => false,
+            Self::Klems(_) | Self::TensorTree(_) | Self::AdjointTree(_) => false,
             Self::Gridded(table) => table.is_coloured(),
         }
     }
@@ -157,7 +158,7 @@ impl Distribution {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Klems(_) => "Klems",
-            Self::TensorTree(_) | Self::ExchangedTree(_) => "tensor tree",
+            Self::TensorTree(_) | Self::AdjointTree(_) => "tensor tree",
             Self::Gridded(_) => "gridded",
         }
     }

@@ -4,7 +4,7 @@
 //! patches hold means of f over midpoints, two along each axis, so that lobes little wider than a
 //! box keep their light; f, being constant in it, is of first order in its width.
 
-use crate::gridded::ExitKnots;
+use crate::gridded::ExitGrid;
 use crate::gridded::GriddedTable;
 use crate::gridded::Lobe;
 use crate::gridded::as_in_file;
@@ -94,7 +94,7 @@ impl TensorTree {
 
 impl GriddedTable {
     /// Lobes of a surface that is isotropic and mirrored in the plane of incidence, at ascending
-    /// incident polar angles `theta_rad` up to pi/2. Their knots lie at distances `offsets_rad`
+    /// incident polar angles `theta_rad` up to pi/2. Their nodes lie at distances `offsets_rad`
     /// from the mirror direction, in the plane of incidence and across, and wherever gaps would be
     /// wider than 2.5 degrees in polar angle or 5 in azimuth: f is of second order in both.
     ///
@@ -113,9 +113,9 @@ impl GriddedTable {
         let lobe = |&theta_rad: &f64| {
             let wi = as_in_file(Angles { theta_rad, phi_rad: 0.0 }.direction());
             let wi = DVec3::new(wi.x, wi.y, wi.z.max(0.0));
-            let knots = ExitKnots::around(theta_rad, offsets_rad, &[], true, usize::MAX);
-            let values = knots.directions().map(|wo| f(wi, as_in_file(wo))).collect();
-            Lobe::new(&knots, &[values])
+            let grid = ExitGrid::around(theta_rad, offsets_rad, &[], true, usize::MAX);
+            let values = grid.directions().map(|wo| f(wi, as_in_file(wo))).collect();
+            Lobe::new(&grid, &[values])
         };
         let lobes: Option<Vec<Lobe>> = theta_rad.iter().map(lobe).collect();
         Self::new(theta_rad.to_vec(), vec![0.0], theta_rad.to_vec(), lobes?)

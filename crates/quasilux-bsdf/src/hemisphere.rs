@@ -30,9 +30,17 @@ pub(super) fn upwards([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
 }
 
-/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`, and the
-/// renormalised rest. Never a step of height zero.
-pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usize, f64) {
+/// A step of cumulative sums that a coordinate fell into.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PickedStep {
+    pub(super) index: usize,
+    /// The coordinate within the step, stretched to [0, 1].
+    pub(super) u_remapped: f64,
+}
+
+/// The step that `u` falls into, of the non-decreasing sums `before(0)` to `before(count)`. Never a
+/// step of height zero.
+pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> PickedStep {
     let (start, end) = (before(0), before(count));
     let target = start + u * (end - start);
     let (mut low, mut high) = (0, count);
@@ -48,8 +56,8 @@ pub(super) fn pick(count: usize, u: f64, before: impl Fn(usize) -> f64) -> (usiz
     while low == count || before(low + 1) <= before(low) {
         low -= 1;
     }
-    let rest = (target - before(low)) / (before(low + 1) - before(low));
-    (low, rest.clamp(0.0, 1.0))
+    let u_remapped = (target - before(low)) / (before(low + 1) - before(low));
+    PickedStep { index: low, u_remapped: u_remapped.clamp(0.0, 1.0) }
 }
 
 /// Point `index` of `count` in the unit square: a lattice of rank 1, its generator the golden

@@ -30,6 +30,7 @@
 //! measured side, all other formats, have it in front and count azimuths counterclockwise as seen
 //! from there, from `-x` of this frame on: from the right, with `y` up.
 
+mod adjoint;
 mod analysis;
 mod astm;
 mod color;
@@ -47,11 +48,10 @@ mod measured;
 mod memory;
 mod merl;
 mod parsed;
-mod pieces;
 mod read;
-mod reversed;
 mod side;
 mod tables;
+mod tokens;
 mod tree;
 mod warning;
 mod window_xml;
@@ -64,8 +64,8 @@ pub use distribution::Distribution;
 pub use facts::{BsdfFacts, BsdfFormat};
 pub use gridded::GriddedTable;
 pub use hemisphere::ScatterSample;
-pub use klems::{AngleBasis, KlemsTable, ThetaBand};
-pub use measured::MeasuredBsdf;
+pub use klems::{AngleBasis, BandDefinition, KlemsTable, ThetaBand};
+pub use measured::{MeasuredBsdf, SheetDistribution};
 pub use memory::max_bsdf_memory_bytes;
 pub use merl::read_merl;
 pub use parsed::Parsed;
@@ -73,7 +73,7 @@ pub use quasilux_sampling::ParseNameError;
 pub use quasilux_text::{ParseError, Position};
 pub use read::{read_bsdf, read_bsdf_named};
 pub use side::{ScatteringMode, Side};
-pub use tree::{ExchangedTree, TensorTree};
+pub use tree::{AdjointTree, TensorTree};
 pub use warning::{Warning, WarningKind};
 pub use window_xml::read_bsdf_xml;
 

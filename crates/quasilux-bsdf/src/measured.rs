@@ -13,61 +13,74 @@ use std::sync::OnceLock;
 pub struct MeasuredBsdf {
     facts: BsdfFacts,
     scattering: ScatteringTables,
-    kept: Box<Kept>,
+    cache: Box<Cache>,
 }
 
-/// What is made of tables once somebody asks.
+/// A distribution with the light that it is for.
+#[derive(Clone, Copy, Debug)]
+pub struct SheetDistribution<D = Distribution> {
+    /// The side that light arrives on.
+    pub side: Side,
+    /// Whether the light is reflected or transmitted.
+    pub mode: ScatteringMode,
+    /// f in sr^-1.
+    pub distribution: D,
+}
+
+/// Results that are computed from the tables when they are first asked for.
 #[derive(Clone, Debug, Default)]
-struct Kept {
-    /// Their directions exchanged, by the side and the way of the original.
-    exchanged: [[OnceLock<Option<Distribution>>; 2]; 2],
+struct Cache {
+    /// The adjoint distributions, by the side and the mode of the original.
+    adjoint: [[OnceLock<Option<Distribution>>; 2]; 2],
     analysis: OnceLock<BsdfAnalysis>,
 }
 
 impl MeasuredBsdf {
     /// A surface of tables that a program made; the last one counts where several are for the same
-    /// side and way.
+    /// side and mode.
     pub fn from_tables(
         facts: BsdfFacts,
-        tables: impl IntoIterator<Item = (Side, ScatteringMode, Distribution)>,
+        tables: impl IntoIterator<Item = SheetDistribution>,
     ) -> Self {
         let mut surface = Self::new(facts);
-        tables.into_iter().for_each(|(side, way, table)| surface.set(side, way, table));
+        for SheetDistribution { side, mode, distribution } in tables {
+            surface.set(side, mode, distribution);
+        }
         surface
     }
 
     /// A surface that scatters nothing yet.
     #[must_use]
     pub fn new(facts: BsdfFacts) -> Self {
-        Self { facts, scattering: ScatteringTables::default(), kept: Box::default() }
+        Self { facts, scattering: ScatteringTables::default(), cache: Box::default() }
     }
 
-    /// Takes over how light that arrives on `side` is scattered that way.
-    pub fn set(&mut self, side: Side, way: ScatteringMode, distribution: Distribution) {
-        self.scattering.set(side, way, distribution);
-        self.kept.exchanged[side as usize][way as usize] = OnceLock::new();
-        self.kept.analysis = OnceLock::new();
+    /// Sets how light that arrives on `side` is reflected or transmitted.
+    pub fn set(&mut self, side: Side, mode: ScatteringMode, distribution: Distribution) {
+        self.scattering.set(side, mode, distribution);
+        self.cache.adjoint[side as usize][mode as usize] = OnceLock::new();
+        self.cache.analysis = OnceLock::new();
     }
 
-    /// How light that arrives on `side` is scattered that way; `None` where nothing is.
+    /// How light that arrives on `side` is reflected or transmitted; `None` where none is.
     #[must_use]
-    pub fn scattering(&self, side: Side, way: ScatteringMode) -> Option<&Distribution> {
-        self.scattering.get(side, way)
+    pub fn scattering(&self, side: Side, mode: ScatteringMode) -> Option<&Distribution> {
+        self.scattering.get(side, mode)
     }
 
-    /// The same for light that goes the other way round: arriving where that leaves, and leaving
-    /// where it arrives. Made when it is first asked for; `None` where there is none, see
-    /// [`Distribution::reversed`].
+    /// The adjoint of [`Self::scattering`], for light that travels in reverse: it arrives where
+    /// that leaves, and leaves where that arrives. Computed when it is first asked for; `None`
+    /// where there is none, see [`Distribution::adjoint`].
     #[must_use]
-    pub fn exchanged(&self, side: Side, way: ScatteringMode) -> Option<&Distribution> {
-        let made = &self.kept.exchanged[side as usize][way as usize];
-        made.get_or_init(|| self.scattering(side, way)?.reversed()).as_ref()
+    pub fn adjoint(&self, side: Side, mode: ScatteringMode) -> Option<&Distribution> {
+        let made = &self.cache.adjoint[side as usize][mode as usize];
+        made.get_or_init(|| self.scattering(side, mode)?.adjoint()).as_ref()
     }
 
     /// Figures of energy and reciprocity, made when they are first asked for.
     #[must_use]
     pub fn analysis(&self) -> &BsdfAnalysis {
-        self.kept.analysis.get_or_init(|| BsdfAnalysis::new(&self.scattering))
+        self.cache.analysis.get_or_init(|| BsdfAnalysis::new(&self.scattering))
     }
 
     /// What the file says besides.
@@ -76,23 +89,26 @@ impl MeasuredBsdf {
         &self.facts
     }
 
-    /// All distributions, each with the side that light arrives on and the way it goes.
-    pub fn distributions(&self) -> impl Iterator<Item = (Side, ScatteringMode, &Distribution)> {
-        let pairs =
-            Side::ALL.into_iter().flat_map(|side| ScatteringMode::ALL.map(|way| (side, way)));
-        pairs.filter_map(|(side, way)| Some((side, way, self.scattering(side, way)?)))
+    /// All distributions, first those of light on the front.
+    pub fn distributions(&self) -> impl Iterator<Item = SheetDistribution<&Distribution>> {
+        Side::ALL.into_iter().flat_map(move |side| {
+            ScatteringMode::ALL.into_iter().filter_map(move |mode| {
+                let distribution = self.scattering(side, mode)?;
+                Some(SheetDistribution { side, mode, distribution })
+            })
+        })
     }
 
     /// Whether each distribution stays the same when incident and scattered direction turn together
     /// about the normal.
     #[must_use]
     pub fn is_isotropic(&self) -> bool {
-        self.distributions().all(|(_, _, distribution)| distribution.is_isotropic())
+        self.distributions().all(|entry| entry.distribution.is_isotropic())
     }
 
     /// Whether a distribution has colour channels that differ.
     #[must_use]
     pub fn is_coloured(&self) -> bool {
-        self.distributions().any(|(_, _, distribution)| distribution.is_coloured())
+        self.distributions().any(|entry| entry.distribution.is_coloured())
     }
 }

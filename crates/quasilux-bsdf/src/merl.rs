@@ -6,9 +6,11 @@ use crate::defects::warn_of_defects;
 use crate::distribution::Distribution;
 use crate::facts::BsdfFacts;
 use crate::facts::BsdfFormat;
-use crate::gridded::ExitKnots;
+use crate::gridded::ExitGrid;
 use crate::gridded::GriddedTable;
 use crate::gridded::Lobe;
+use crate::gridded::WeightedNode;
+use crate::gridded::pair;
 use crate::gridded::table_error;
 use crate::measured::MeasuredBsdf;
 use crate::parsed::Parsed;
@@ -30,8 +32,8 @@ const SCALES: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
 /// Incident polar angles in degrees: each second one, and the last before the horizon.
 const INCIDENCES: usize = 46;
 
-/// Half angles whose mirrored distances are knots of the lobes, by their number of 90.
-const HALF_KNOTS: [u8; 22] =
+/// Half angles whose mirrored distances are nodes of the lobes, by their number of 90.
+const HALF_NODES: [u8; 22] =
     [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 21, 24, 28, 32, 38, 46, 56, 68];
 
 /// Exit directions of one lobe, at most; of small files, as many as there are values.
@@ -96,15 +98,15 @@ fn direction(theta_deg: f64) -> DVec3 {
 fn table(measured: &Measured<'_>) -> Option<GriddedTable> {
     let incident_deg = |i: usize| if i + 1 == INCIDENCES { 89.5 } else { 2.0 * i as f64 };
     let half_rad = |k: u8| FRAC_PI_2 * (f64::from(k) / 90.0) * (f64::from(k) / 90.0);
-    let offsets: Vec<f64> = HALF_KNOTS.iter().map(|&k| 2.0 * half_rad(k)).collect();
+    let offsets: Vec<f64> = HALF_NODES.iter().map(|&k| 2.0 * half_rad(k)).collect();
     let lobe = |i: usize| {
         let wi = direction(incident_deg(i));
         let theta_rad = incident_deg(i).to_radians();
         let most = DIRECTIONS.min(measured.triples() / INCIDENCES);
-        let knots = ExitKnots::around(theta_rad, &offsets, &[], false, most);
-        let values: Vec<[f64; 3]> = knots.directions().map(|wo| measured.value(wi, wo)).collect();
+        let grid = ExitGrid::around(theta_rad, &offsets, &[], false, most);
+        let values: Vec<[f64; 3]> = grid.directions().map(|wo| measured.value(wi, wo)).collect();
         let channel = |channel: usize| values.iter().map(|rgb| rgb[channel]).collect();
-        Lobe::new(&knots, &[0, 1, 2].map(channel))
+        Lobe::new(&grid, &[0, 1, 2].map(channel))
     };
     let lobes: Option<Vec<Lobe>> = (0..INCIDENCES).map(lobe).collect();
     let theta_rad: Vec<f64> = (0..INCIDENCES).map(|i| incident_deg(i).to_radians()).collect();
@@ -151,8 +153,9 @@ impl Measured<'_> {
         let (mut sum, mut weights) = ([0.0; 3], [0.0; 3]);
         for corner in 0..8 {
             let parts = [0, 1, 2].map(|axis| axes[axis][corner >> axis & 1]);
-            let weight: f64 = parts.iter().map(|part| part.1).product();
-            let triple = (parts[0].0 * differences + parts[1].0) * azimuths + parts[2].0;
+            let weight: f64 = parts.iter().map(|part| part.weight).product();
+            let triple =
+                (parts[0].index * differences + parts[1].index) * azimuths + parts[2].index;
             for channel in 0..3 {
                 let value = self.at(channel, triple);
                 if value >= 0.0 && weight > 0.0 {
@@ -164,8 +167,8 @@ impl Measured<'_> {
         [0, 1, 2].map(|c| if weights[c] > 0.0 { sum[c] / weights[c] } else { 0.0 })
     }
 
-    /// The knots around a pair along each axis, with their weights (Rusinkiewicz 1998).
-    fn axes(&self, wi: DVec3, wo: DVec3) -> [[(usize, f64); 2]; 3] {
+    /// The nodes around a pair along each axis, with their weights (Rusinkiewicz 1998).
+    fn axes(&self, wi: DVec3, wo: DVec3) -> [[WeightedNode; 2]; 3] {
         let half = (wi + wo).normalize_or(DVec3::Z);
         let Angles { theta_rad: half_rad, phi_rad: turn_rad } = Angles::of(half);
         let (sin_turn, cos_turn) = libm::sincos(turn_rad);
@@ -183,14 +186,14 @@ impl Measured<'_> {
         [
             clamped(half_place, halves),
             clamped(difference_place, differences),
-            [(wrapped, 1.0 - part), ((wrapped + 1) % azimuths, part)],
+            pair(wrapped, (wrapped + 1) % azimuths, part),
         ]
     }
 }
 
-/// The knots around a place of an axis; beyond the last one that holds.
-fn clamped(place: f64, count: usize) -> [(usize, f64); 2] {
+/// The nodes around a place of an axis; beyond the last one that holds.
+fn clamped(place: f64, count: usize) -> [WeightedNode; 2] {
     let below = (place as usize).min(count - 1);
     let part = (place - below as f64).clamp(0.0, 1.0);
-    [(below, 1.0 - part), ((below + 1).min(count - 1), part)]
+    pair(below, (below + 1).min(count - 1), part)
 }

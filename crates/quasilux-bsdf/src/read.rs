@@ -52,8 +52,8 @@ pub fn read_bsdf_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
 fn read_ddr_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
     let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
     let is = |known: &str| extension.eq_ignore_ascii_case(known);
-    let way = if is("ddt") { ScatteringMode::Transmission } else { ScatteringMode::Reflection };
-    let mut read = read_ddr(bytes, way)?;
+    let mode = if is("ddt") { ScatteringMode::Transmission } else { ScatteringMode::Reflection };
+    let mut read = read_ddr(bytes, mode)?;
     if !is("ddt") && !is("ddr") {
         let mut warnings = Warnings::default();
         let at = Position { line: 1, column: 1 };

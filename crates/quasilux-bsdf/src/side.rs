@@ -46,7 +46,7 @@ impl Side {
 }
 
 impl ScatteringMode {
-    /// Both ways.
+    /// Both modes.
     pub const ALL: [Self; 2] = [Self::Reflection, Self::Transmission];
 
     /// `reflection` or `transmission`.
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn sides_and_modes_are_read_back_from_their_names() {
         assert!(Side::ALL.into_iter().all(|side| side.to_string().parse() == Ok(side)));
-        assert!(ScatteringMode::ALL.into_iter().all(|way| way.to_string().parse() == Ok(way)));
+        assert!(ScatteringMode::ALL.into_iter().all(|mode| mode.to_string().parse() == Ok(mode)));
         let error = "absorption".parse::<ScatteringMode>().unwrap_err();
         assert!(error.to_string().contains("expected reflection, transmission"));
     }

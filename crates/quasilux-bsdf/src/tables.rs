@@ -10,11 +10,11 @@ pub(crate) struct ScatteringTables([[Option<Distribution>; 2]; 2]);
 
 impl ScatteringTables {
     /// How light that arrives on `side` is scattered; `None` where nothing is.
-    pub(crate) fn get(&self, side: Side, way: ScatteringMode) -> Option<&Distribution> {
-        self.0[side as usize][way as usize].as_ref()
+    pub(crate) fn get(&self, side: Side, mode: ScatteringMode) -> Option<&Distribution> {
+        self.0[side as usize][mode as usize].as_ref()
     }
 
-    pub(crate) fn set(&mut self, side: Side, way: ScatteringMode, distribution: Distribution) {
-        self.0[side as usize][way as usize] = Some(distribution);
+    pub(crate) fn set(&mut self, side: Side, mode: ScatteringMode, distribution: Distribution) {
+        self.0[side as usize][mode as usize] = Some(distribution);
     }
 }

@@ -25,7 +25,7 @@ pub struct EnergyBalance {
     /// The greatest sum of both over all incidences, of the strongest colour channel.
     ///
     /// It is the maximum itself: of tables that are constant in cells a value of one of their
-    /// cells, of lobes, whose shares are linear between knots, one at a knot, and of exchanged
+    /// cells, of lobes, whose shares are linear between nodes, one at a node, and of adjoint
     /// trees one at the edge of a ring, to 1e-5 of its width. Only where both tables are of
     /// different kinds, or two grids of lobes have azimuths apart, it is the greatest of 4096
     /// directions and of all cells.
@@ -37,21 +37,21 @@ pub struct EnergyBalance {
 impl EnergyBalance {
     /// The balance of one side; `None` where it scatters nothing.
     pub(super) fn new(tables: &ScatteringTables, side: Side) -> Option<Self> {
-        let ways = ScatteringMode::ALL.map(|way| tables.get(side, way));
-        let share = |way: usize, wi| ways[way].map_or([0.0; 3], |found| found.albedo(wi));
+        let tables = ScatteringMode::ALL.map(|mode| tables.get(side, mode));
+        let share = |mode: usize, wi| tables[mode].map_or([0.0; 3], |found| found.albedo(wi));
         let total = |wi| {
             let (reflected, passed) = (share(0, wi), share(1, wi));
             (0..3).map(|channel| reflected[channel] + passed[channel]).fold(0.0, f64::max)
         };
-        let parts = ways.map(|table| table.map_or_else(Vec::new, Distribution::parts));
-        let mean = |way: usize| {
-            let of_part = |part: &Incident| part.part * luminance(share(way, part.wi));
+        let parts = tables.map(|table| table.map_or_else(Vec::new, Distribution::parts));
+        let mean = |mode: usize| {
+            let of_part = |part: &Incident| part.part * luminance(share(mode, part.wi));
             // Of nothing zero, which a sum of no numbers is not: that is -0.
-            parts[way].iter().map(of_part).fold(0.0, |sum, of_part| sum + of_part)
+            parts[mode].iter().map(of_part).fold(0.0, |sum, of_part| sum + of_part)
         };
         let diffuse = [mean(0), mean(1)];
         let looked_at = parts.into_iter().flatten().map(|part| part.wi);
-        let further = match ways {
+        let further = match tables {
             [Some(reflected), Some(passed)] => common(reflected, passed),
             [None, None] => return None,
             [Some(one), None] | [None, Some(one)] => common(one, one),
@@ -63,7 +63,7 @@ impl EnergyBalance {
                 worst = (total, wi);
             }
         }
-        let normal = [0, 1].map(|way| luminance(share(way, DVec3::Z)));
+        let normal = [0, 1].map(|mode| luminance(share(mode, DVec3::Z)));
         Some(Self { side, normal, diffuse, worst: worst.0, worst_wi: worst.1 })
     }
 }
@@ -95,7 +95,7 @@ fn ring_width(table: &Distribution) -> Option<f64> {
         Distribution::TensorTree(tree) if tree.is_isotropic() => {
             Some(2.0 / tree.resolution() as f64)
         }
-        Distribution::ExchangedTree(tree) => Some(2.0 / tree.resolution() as f64),
+        Distribution::AdjointTree(tree) => Some(2.0 / tree.resolution() as f64),
         _ => None,
     }
 }

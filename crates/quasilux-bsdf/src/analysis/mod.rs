@@ -22,13 +22,13 @@ pub struct BsdfAnalysis {
 }
 
 impl BsdfAnalysis {
-    /// How far f of light that arrives on `side` and goes `way` is from that of exchanged
+    /// How far f of light that arrives on `side` and is scattered in `mode` is from that of swapped
     /// directions; `None` where one of the two is missing.
     #[must_use]
-    pub fn reciprocity(&self, side: Side, way: ScatteringMode) -> Option<&Reciprocity> {
+    pub fn reciprocity(&self, side: Side, mode: ScatteringMode) -> Option<&Reciprocity> {
         // Of transmission there is one figure for both sides.
         let is_meant = |found: &&Reciprocity| {
-            found.way == way && (way == ScatteringMode::Transmission || found.side == side)
+            found.mode == mode && (mode == ScatteringMode::Transmission || found.side == side)
         };
         self.reciprocity.iter().find(is_meant)
     }

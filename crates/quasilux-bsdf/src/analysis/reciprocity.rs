@@ -1,4 +1,4 @@
-//! How far exchanged directions have the same value.
+//! How far swapped directions have the same value.
 
 use crate::color::luminance;
 use crate::distribution::Distribution;
@@ -28,7 +28,7 @@ pub struct Reciprocity {
     /// The side of `a`.
     pub side: Side,
     /// Whether `b` is on the same side.
-    pub way: ScatteringMode,
+    pub mode: ScatteringMode,
     /// The mean of |f(a, b) - f(b, a)| over the mean of the greater of both.
     pub mean: f64,
     /// The largest |f(a, b) - f(b, a)| over the greater of both, between 0 and 1.
@@ -45,16 +45,16 @@ pub(super) fn all(tables: &ScatteringTables) -> Vec<Reciprocity> {
         (back, ScatteringMode::Reflection),
         (front, ScatteringMode::Transmission),
     ];
-    pairs.into_iter().filter_map(|(side, way)| Reciprocity::new(tables, side, way)).collect()
+    pairs.into_iter().filter_map(|(side, mode)| Reciprocity::new(tables, side, mode)).collect()
 }
 
 impl Reciprocity {
-    /// Compares f of light that arrives on `side` and goes `way` with f of light the other way
-    /// round; `None` where one of the two is missing or both are dark.
-    pub(super) fn new(tables: &ScatteringTables, side: Side, way: ScatteringMode) -> Option<Self> {
-        let back_side = if way == ScatteringMode::Reflection { side } else { side.other() };
-        let forth = tables.get(side, way)?;
-        let back = tables.get(back_side, way)?;
+    /// Compares f of light that arrives on `side` and is scattered in `mode` with f of light that
+    /// travels in reverse; `None` where one of the two is missing or both are dark.
+    pub(super) fn new(tables: &ScatteringTables, side: Side, mode: ScatteringMode) -> Option<Self> {
+        let back_side = if mode == ScatteringMode::Reflection { side } else { side.other() };
+        let forth = tables.get(side, mode)?;
+        let back = tables.get(back_side, mode)?;
         let mut sums = Sums::default();
         let mut look = |a, b, weight: f64| {
             let values = [forth.evaluate(a, b), back.evaluate(b, a)].map(luminance);
@@ -70,7 +70,7 @@ impl Reciprocity {
         }
         let Sums { difference, sum, worst, pair } = sums;
         let mean = difference / sum;
-        (sum > 0.0).then_some(Self { side, way, mean, worst, worst_pair: pair })
+        (sum > 0.0).then_some(Self { side, mode, mean, worst, worst_pair: pair })
     }
 }
 
@@ -95,7 +95,7 @@ impl Sums {
     }
 }
 
-/// The patches that light leaves to, as those from which it comes the other way round; `None` where
+/// The patches that light leaves to, as those from which light in reverse comes; `None` where
 /// there are no patches, or too many.
 fn exits_of_patches(forth: &Distribution, back: &Distribution) -> Option<Vec<Incident>> {
     let (Distribution::Klems(forth), Distribution::Klems(back)) = (forth, back) else {

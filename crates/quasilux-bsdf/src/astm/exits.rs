@@ -3,7 +3,7 @@
 use super::records::{Exit, Key, angle, key};
 use crate::gaps;
 use crate::gaps::Gap;
-use crate::gridded::ExitKnots;
+use crate::gridded::ExitGrid;
 use crate::gridded::Lobe;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
@@ -88,7 +88,7 @@ impl<const N: usize> Exits<N> {
     /// The lobe, of no more than `most` directions unless the file has more.
     pub(super) fn lobe(self, most: usize, channels: usize) -> Option<Lobe> {
         let rows = self.rows(channels).refined(most);
-        Lobe::new(&rows.knots, &rows.channels)
+        Lobe::new(&rows.grid, &rows.channels)
     }
 
     fn rows(self, channels: usize) -> Rows {
@@ -131,7 +131,7 @@ impl<const N: usize> Exits<N> {
         if is_closed {
             theta_rad.push(FRAC_PI_2);
         }
-        Rows { knots: ExitKnots { theta_rad, phi_rad, symmetry }, channels }
+        Rows { grid: ExitGrid { theta_rad, phi_rad, symmetry }, channels }
     }
 }
 
@@ -149,7 +149,7 @@ fn azimuths<const N: usize>(exits: &[Exit<N>]) -> Vec<Key> {
 
 /// f at a grid of exit directions.
 struct Rows {
-    knots: ExitKnots,
+    grid: ExitGrid,
     /// Of each channel all azimuths of the first polar angle, then of the next.
     channels: Vec<Vec<f64>>,
 }
@@ -158,25 +158,25 @@ impl Rows {
     /// The same with f linear in between at narrower polar angles, as many directions as there may
     /// be: a lobe is linear in f times the cosine.
     fn refined(self, most: usize) -> Self {
-        let Self { knots, channels } = self;
-        let columns = knots.phi_rad.len();
+        let Self { grid, channels } = self;
+        let columns = grid.phi_rad.len();
         let parts =
             |pair: &[f64], widest_rad: f64| ((pair[1] - pair[0]) / widest_rad).ceil().max(1.0);
         let count = |widest_rad: f64| -> f64 {
-            knots.theta_rad.windows(2).map(|pair| parts(pair, widest_rad)).sum()
+            grid.theta_rad.windows(2).map(|pair| parts(pair, widest_rad)).sum()
         };
         let fits = |widest_rad: &f64| count(*widest_rad) * columns as f64 <= most as f64;
         let Some(widest_rad) = WIDEST_RAD.into_iter().find(fits) else {
-            return Self { knots, channels };
+            return Self { grid, channels };
         };
-        let places = knots.theta_rad.windows(2).enumerate().flat_map(|(row, pair)| {
+        let places = grid.theta_rad.windows(2).enumerate().flat_map(|(row, pair)| {
             let parts = parts(pair, widest_rad);
             (0..parts as u32).map(move |part| (row, f64::from(part) / parts))
         });
         let between =
-            |row: usize, t: f64| (1.0 - t) * knots.theta_rad[row] + t * knots.theta_rad[row + 1];
+            |row: usize, t: f64| (1.0 - t) * grid.theta_rad[row] + t * grid.theta_rad[row + 1];
         let mut theta_rad: Vec<f64> = places.clone().map(|(row, t)| between(row, t)).collect();
-        theta_rad.extend(knots.theta_rad.last());
+        theta_rad.extend(grid.theta_rad.last());
         let finer = |f: Vec<f64>| {
             let mut finer = Vec::with_capacity(theta_rad.len() * columns);
             for (row, t) in places.clone() {
@@ -187,6 +187,6 @@ impl Rows {
             finer
         };
         let channels = channels.into_iter().map(finer).collect();
-        Self { knots: ExitKnots { theta_rad, ..knots }, channels }
+        Self { grid: ExitGrid { theta_rad, ..grid }, channels }
     }
 }

@@ -15,7 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Exit directions of all lobes together, or as many as values where those are more.
 const MIN_DIRECTIONS: usize = 1 << 18;
 
-/// The incident directions of one way, each azimuth with the same polar angles.
+/// The incident directions of one scattering mode, each azimuth with the same polar angles.
 struct Incidences {
     /// Of the first one.
     at: Position,
@@ -23,14 +23,14 @@ struct Incidences {
     thetas: Vec<Key>,
 }
 
-/// The table of one way, `None` where the file has no such line. Each incidence must have a full
-/// grid of exits, and each azimuth the same polar angles.
+/// The table of one scattering mode, `None` where the file has no such line. Each incidence must
+/// have a full grid of exits, and each azimuth the same polar angles.
 pub(super) fn table<const N: usize>(
     records: &Records<N>,
-    way: ScatteringMode,
+    mode: ScatteringMode,
     warnings: &mut Warnings,
 ) -> Result<Option<GriddedTable>, ParseError> {
-    let Some(incidences) = Incidences::of(records, way)? else {
+    let Some(incidences) = Incidences::new(records, mode)? else {
         return Ok(None);
     };
     let Incidences { at, ref planes, ref thetas } = incidences;
@@ -41,7 +41,7 @@ pub(super) fn table<const N: usize>(
     // First whether all of it can be used: that takes a moment, and lobes many.
     let is_isotropic = planes.len() == 1;
     for (plane, theta) in all() {
-        let exits = incidences.exits(records, way, plane, theta)?;
+        let exits = incidences.exits(records, mode, plane, theta)?;
         // Along the normal an isotropic surface has the same in all azimuths.
         if !(is_isotropic && theta == 0) {
             exits.check_gaps(warnings)?;
@@ -49,11 +49,11 @@ pub(super) fn table<const N: usize>(
     }
     incidences.warn(warnings);
     let values: usize = all()
-        .filter_map(|(plane, theta)| Some(records.count(records.beginning(way, plane, theta)?)))
+        .filter_map(|(plane, theta)| Some(records.count(records.beginning(mode, plane, theta)?)))
         .sum();
     let most = values.max(MIN_DIRECTIONS) / (planes.len() * thetas.len());
     let lobe = |(plane, theta)| {
-        let exits = incidences.exits(records, way, plane, theta)?;
+        let exits = incidences.exits(records, mode, plane, theta)?;
         exits.lobe(most, N).ok_or_else(|| {
             ParseError::new(at, "exit directions that make no grid", "ascending angles")
         })
@@ -69,12 +69,12 @@ pub(super) fn table<const N: usize>(
 }
 
 impl Incidences {
-    fn of<const N: usize>(
+    fn new<const N: usize>(
         records: &Records<N>,
-        way: ScatteringMode,
+        mode: ScatteringMode,
     ) -> Result<Option<Self>, ParseError> {
-        let all = || records.incidences(way);
-        let Some(first) = all().map(|(_, beginning)| beginning.line).min() else {
+        let all = || records.incidences(mode);
+        let Some(first) = all().map(|entry| entry.beginning.line).min() else {
             return Ok(None);
         };
         let at = Position { line: first, column: 1 };
@@ -83,21 +83,21 @@ impl Incidences {
             keys.dedup();
             keys
         };
-        let tilted = || all().filter(|(incidence, _)| incidence.theta != 0);
-        let mut planes = sorted(tilted().map(|(incidence, _)| incidence.plane).collect());
-        let normal = records.beginning(way, 0, 0);
+        let tilted = || all().filter(|entry| entry.incidence.theta != 0);
+        let mut planes = sorted(tilted().map(|entry| entry.incidence.plane).collect());
+        let normal = records.beginning(mode, 0, 0);
         if let Some(normal) = normal.filter(|_| planes.is_empty()) {
             planes.push(normal.phi);
         }
         // Along the normal light belongs to all planes of incidence.
-        let exits: usize = all().map(|(_, beginning)| records.count(beginning)).sum();
+        let exits: usize = all().map(|entry| records.count(entry.beginning)).sum();
         let along_normal = normal.map_or(0, |normal| records.count(normal));
         if planes.len().saturating_mul(along_normal) > 4 * exits {
             let found = format!("{} incident azimuths with few lines each", planes.len());
             let expected = "a full grid of exits for each incident direction";
             return Err(ParseError::new(at, found, expected));
         }
-        let thetas = sorted(all().map(|(incidence, _)| incidence.theta).collect());
+        let thetas = sorted(all().map(|entry| entry.incidence.theta).collect());
         let rows = thetas.len() - usize::from(normal.is_some());
         if tilted().count() < rows * planes.len() {
             let found = format!("{} incident directions", all().count());
@@ -114,12 +114,12 @@ impl Incidences {
     fn exits<const N: usize>(
         &self,
         records: &Records<N>,
-        way: ScatteringMode,
+        mode: ScatteringMode,
         plane: Key,
         theta: Key,
     ) -> Result<Exits<N>, ParseError> {
         let none = || ParseError::new(self.at, "a missing incidence", "all polar angles");
-        let beginning: &Beginning = records.beginning(way, plane, theta).ok_or_else(none)?;
+        let beginning: &Beginning = records.beginning(mode, plane, theta).ok_or_else(none)?;
         let turn = (theta == 0).then_some(plane);
         Exits::new(records.exits(beginning, turn), beginning.line)
     }

@@ -4,9 +4,9 @@
 //! is known.
 
 use super::{Columns, colour};
-use crate::pieces;
-use crate::pieces::Pieces;
-use crate::pieces::Style;
+use crate::tokens;
+use crate::tokens::Style;
+use crate::tokens::Tokens;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position, Token, quoted};
@@ -17,6 +17,14 @@ const ROUNDING_RAD: f64 = 0.01;
 
 /// Exits nearer to the horizon are on it.
 const HORIZON_RAD: f64 = 1e-3;
+
+/// A line of a file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NumberedLine<'t> {
+    /// From 1.
+    pub(super) number: usize,
+    pub(super) text: &'t str,
+}
 
 /// The lines of data of a file.
 pub(super) struct Lines<L> {
@@ -48,17 +56,17 @@ struct Range {
     azimuth: f64,
 }
 
-impl<'t, L: Iterator<Item = (usize, &'t str)> + Clone> Lines<L> {
+impl<'t, L: Iterator<Item = NumberedLine<'t>> + Clone> Lines<L> {
     /// The lines behind the names of columns. Polar angles over half a turn and azimuths over a
     /// whole one can only be degrees. `None` without any.
     pub(super) fn survey(lines: L, columns: Columns, warnings: &mut Warnings) -> Option<Self> {
         let mut range =
             Range { incident: 0.0, exit: [f64::INFINITY, f64::NEG_INFINITY], azimuth: 0.0 };
         let (mut count, mut first) = (0, None);
-        for (line, text) in lines.clone().filter(|(_, text)| is_data(text)) {
+        for line in lines.clone().filter(|line| is_data(line.text)) {
             count += 1;
-            first.get_or_insert(line);
-            range.take(text);
+            first.get_or_insert(line.number);
+            range.take(line.text);
         }
         let at = Position { line: first?, column: 1 };
         let polar = range.incident.max(range.exit[1]);
@@ -92,19 +100,23 @@ impl<'t, L: Iterator<Item = (usize, &'t str)> + Clone> Lines<L> {
         warnings: &mut Warnings,
         mut take: impl FnMut(Line) -> Result<(), ParseError>,
     ) -> Result<(), ParseError> {
-        for (line, text) in self.lines.clone().filter(|(_, text)| is_data(text)) {
-            take(self.line(line, text, warnings)?)?;
+        for line in self.lines.clone().filter(|line| is_data(line.text)) {
+            take(self.line(line, warnings)?)?;
         }
         Ok(())
     }
 
-    fn line(&self, line: usize, text: &str, warnings: &mut Warnings) -> Result<Line, ParseError> {
+    fn line(
+        &self,
+        NumberedLine { number: line, text }: NumberedLine<'_>,
+        warnings: &mut Warnings,
+    ) -> Result<Line, ParseError> {
         let at = Position { line, column: 1 };
-        let mut pieces = Pieces::new(text, at, Style::Plain);
+        let mut tokens = Tokens::new(text, at, Style::Plain);
         let count = if self.columns == Columns::Grey { 5 } else { 7 };
         let mut next = |index: usize| {
-            let end = pieces.at();
-            pieces.next().ok_or_else(|| {
+            let end = tokens.at();
+            tokens.next().ok_or_else(|| {
                 let expected = format_args!("{count} numbers a line").to_string();
                 ParseError::new(end, format_args!("{index} of them"), expected)
             })
@@ -115,9 +127,9 @@ impl<'t, L: Iterator<Item = (usize, &'t str)> + Clone> Lines<L> {
         }
         let mut values = [0.0; 3];
         for (index, value) in values.iter_mut().take(count - 4).enumerate() {
-            *value = pieces::value(next(4 + index)?, warnings)?;
+            *value = tokens::value(next(4 + index)?, warnings)?;
         }
-        if let Some(further) = pieces.next() {
+        if let Some(further) = tokens.next() {
             let expected = format!("the end of the line after {count} numbers");
             return Err(ParseError::new(further.at, quoted(further.text), expected));
         }
@@ -146,9 +158,9 @@ impl Range {
     /// What is no number is told when the line is read.
     fn take(&mut self, text: &str) {
         let is_gap = |character: char| character.is_whitespace() || character == ',';
-        let pieces = text.split(is_gap).filter(|piece| !piece.is_empty());
+        let tokens = text.split(is_gap).filter(|token| !token.is_empty());
         let at = Position { line: 1, column: 1 };
-        for (index, text) in pieces.take(4).enumerate() {
+        for (index, text) in tokens.take(4).enumerate() {
             let Ok(number) = (Token { text, at }).number("an angle") else {
                 continue;
             };

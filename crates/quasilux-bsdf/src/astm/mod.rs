@@ -16,12 +16,12 @@ use crate::facts::BsdfFormat;
 use crate::gridded::GriddedTable;
 use crate::measured::MeasuredBsdf;
 use crate::parsed::Parsed;
-use crate::pieces::Pieces;
-use crate::pieces::Style;
 use crate::side::ScatteringMode;
 use crate::side::Side;
+use crate::tokens::Style;
+use crate::tokens::Tokens;
 use crate::warning::Warnings;
-use lines::Lines;
+use lines::{Lines, NumberedLine};
 use quasilux_text::{ParseError, Position, Token, decode, lines, quoted};
 use records::Records;
 
@@ -36,6 +36,13 @@ enum Columns {
     Xyz,
 }
 
+/// The line that names the columns.
+struct Heading {
+    columns: Columns,
+    /// Its number, from 1.
+    line: usize,
+}
+
 /// Reads an ASTM E1392 file. What is measured counts for light on the front. Total: any bytes give
 /// a surface or an error with its place.
 ///
@@ -45,8 +52,9 @@ enum Columns {
 pub fn read_astm(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
-    let mut all = (1..).zip(lines(text.trim_start_matches('\u{FEFF}')));
-    let Some((columns, first_line)) = columns(&mut all)? else {
+    let numbered = (1..).zip(lines(text.trim_start_matches('\u{FEFF}')));
+    let mut all = numbered.map(|(number, text)| NumberedLine { number, text });
+    let Some(Heading { columns, line: first_line }) = heading(&mut all)? else {
         let at = Position { line: 1, column: 1 };
         return Err(ParseError::new(at, "no line VARS", "VARS theta_i,phi_i,theta_s,phi_s,..."));
     };
@@ -68,27 +76,25 @@ pub fn read_astm(bytes: &[u8]) -> Result<Parsed, ParseError> {
         thickness_m: None,
     };
     let mut bsdf = MeasuredBsdf::new(facts);
-    for (way, table) in tables {
-        bsdf.set(Side::Front, way, Distribution::Gridded(table));
+    for (mode, table) in ScatteringMode::ALL.into_iter().zip(tables) {
+        if let Some(table) = table {
+            bsdf.set(Side::Front, mode, Distribution::Gridded(table));
+        }
     }
     warn_of_one_way(&bsdf, at, &mut warnings);
     warn_of_defects(&bsdf, at, &mut warnings);
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 
-/// The tables of both ways, in so far as there are lines, of one or three channels.
+/// The tables of reflection and of transmission, where there are lines, of one or three channels.
 fn tables<'t, const N: usize>(
-    lines: &Lines<impl Iterator<Item = (usize, &'t str)> + Clone>,
+    lines: &Lines<impl Iterator<Item = NumberedLine<'t>> + Clone>,
     warnings: &mut Warnings,
-) -> Result<Vec<(ScatteringMode, GriddedTable)>, ParseError> {
+) -> Result<[Option<GriddedTable>; 2], ParseError> {
     let records = Records::<N>::read(lines, warnings)?;
-    let mut tables = Vec::new();
-    for way in ScatteringMode::ALL {
-        if let Some(table) = grid::table(&records, way, warnings)? {
-            tables.push((way, table));
-        }
-    }
-    Ok(tables)
+    let reflection = grid::table(&records, ScatteringMode::Reflection, warnings)?;
+    let transmission = grid::table(&records, ScatteringMode::Transmission, warnings)?;
+    Ok([reflection, transmission])
 }
 
 /// Whether a line names the columns.
@@ -97,15 +103,16 @@ pub(super) fn names_columns(line: &[u8]) -> bool {
     word.is_some_and(|word| word.eq_ignore_ascii_case(b"VARS"))
 }
 
-/// The columns, and the line that names them.
-fn columns<'t>(
-    lines: &mut impl Iterator<Item = (usize, &'t str)>,
-) -> Result<Option<(Columns, usize)>, ParseError> {
-    let Some((line, text)) = lines.find(|(_, text)| names_columns(text.as_bytes())) else {
+/// The line that names the columns.
+fn heading<'t>(
+    lines: &mut impl Iterator<Item = NumberedLine<'t>>,
+) -> Result<Option<Heading>, ParseError> {
+    let Some(found) = lines.find(|line| names_columns(line.text.as_bytes())) else {
         return Ok(None);
     };
+    let NumberedLine { number: line, text } = found;
     let start = Position { line, column: 1 };
-    let names: Vec<Token<'_>> = Pieces::new(text, start, Style::Plain).skip(1).collect();
+    let names: Vec<Token<'_>> = Tokens::new(text, start, Style::Plain).skip(1).collect();
     for (index, expected) in ANGLES.iter().enumerate() {
         let name = names.get(index).map_or("nothing", |name| name.text);
         if !name.eq_ignore_ascii_case(expected) {
@@ -130,5 +137,5 @@ fn columns<'t>(
             return Err(ParseError::new(start, found, "one, or R,G,B or X,Y,Z"));
         }
     };
-    Ok(Some((columns, line)))
+    Ok(Some(Heading { columns, line }))
 }

@@ -1,7 +1,7 @@
 //! What a file measured, in few bytes: a number that tells both directions, the line and f in 24
 //! bits.
 
-use super::lines::Lines;
+use super::lines::{Lines, NumberedLine};
 use crate::gridded::MAX_INCIDENCES;
 use crate::side::ScatteringMode;
 use crate::warning::WarningKind;
@@ -50,13 +50,20 @@ pub(super) struct Exit<const N: usize> {
     pub(super) f: [f32; N],
 }
 
-/// An incident direction, as light is scattered one way.
+/// An incident direction of light that is reflected, or of light that is transmitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Incidence {
-    way: usize,
+    mode: usize,
     /// The azimuth; 0 along the normal, which belongs to all.
     pub(super) plane: Key,
     pub(super) theta: Key,
+}
+
+/// An incidence and where it begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct IncidenceEntry<'r> {
+    pub(super) incidence: &'r Incidence,
+    pub(super) beginning: &'r Beginning,
 }
 
 /// Where an incidence begins.
@@ -77,7 +84,7 @@ pub(super) struct Records<const N: usize> {
 impl<const N: usize> Records<N> {
     /// The lines in order. Of several with the same directions the first one is kept.
     pub(super) fn read<'t>(
-        lines: &Lines<impl Iterator<Item = (usize, &'t str)> + Clone>,
+        lines: &Lines<impl Iterator<Item = NumberedLine<'t>> + Clone>,
         warnings: &mut Warnings,
     ) -> Result<Self, ParseError> {
         let mut records = Vec::with_capacity(lines.count());
@@ -87,7 +94,7 @@ impl<const N: usize> Records<N> {
             let theta = key(theta_i);
             let is_tilted = theta != 0;
             let incidence = Incidence {
-                way: usize::from(line.is_transmitted),
+                mode: usize::from(line.is_transmitted),
                 plane: if is_tilted { azimuth_key(phi_i) } else { 0 },
                 theta,
             };
@@ -129,22 +136,24 @@ impl<const N: usize> Records<N> {
         });
     }
 
-    /// The incidences of one way, by azimuth and then by polar angle.
+    /// The incidences of one scattering mode, by azimuth and then by polar angle.
     pub(super) fn incidences(
         &self,
-        way: ScatteringMode,
-    ) -> impl Iterator<Item = (&Incidence, &Beginning)> + Clone {
-        self.incidences.iter().filter(move |(incidence, _)| incidence.way == way as usize)
+        mode: ScatteringMode,
+    ) -> impl Iterator<Item = IncidenceEntry<'_>> + Clone {
+        let entries = self.incidences.iter();
+        let entries = entries.map(|(incidence, beginning)| IncidenceEntry { incidence, beginning });
+        entries.filter(move |entry| entry.incidence.mode == mode as usize)
     }
 
     pub(super) fn beginning(
         &self,
-        way: ScatteringMode,
+        mode: ScatteringMode,
         plane: Key,
         theta: Key,
     ) -> Option<&Beginning> {
         let plane = if theta == 0 { 0 } else { plane };
-        self.incidences.get(&Incidence { way: way as usize, plane, theta })
+        self.incidences.get(&Incidence { mode: mode as usize, plane, theta })
     }
 
     /// How many exits an incidence has.

@@ -63,8 +63,21 @@ impl Header {
     }
 }
 
-/// The head, and the word behind it, which begins the first block.
-pub(super) fn read<'t>(words: &mut Words<'t>) -> Result<(Header, Token<'t>), ParseError> {
+/// The head of a file up to the first block.
+pub(super) struct Head<'t> {
+    pub(super) header: Header,
+    /// The word behind the head, which begins the first block.
+    pub(super) first_block: Token<'t>,
+}
+
+/// A word of a closed list.
+struct Keyword<T> {
+    name: &'static str,
+    meaning: T,
+}
+
+/// Reads up to the first block.
+pub(super) fn read<'t>(words: &mut Words<'t>) -> Result<Head<'t>, ParseError> {
     let mut header = Header {
         at: Position { line: 1, column: 1 },
         symmetry: SpecularSymmetry::Plane,
@@ -108,7 +121,7 @@ pub(super) fn read<'t>(words: &mut Words<'t>) -> Result<(Header, Token<'t>), Par
     }
 }
 
-fn finish(mut header: Header, word: Token<'_>) -> Result<(Header, Token<'_>), ParseError> {
+fn finish(mut header: Header, word: Token<'_>) -> Result<Head<'_>, ParseError> {
     let lists = [
         ("sigma", header.sigma_rad.len()),
         ("phi", header.phi_rad.len()),
@@ -132,38 +145,45 @@ fn finish(mut header: Header, word: Token<'_>) -> Result<(Header, Token<'_>), Pa
     if header.specular_rad.is_empty() {
         header.specular_rad = header.sigma_rad.clone();
     }
-    Ok((header, word))
+    Ok(Head { header, first_block: word })
 }
 
 fn symmetry(words: &mut Words<'_>) -> Result<SpecularSymmetry, ParseError> {
     let known = [
-        ("AxiSymmetrical", SpecularSymmetry::Axis),
-        ("PlaneSymmetrical", SpecularSymmetry::Plane),
-        ("ASymmetrical", SpecularSymmetry::None),
+        Keyword { name: "AxiSymmetrical", meaning: SpecularSymmetry::Axis },
+        Keyword { name: "PlaneSymmetrical", meaning: SpecularSymmetry::Plane },
+        Keyword { name: "ASymmetrical", meaning: SpecularSymmetry::None },
     ];
     one_of(words, &known, "AxiSymmetrical, PlaneSymmetrical or ASymmetrical")
 }
 
 fn colours(words: &mut Words<'_>) -> Result<Colours, ParseError> {
-    one_of(words, &[("BW", Colours::Grey), ("RGB", Colours::Rgb)], "BW or RGB")
+    let known = [
+        Keyword { name: "BW", meaning: Colours::Grey },
+        Keyword { name: "RGB", meaning: Colours::Rgb },
+    ];
+    one_of(words, &known, "BW or RGB")
 }
 
 fn unit(words: &mut Words<'_>) -> Result<Unit, ParseError> {
-    one_of(words, &[("Luminance", ())], "Luminance")?;
-    let known = [("Absolute", Unit::Absolute), ("Relative", Unit::Relative)];
+    one_of(words, &[Keyword { name: "Luminance", meaning: () }], "Luminance")?;
+    let known = [
+        Keyword { name: "Absolute", meaning: Unit::Absolute },
+        Keyword { name: "Relative", meaning: Unit::Relative },
+    ];
     one_of(words, &known, "Absolute or Relative")
 }
 
 /// The meaning of a word of a list.
 fn one_of<T: Copy>(
     words: &mut Words<'_>,
-    known: &[(&str, T)],
+    known: &[Keyword<T>],
     expected: &str,
 ) -> Result<T, ParseError> {
     let word = words.next(expected)?;
-    let found = known.iter().find(|(name, _)| name.eq_ignore_ascii_case(word.text));
+    let found = known.iter().find(|keyword| keyword.name.eq_ignore_ascii_case(word.text));
     found
-        .map(|(_, meaning)| *meaning)
+        .map(|keyword| keyword.meaning)
         .ok_or_else(|| ParseError::new(word.at, quoted(word.text), expected))
 }
 

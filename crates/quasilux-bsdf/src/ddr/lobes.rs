@@ -2,7 +2,7 @@
 
 use super::Block;
 use super::header::{Header, SpecularSymmetry, Unit};
-use crate::gridded::ExitKnots;
+use crate::gridded::ExitGrid;
 use crate::gridded::GriddedTable;
 use crate::gridded::Lobe;
 use crate::gridded::around;
@@ -15,8 +15,15 @@ use std::f64::consts::TAU;
 /// Exit directions of all lobes together, or as many as values where those are more.
 const MIN_DIRECTIONS: usize = 1 << 18;
 
-/// The table, and how far it is from the file's values at its incidences.
-pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, f64)> {
+/// The values of a file over spherical angles about the normal.
+pub(super) struct Resampled {
+    pub(super) table: GriddedTable,
+    /// The mean of the difference from the file over the mean of its values, at its incidences.
+    pub(super) error: f64,
+}
+
+/// The table of a file; `None` where its values make none.
+pub(super) fn resample(header: &Header, blocks: &[Block]) -> Option<Resampled> {
     let (thetas, phis) = (header.theta_rad.len(), header.phi_rad.len());
     let values = header.incidences() * thetas * phis;
     let most = values.max(MIN_DIRECTIONS) / header.incidences();
@@ -28,21 +35,21 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
         // About the normal itself the azimuths are those of the file.
         let around: &[f64] = if sigma == 0 { &header.phi_rad } else { &[] };
         let specular_rad = header.specular_rad[sigma];
-        let knots = ExitKnots::around(specular_rad, &header.theta_rad, around, is_mirrored, most);
+        let grid = ExitGrid::around(specular_rad, &header.theta_rad, around, is_mirrored, most);
         let channel =
-            |channel: usize| knots.directions().map(|wo| measured.value(wo, channel)).collect();
+            |channel: usize| grid.directions().map(|wo| measured.value(wo, channel)).collect();
         let mut channels: Vec<Vec<f64>> = (0..blocks.len()).map(channel).collect();
         let mut factor = [1.0; 3];
         for (channel, values) in channels.iter_mut().enumerate() {
             if header.unit == Unit::Relative {
-                let [albedo, ..] = Lobe::new(&knots, std::slice::from_ref(values))?.albedo();
+                let [albedo, ..] = Lobe::new(&grid, std::slice::from_ref(values))?.albedo();
                 let scale = blocks[channel].scales[incidence];
                 factor[channel] = if albedo > 0.0 { scale / albedo } else { 0.0 };
                 values.iter_mut().for_each(|value| *value *= factor[channel]);
             }
         }
         factors.push(factor);
-        lobes.push(Lobe::new(&knots, &channels)?);
+        lobes.push(Lobe::new(&grid, &channels)?);
     }
     let table = GriddedTable::new(
         header.sigma_rad.clone(),
@@ -52,7 +59,7 @@ pub(super) fn table(header: &Header, blocks: &[Block]) -> Option<(GriddedTable, 
     )?
     .following_the_mirror();
     let error = error(&table, header, blocks, &factors);
-    Some((table, error))
+    Some(Resampled { table, error })
 }
 
 /// At the stored incidences; what is between them only neighbours tell, see
@@ -112,10 +119,10 @@ impl Measured<'_> {
         let rows = bracket(theta_rad, theta);
         let block = &self.blocks[channel];
         let mut sum = 0.0;
-        for (column, column_weight) in columns {
-            for (row, row_weight) in rows {
-                let index = self.start + column * theta_rad.len() + row;
-                sum += column_weight * row_weight * block.values[index];
+        for column in columns {
+            for row in rows {
+                let index = self.start + column.index * theta_rad.len() + row.index;
+                sum += column.weight * row.weight * block.values[index];
             }
         }
         sum * if *unit == Unit::Absolute { block.scales[self.incidence] } else { 1.0 }

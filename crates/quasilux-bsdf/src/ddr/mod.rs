@@ -13,14 +13,15 @@ use crate::facts::BsdfFacts;
 use crate::facts::BsdfFormat;
 use crate::measured::MeasuredBsdf;
 use crate::parsed::Parsed;
-use crate::pieces;
-use crate::pieces::Pieces;
-use crate::pieces::Style;
 use crate::side::ScatteringMode;
 use crate::side::Side;
+use crate::tokens;
+use crate::tokens::Style;
+use crate::tokens::Tokens;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
-use header::{Colours, Header};
+use header::{Colours, Head, Header};
+use lobes::Resampled;
 use quasilux_text::{ParseError, Position, Token, decode, quoted};
 use std::f64::consts::PI;
 
@@ -39,15 +40,15 @@ struct Block {
 /// # Errors
 /// [`ParseError`] with the position where the header, an angle or a value is missing or out of
 /// range.
-pub fn read_ddr(bytes: &[u8], way: ScatteringMode) -> Result<Parsed, ParseError> {
+pub fn read_ddr(bytes: &[u8], mode: ScatteringMode) -> Result<Parsed, ParseError> {
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let start = Position { line: 1, column: 1 };
     let text = text.trim_start_matches('\u{FEFF}');
-    let mut words = Words(Pieces::new(text, start, Style::Comments));
-    let (header, first) = header::read(&mut words)?;
-    let blocks = blocks(&mut words, &header, first, &mut warnings)?;
-    let (table, error) = lobes::table(&header, &blocks)
+    let mut words = Words(Tokens::new(text, start, Style::Comments));
+    let Head { header, first_block } = header::read(&mut words)?;
+    let blocks = blocks(&mut words, &header, first_block, &mut warnings)?;
+    let Resampled { table, error } = lobes::resample(&header, &blocks)
         .ok_or_else(|| ParseError::new(start, "values that make no table", "finite values"))?;
     let found = format!(
         "values around the specular direction, {} by {}",
@@ -69,14 +70,14 @@ pub fn read_ddr(bytes: &[u8], way: ScatteringMode) -> Result<Parsed, ParseError>
         thickness_m: None,
     };
     let mut bsdf = MeasuredBsdf::new(facts);
-    bsdf.set(Side::Front, way, Distribution::Gridded(table));
+    bsdf.set(Side::Front, mode, Distribution::Gridded(table));
     warn_of_one_way(&bsdf, header.at, &mut warnings);
     warn_of_defects(&bsdf, header.at, &mut warnings);
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 
 /// The words of a file.
-pub(super) struct Words<'t>(Pieces<'t>);
+pub(super) struct Words<'t>(Tokens<'t>);
 
 impl<'t> Words<'t> {
     fn next(&mut self, expected: &str) -> Result<Token<'t>, ParseError> {
@@ -127,8 +128,8 @@ fn block(
     let mut scales = Vec::new();
     if word.text.eq_ignore_ascii_case("kbdf") {
         for _ in 0..header.incidences() {
-            let piece = words.next("a scale for each incidence")?;
-            scales.push(pieces::value(piece, warnings)?);
+            let token = words.next("a scale for each incidence")?;
+            scales.push(tokens::value(token, warnings)?);
         }
         word = words.next("def")?;
     } else {
@@ -140,13 +141,13 @@ fn block(
     let count = header.incidences().saturating_mul(header.phi_rad.len() * header.theta_rad.len());
     let mut values = Vec::new();
     for _ in 0..count {
-        let piece = words.next("a value")?;
-        if piece.text.eq_ignore_ascii_case("enddef") {
+        let token = words.next("a value")?;
+        if token.text.eq_ignore_ascii_case("enddef") {
             let found = format!("enddef after {} values", values.len());
             let expected = format!("{count}: for each psi, sigma, phi and theta");
-            return Err(ParseError::new(piece.at, found, expected));
+            return Err(ParseError::new(token.at, found, expected));
         }
-        values.push(pieces::value(piece, warnings)? / PI);
+        values.push(tokens::value(token, warnings)? / PI);
     }
     let end = words.next("enddef")?;
     if !end.text.eq_ignore_ascii_case("enddef") {

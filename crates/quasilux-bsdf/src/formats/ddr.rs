@@ -32,7 +32,7 @@
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |
 //! |---|---|---|
-//! | [`Resampled`] | always: f is taken to a grid about the normal, with knots where those of the file are | `9:1: found values around the specular direction, 37 by 91; expected spherical angles (resampled; off by 0.21 % in the mean at incidences of the file, by about 1.30 % between them)` |
+//! | [`Resampled`] | always: f is taken to a grid about the normal, with nodes where those of the file are | `9:1: found values around the specular direction, 37 by 91; expected spherical angles (resampled; off by 0.21 % in the mean at incidences of the file, by about 1.30 % between them)` |
 //! | [`AzimuthGap`] | linear across the gap; `PlaneSymmetrical` goes on beyond its ends as there | `9:1: found azimuths phi that leave a gap of 180 degrees; expected 0 to 180 with gaps of 90 degrees at most (...)` |
 //! | [`SpecularMissing`] | f is constant up to the first angle | `9:1: found theta from 5.0 degrees on; expected angles from 0 on, the specular direction (f is as at the first one)` |
 //! | [`OneIncidence`](crate::WarningKind::OneIncidence) | the lobe follows the specular direction | `9:1: found one incident polar angle, 0.0 degrees; expected several (the lobe follows the specular direction and keeps its light)` |

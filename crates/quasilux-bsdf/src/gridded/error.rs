@@ -1,7 +1,7 @@
 //! How far a table of lobes is off, at the incidences that it stores and between them.
 
 use super::mixture::{Mixture, Part};
-use super::{GriddedTable, Move, as_in_file};
+use super::{GriddedTable, LobeTransform, TurnedMixture, as_in_file};
 use crate::color::luminance;
 use crate::hemisphere::lattice;
 use crate::hemisphere::upwards;
@@ -32,14 +32,18 @@ impl GriddedTable {
         let (mut difference, mut sum) = (0.0, 0.0);
         for theta in tried {
             let neighbours = [theta - 1, theta + 1];
-            let motion = self.motion(neighbours);
+            let stretch = self.stretch(neighbours);
             let [low, high] = neighbours.map(|theta| self.theta_rad[theta]);
             let above = (self.theta_rad[theta] - low) / (high - low);
             for plane in (0..planes).step_by(planes.div_ceil(TRIED)) {
                 let part = |theta_of_lobe: usize, weight: f64| Part {
                     lobe: &self.lobes[plane * rows + theta_of_lobe],
                     weight,
-                    step: Move::new(self.mirrors[theta_of_lobe], self.mirrors[theta], motion),
+                    transform: LobeTransform::new(
+                        self.mirrors[theta_of_lobe],
+                        self.mirrors[theta],
+                        stretch,
+                    ),
                 };
                 let stored = part(theta, 1.0);
                 let none = Part { weight: 0.0, ..stored };
@@ -64,7 +68,7 @@ pub(crate) fn table_error(
 ) -> f64 {
     let (mut difference, mut sum) = (0.0, 0.0);
     for &wi in incidences {
-        let (mixture, turn) = table.mixture(as_in_file(wi));
+        let TurnedMixture { mixture, turn } = table.mixture(as_in_file(wi));
         let (off, all) = off(&mixture, |direction| {
             let wo = as_in_file(super::turned(direction, turn));
             luminance(exact(wi, wo)) * direction.z

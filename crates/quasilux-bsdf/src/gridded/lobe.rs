@@ -1,6 +1,6 @@
 //! What one incident direction is scattered to.
 
-use super::ExitKnots;
+use super::ExitGrid;
 use crate::color::luminance;
 use glam::DVec3;
 use quasilux_photometry::{Grid, SphericalTable};
@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Less than this counts as nothing, as in tables of what is above it: shares of such values would
 /// lose digits to underflow.
-const SMALLEST_VALUE: f64 = 1e-100;
+const MIN_VALUE: f64 = 1e-100;
 
 /// What one incident direction is scattered to, its azimuth being 0: f is the least of its values,
 /// as of Lambert's surface, and what there is above that.
@@ -25,17 +25,17 @@ pub(crate) struct Lobe {
 impl Lobe {
     /// A lobe from f at exit directions: one list for grey, three for linear RGB, each all azimuths
     /// at the first polar angle, then at the next. `None` where they are no grid.
-    pub(crate) fn new(knots: &ExitKnots, channels: &[Vec<f64>]) -> Option<Self> {
-        let columns = knots.phi_rad.len();
+    pub(crate) fn new(grid: &ExitGrid, channels: &[Vec<f64>]) -> Option<Self> {
+        let columns = grid.phi_rad.len();
         // At the horizon f may be anything, and g is zero.
         let cosine = |index: usize| {
-            let theta_rad = knots.theta_rad[index / columns];
+            let theta_rad = grid.theta_rad[index / columns];
             if theta_rad >= FRAC_PI_2 { 0.0 } else { libm::cos(theta_rad).max(0.0) }
         };
         let least = |values: &Vec<f64>| {
             let above = values.iter().enumerate().filter(|(index, _)| cosine(*index) > 0.0);
             let least = above.map(|(_, f)| *f).fold(f64::INFINITY, f64::min);
-            if least.is_finite() && least >= SMALLEST_VALUE { least } else { 0.0 }
+            if least.is_finite() && least >= MIN_VALUE { least } else { 0.0 }
         };
         let g = |values: &Vec<f64>, least: f64| -> Vec<f64> {
             let g = |(index, f): (usize, &f64)| match cosine(index) {
@@ -45,8 +45,8 @@ impl Lobe {
             values.iter().enumerate().map(g).collect()
         };
         let table = |values: Vec<f64>| {
-            let (theta_rad, phi_rad) = (knots.theta_rad.clone(), knots.phi_rad.clone());
-            SphericalTable::new(Grid { theta_rad, phi_rad, symmetry: knots.symmetry, values }).ok()
+            let (theta_rad, phi_rad) = (grid.theta_rad.clone(), grid.phi_rad.clone());
+            SphericalTable::new(Grid { theta_rad, phi_rad, symmetry: grid.symmetry, values }).ok()
         };
         match channels {
             [grey] => {

@@ -1,6 +1,7 @@
 //! The lobes that mix at an incident direction.
 
-use super::{Lobe, Move};
+use super::stretch::Preimage;
+use super::{Lobe, LobeTransform};
 use crate::color::luminance;
 use crate::hemisphere::INSIDE;
 use crate::hemisphere::upwards;
@@ -21,18 +22,18 @@ pub(super) struct Part<'t> {
     pub(super) lobe: &'t Lobe,
     pub(super) weight: f64,
     /// To where it belongs, from where it is stored.
-    pub(super) step: Option<Move>,
+    pub(super) transform: Option<LobeTransform>,
 }
 
 impl Part<'_> {
-    fn back(&self, direction: DVec3) -> (DVec3, f64) {
-        self.step.map_or((direction, 1.0), |step| step.back(direction))
+    fn preimage(&self, direction: DVec3) -> Preimage {
+        Preimage::under(self.transform, direction)
     }
 
     /// The luminance of g towards a direction, without Lambert's part.
     fn above(&self, direction: DVec3) -> f64 {
-        let (from, ratio) = self.back(direction);
-        ratio * self.lobe.above().value(from)
+        let Preimage { direction, ratio } = self.preimage(direction);
+        ratio * self.lobe.above().value(direction)
     }
 }
 
@@ -54,8 +55,8 @@ impl Mixture<'_> {
 
     pub(super) fn f(&self, direction: DVec3) -> [f64; 3] {
         let above = self.sum_rgb(|part| {
-            let (from, ratio) = part.back(direction);
-            part.lobe.g(from).map(|g| ratio * g)
+            let Preimage { direction, ratio } = part.preimage(direction);
+            part.lobe.g(direction).map(|g| ratio * g)
         });
         let least = self.sum_rgb(|part| part.lobe.least());
         let above = above.map(|g| if g > 0.0 { g / direction.z } else { 0.0 });
@@ -103,7 +104,7 @@ impl Mixture<'_> {
         }
         let part = self.parts[index - 1];
         let direction = part.lobe.above().sample_direction(inside)?;
-        Some(part.step.map_or(direction, |step| step.onwards(direction)))
+        Some(part.transform.map_or(direction, |transform| transform.onwards(direction)))
     }
 
     pub(super) fn pdf_sr(&self, direction: DVec3) -> f64 {
@@ -122,7 +123,7 @@ impl Mixture<'_> {
             0 => invert_disk([direction.x, direction.y]),
             _ => {
                 let part = self.parts[brightest - 1];
-                part.lobe.above().invert(part.back(direction).0)
+                part.lobe.above().invert(part.preimage(direction).direction)
             }
         };
         let shares = self.shares();
@@ -134,7 +135,7 @@ impl Mixture<'_> {
     /// A bound of [`Self::luminance`].
     pub(super) fn max_value(&self) -> f64 {
         let of_part = |part: &Part<'_>| {
-            let ratio = part.step.map_or(1.0, Move::most_dense);
+            let ratio = part.transform.map_or(1.0, LobeTransform::most_dense);
             ratio * part.lobe.above().maximum().value
         };
         self.least() + self.sum(of_part)

@@ -9,30 +9,65 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// The name and the bands of a basis: upper polar angle in degrees and number of patches.
-type Known = (&'static str, &'static [(f64, usize)]);
+/// The definition of a band of an [`AngleBasis`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandDefinition {
+    /// Polar angle where the band ends, in degrees.
+    pub upper_deg: f64,
+    /// Number of patches, of equal width in azimuth.
+    pub patches: usize,
+}
 
-/// Bases that files use without defining them (LBNL WINDOW).
-const KNOWN: [Known; 3] = [
-    (
-        "LBNL/Klems Full",
-        &[
-            (5.0, 1),
-            (15.0, 8),
-            (25.0, 16),
-            (35.0, 20),
-            (45.0, 24),
-            (55.0, 24),
-            (65.0, 24),
-            (75.0, 16),
-            (90.0, 12),
+impl BandDefinition {
+    /// A band that ends at a polar angle in degrees and has that number of patches.
+    #[must_use]
+    pub const fn new(upper_deg: f64, patches: usize) -> Self {
+        Self { upper_deg, patches }
+    }
+}
+
+/// A basis that files use without defining it.
+struct StandardBasis {
+    name: &'static str,
+    bands: &'static [BandDefinition],
+}
+
+const fn band(upper_deg: f64, patches: usize) -> BandDefinition {
+    BandDefinition::new(upper_deg, patches)
+}
+
+/// The bases of LBNL WINDOW.
+const STANDARD: [StandardBasis; 3] = [
+    StandardBasis {
+        name: "LBNL/Klems Full",
+        bands: &[
+            band(5.0, 1),
+            band(15.0, 8),
+            band(25.0, 16),
+            band(35.0, 20),
+            band(45.0, 24),
+            band(55.0, 24),
+            band(65.0, 24),
+            band(75.0, 16),
+            band(90.0, 12),
         ],
-    ),
-    (
-        "LBNL/Klems Half",
-        &[(6.5, 1), (19.5, 8), (32.5, 12), (46.5, 16), (61.5, 20), (76.5, 12), (90.0, 4)],
-    ),
-    ("LBNL/Klems Quarter", &[(9.0, 1), (27.0, 8), (46.0, 12), (66.0, 12), (90.0, 8)]),
+    },
+    StandardBasis {
+        name: "LBNL/Klems Half",
+        bands: &[
+            band(6.5, 1),
+            band(19.5, 8),
+            band(32.5, 12),
+            band(46.5, 16),
+            band(61.5, 20),
+            band(76.5, 12),
+            band(90.0, 4),
+        ],
+    },
+    StandardBasis {
+        name: "LBNL/Klems Quarter",
+        bands: &[band(9.0, 1), band(27.0, 8), band(46.0, 12), band(66.0, 12), band(90.0, 8)],
+    },
 ];
 
 /// A hemisphere cut into patches.
@@ -79,17 +114,17 @@ impl AngleBasis {
     /// One of the bases that need no definition, by its name in letters of any case.
     #[must_use]
     pub fn known(name: &str) -> Option<Self> {
-        let (name, bands) = KNOWN.into_iter().find(|known| known.0.eq_ignore_ascii_case(name))?;
-        Self::new(name, bands)
+        let basis = STANDARD.iter().find(|basis| basis.name.eq_ignore_ascii_case(name))?;
+        Self::new(basis.name, basis.bands)
     }
 
-    /// A basis from the upper polar angle in degrees and the number of patches of each band, from
-    /// the normal on; `None` unless the angles ascend within (0, 90] and each band has patches.
+    /// A basis from the definitions of its bands, from the normal on; `None` unless the angles
+    /// ascend within (0, 90] and each band has patches.
     #[must_use]
-    pub fn new(name: &str, bands: &[(f64, usize)]) -> Option<Self> {
+    pub fn new(name: &str, bands: &[BandDefinition]) -> Option<Self> {
         let mut basis = Self { name: name.to_owned(), bands: Vec::new(), patches: 0 };
         let (mut lower_rad, mut lower_sin2) = (0.0, 0.0);
-        for &(upper_deg, patches) in bands {
+        for &BandDefinition { upper_deg, patches } in bands {
             let upper_rad = upper_deg.to_radians();
             let sin = libm::sin(upper_rad);
             let sin2 = if upper_deg == 90.0 { 1.0 } else { sin * sin };
@@ -248,10 +283,16 @@ mod tests {
 
     #[test]
     fn what_is_no_basis_is_refused() {
-        for bands in [&[][..], &[(0.0, 1)], &[(30.0, 1), (20.0, 4)], &[(95.0, 1)], &[(90.0, 0)]] {
+        for bands in [
+            &[][..],
+            &[band(0.0, 1)],
+            &[band(30.0, 1), band(20.0, 4)],
+            &[band(95.0, 1)],
+            &[band(90.0, 0)],
+        ] {
             assert!(AngleBasis::new("none", bands).is_none(), "{bands:?}");
         }
-        let narrow = AngleBasis::new("narrow", &[(10.0, 1), (80.0, 3)]).unwrap();
+        let narrow = AngleBasis::new("narrow", &[band(10.0, 1), band(80.0, 3)]).unwrap();
         assert!(narrow.cell([0.99, 0.0]).is_none());
         assert!(narrow.opposites().is_none());
     }

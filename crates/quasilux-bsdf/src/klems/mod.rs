@@ -10,10 +10,11 @@ mod basis;
 
 use crate::hemisphere::INSIDE;
 use crate::hemisphere::Incident;
+use crate::hemisphere::PickedStep;
 use crate::hemisphere::ScatterSample;
 use crate::hemisphere::pick;
 use basis::Cell;
-pub use basis::{AngleBasis, ThetaBand};
+pub use basis::{AngleBasis, BandDefinition, ThetaBand};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -74,9 +75,9 @@ impl KlemsTable {
         &self.exit
     }
 
-    /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi). `None` where a
-    /// patch has no counterpart at the opposite azimuth.
-    pub(super) fn reversed(&self) -> Option<Self> {
+    /// The adjoint, for light that travels in reverse, from the other side: f'(wi, wo) = f(wo, wi).
+    /// `None` where a patch has no counterpart at the opposite azimuth.
+    pub(super) fn adjoint(&self) -> Option<Self> {
         let (opposite_in, opposite_out) = (self.incident.opposites()?, self.exit.opposites()?);
         let columns = self.exit.patches();
         let from_exit = |&out: &usize| {
@@ -109,9 +110,11 @@ impl KlemsTable {
             Some(found) => shares[found.first],
             None => albedo,
         };
-        let (band, along_sin2) = pick(bands.len(), u[0], before_band);
+        let PickedStep { index: band, u_remapped: along_sin2 } =
+            pick(bands.len(), u[0], before_band);
         let first = bands[band].first;
-        let (patch, along_phi) = pick(bands[band].patches, u[1], |patch| shares[first + patch]);
+        let PickedStep { index: patch, u_remapped: along_phi } =
+            pick(bands[band].patches, u[1], |patch| shares[first + patch]);
         let cell = Cell { band, patch, fraction: [along_sin2, along_phi].map(inside) };
         let wo = DVec3::from_array(self.exit.place(cell));
         let value = self.values[row * self.exit.patches() + self.exit.index(cell)];

@@ -104,12 +104,12 @@ struct Part<'v> {
 }
 
 impl TensorTree {
-    /// f for light the other way round, from the other side: f'(wi, wo) = f(wo, wi).
+    /// The adjoint, for light that travels in reverse, from the other side: f'(wi, wo) = f(wo, wi).
     ///
     /// Of rank 4: the squares of a direction and of its opposite are mirror images, and the old
     /// place of an axis is one less the new place of its counterpart. `None` of rank 3, see
-    /// [`ExchangedTree`](super::ExchangedTree).
-    pub(crate) fn reversed(&self) -> Option<Self> {
+    /// [`AdjointTree`](super::AdjointTree).
+    pub(crate) fn adjoint(&self) -> Option<Self> {
         if self.is_isotropic() {
             return None;
         }

@@ -12,16 +12,16 @@
 //! of the second axis given the first. The shares are means over exit squares at the incident
 //! direction, kept with each node (`means.rs`). No rejection, and strata stay strata.
 
+mod adjoint;
 mod build;
-mod exchanged;
 mod means;
 
 use crate::hemisphere::INSIDE;
 use crate::hemisphere::Incident;
 use crate::hemisphere::ScatterSample;
 use crate::hemisphere::upwards;
+pub use adjoint::AdjointTree;
 pub(super) use build::TreeBuilder;
-pub use exchanged::ExchangedTree;
 use glam::DVec3;
 use means::{IncidentBox, Means};
 use quasilux_sampling::warp::{invert_disk, sample_disk};

@@ -1,4 +1,4 @@
-//! The blocks of scattering data that are read: one spectrum, each side and way once.
+//! The blocks of scattering data that are read: one spectrum, each side and mode once.
 
 use crate::side::ScatteringMode;
 use crate::side::Side;
@@ -9,9 +9,22 @@ use quasilux_text::{ParseError, quoted};
 
 /// One element `WavelengthDataBlock`.
 pub(super) struct Block<'e, 't> {
-    pub(super) side: Side,
-    pub(super) way: ScatteringMode,
+    pub(super) light: SideAndMode,
     pub(super) element: &'e Element<'t>,
+}
+
+/// The light that a block is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct SideAndMode {
+    pub(super) side: Side,
+    pub(super) mode: ScatteringMode,
+}
+
+/// One element `WavelengthData` and its spectrum.
+#[derive(Clone, Copy)]
+struct SpectralData<'e, 't> {
+    spectrum: Spectrum,
+    element: &'e Element<'t>,
 }
 
 /// A spectrum that a block is measured over.
@@ -25,7 +38,7 @@ enum Spectrum {
 }
 
 impl Spectrum {
-    fn of(element: &Element<'_>) -> Self {
+    fn from_element(element: &Element<'_>) -> Self {
         let word = element.child("Wavelength").map_or("", |wavelength| wavelength.text());
         let words = [
             ("Visible", Self::Visible),
@@ -45,16 +58,20 @@ pub(super) fn select<'e, 't>(
     layer: &'e Element<'t>,
     warnings: &mut Warnings,
 ) -> Result<Vec<Block<'e, 't>>, ParseError> {
-    let data: Vec<(Spectrum, &Element<'_>)> =
-        of_one_layer(layer, warnings).into_iter().map(|data| (Spectrum::of(data), data)).collect();
-    let of_spectrum = |wanted: Spectrum| data.iter().find(|(spectrum, _)| *spectrum == wanted);
-    if let Some((_, colour)) = of_spectrum(Spectrum::Colour) {
+    let with_spectrum =
+        |element| SpectralData { spectrum: Spectrum::from_element(element), element };
+    let data: Vec<SpectralData<'_, '_>> =
+        data_of_one_layer(layer, warnings).into_iter().map(with_spectrum).collect();
+    let first_of = |wanted: Spectrum| {
+        data.iter().find(|data| data.spectrum == wanted).map(|data| data.element)
+    };
+    if let Some(colour) = first_of(Spectrum::Colour) {
         let expected = "Visible alone (the colour is left out)";
         warnings.push(WarningKind::ColourLeftOut, colour.at, "data of the colour", expected);
     }
-    let spectrum = match (of_spectrum(Spectrum::Visible), of_spectrum(Spectrum::Solar)) {
+    let spectrum = match (first_of(Spectrum::Visible), first_of(Spectrum::Solar)) {
         (Some(_), _) => Spectrum::Visible,
-        (None, Some((_, solar))) => {
+        (None, Some(solar)) => {
             let expected = "Visible (read as if it were)";
             warnings.push(WarningKind::SolarOnly, solar.at, "Solar data alone", expected);
             Spectrum::Solar
@@ -62,15 +79,15 @@ pub(super) fn select<'e, 't>(
         (None, None) => return Err(no_data(layer, &data)),
     };
     let mut blocks: Vec<Block<'e, 't>> = Vec::new();
-    for (_, data) in data.iter().filter(|(found, _)| *found == spectrum) {
-        for element in data.all("WavelengthDataBlock") {
-            let Some((side, way)) = side_and_way(element, warnings) else {
+    for data in data.iter().filter(|data| data.spectrum == spectrum) {
+        for element in data.element.all("WavelengthDataBlock") {
+            let Some(light) = side_and_mode(element, warnings) else {
                 continue;
             };
-            let block = Block { side, way, element };
-            match blocks.iter_mut().find(|known| (known.side, known.way) == (side, way)) {
+            let block = Block { light, element };
+            match blocks.iter_mut().find(|known| known.light == light) {
                 Some(known) => {
-                    let found = format!("another {} {}", way.name(), side.name());
+                    let found = format!("another {} {}", light.mode.name(), light.side.name());
                     let expected = "each direction once (the last one is read)";
                     warnings.push(WarningKind::RepeatedBlock, element.at, found, expected);
                     *known = block;
@@ -83,7 +100,10 @@ pub(super) fn select<'e, 't>(
 }
 
 /// The data of the system, or of the first layer that has any.
-fn of_one_layer<'e, 't>(layer: &'e Element<'t>, warnings: &mut Warnings) -> Vec<&'e Element<'t>> {
+fn data_of_one_layer<'e, 't>(
+    layer: &'e Element<'t>,
+    warnings: &mut Warnings,
+) -> Vec<&'e Element<'t>> {
     let number =
         |data: &&'e Element<'t>| data.child("LayerNumber").map_or("", |number| number.text());
     let is_system = |data: &&'e Element<'t>| number(data).eq_ignore_ascii_case("System");
@@ -104,14 +124,13 @@ fn of_one_layer<'e, 't>(layer: &'e Element<'t>, warnings: &mut Warnings) -> Vec<
 /// Tells where light that arrives on a side can pass, but no reflection is known. An opaque sample
 /// measured from one side lacks nothing.
 pub(super) fn warn_of_missing_reflection(blocks: &[Block<'_, '_>], warnings: &mut Warnings) {
-    let Some(passing) = blocks.iter().find(|block| block.way == ScatteringMode::Transmission)
-    else {
+    let passes = |block: &&Block<'_, '_>| block.light.mode == ScatteringMode::Transmission;
+    let Some(passing) = blocks.iter().find(passes) else {
         return;
     };
     for side in Side::ALL {
-        let is_given =
-            |block: &Block<'_, '_>| block.side == side && block.way == ScatteringMode::Reflection;
-        if !blocks.iter().any(is_given) {
+        let reflected = SideAndMode { side, mode: ScatteringMode::Reflection };
+        if blocks.iter().all(|block| block.light != reflected) {
             let found = format!("no Reflection {}", side.name());
             let expected = "the reflection of both sides (nothing is reflected)";
             warnings.push(WarningKind::MissingReflection, passing.element.at, found, expected);
@@ -120,24 +139,24 @@ pub(super) fn warn_of_missing_reflection(blocks: &[Block<'_, '_>], warnings: &mu
 }
 
 /// `Transmission Front` and the like; others are left out.
-fn side_and_way(element: &Element<'_>, warnings: &mut Warnings) -> Option<(Side, ScatteringMode)> {
+fn side_and_mode(element: &Element<'_>, warnings: &mut Warnings) -> Option<SideAndMode> {
     let direction = element.child("WavelengthDataDirection");
     let text = direction.map_or("", |direction| direction.text());
     let mut words = text.split_whitespace();
-    let way = words.next().and_then(ScatteringMode::of_word);
-    let side = words.next().and_then(Side::of_word);
-    let known = side.zip(way).filter(|_| words.next().is_none());
+    let mode = words.next().and_then(ScatteringMode::from_word);
+    let side = words.next().and_then(Side::from_word);
+    let known = side.zip(mode).filter(|_| words.next().is_none());
     if known.is_none() {
         let expected = "Transmission or Reflection, Front or Back (left out)";
         warnings.push(WarningKind::UnknownDirection, element.at, quoted(text), expected);
     }
-    known
+    known.map(|(side, mode)| SideAndMode { side, mode })
 }
 
-fn no_data(layer: &Element<'_>, data: &[(Spectrum, &Element<'_>)]) -> ParseError {
+fn no_data(layer: &Element<'_>, data: &[SpectralData<'_, '_>]) -> ParseError {
     let expected = "WavelengthData with Wavelength Visible and a WavelengthDataBlock";
     match data.first() {
-        Some((_, first)) => {
+        Some(SpectralData { element: first, .. }) => {
             let word = first.child("Wavelength").map_or("", |wavelength| wavelength.text());
             let found = format!("data for {} without a usable block", quoted(word));
             ParseError::new(first.at, found, expected)

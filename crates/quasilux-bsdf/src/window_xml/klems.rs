@@ -2,11 +2,11 @@
 
 use super::block::Block;
 use super::number_of;
-use crate::klems::AngleBasis;
 use crate::klems::KlemsTable;
-use crate::pieces;
-use crate::pieces::Pieces;
-use crate::pieces::Style;
+use crate::klems::{AngleBasis, BandDefinition};
+use crate::tokens;
+use crate::tokens::Style;
+use crate::tokens::Tokens;
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::xml::Element;
@@ -49,7 +49,7 @@ fn basis(element: &Element<'_>) -> Result<AngleBasis, ParseError> {
             let expected = "a number of patches from 1 to 1000000";
             return Err(ParseError::new(patches.at, quoted(count.text()), expected));
         }
-        bands.push((upper.value, patches.value as usize));
+        bands.push(BandDefinition::new(upper.value, patches.value as usize));
         lower_deg = upper.value;
     }
     AngleBasis::new(name, &bands).ok_or_else(|| {
@@ -88,19 +88,19 @@ pub(super) fn read(
         return Err(ParseError::new(block.element.at, found, "the values of the block"));
     };
     let expected = incident.patches().saturating_mul(exit.patches());
-    let mut pieces = Pieces::new(data.text(), data.text_at, Style::Plain);
+    let mut tokens = Tokens::new(data.text(), data.text_at, Style::Plain);
     // A value takes two bytes at least.
     let mut values = Vec::with_capacity(expected.min(data.text().len() / 2 + 1));
-    for piece in pieces.by_ref().take(expected) {
-        values.push(pieces::value(piece, warnings)?);
+    for token in tokens.by_ref().take(expected) {
+        values.push(tokens::value(token, warnings)?);
     }
     if values.len() < expected {
         let (rows, columns) = (exit.patches(), incident.patches());
         let expected = format!("{expected}: {columns} incident by {rows} exit patches");
         let found = format!("{} values", values.len());
-        return Err(ParseError::new(pieces.at(), found, expected));
+        return Err(ParseError::new(tokens.at(), found, expected));
     }
-    if let Some(further) = pieces.next() {
+    if let Some(further) = tokens.next() {
         let expected = format!("the end of the data after {expected} values (left out)");
         warnings.push(WarningKind::TrailingValues, further.at, quoted(further.text), expected);
     }

@@ -61,7 +61,7 @@ pub fn read_bsdf_xml(bytes: &[u8]) -> Result<Parsed, ParseError> {
                 Distribution::TensorTree(tree::read(block, rank, &mut warnings)?)
             }
         };
-        bsdf.set(block.side, block.way, distribution);
+        bsdf.set(block.light.side, block.light.mode, distribution);
     }
     reciprocity::fill_transmission(&mut bsdf, &blocks, &mut warnings);
     block::warn_of_missing_reflection(&blocks, &mut warnings);
@@ -173,15 +173,15 @@ fn thickness_m(element: &Element<'_>, warnings: &mut Warnings) -> Option<f64> {
 
 impl Side {
     /// `Front` or `Back` in a file.
-    fn of_word(word: &str) -> Option<Self> {
+    fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|side| side.name().eq_ignore_ascii_case(word))
     }
 }
 
 impl ScatteringMode {
     /// `Reflection` or `Transmission` in a file.
-    fn of_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|way| way.name().eq_ignore_ascii_case(word))
+    fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.name().eq_ignore_ascii_case(word))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The transmission that a file leaves out.
 
-use super::block::Block;
+use super::block::{Block, SideAndMode};
 use crate::distribution::Distribution;
 use crate::measured::MeasuredBsdf;
 use crate::side::ScatteringMode;
@@ -15,10 +15,8 @@ pub(super) fn fill_transmission(
     warnings: &mut Warnings,
 ) {
     let given = |side: Side| {
-        let is_given = |block: &&Block<'_, '_>| {
-            (block.side, block.way) == (side, ScatteringMode::Transmission)
-        };
-        blocks.iter().find(is_given)
+        let passing = SideAndMode { side, mode: ScatteringMode::Transmission };
+        blocks.iter().find(|block| block.light == passing)
     };
     for side in Side::ALL {
         let (None, Some(source)) = (given(side), given(side.other())) else {
@@ -26,8 +24,8 @@ pub(super) fn fill_transmission(
         };
         let found = format!("no Transmission {}", side.name());
         let known = bsdf.scattering(side.other(), ScatteringMode::Transmission);
-        let reversed = known.and_then(Distribution::reversed);
-        let (deviation, expected) = match &reversed {
+        let adjoint = known.and_then(Distribution::adjoint);
+        let (deviation, expected) = match &adjoint {
             Some(_) => {
                 let expected = "both directions (taken from the other one by reciprocity)";
                 (WarningKind::ByReciprocity, expected.to_owned())
@@ -39,8 +37,8 @@ pub(super) fn fill_transmission(
             }
         };
         warnings.push(deviation, source.element.at, found, expected);
-        if let Some(reversed) = reversed {
-            bsdf.set(side, ScatteringMode::Transmission, reversed);
+        if let Some(adjoint) = adjoint {
+            bsdf.set(side, ScatteringMode::Transmission, adjoint);
         }
     }
 }

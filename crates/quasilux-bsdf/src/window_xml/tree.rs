@@ -1,9 +1,9 @@
 //! Tensor trees: nodes in braces.
 
 use super::block::Block;
-use crate::pieces;
-use crate::pieces::Pieces;
-use crate::pieces::Style;
+use crate::tokens;
+use crate::tokens::Style;
+use crate::tokens::Tokens;
 use crate::tree::TensorTree;
 use crate::tree::TreeBuilder;
 use crate::warning::WarningKind;
@@ -28,13 +28,13 @@ pub(super) fn read(
         return Err(ParseError::new(block.element.at, found, "the tree of the block"));
     };
     let mut parser = Parser {
-        pieces: Pieces::new(data.text(), data.text_at, Style::Braces),
+        tokens: Tokens::new(data.text(), data.text_at, Style::Braces),
         builder: TreeBuilder::new(rank - 2),
         warnings,
     };
     let root = parser.expect("{")?;
     parser.node(0, 0, root)?;
-    if let Some(further) = parser.pieces.next() {
+    if let Some(further) = parser.tokens.next() {
         let expected = "the end of the data after the tree (left out)";
         parser.warnings.push(
             WarningKind::TrailingValues,
@@ -47,7 +47,7 @@ pub(super) fn read(
 }
 
 struct Parser<'t, 'w> {
-    pieces: Pieces<'t>,
+    tokens: Tokens<'t>,
     builder: TreeBuilder,
     warnings: &'w mut Warnings,
 }
@@ -78,10 +78,10 @@ impl<'t> Parser<'t, '_> {
         first: Token<'t>,
     ) -> Result<(), ParseError> {
         let mut values = Vec::new();
-        let mut piece = first;
-        while piece.text != "}" {
-            values.push(pieces::value(piece, self.warnings)?);
-            piece = self.next("a value or }")?;
+        let mut token = first;
+        while token.text != "}" {
+            values.push(tokens::value(token, self.warnings)?);
+            token = self.next("a value or }")?;
         }
         let axes = self.builder.axes();
         let log_side =
@@ -99,16 +99,16 @@ impl<'t> Parser<'t, '_> {
             "{" => format!("{{, for each of {} nodes", 1 << self.builder.axes()),
             _ => format!("}}, after {} nodes", 1 << self.builder.axes()),
         };
-        let piece = self.next(&expected)?;
-        if piece.text != brace {
-            return Err(ParseError::new(piece.at, quoted(piece.text), expected));
+        let token = self.next(&expected)?;
+        if token.text != brace {
+            return Err(ParseError::new(token.at, quoted(token.text), expected));
         }
-        Ok(piece.at)
+        Ok(token.at)
     }
 
     fn next(&mut self, expected: &str) -> Result<Token<'t>, ParseError> {
-        let end = self.pieces.at();
-        self.pieces.next().ok_or_else(|| ParseError::new(end, "the end of the data", expected))
+        let end = self.tokens.at();
+        self.tokens.next().ok_or_else(|| ParseError::new(end, "the end of the data", expected))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Measured surfaces: small undamaged files, and what must hold of any that load.
 
 use glam::DVec3;
-use quasilux_bsdf::{Distribution, MeasuredBsdf};
+use quasilux_bsdf::{Distribution, MeasuredBsdf, SheetDistribution};
 use quasilux_photometry::Angles;
 use quasilux_stats::damage::Random;
 
@@ -79,13 +79,13 @@ pub(crate) fn name(bytes: &[u8]) -> &'static str {
 }
 
 /// Samples, densities and shares are numbers that fit each other, also of the tables that paths
-/// draw from: those with both directions exchanged.
+/// draw from: those with both directions swapped.
 pub(crate) fn check(bsdf: &MeasuredBsdf, random: &mut Random) {
-    let exchanged = bsdf
-        .distributions()
-        .filter_map(|(side, way, _)| Some((side, way, bsdf.exchanged(side, way)?)));
-    for (side, way, distribution) in bsdf.distributions().chain(exchanged) {
-        let place = format!("{} {}", way.name(), side.name());
+    let adjoint = bsdf.distributions().filter_map(|SheetDistribution { side, mode, .. }| {
+        Some(SheetDistribution { side, mode, distribution: bsdf.adjoint(side, mode)? })
+    });
+    for SheetDistribution { side, mode, distribution } in bsdf.distributions().chain(adjoint) {
+        let place = format!("{} {}", mode.name(), side.name());
         let mut uniform = || random.uniform();
         let angles = Angles { theta_rad: 1.5 * uniform(), phi_rad: 6.0 * uniform() };
         let us = [[0.0, 0.0], [1.0, 1.0], [uniform(), uniform()], [uniform(), uniform()]];

@@ -3,8 +3,8 @@
 use super::{analytic, ddr, direction, folder, surface};
 use glam::DVec3;
 use quasilux_bsdf::{
-    AngleBasis, BsdfAnalysis, BsdfFacts, BsdfFormat, Distribution, EnergyBalance, KlemsTable,
-    MeasuredBsdf, ScatteringMode, Side, TensorTree, luminance,
+    AngleBasis, BandDefinition, BsdfAnalysis, BsdfFacts, BsdfFormat, Distribution, EnergyBalance,
+    KlemsTable, MeasuredBsdf, ScatteringMode, SheetDistribution, Side, TensorTree, luminance,
 };
 use quasilux_photometry::Angles;
 use quasilux_sampling::warp::sample_disk;
@@ -41,11 +41,15 @@ fn facts() -> BsdfFacts {
     }
 }
 
-fn reflecting(table: Distribution) -> MeasuredBsdf {
-    MeasuredBsdf::from_tables(facts(), [(Side::Front, ScatteringMode::Reflection, table)])
+fn front(mode: ScatteringMode, distribution: Distribution) -> SheetDistribution {
+    SheetDistribution { side: Side::Front, mode, distribution }
 }
 
-/// The visible matrices of a file: side, way, and the share of each incident patch, straight from
+fn reflecting(table: Distribution) -> MeasuredBsdf {
+    MeasuredBsdf::from_tables(facts(), [front(ScatteringMode::Reflection, table)])
+}
+
+/// The visible matrices of a file: side, mode, and the share of each incident patch, straight from
 /// its text. Rows are exits.
 fn matrices(text: &str) -> Vec<(Side, ScatteringMode, Vec<f64>)> {
     let weights = projected_sr();
@@ -62,7 +66,7 @@ fn matrices(text: &str) -> Vec<(Side, ScatteringMode, Vec<f64>)> {
         }
         let words = element(block, "WavelengthDataDirection");
         let side = if words.ends_with("Front") { Side::Front } else { Side::Back };
-        let way = if words.starts_with("Refl") {
+        let mode = if words.starts_with("Refl") {
             ScatteringMode::Reflection
         } else {
             ScatteringMode::Transmission
@@ -75,7 +79,7 @@ fn matrices(text: &str) -> Vec<(Side, ScatteringMode, Vec<f64>)> {
         let share = |column: usize| {
             (0..145).map(|row| weights[row] * values[145 * row + column].max(0.0)).sum()
         };
-        found.push((side, way, (0..145).map(share).collect()));
+        found.push((side, mode, (0..145).map(share).collect()));
     }
     found
 }
@@ -145,8 +149,8 @@ fn trees_have_the_sums_of_their_values() {
             for i in 0..SIDE / 2 {
                 let wi = upwards([-(1.0 - 2.0 * middle(i)), 0.0]);
                 let mut shares = [0.0; 2];
-                for (way, share) in ScatteringMode::ALL.into_iter().zip(&mut shares) {
-                    let Some(table) = bsdf.scattering(balance.side, way) else { continue };
+                for (mode, share) in ScatteringMode::ALL.into_iter().zip(&mut shares) {
+                    let Some(table) = bsdf.scattering(balance.side, mode) else { continue };
                     for place in 0..SIDE * SIDE {
                         let square = [middle(place / SIDE), middle(place % SIDE)];
                         *share += table.evaluate(wi, upwards(sample_disk(square)))[0];
@@ -155,7 +159,7 @@ fn trees_have_the_sums_of_their_values() {
                 }
                 // Rings of the sine: their area is that of a midpoint.
                 let part = 2.0 * (1.0 - 2.0 * middle(i)) * 2.0 / SIDE as f64;
-                diffuse = [0, 1].map(|way| diffuse[way] + part * shares[way]);
+                diffuse = [0, 1].map(|mode| diffuse[mode] + part * shares[mode]);
                 worst = worst.max(shares[0] + shares[1]);
             }
             println!("{name} {:?}: {diffuse:.5?} {worst:.5}", balance.side);
@@ -258,22 +262,22 @@ fn each_pair_of_patches_is_looked_at() {
     }
 }
 
-/// The greatest sum of two matrices over different patches is in the piece that two of them have in
-/// common.
+/// The greatest sum of two matrices over different patches is in the overlap of two of them.
 #[test]
 fn sums_over_different_patches_have_their_true_maximum() {
-    let exit = || AngleBasis::new("all", &[(90.0, 1)]).unwrap();
-    let table = |bands: &[(f64, usize)], bright: usize| {
-        let basis = AngleBasis::new("bands", bands).unwrap();
+    let exit = || AngleBasis::new("all", &[BandDefinition::new(90.0, 1)]).unwrap();
+    let table = |bands: [[f64; 2]; 2], bright: usize| {
+        let bands =
+            bands.map(|[upper_deg, patches]| BandDefinition::new(upper_deg, patches as usize));
+        let basis = AngleBasis::new("bands", &bands).unwrap();
         let values = (0..basis.patches()).map(|i| if i == bright { 0.2 } else { 0.01 }).collect();
         Distribution::Klems(KlemsTable::new(basis, exit(), values).unwrap())
     };
     // 49 to 50 degrees, and an azimuth of 18 to 20 degrees.
-    let reflected = table(&[(49.0, 1), (90.0, 9)], 1);
-    let passed = table(&[(50.0, 10), (90.0, 1)], 1);
-    let way = |way, table| (Side::Front, way, table);
+    let reflected = table([[49.0, 1.0], [90.0, 9.0]], 1);
+    let passed = table([[50.0, 10.0], [90.0, 1.0]], 1);
     let tables =
-        [way(ScatteringMode::Reflection, reflected), way(ScatteringMode::Transmission, passed)];
+        [front(ScatteringMode::Reflection, reflected), front(ScatteringMode::Transmission, passed)];
     let bsdf = MeasuredBsdf::from_tables(facts(), tables);
     let balance = bsdf.analysis().energy[0].clone();
     assert!((balance.worst - 0.4 * PI).abs() < 1e-12, "{}", balance.worst);
@@ -309,22 +313,22 @@ fn defects_of_narrow_lobes_are_measured() {
     assert!((found.mean / mean - 1.0).abs() < 0.02);
 }
 
-/// Figures and exchanged tables are made once, and again after a table is put in.
+/// Figures and adjoint tables are made once, and again after a table is put in.
 #[test]
-fn a_surface_keeps_its_figures_and_exchanged_tables() {
+fn a_surface_keeps_its_figures_and_adjoint_tables() {
     let basis = || AngleBasis::known("LBNL/Klems Quarter").unwrap();
     let table =
         |f: f64| Distribution::Klems(KlemsTable::new(basis(), basis(), vec![f; 41 * 41]).unwrap());
     let mut bsdf = reflecting(table(0.1));
     let figures: *const BsdfAnalysis = bsdf.analysis();
     assert!(std::ptr::eq(figures, bsdf.analysis()));
-    let front = (Side::Front, ScatteringMode::Reflection);
-    let exchanged: *const Distribution = bsdf.exchanged(front.0, front.1).unwrap();
-    assert!(std::ptr::eq(exchanged, bsdf.exchanged(front.0, front.1).unwrap()));
-    assert!(bsdf.exchanged(Side::Back, ScatteringMode::Reflection).is_none());
+    let (side, mode) = (Side::Front, ScatteringMode::Reflection);
+    let adjoint: *const Distribution = bsdf.adjoint(side, mode).unwrap();
+    assert!(std::ptr::eq(adjoint, bsdf.adjoint(side, mode).unwrap()));
+    assert!(bsdf.adjoint(Side::Back, ScatteringMode::Reflection).is_none());
     assert!(bsdf.analysis().reciprocity(Side::Back, ScatteringMode::Reflection).is_none());
-    bsdf.set(front.0, front.1, table(0.2));
+    bsdf.set(side, mode, table(0.2));
     assert!((bsdf.analysis().energy[0].diffuse[0] - 0.2 * PI).abs() < 1e-12);
-    let value = bsdf.exchanged(front.0, front.1).unwrap().evaluate(DVec3::Z, DVec3::Z);
+    let value = bsdf.adjoint(side, mode).unwrap().evaluate(DVec3::Z, DVec3::Z);
     assert_eq!(value, [0.2; 3]);
 }

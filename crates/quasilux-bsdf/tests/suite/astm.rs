@@ -125,7 +125,7 @@ fn in_degrees(
 }
 
 /// Of light from azimuth 0, with exit azimuths as in files.
-fn of_glossy(theta_i: f64, theta_s: f64, phi_s: f64) -> String {
+fn glossy_text(theta_i: f64, theta_s: f64, phi_s: f64) -> String {
     format!("{:.8}", glossy(direction(theta_i, 0.0), direction(theta_s, phi_s)))
 }
 
@@ -141,7 +141,7 @@ fn azimuths_too_far_apart_are_refused() {
     let polar: Vec<u32> = (0..90).collect();
     for (phis, gap) in [(&[0, 180][..], 180), (&[0, 45, 90], 270), (&[0], 360), (&[0, 91, 180], 91)]
     {
-        let text = in_degrees(&[0, 30], &polar, phis, of_glossy);
+        let text = in_degrees(&[0, 30], &polar, phis, glossy_text);
         let error = read_astm(text.as_bytes()).expect_err("a gap");
         let line = 2 + polar.len() * phis.len();
         let expected = format!("{line}:1: found exit azimuths that leave a gap of {gap} degrees");
@@ -149,15 +149,15 @@ fn azimuths_too_far_apart_are_refused() {
     }
     // Along the normal all azimuths are alike.
     for phis in [&[0][..], &[0, 180]] {
-        let read = read_astm(in_degrees(&[0], &polar, phis, of_glossy).as_bytes()).unwrap();
+        let read = read_astm(in_degrees(&[0], &polar, phis, glossy_text).as_bytes()).unwrap();
         let off = difference(glossy, front(&read, ScatteringMode::Reflection), direction(0.0, 0.0));
         assert!(off < 0.02, "{off}");
         assert!(found(&read, WarningKind::OneIncidence).is_some());
     }
 }
 
-fn front(read: &Parsed, way: ScatteringMode) -> &Distribution {
-    read.bsdf.scattering(Side::Front, way).unwrap()
+fn front(read: &Parsed, mode: ScatteringMode) -> &Distribution {
+    read.bsdf.scattering(Side::Front, mode).unwrap()
 }
 
 #[test]
@@ -230,7 +230,7 @@ fn azimuths_tell_degrees_too() {
 }
 
 #[test]
-fn of_repeated_directions_the_first_one_counts() {
+fn the_first_of_repeated_directions_counts() {
     let lines =
         |f: &str| in_degrees(&[0, 40], &[0, 45, 80], &[0, 60, 120, 180], |_, _, _| f.to_owned());
     let (once, again) = (lines("0.1"), lines("9"));

@@ -5,13 +5,14 @@ use quasilux_bsdf::WarningKind;
 use quasilux_bsdf::WarningKind::{
     ByReciprocity, EnergyNotConserved, Foreword, MissingReflection, NotReciprocal,
 };
-use quasilux_bsdf::{Distribution, read_bsdf};
+use quasilux_bsdf::read_bsdf;
 
 /// A file with the kind of its tables, how many there are, and its warnings; or why it is refused,
 /// as seen in it by hand.
-type Known = (&'static str, Result<(&'static str, usize, &'static [WarningKind]), &'static str>);
+type ExpectedFile =
+    (&'static str, Result<(&'static str, usize, &'static [WarningKind]), &'static str>);
 
-const FILES: [Known; 17] = [
+const FILES: [ExpectedFile; 17] = [
     // Two rows of two values stand for a matrix of 145 by 145: cut down for a test of separators.
     (
         "bxp-2011-SA1-Small-CommaSeparated-SingleColumnScattering.XML",
@@ -60,11 +61,8 @@ fn published_surfaces_load_or_are_refused_for_a_known_reason() {
         let bytes = std::fs::read(folder.join(name)).unwrap();
         match (read_bsdf(&bytes), expected) {
             (Ok(read), Ok((kind, tables, warnings))) => {
-                let kinds: Vec<&str> = read
-                    .bsdf
-                    .distributions()
-                    .map(|(_, _, found)| Distribution::kind(found))
-                    .collect();
+                let tables_found = read.bsdf.distributions();
+                let kinds: Vec<&str> = tables_found.map(|it| it.distribution.kind()).collect();
                 assert_eq!(kinds, vec![kind; tables], "{name}");
                 let found: Vec<WarningKind> =
                     read.warnings.iter().map(|warning| warning.kind()).collect();

@@ -83,9 +83,9 @@ fn lobes_move_with_the_mirror_direction() {
 }
 
 /// The mixture between incidences approaches the surface at second order in their gap, and the
-/// warning foretells how far the table is off.
+/// warning predicts how far the table is off.
 #[test]
-fn errors_between_incidences_are_foretold() {
+fn errors_between_incidences_are_predicted() {
     let mut found = Vec::new();
     for gap in [16.0, 8.0, 4.0] {
         let sigma: Vec<f64> =
@@ -204,9 +204,9 @@ const NARROW: &str = "TypeSym AxiSymmetrical\nTypeColorModel BW\nsigma 1 0\nphi 
 /// light in all.
 #[test]
 fn a_lobe_of_one_incidence_follows_the_mirror_direction() {
-    for way in ScatteringMode::ALL {
-        let read = read_ddr(NARROW.as_bytes(), way).unwrap();
-        let table = read.bsdf.scattering(Side::Front, way).unwrap();
+    for mode in ScatteringMode::ALL {
+        let read = read_ddr(NARROW.as_bytes(), mode).unwrap();
+        let table = read.bsdf.scattering(Side::Front, mode).unwrap();
         let along_normal = table.albedo(DVec3::Z)[0];
         for theta_deg in [10.0, 45.0, 60.0] {
             let wi = direction(theta_deg, 0.0);
@@ -218,7 +218,7 @@ fn a_lobe_of_one_incidence_follows_the_mirror_direction() {
             assert!(off.abs() < 1e-9, "{off} at {theta_deg}");
         }
         let is_one_way = |w: &quasilux_bsdf::Warning| w.kind() == WarningKind::OneWayTransmission;
-        assert_eq!(read.warnings.iter().any(is_one_way), way == ScatteringMode::Transmission);
+        assert_eq!(read.warnings.iter().any(is_one_way), mode == ScatteringMode::Transmission);
         let last = read.warnings.iter().find(|w| w.kind() == WarningKind::OneIncidence);
         assert!(last.unwrap().found().contains("one incident polar angle, 0.0 degrees"));
     }

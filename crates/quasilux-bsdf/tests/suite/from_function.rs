@@ -2,13 +2,15 @@
 
 use super::analytic::{Scattering, albedo, difference, glossy, lambert, rough};
 use super::direction;
-use quasilux_bsdf::{AngleBasis, Distribution, GriddedTable, KlemsTable, TensorTree};
+use quasilux_bsdf::{
+    AngleBasis, BandDefinition, Distribution, GriddedTable, KlemsTable, TensorTree,
+};
 use quasilux_stats::least_squares_slope;
 use std::f64::consts::FRAC_PI_2;
 
 /// Bands of equal width, patches about as wide as high.
 fn basis(bands: usize) -> AngleBasis {
-    let band = |i: usize| (90.0 * (i + 1) as f64 / bands as f64, 1 + 5 * i);
+    let band = |i: usize| BandDefinition::new(90.0 * (i + 1) as f64 / bands as f64, 1 + 5 * i);
     AngleBasis::new("even", &(0..bands).map(band).collect::<Vec<_>>()).unwrap()
 }
 

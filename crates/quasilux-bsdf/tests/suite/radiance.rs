@@ -12,7 +12,7 @@ const TOLERANCE: f64 = 0.001;
 struct Row<'t> {
     name: &'t str,
     side: Side,
-    way: ScatteringMode,
+    mode: ScatteringMode,
     wi_deg: [f64; 2],
     /// `None`: the value is the share of light from `wi` over all exits.
     wo_deg: Option<[f64; 2]>,
@@ -26,7 +26,7 @@ fn rows() -> impl Iterator<Item = Row<'static>> {
         Row {
             name: words[0],
             side: if words[1] == "front" { Side::Front } else { Side::Back },
-            way: if words[2] == "reflection" {
+            mode: if words[2] == "reflection" {
                 ScatteringMode::Reflection
             } else {
                 ScatteringMode::Transmission
@@ -39,7 +39,7 @@ fn rows() -> impl Iterator<Item = Row<'static>> {
 }
 
 fn value(bsdf: &MeasuredBsdf, row: &Row<'_>) -> f64 {
-    let Some(distribution) = bsdf.scattering(row.side, row.way) else {
+    let Some(distribution) = bsdf.scattering(row.side, row.mode) else {
         return 0.0;
     };
     let at = |[theta_deg, phi_deg]: [f64; 2]| direction(theta_deg, phi_deg);
@@ -61,7 +61,7 @@ fn values_and_shares_are_those_of_radiance() {
             };
             surfaces.push((row.name, bsdf));
         }
-        let label = format!("{} {} {}", row.name, row.side.name(), row.way.name());
+        let label = format!("{} {} {}", row.name, row.side.name(), row.mode.name());
         let found = value(&surfaces[surfaces.len() - 1].1, &row);
         let off = (found / row.value - 1.0).abs();
         assert!(off < TOLERANCE, "{label}: {found} for {} at {:?}", row.value, row.wi_deg);

@@ -51,9 +51,9 @@ fn distributions() -> impl Iterator<Item = (&'static str, Distribution)> {
 }
 
 fn published() -> impl Iterator<Item = (&'static str, Distribution)> {
-    SURFACES.into_iter().filter_map(|(name, side, way)| {
+    SURFACES.into_iter().filter_map(|(name, side, mode)| {
         let bsdf = surface(name)?;
-        Some((name, bsdf.scattering(side, way).unwrap().clone()))
+        Some((name, bsdf.scattering(side, mode).unwrap().clone()))
     })
 }
 
@@ -79,10 +79,10 @@ const RINGS: usize = 32;
 const RING_PHIS: usize = 1 << 17;
 
 impl Boxes {
-    fn of(distribution: &Distribution, wi: DVec3) -> Self {
+    fn new(distribution: &Distribution, wi: DVec3) -> Self {
         match distribution {
             Distribution::Klems(_) => Self::Klems,
-            Distribution::ExchangedTree(_) => Self::Rings,
+            Distribution::AdjointTree(_) => Self::Rings,
             _ => {
                 let side = if matches!(distribution, Distribution::Gridded(_)) { 256 } else { 64 };
                 Self::Squares { turn_rad: libm::atan2(-wi.y, -wi.x), side }
@@ -204,7 +204,7 @@ fn counts(
     shares: &[f64],
     points: &PointSet,
 ) -> Vec<CellCount> {
-    let boxes = Boxes::of(distribution, wi);
+    let boxes = Boxes::new(distribution, wi);
     let mut cells = vec![CellCount { observed: 0, expected: 0.0 }; 256];
     for index in 0..SAMPLES {
         let u = [points.coordinate(index, 0), points.coordinate(index, 1)];
@@ -225,13 +225,13 @@ fn samples_follow_the_values() {
     let mut tests = 0;
     for (name, distribution) in distributions() {
         for (key, wi) in incidences().into_iter().enumerate() {
-            let shares = shares(&distribution, wi, Boxes::of(&distribution, wi));
+            let shares = shares(&distribution, wi, Boxes::new(&distribution, wi));
             let total: f64 = shares.iter().sum();
             let albedo = distribution.albedo(wi)[1];
             let off = (total / albedo - 1.0).abs();
             let exact = match distribution {
                 Distribution::Gridded(_) => 2e-3,
-                Distribution::ExchangedTree(_) => 1e-4,
+                Distribution::AdjointTree(_) => 1e-4,
                 _ => 1e-12,
             };
             assert!(off < exact, "{name}: {albedo} for {total}");
@@ -251,7 +251,7 @@ fn sobol_samples_fill_boxes_evenly() {
     let points = PointSet::new(Sequence::Sobol, Randomization::Owen, stream_key(9, 1, 0));
     for (name, distribution) in distributions() {
         let wi = incidences()[1];
-        let shares = shares(&distribution, wi, Boxes::of(&distribution, wi));
+        let shares = shares(&distribution, wi, Boxes::new(&distribution, wi));
         let counts = counts(&distribution, wi, &shares, &points);
         let filled: Vec<_> = counts.iter().filter(|cell| cell.expected >= 5.0).collect();
         let terms = filled.iter().map(|cell| {
@@ -272,7 +272,7 @@ const FLAT: [&str; 2] = ["klems-frads-aniso_high.xml", "radiance-testBSDF.xml"];
 fn a_density_two_percent_wrong_is_rejected() {
     for (name, distribution) in distributions().filter(|(name, _)| FLAT.contains(name)) {
         let wi = incidences()[1];
-        let mut shares = shares(&distribution, wi, Boxes::of(&distribution, wi));
+        let mut shares = shares(&distribution, wi, Boxes::new(&distribution, wi));
         let total: f64 = shares.iter().sum();
         let mut before = 0.0;
         for share in &mut shares {

@@ -44,8 +44,8 @@ fn read(text: &str) -> Parsed {
     read_bsdf_xml(text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn scattering(read: &Parsed, side: Side, way: ScatteringMode) -> &Distribution {
-    read.bsdf.scattering(side, way).unwrap()
+fn scattering(read: &Parsed, side: Side, mode: ScatteringMode) -> &Distribution {
+    read.bsdf.scattering(side, mode).unwrap()
 }
 
 /// 25 values that tell their place: row and column as tenths and hundredths.
@@ -107,7 +107,7 @@ fn an_isotropic_tree_turns_with_the_incidence() {
 }
 
 /// A branch of rank 4 whose only lit leaf is child 0b0110: the incident square's upper half along
-/// y, the exit square's upper half along x. From the other side directions are exchanged.
+/// y, the exit square's upper half along x. From the other side directions are swapped.
 #[test]
 fn an_anisotropic_tree_is_turned_round_exactly() {
     let leaves: String = (0..16).map(|n| if n == 0b0110 { "{ 1 }" } else { "{ 0 }" }).collect();
@@ -149,14 +149,14 @@ fn reciprocity_is_measured() {
     assert!(warning.to_string().contains("by 40.0 % in the mean"), "{warning}");
 }
 
-/// Exactly: as much diffuse light passes one way as the other, and exchanged directions have the
+/// Exactly: as much diffuse light passes one way as the other, and swapped directions have the
 /// same value.
 #[test]
 fn transmission_from_the_other_side_is_reciprocal() {
     let read_matrix = read(&file("Columns", &matrix("Transmission Back", &places())));
     assert_eq!(read_matrix.warnings[0].kind(), WarningKind::ByReciprocity);
     let reciprocity = &read_matrix.bsdf.analysis().clone().reciprocity;
-    assert_eq!((reciprocity[0].way, reciprocity[0].mean), (ScatteringMode::Transmission, 0.0));
+    assert_eq!((reciprocity[0].mode, reciprocity[0].mean), (ScatteringMode::Transmission, 0.0));
 
     let Some(bsdf) = super::surface("tt-pyradiance-t3.xml") else {
         return;
@@ -167,7 +167,7 @@ fn transmission_from_the_other_side_is_reciprocal() {
     assert!((passed[0] / passed[1] - 1.0).abs() < 1e-12, "{passed:?}");
     let reciprocity = &bsdf.analysis().clone().reciprocity;
     let passing =
-        reciprocity.iter().find(|found| found.way == ScatteringMode::Transmission).unwrap();
+        reciprocity.iter().find(|found| found.mode == ScatteringMode::Transmission).unwrap();
     assert!(passing.mean < 1e-12, "{passing:?}");
 }
 
@@ -272,8 +272,8 @@ fn what_is_no_surface_is_refused_with_its_place() {
 /// A wrong number of values, or one that is not a number, is no table.
 #[test]
 fn tables_are_checked() {
-    use quasilux_bsdf::AngleBasis;
-    let basis = || AngleBasis::new("cap", &[(90.0, 2)]).unwrap();
+    use quasilux_bsdf::{AngleBasis, BandDefinition};
+    let basis = || AngleBasis::new("cap", &[BandDefinition::new(90.0, 2)]).unwrap();
     assert!(KlemsTable::new(basis(), basis(), vec![1.0; 4]).is_some());
     assert!(KlemsTable::new(basis(), basis(), vec![1.0; 3]).is_none());
     assert!(KlemsTable::new(basis(), basis(), vec![1.0, f64::NAN, 1.0, 1.0]).is_none());

@@ -56,7 +56,7 @@ impl Measured {
     /// Whether light passes through to the other side.
     #[must_use]
     pub fn transmits(&self) -> bool {
-        self.table.distributions().any(|(_, way, _)| way == ScatteringMode::Transmission)
+        self.table.distributions().any(|it| it.mode == ScatteringMode::Transmission)
     }
 
     /// The share of diffuse light that is not absorbed, on the side where that is more; above 1
@@ -69,8 +69,8 @@ impl Measured {
 
 /// The one side that an opaque sample was measured from.
 fn only_side(table: &MeasuredBsdf) -> Option<Side> {
-    let is_opaque = table.distributions().all(|(_, way, _)| way == ScatteringMode::Reflection);
-    let mut sides = table.distributions().map(|(side, _, _)| side);
+    let is_opaque = table.distributions().all(|it| it.mode == ScatteringMode::Reflection);
+    let mut sides = table.distributions().map(|it| it.side);
     let first = sides.next()?;
     (is_opaque && sides.all(|side| side == first)).then_some(first)
 }

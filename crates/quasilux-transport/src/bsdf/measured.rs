@@ -2,9 +2,9 @@
 //!
 //! Photons take the table of light that arrives as they do: its inverse transform draws their
 //! directions. Paths run against the light. They need f with the light coming from where they go:
-//! that table with its directions exchanged. Where that is not at hand, they take the table as if
-//! it did not matter which direction comes first (Helmholtz reciprocity), and a share of their
-//! directions, the `doubt`, goes to all sides alike, so that none with light is missed.
+//! its adjoint. Where that is not at hand, they take the table as if it did not matter which
+//! direction comes first (Helmholtz reciprocity), and a share of their directions, the `doubt`,
+//! goes to all sides alike, so that none with light is missed.
 
 use super::BsdfSample;
 use super::TransportMode;
@@ -51,7 +51,7 @@ impl Measured {
         self.sheet.transmits()
     }
 
-    /// The share of light that goes on; of paths an estimate where exchanged tables are not at
+    /// The share of light that goes on; of paths an estimate where adjoint tables are not at
     /// hand.
     pub(super) fn albedo<S: Spectrum>(&self, wo: DVec3, front: bool, mode: TransportMode) -> S {
         let side = self.sheet.side(front);
@@ -128,8 +128,8 @@ impl Measured {
         match mode {
             TransportMode::Importance => Lobe { table, doubt: 0.0 },
             TransportMode::Radiance => {
-                let exchanged = sheet.exchanged(source(side, way), way);
-                Lobe { table: exchanged.or(table), doubt: self.doubts[side as usize][way as usize] }
+                let adjoint = sheet.adjoint(source(side, way), way);
+                Lobe { table: adjoint.or(table), doubt: self.doubts[side as usize][way as usize] }
             }
         }
     }
@@ -173,7 +173,7 @@ impl Lobe<'_> {
 /// How many directions of paths that look at a side had better not come from a table.
 fn doubt(table: &MeasuredBsdf, side: Side, way: ScatteringMode) -> f64 {
     let source = source(side, way);
-    if table.scattering(source, way).is_none() || table.exchanged(source, way).is_some() {
+    if table.scattering(source, way).is_none() || table.adjoint(source, way).is_some() {
         return 0.0;
     }
     // A look at some directions cannot tell that a table is reciprocal everywhere.

@@ -6,7 +6,7 @@ use crate::scenes::{all_walls_emit, level_grid, points, room};
 use glam::DVec3;
 use quasilux_bsdf::{
     AngleBasis, BsdfFacts, BsdfFormat, Distribution, KlemsTable, MeasuredBsdf, ScatteringMode,
-    Side, read_bsdf,
+    SheetDistribution, Side, read_bsdf,
 };
 use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};
 use quasilux_scene::light::AreaLight;
@@ -62,6 +62,11 @@ pub(crate) fn measured(
         manufacturer: String::new(),
         thickness_m: None,
     };
+    let tables = tables.into_iter().map(|(side, mode, distribution)| SheetDistribution {
+        side,
+        mode,
+        distribution,
+    });
     let table = MeasuredBsdf::from_tables(facts, tables);
     Bsdf::Measured(Measured::new(Arc::new(table), Some(DVec3::Z)))
 }

@@ -23,7 +23,7 @@ pub(crate) struct BsdfArguments {
     /// one drawing of each FILE
     #[arg(long, value_name = "PATH")]
     pub(crate) svg: Option<PathBuf>,
-    /// Print a document in JSON, format "quasilux-bsdf/1", and nothing else
+    /// Print a document in JSON, format "quasilux-bsdf/2", and nothing else
     #[arg(long)]
     pub(crate) json: bool,
     /// Exit with code 1 where a file has warnings

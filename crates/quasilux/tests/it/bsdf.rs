@@ -57,7 +57,7 @@ fn a_summary_has_the_figures_of_the_formula() {
         "front, light at 45\u{b0}, 90\u{b0} reflectance 40.00 %, transmittance 20.00 %",
         "back, diffuse light   reflectance 40.00 %, transmittance 20.00 %",
         "front, most scattered 60.00 %",
-        "front, transmission: exchanged directions differ by 0.00 % in the mean, 0.00 % at worst",
+        "front, transmission: swapped directions differ by 0.00 % in the mean, 0.00 % at worst",
     ] {
         assert!(text.contains(words), "{words:?} in {text}");
     }
@@ -67,7 +67,7 @@ fn a_summary_has_the_figures_of_the_formula() {
 fn a_document_has_all_incidences() {
     let folder = folder("document");
     let document = parsed(&bsdf(&folder, &["--json", "sheet.xml"], 0).stdout);
-    assert_eq!(document["format"], "quasilux-bsdf/1");
+    assert_eq!(document["format"], "quasilux-bsdf/2");
     let surface = &document["files"][0]["surface"];
     assert_eq!(surface["tables"].as_array().map(Vec::len), Some(4));
     let incidences = surface["tables"][1]["incidences"].as_array().expect("a list");

@@ -1,4 +1,4 @@
-//! The document in JSON, format "quasilux-bsdf/1", for programs.
+//! The document in JSON, format "quasilux-bsdf/2", for programs.
 //!
 //! `files` has an entry for each file, in the order of the command line: its name in `file`, and
 //! either `surface` with its `warnings`, or `error`; the other is `null`. Shares are luminous and
@@ -10,12 +10,14 @@ use super::input::{Input, Surface};
 use super::summary::share;
 use crate::arguments::Incidence;
 use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
-use quasilux_bsdf::{Distribution, EnergyBalance, Reciprocity, ScatteringMode, Side, luminance};
+use quasilux_bsdf::{
+    Distribution, EnergyBalance, Reciprocity, ScatteringMode, SheetDistribution, luminance,
+};
 use quasilux_report::json;
 use serde::Serialize;
 
 /// Name and version of the document's format.
-const FORMAT: &str = "quasilux-bsdf/1";
+const FORMAT: &str = "quasilux-bsdf/2";
 
 /// The document, ending in a line feed.
 pub(super) fn document(inputs: &[Input], incidences: &[Incidence]) -> String {
@@ -50,11 +52,11 @@ struct SurfaceEntry<'a> {
     reciprocity: Vec<ReciprocityEntry>,
 }
 
-/// How light from one side goes one way.
+/// How light that arrives on one side is reflected or transmitted.
 #[derive(Serialize)]
 struct TableEntry {
     side: &'static str,
-    way: &'static str,
+    mode: &'static str,
     kind: &'static str,
     incidences: Vec<IncidenceEntry>,
 }
@@ -63,7 +65,7 @@ struct TableEntry {
 struct IncidenceEntry {
     theta_deg: f64,
     phi_deg: f64,
-    /// Of the light from there, what goes this way.
+    /// The share of light from there that is scattered in this mode.
     share: f64,
 }
 
@@ -92,7 +94,7 @@ struct LightEntry {
 #[derive(Serialize)]
 struct ReciprocityEntry {
     side: &'static str,
-    way: &'static str,
+    mode: &'static str,
     mean_defect: f64,
     worst_defect: f64,
 }
@@ -115,9 +117,6 @@ impl<'a> SurfaceEntry<'a> {
         let bsdf = &surface.bsdf;
         let analysis = bsdf.analysis();
         let facts = bsdf.facts();
-        let table = |(side, way, table): (Side, ScatteringMode, &Distribution)| {
-            TableEntry::of(side, way, table)
-        };
         let energy = |balance: &EnergyBalance| EnergyEntry::of(balance, surface, incidences);
         Self {
             format: facts.format.name(),
@@ -126,7 +125,7 @@ impl<'a> SurfaceEntry<'a> {
             thickness_m: facts.thickness_m,
             is_isotropic: bsdf.is_isotropic(),
             is_coloured: bsdf.is_coloured(),
-            tables: bsdf.distributions().map(table).collect(),
+            tables: bsdf.distributions().map(TableEntry::of).collect(),
             energy: analysis.energy.iter().map(energy).collect(),
             reciprocity: analysis.reciprocity.iter().map(ReciprocityEntry::of).collect(),
         }
@@ -134,14 +133,15 @@ impl<'a> SurfaceEntry<'a> {
 }
 
 impl TableEntry {
-    fn of(side: Side, way: ScatteringMode, table: &Distribution) -> Self {
+    fn of(entry: SheetDistribution<&Distribution>) -> Self {
+        let table = entry.distribution;
         let incidence = |&wi: &_| {
             let [theta_deg, phi_deg] = Incidence::of(wi).degrees();
             IncidenceEntry { theta_deg, phi_deg, share: luminance(table.albedo(wi)) }
         };
         Self {
-            side: side.name(),
-            way: way.name(),
+            side: entry.side.name(),
+            mode: entry.mode.name(),
             kind: table.kind(),
             incidences: table.incidences().iter().map(incidence).collect(),
         }
@@ -153,7 +153,7 @@ impl EnergyEntry {
         let light = |&incidence: &Incidence| {
             let [theta_deg, phi_deg] = incidence.degrees();
             let [reflectance, transmittance] =
-                ScatteringMode::ALL.map(|way| share(surface, balance.side, way, incidence));
+                ScatteringMode::ALL.map(|mode| share(surface, balance.side, mode, incidence));
             LightEntry { theta_deg, phi_deg, reflectance, transmittance }
         };
         Self {
@@ -173,7 +173,7 @@ impl ReciprocityEntry {
     fn of(found: &Reciprocity) -> Self {
         Self {
             side: found.side.name(),
-            way: found.way.name(),
+            mode: found.mode.name(),
             mean_defect: found.mean,
             worst_defect: found.worst,
         }

@@ -37,10 +37,10 @@ fn curve(surface: &Surface, side: Side, incidence: Incidence, number: usize) -> 
     let wi = incidence.direction();
     let [_, phi_deg] = incidence.degrees();
     let (sin_phi, cos_phi) = libm::sincos(phi_deg.to_radians());
-    let value = |way: ScatteringMode, theta_deg: f64| {
+    let value = |mode: ScatteringMode, theta_deg: f64| {
         let (sin, cos) = libm::sincos(theta_deg.to_radians());
         let wo = DVec3::new(sin * cos_phi, sin * sin_phi, cos.max(0.0));
-        let table = surface.bsdf.scattering(side, way);
+        let table = surface.bsdf.scattering(side, mode);
         table.map_or(0.0, |table| luminance(table.evaluate(wi, wo)) * wo.z)
     };
     let steps = (360.0 / STEP_DEG) as i32;

@@ -37,8 +37,8 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
     let isotropic = "isotropic: may be turned in its plane";
     let symmetry = if surface.bsdf.is_isotropic() { isotropic } else { "none" };
     add("symmetry", symmetry.to_owned());
-    for (side, way, table) in surface.bsdf.distributions() {
-        let name = format!("{}, {}", side.name(), way.name());
+    for entry in surface.bsdf.distributions() {
+        let (name, table) = (format!("{}, {}", entry.side, entry.mode), entry.distribution);
         let colour = if table.is_coloured() { ", coloured" } else { "" };
         let count = table.incidences().len();
         add(&name, format!("{}, {count} incident directions{colour}", table.kind()));
@@ -49,7 +49,7 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
             let name = format!("{}, light at {}", side.name(), incidence.text());
             add(
                 &name,
-                shares(ScatteringMode::ALL.map(|way| share(surface, side, way, *incidence))),
+                shares(ScatteringMode::ALL.map(|mode| share(surface, side, mode, *incidence))),
             );
         }
         add(&format!("{}, diffuse light", side.name()), shares(balance.diffuse));
@@ -57,9 +57,9 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
     }
     for found in &surface.bsdf.analysis().reciprocity {
         let text = format!(
-            "{}, {}: exchanged directions differ by {} in the mean, {} at worst",
+            "{}, {}: swapped directions differ by {} in the mean, {} at worst",
             found.side.name(),
-            found.way.name(),
+            found.mode.name(),
             percent(found.mean),
             percent(found.worst)
         );
@@ -72,10 +72,10 @@ fn facts(surface: &Surface, incidences: &[Incidence]) -> Vec<(String, String)> {
 pub(super) fn share(
     surface: &Surface,
     side: Side,
-    way: ScatteringMode,
+    mode: ScatteringMode,
     incidence: Incidence,
 ) -> f64 {
-    let table = surface.bsdf.scattering(side, way);
+    let table = surface.bsdf.scattering(side, mode);
     table.map_or(0.0, |table| luminance(table.albedo(incidence.direction())))
 }
 

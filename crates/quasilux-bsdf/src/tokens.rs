@@ -1,21 +1,21 @@
-//! Pieces of a text between blanks and commas, with their places.
+//! Tokens of a text between blanks and commas, with their places.
 
 use crate::warning::WarningKind;
 use crate::warning::Warnings;
 use quasilux_text::{ParseError, Position, Token, quoted};
 
 /// Values below count as zero: sums and quotients of them would lose digits to underflow.
-const SMALLEST_VALUE: f64 = 1e-100;
+const MIN_VALUE: f64 = 1e-100;
 
-/// The pieces of a text between blanks and commas, with the places they have if nothing in the text
+/// The tokens of a text between blanks and commas, with the places they have if nothing in the text
 /// was escaped.
-pub(super) struct Pieces<'t> {
+pub(super) struct Tokens<'t> {
     rest: &'t str,
     at: Position,
     style: Style,
 }
 
-/// What counts as a piece.
+/// What counts as a token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Style {
     /// Words.
@@ -26,12 +26,12 @@ pub(super) enum Style {
     Comments,
 }
 
-impl<'t> Pieces<'t> {
+impl<'t> Tokens<'t> {
     pub(super) fn new(text: &'t str, at: Position, style: Style) -> Self {
         Self { rest: text, at, style }
     }
 
-    /// Where the next piece is looked for.
+    /// Where the next token is looked for.
     pub(super) fn at(&self) -> Position {
         self.at
     }
@@ -55,7 +55,7 @@ impl<'t> Pieces<'t> {
     }
 }
 
-impl<'t> Iterator for Pieces<'t> {
+impl<'t> Iterator for Tokens<'t> {
     type Item = Token<'t>;
 
     fn next(&mut self) -> Option<Token<'t>> {
@@ -86,33 +86,33 @@ impl<'t> Iterator for Pieces<'t> {
 }
 
 /// A value of a scattering distribution: negative and tiny ones count as zero.
-pub(super) fn value(piece: Token<'_>, warnings: &mut Warnings) -> Result<f64, ParseError> {
-    let value = piece.number("a value in 1/sr")?.value;
+pub(super) fn value(token: Token<'_>, warnings: &mut Warnings) -> Result<f64, ParseError> {
+    let value = token.number("a value in 1/sr")?.value;
     if value < 0.0 {
         let expected = "no negative value (read as 0)";
-        warnings.push(WarningKind::NegativeScattering, piece.at, quoted(piece.text), expected);
+        warnings.push(WarningKind::NegativeScattering, token.at, quoted(token.text), expected);
     }
-    Ok(if value < SMALLEST_VALUE { 0.0 } else { value })
+    Ok(if value < MIN_VALUE { 0.0 } else { value })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn pieces(text: &str, style: Style) -> Vec<(&str, usize, usize)> {
-        let found = Pieces::new(text, Position { line: 5, column: 3 }, style);
-        found.map(|piece| (piece.text, piece.at.line, piece.at.column)).collect()
+    fn tokens(text: &str, style: Style) -> Vec<(&str, usize, usize)> {
+        let found = Tokens::new(text, Position { line: 5, column: 3 }, style);
+        found.map(|token| (token.text, token.at.line, token.at.column)).collect()
     }
 
     #[test]
     fn pieces_know_their_places() {
-        let plain = pieces(" 1,2\r\n é3\r4\n\t5{6};7", Style::Plain);
+        let plain = tokens(" 1,2\r\n é3\r4\n\t5{6};7", Style::Plain);
         let expected = [("1", 5, 4), ("2", 5, 6), ("é3", 6, 2), ("4", 7, 1), ("5{6};7", 8, 2)];
         assert_eq!(plain, expected);
-        let braces = pieces("{1 }{", Style::Braces);
+        let braces = tokens("{1 }{", Style::Braces);
         assert_eq!(braces, [("{", 5, 3), ("1", 5, 4), ("}", 5, 6), ("{", 5, 7)]);
-        let comments = pieces("1;; 2\n;3\n4 ;", Style::Comments);
+        let comments = tokens("1;; 2\n;3\n4 ;", Style::Comments);
         assert_eq!(comments, [("1", 5, 3), ("4", 7, 1)]);
-        assert!(pieces(" ,\n", Style::Plain).is_empty());
+        assert!(tokens(" ,\n", Style::Plain).is_empty());
     }
 }

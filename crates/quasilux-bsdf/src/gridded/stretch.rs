@@ -23,15 +23,15 @@ const COMPARED: usize = 233;
 /// Nearer to the horizon than half a degree no mirror direction is: the least cosine.
 const MIN_COSINE: f64 = 0.008_726_535;
 
-/// How lobes between two stored incidences move.
+/// How far lobes between two stored incidences are stretched as they move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Motion {
+pub(super) enum Stretch {
     /// Not at all.
-    Still,
+    None,
     /// With p the ratio of cosines.
     Linear,
     /// With p its power 3/2.
-    Between,
+    ThreeHalves,
     /// With p its square.
     Square,
 }
@@ -45,7 +45,7 @@ pub(super) struct Mirror {
 
 /// A linear map of directions that keeps the horizon.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Move {
+pub(super) struct LobeTransform {
     p: f64,
     q: f64,
 }
@@ -66,15 +66,31 @@ impl Mirror {
     }
 }
 
-impl Move {
+/// Where a direction comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Preimage {
+    pub(super) direction: DVec3,
+    /// The solid angle there over that at the image.
+    pub(super) ratio: f64,
+}
+
+impl Preimage {
+    /// Under a transform, or the identity.
+    pub(super) fn under(transform: Option<LobeTransform>, direction: DVec3) -> Self {
+        let identity = Self { direction, ratio: 1.0 };
+        transform.map_or(identity, |transform| transform.preimage(direction))
+    }
+}
+
+impl LobeTransform {
     /// From one mirror direction to another; `None` where nothing moves.
-    pub(super) fn new(from: Mirror, to: Mirror, motion: Motion) -> Option<Self> {
+    pub(super) fn new(from: Mirror, to: Mirror, stretch: Stretch) -> Option<Self> {
         let ratio = from.cos / to.cos;
-        let p = match motion {
-            Motion::Still => return None,
-            Motion::Linear => ratio,
-            Motion::Between => ratio * ratio.sqrt(),
-            Motion::Square => ratio * ratio,
+        let p = match stretch {
+            Stretch::None => return None,
+            Stretch::Linear => ratio,
+            Stretch::ThreeHalves => ratio * ratio.sqrt(),
+            Stretch::Square => ratio * ratio,
         };
         // The mirror direction is at (-sin, 0, cos).
         (from != to).then(|| Self { p, q: p * (from.sin / from.cos) - to.sin / to.cos })
@@ -86,12 +102,12 @@ impl Move {
         DVec3::new(self.p * x + self.q * z, y, z).normalize()
     }
 
-    /// Where a direction comes from, and the solid angle there over that here.
-    pub(super) fn back(self, direction: DVec3) -> (DVec3, f64) {
+    /// The direction that is moved to `direction`.
+    pub(super) fn preimage(self, direction: DVec3) -> Preimage {
         let DVec3 { x, y, z } = direction;
         let from = DVec3::new((x - self.q * z) / self.p, y, z);
         let length = from.length();
-        (from / length, 1.0 / (self.p * length * length * length))
+        Preimage { direction: from / length, ratio: 1.0 / (self.p * length * length * length) }
     }
 
     /// A bound of that ratio: the cube of the greatest stretching over p.
@@ -104,21 +120,21 @@ impl Move {
     }
 }
 
-impl Motion {
-    /// The motion under which `pairs` of lobes at two mirror directions have the most in common.
+impl Stretch {
+    /// The stretch under which `pairs` of lobes at two mirror directions have the most in common.
     pub(super) fn between<'t>(
         pairs: impl Iterator<Item = [&'t Lobe; 2]> + Clone,
         mirrors: [Mirror; 2],
     ) -> Self {
-        let common = |motion: Self| -> f64 {
-            let step = Move::new(mirrors[0], mirrors[1], motion);
-            pairs.clone().map(|pair| overlap(pair, step)).sum()
+        let common = |stretch: Self| -> f64 {
+            let transform = LobeTransform::new(mirrors[0], mirrors[1], stretch);
+            pairs.clone().map(|pair| overlap(pair, transform)).sum()
         };
-        let mut best = (common(Self::Still), Self::Still);
-        for motion in [Self::Linear, Self::Between, Self::Square] {
-            let common = common(motion);
+        let mut best = (common(Self::None), Self::None);
+        for stretch in [Self::Linear, Self::ThreeHalves, Self::Square] {
+            let common = common(stretch);
             if common > best.0 {
-                best = (common, motion);
+                best = (common, stretch);
             }
         }
         best.1
@@ -127,7 +143,7 @@ impl Motion {
 
 /// The integral of the lesser of the first lobe, moved, and the second, both without what is least
 /// and with integral 1: the mean of min(1, a / b) over directions drawn from b.
-fn overlap([a, b]: [&Lobe; 2], step: Option<Move>) -> f64 {
+fn overlap([a, b]: [&Lobe; 2], transform: Option<LobeTransform>) -> f64 {
     let (a, b) = (a.above(), b.above());
     if a.integral() <= 0.0 || b.integral() <= 0.0 {
         return 0.0;
@@ -135,9 +151,9 @@ fn overlap([a, b]: [&Lobe; 2], step: Option<Move>) -> f64 {
     let common = |index: usize| {
         let direction = b.sample_direction(lattice(index, COMPARED, 0.0));
         direction.map_or(0.0, |direction| {
-            let (from, ratio) = step.map_or((direction, 1.0), |step| step.back(direction));
+            let from = Preimage::under(transform, direction);
             let of_b = b.pdf(direction);
-            if of_b > 0.0 { (ratio * a.pdf(from) / of_b).min(1.0) } else { 0.0 }
+            if of_b > 0.0 { (from.ratio * a.pdf(from.direction) / of_b).min(1.0) } else { 0.0 }
         })
     };
     (0..COMPARED).map(common).sum::<f64>() / COMPARED as f64
@@ -151,31 +167,34 @@ mod tests {
     fn mirror_directions_are_moved_onto_each_other() {
         for (from, to) in [(0.0_f64, 0.4_f64), (0.7, 0.3), (1.2, 1.5), (1.6, 0.1)] {
             let mirrors = [from, to].map(Mirror::new);
-            for motion in [Motion::Linear, Motion::Between, Motion::Square] {
-                let step = Move::new(mirrors[0], mirrors[1], motion).expect("apart");
+            for stretch in [Stretch::Linear, Stretch::ThreeHalves, Stretch::Square] {
+                let transform = LobeTransform::new(mirrors[0], mirrors[1], stretch).expect("apart");
                 let [start, end] = mirrors.map(|m| DVec3::new(-m.sin, 0.0, m.cos));
-                assert!(step.onwards(start).distance(end) < 1e-9);
-                let (back, _) = step.back(end);
+                assert!(transform.onwards(start).distance(end) < 1e-9);
+                let back = transform.preimage(end).direction;
                 assert!(back.distance(start) < 1e-9);
             }
         }
-        assert!(Move::new(Mirror::new(0.3), Mirror::new(0.3), Motion::Square).is_none());
+        assert!(LobeTransform::new(Mirror::new(0.3), Mirror::new(0.3), Stretch::Square).is_none());
     }
 
     /// By small triangles.
     #[test]
     fn the_ratio_of_solid_angles_is_that_of_small_ones() {
-        let step = Move::new(Mirror::new(0.5), Mirror::new(1.0), Motion::Between).expect("apart");
+        let transform =
+            LobeTransform::new(Mirror::new(0.5), Mirror::new(1.0), Stretch::ThreeHalves)
+                .expect("apart");
         for direction in [DVec3::Z, DVec3::new(-0.6, 0.3, 0.5), DVec3::new(0.8, -0.5, 0.1)] {
             let at = direction.normalize();
             let (u, v) = at.any_orthonormal_pair();
             let size = 1e-5;
-            let corner = |offset: DVec3| step.back((at + size * offset).normalize()).0;
+            let corner =
+                |offset: DVec3| transform.preimage((at + size * offset).normalize()).direction;
             let [a, b, c] = [DVec3::ZERO, u, v].map(corner);
             let area = (b - a).cross(c - a).length() / (size * size);
-            let (_, ratio) = step.back(at);
+            let ratio = transform.preimage(at).ratio;
             assert!((area / ratio - 1.0).abs() < 1e-3, "{area} {ratio}");
-            assert!(ratio <= step.most_dense() * (1.0 + 1e-12));
+            assert!(ratio <= transform.most_dense() * (1.0 + 1e-12));
         }
     }
 }

@@ -1,10 +1,10 @@
-//! A tree of rank 3 for light that goes the other way round.
+//! The adjoint of an isotropic tensor tree: a tree of rank 3 for light that travels in reverse.
 //!
 //! f'(wi, wo) = f(wo, wi) of an isotropic tree is constant in rings of the sine of wo, for which
 //! the tree has its incident axis. In the exit square of the tree wi is at the azimuth that it has
 //! from where light goes: as wo turns, it runs around a circle, and concentric squares are what
 //! Shirley and Chiu's map makes of circles. So, for one wi, f' is constant in runs along the four
-//! sides of a square, and the azimuth is linear in the way along them: both coordinates are
+//! sides of a square, and the azimuth is linear in the arc length along them: both coordinates are
 //! inverted exactly, without a table for each incidence.
 //!
 //! With 2^h boxes a side, the square through wi has half a side of `column` + t boxes, t in (0, 1].
@@ -16,6 +16,7 @@
 use super::{DEEPEST, Incidence, TensorTree};
 use crate::hemisphere::INSIDE;
 use crate::hemisphere::Incident;
+use crate::hemisphere::PickedStep;
 use crate::hemisphere::ScatterSample;
 use crate::hemisphere::pick;
 use crate::hemisphere::upwards;
@@ -28,9 +29,9 @@ const MARGIN: f64 = 1e-9;
 /// The least t: a corner is wider than its margins.
 const MIN_PART: f64 = 1e-6;
 
-/// An isotropic tree with its directions exchanged.
+/// An isotropic tree with incident and scattered directions swapped.
 #[derive(Clone, Debug)]
-pub struct ExchangedTree {
+pub struct AdjointTree {
     tree: TensorTree,
     /// Boxes of a side, as a power of two.
     log_side: usize,
@@ -52,7 +53,24 @@ struct Square {
     azimuth: [f64; 2],
 }
 
-/// Part of a side, from `start` boxes on the way around, in which f is constant.
+/// The ring of an exit direction.
+#[derive(Clone, Copy, Debug)]
+struct RingPosition {
+    ring: usize,
+    /// Within the ring along the squared sine, in [0, 1].
+    along: f64,
+}
+
+/// A leaf of the tree.
+#[derive(Clone, Copy, Debug)]
+struct Leaf {
+    /// f in sr^-1.
+    value: f64,
+    /// The length of its sides, in boxes.
+    size: usize,
+}
+
+/// Part of a side, from `start` boxes of arc length on, in which f is constant.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     start: f64,
@@ -61,14 +79,14 @@ struct Run {
 }
 
 impl Square {
-    /// The way around, in boxes.
+    /// The length around, in boxes.
     fn around(self) -> f64 {
         8.0 * (self.column as f64 + self.t)
     }
 }
 
-impl ExchangedTree {
-    /// The tree with directions exchanged; `None` of a tree that is not isotropic.
+impl AdjointTree {
+    /// The tree with directions swapped; `None` of a tree that is not isotropic.
     pub(crate) fn new(tree: &TensorTree) -> Option<Self> {
         if !tree.is_isotropic() {
             return None;
@@ -77,15 +95,15 @@ impl ExchangedTree {
         let half = 1_usize << (log_side - 1);
         let sums = vec![0.0; half * (half + 1)];
         let (between_before, corners_before) = (sums.clone(), sums);
-        let mut exchanged =
+        let mut adjoint =
             Self { tree: tree.clone(), log_side, half, between_before, corners_before };
-        exchanged.add(0, 0, [0; 3]);
-        for sums in [&mut exchanged.between_before, &mut exchanged.corners_before] {
+        adjoint.add(0, 0, [0; 3]);
+        for sums in [&mut adjoint.between_before, &mut adjoint.corners_before] {
             for column in sums.chunks_exact_mut(half + 1) {
                 (1..=half).for_each(|ring| column[ring] += column[ring - 1]);
             }
         }
-        Some(exchanged)
+        Some(adjoint)
     }
 
     /// The tree itself.
@@ -147,15 +165,16 @@ impl ExchangedTree {
     }
 
     /// The ring of an exit direction, and the place in it along the squared sine.
-    fn ring(&self, wo: DVec3) -> (usize, f64) {
+    fn ring(&self, wo: DVec3) -> RingPosition {
         let place2 = (wo.x * wo.x + wo.y * wo.y).min(1.0) * (self.half * self.half) as f64;
         let ring = (place2.sqrt() as usize).min(self.half - 1);
         let inner2 = (ring * ring) as f64;
-        (ring, ((place2 - inner2) / (2 * ring + 1) as f64).clamp(0.0, 1.0))
+        let along = ((place2 - inner2) / (2 * ring + 1) as f64).clamp(0.0, 1.0);
+        RingPosition { ring, along }
     }
 
-    /// The way around to an incident direction as seen from where light goes.
-    fn way(&self, square: Square, wo: DVec3) -> f64 {
+    /// The arc length to an incident direction as seen from where light goes.
+    fn arc(&self, square: Square, wo: DVec3) -> f64 {
         let [x, y] = square.azimuth;
         // Light goes to the opposite of wo, whatever the length.
         let azimuth_rad = libm::atan2(x * wo.y - y * wo.x, -(x * wo.x + y * wo.y));
@@ -163,9 +182,8 @@ impl ExchangedTree {
         (turns - turns.floor()) * square.around()
     }
 
-    /// The value of a box on a side and the size of its leaf in boxes; `step` counts boxes along
-    /// the side from its middle.
-    fn leaf(&self, ring: usize, column: usize, side: usize, step: isize) -> (f64, usize) {
+    /// The leaf that holds a box on a side; `step` counts boxes along the side from its middle.
+    fn leaf(&self, ring: usize, column: usize, side: usize, step: isize) -> Leaf {
         let half = self.half as isize;
         let (out, along) = (column as isize, step);
         let cell = match side {
@@ -178,7 +196,8 @@ impl ExchangedTree {
         let incident = ((self.half - 1 - ring) << shift) as u32;
         let incidence = Incidence { axes: 1, cell: [incident, 0], turn: [1.0, 0.0] };
         let (node, level) = self.tree.leaf(incidence, cell.map(|cell| (cell as u32) << shift));
-        (self.tree.nodes[node].value, (2 * self.half) >> level.min(self.log_side))
+        let size = (2 * self.half) >> level.min(self.log_side);
+        Leaf { value: self.tree.nodes[node].value, size }
     }
 
     /// Calls `visit` with the runs of a ring around the square until it returns true.
@@ -189,7 +208,7 @@ impl ExchangedTree {
         for side in 0..4 {
             let mut step = -last - 1;
             while step <= last {
-                let (value, size) = self.leaf(ring, column, side, step);
+                let Leaf { value, size } = self.leaf(ring, column, side, step);
                 // Leaves are aligned with the middle of the side.
                 let next = ((step.div_euclid(size as isize) + 1) * size as isize).min(last + 1);
                 let low = (step as f64).max(-end);
@@ -213,11 +232,11 @@ impl ExchangedTree {
     pub(crate) fn value(&self, wi: DVec3, wo: DVec3) -> f64 {
         let square = self.square(wi);
         let end = square.column as f64 + square.t;
-        let way = self.way(square, wo);
-        let side = ((way / (2.0 * end)) as usize).min(3);
-        let step = (way - 2.0 * end * side as f64 - end).floor() as isize;
+        let arc = self.arc(square, wo);
+        let side = ((arc / (2.0 * end)) as usize).min(3);
+        let step = (arc - 2.0 * end * side as f64 - end).floor() as isize;
         let last = square.column as isize;
-        self.leaf(self.ring(wo).0, square.column, side, step.clamp(-last - 1, last)).0
+        self.leaf(self.ring(wo).ring, square.column, side, step.clamp(-last - 1, last)).value
     }
 
     pub(crate) fn albedo(&self, wi: DVec3) -> f64 {
@@ -232,21 +251,21 @@ impl ExchangedTree {
         if sum <= 0.0 {
             return None;
         }
-        let (ring, along) = pick(self.half, u[0], &before);
+        let PickedStep { index: ring, u_remapped: along } = pick(self.half, u[0], &before);
         let mut rest = u[1] * (before(ring + 1) - before(ring)) / self.ring_projected_sr(ring);
         let mut found = None;
         self.walk(square, ring, |run| {
             let share = run.value * run.width;
             if share > 0.0 {
-                let way = (rest / run.value).min(run.width - MARGIN).max(MARGIN);
-                found = Some((run.start + way, run.value));
+                let arc = (rest / run.value).min(run.width - MARGIN).max(MARGIN);
+                found = Some((run.start + arc, run.value));
             }
             let is_reached = rest < share;
             rest -= share;
             is_reached
         });
-        let (way, value) = found?;
-        let (sin, cos) = libm::sincos(TAU * way / square.around() - FRAC_PI_4);
+        let (arc, value) = found?;
+        let (sin, cos) = libm::sincos(TAU * arc / square.around() - FRAC_PI_4);
         let along = along.clamp(INSIDE, 1.0 - INSIDE);
         let place2 = (ring * ring) as f64 + along * (2 * ring + 1) as f64;
         let sine = place2.sqrt() / self.half as f64;
@@ -263,13 +282,13 @@ impl ExchangedTree {
     pub(crate) fn invert(&self, wi: DVec3, wo: DVec3) -> [f64; 2] {
         let square = self.square(wi);
         let before = self.before(square);
-        let (ring, along) = self.ring(wo);
+        let RingPosition { ring, along } = self.ring(wo);
         let [low, high] = [before(ring), before(ring + 1)];
-        let way = self.way(square, wo);
+        let arc = self.arc(square, wo);
         let mut sum = 0.0;
         self.walk(square, ring, |run| {
-            sum += run.value * (way - run.start).clamp(0.0, run.width);
-            way < run.start + run.width
+            sum += run.value * (arc - run.start).clamp(0.0, run.width);
+            arc < run.start + run.width
         });
         let u = [
             (low + along * (high - low)) / before(self.half),

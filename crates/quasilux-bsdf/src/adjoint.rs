@@ -1,21 +1,22 @@
-//! The two directions of a distribution exchanged.
+//! The adjoint of a distribution: its incident and scattered directions swapped (Veach, "Robust
+//! Monte Carlo methods for light transport simulation", 1997, section 3.7.5).
 
 use crate::distribution::Distribution;
-use crate::tree::ExchangedTree;
+use crate::tree::AdjointTree;
 
 impl Distribution {
-    /// f'(wi, wo) = f(wo, wi), for light that goes the other way round, exactly. `None` for grids,
-    /// for patches without a counterpart at the opposite azimuth, and for trees of rank 4 that
-    /// become too large.
+    /// The adjoint f'(wi, wo) = f(wo, wi), for light that travels in reverse, exactly. `None` for
+    /// grids, for patches without a counterpart at the opposite azimuth, and for trees of rank 4
+    /// that become too large.
     #[must_use]
-    pub fn reversed(&self) -> Option<Self> {
+    pub fn adjoint(&self) -> Option<Self> {
         Some(match self {
-            Self::Klems(table) => Self::Klems(table.reversed()?),
+            Self::Klems(table) => Self::Klems(table.adjoint()?),
             Self::TensorTree(tree) if tree.is_isotropic() => {
-                Self::ExchangedTree(ExchangedTree::new(tree)?)
+                Self::AdjointTree(AdjointTree::new(tree)?)
             }
-            Self::TensorTree(tree) => Self::TensorTree(tree.reversed()?),
-            Self::ExchangedTree(tree) => Self::TensorTree(tree.original().clone()),
+            Self::TensorTree(tree) => Self::TensorTree(tree.adjoint()?),
+            Self::AdjointTree(tree) => Self::TensorTree(tree.original().clone()),
             Self::Gridded(_) => return None,
         })
     }
@@ -29,12 +30,12 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn exchanged_directions_have_the_same_value() {
+    fn swapped_directions_have_the_same_value() {
         let basis = AngleBasis::known("LBNL/Klems Quarter").expect("a basis");
         let values: Vec<f64> = (0..41 * 41).map(f64::from).collect();
         let table = KlemsTable::new(basis.clone(), basis, values).expect("a value a pair");
         let forth = Distribution::Klems(table);
-        let back = forth.reversed().expect("patches have counterparts");
+        let back = forth.adjoint().expect("patches have counterparts");
         let (a, b) = (DVec3::new(0.1, -0.5, 0.8), DVec3::new(-0.7, 0.2, 0.4));
         for (a, b) in [(a, b), (b, a), (a, a), (a, DVec3::Z)] {
             let (a, b) = (a.normalize(), b.normalize());
