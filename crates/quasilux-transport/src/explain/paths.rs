@@ -121,7 +121,6 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         let targets: Vec<Target> = targets.iter().map(|target| target.target).collect();
         let mut caustics = CausticMap::new(context, settings, &targets)?;
         caustics.grow(context, caustics.photons_for(SAMPLES), watch)?;
-        caustics.show(context);
         Some(caustics)
     }
 

@@ -5,6 +5,7 @@
 
 use crate::codec::Writer;
 use crate::spectrum::Spectrum;
+use crate::world::subdivision::grid_centroids;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 
@@ -176,7 +177,7 @@ impl Cells {
             }
             let parts = (2.0 * facet.longest_edge_m() / self.edge_m).ceil().clamp(1.0, MAX_PARTS);
             let part_m2 = facet.area_m2() / (parts * parts);
-            for weights in centroids(parts as u32) {
+            for weights in grid_centroids(parts as u32) {
                 let position = facet.point(weights);
                 for n in [facet.front_normal, -facet.front_normal] {
                     areas_m2[self.cell_of(position, n)] += part_m2;
@@ -198,20 +199,6 @@ fn side(n: DVec3) -> usize {
         2
     };
     2 * axis + usize::from(n[axis] > 0.0)
-}
-
-/// Barycentric weights of the centroids of the equal triangles that a triangle is cut into.
-fn centroids(parts: u32) -> impl Iterator<Item = [f64; 3]> {
-    let n = f64::from(parts);
-    let columns = move |row: u32| (0..parts - row).map(move |column| (row, column));
-    (0..parts).flat_map(columns).flat_map(move |(row, column)| {
-        let hangs = row + column + 1 < parts;
-        let thirds = [Some(1.0 / 3.0), hangs.then_some(2.0 / 3.0)];
-        thirds.into_iter().flatten().map(move |d| {
-            let (b, c) = ((f64::from(row) + d) / n, (f64::from(column) + d) / n);
-            [1.0 - b - c, b, c]
-        })
-    })
 }
 
 #[cfg(test)]
@@ -240,19 +227,6 @@ mod tests {
             let wanted = at.clamp(low + half, low + size_m - half);
             assert!(found.distance(wanted) < 1e-12, "{at}: {found}");
             assert!(corners.iter().all(|&(cell, weight)| cell % SIDES == 2 && weight >= 0.0));
-        }
-    }
-
-    #[test]
-    fn centroids_are_those_of_equal_parts() {
-        for parts in [1, 2, 5, 16] {
-            let all: Vec<[f64; 3]> = centroids(parts).collect();
-            assert_eq!(all.len(), (parts * parts) as usize);
-            for corner in 0..3 {
-                let mean =
-                    all.iter().map(|weights| weights[corner]).sum::<f64>() / all.len() as f64;
-                assert!((mean - 1.0 / 3.0).abs() < 1e-12, "{parts}: {mean}");
-            }
         }
     }
 }

@@ -432,7 +432,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let most = context.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
         let to_start = self.weight(context, at);
         let share = if bounces == 0 { self.weights_of_paths.rest } else { 1.0 };
-        for (caustic_bounces, lx) in caustics.illuminances_lx(&context.world, at, most) {
+        for (caustic_bounces, lx) in caustics.illuminances_lx(at, most) {
             let lx = lx * share;
             self.found.add(bounces + 1 + caustic_bounces, to_start * lx);
         }

@@ -1,78 +1,57 @@
-//! Light that paths cannot find and no image shows: from points and luminaires by curved mirrors,
-//! through refracting bodies, or over more mirrors than images follow.
+//! Caustics (paths LS+D of Heckbert 1990) that path tracing cannot sample and no mirror image
+//! shows, by density estimation of photons (Jensen 1996): from points and luminaires over curved
+//! mirrors, through refracting bodies, or over more mirrors than images follow.
 //!
-//! It comes from photon density. Photons are followed until they are scattered, and those that came
-//! by specular surfaces alone, in no image, are counted on map elements for the vertices of paths,
-//! on a disk around each sensor point, and on cells. All but the cells are biased: a mean over an
-//! area stands for the value at a point. What lands on surfaces that are not plain diffuse ones is
-//! left out. Each replicate has its own photons, which grow in number with its paths: paths to come
-//! read all photons so far.
+//! Photons are followed until a surface that is not specular. Those of
+//! [`LightPathClass::Caustic`](crate::lights::images::LightPathClass) are counted on the elements
+//! of an illumination map for the vertices of paths, on a disc around each sensor point, and on
+//! grid cells. All but the cells are biased: a mean over an area stands for the value at a point.
+//! Light on surfaces that are not plain diffuse ones is left out. Each replicate has its own
+//! photons, whose number grows with that of its paths: a path reads all photons before it.
 
 mod tally;
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
+use crate::cutoff::MAX_EVENTS;
 use crate::photon::batch::{PhotonBatch, trace_photons};
-use crate::photon::map::QUANTA_PER_PHOTON;
+use crate::photon::map::{ELEMENTS_ACROSS, IlluminationMap, MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::order::Way;
 use crate::photon::trace::{Lead, Source};
-use crate::settings::Settings;
+use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::stats::watch::Watch;
+use crate::world::Interaction;
 use crate::world::flight::Flight;
 use crate::world::grid_plane::GridPlane;
-use crate::world::{Interaction, World};
 use glam::DVec3;
+use quasilux_scene::sensor::Grid;
 use std::f64::consts::PI;
 use std::ops::Range;
-use std::sync::PoisonError;
 use std::sync::atomic::Ordering;
-use tally::{HiddenReceiver, Tally};
+use tally::{CausticReceiver, CausticTally};
 
-/// Photons for each path of a sensor point: so many for this many points, in these bounds.
+/// Photons for each path of a sensor point: one for this many points, within these bounds.
 const TARGETS_PER_PHOTON: u64 = 4;
 const PHOTONS_PER_PATH: [u64; 2] = [4, 4096];
-/// Elements are this share of the scene's size where nothing is asked for.
-const ELEMENTS_ACROSS: f64 = 64.0;
-/// Most parts of a facet's edge.
-const MAX_PARTS: f64 = 16384.0;
 
 /// The photons of all replicates.
 pub(crate) struct CausticMap<S> {
-    element_m: f64,
+    layout: MapLayout,
     receivers: Receivers,
-    tallies: Vec<Tally>,
-    maps: Vec<HiddenMap<S>>,
+    tallies: Vec<CausticTally<S>>,
     /// Photons of each replicate for each index.
     photons_per_path: u64,
     photons: u64,
     /// Photons and contributions of photons that were refused.
     invalid: u64,
     flux_lm: f64,
-    /// Of each target that gets no more, the photons of each replicate so far.
+    /// Photons of each replicate at which a converged target was frozen.
     ends: Vec<Option<u64>>,
-    /// Of the scene.
-    facets: usize,
 }
 
-/// Caustic illuminance on map elements, in one replicate.
-pub(crate) struct HiddenMap<S> {
-    /// By element and number of bounces.
-    illuminance_lx: Vec<(Key, S)>,
-}
-
-/// What light is kept apart: it hides on few elements, so these are found by search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Key {
-    facet: u32,
-    /// One of the facet's equal triangles, on one side.
-    element: u32,
-    /// Where bounces are limited.
-    bounces: u32,
-}
-
-/// What sensors are to flights: the same for all replicates.
+/// The sensors, the same for all replicates.
 struct Receivers {
     planes: Vec<CellReceiver>,
     discs: Vec<Disc>,
@@ -96,30 +75,32 @@ struct Disc {
 }
 
 impl<S: Spectrum> CausticMap<S> {
-    /// `None` where images show all of it, or where no bounces are wanted: it takes one at least.
+    /// `None` where images show all of it, or where no bounces are wanted: a caustic has at least
+    /// one.
     pub(crate) fn new(
         context: &Context<'_, S>,
         settings: &Settings,
         targets: &[Target],
     ) -> Option<Self> {
         context.hides.as_ref().filter(|_| context.max_bounces != Some(0))?;
-        let element_m = settings.map_element_m.unwrap_or(context.world.size_m() / ELEMENTS_ACROSS);
-        let receivers = Receivers::new(context, targets, element_m);
-        let replicates = settings.effective_replicates();
+        let constant =
+            Settings { map_reconstruction: Reconstruction::Constant, ..settings.clone() };
+        let layout = MapLayout::new(&context.world, &constant);
+        // Bounces are told apart as far as a limit on them or a listed term asks for it.
+        let layers = context.max_bounces.unwrap_or(context.listed_terms).clamp(1, MAX_EVENTS);
+        let tally = |_| CausticTally::new(&layout, layers, targets.len(), context.listed_terms);
+        let tallies = (0..settings.effective_replicates()).map(tally).collect();
+        let radius_m = settings.map_element_m.unwrap_or(context.world.size_m() / ELEMENTS_ACROSS);
         let [least, most] = PHOTONS_PER_PATH;
         Some(Self {
-            element_m,
-            receivers,
-            tallies: (0..replicates)
-                .map(|_| Tally::new(targets.len(), context.listed_terms))
-                .collect(),
-            maps: Vec::new(),
+            layout,
+            receivers: Receivers::new(context, targets, radius_m),
+            tallies,
             photons_per_path: (targets.len() as u64 / TARGETS_PER_PHOTON).clamp(least, most),
             photons: 0,
             invalid: 0,
             flux_lm: context.lights.flux_lm,
             ends: vec![None; targets.len()],
-            facets: context.world.facets.len(),
         })
     }
 
@@ -143,20 +124,18 @@ impl<S: Spectrum> CausticMap<S> {
         paths.saturating_mul(self.photons_per_path)
     }
 
-    /// Adds the photons up to `end`: how many rays they took, `None` when the observer stopped it.
-    /// Paths see them after [`Self::show`].
+    /// Adds the photons up to `end` and returns the number of rays; `None` when the observer
+    /// stopped it.
     pub(crate) fn grow(
         &mut self,
         context: &Context<'_, S>,
         end: u64,
         watch: &mut Watch<'_>,
     ) -> Option<u64> {
-        let Self { element_m, receivers, tallies, ends, .. } = &*self;
-        let tells_bounces = context.max_bounces.is_some() || context.listed_terms > 0;
+        let Self { layout, receivers, tallies, ends, .. } = &*self;
         let receiver = |r: u32| {
             let tally = &tallies[r as usize];
-            let (world, element_m) = (&context.world, *element_m);
-            HiddenReceiver { world, element_m, receivers, ends, tally, tells_bounces, invalid: 0 }
+            CausticReceiver { layout, receivers, ends, tally, invalid: 0 }
         };
         let batch = PhotonBatch {
             stream: Stream::CausticPhotons,
@@ -169,11 +148,6 @@ impl<S: Spectrum> CausticMap<S> {
         self.photons = end;
         self.invalid += counts.invalid;
         Some(counts.rays)
-    }
-
-    /// Lets paths see all photons so far.
-    pub(crate) fn show(&mut self, context: &Context<'_, S>) {
-        self.maps = self.tallies.iter().map(|tally| self.read(&context.world, tally)).collect();
     }
 
     /// Puts out what the photons gave to the targets, without what paths see of them.
@@ -200,34 +174,16 @@ impl<S: Spectrum> CausticMap<S> {
         self.ends = ends.iter().map(|end| end.map(|paths| self.photons_for(paths))).collect();
     }
 
-    fn read(&self, world: &World<S>, tally: &Tally) -> HiddenMap<S> {
-        let lm_per_quantum = self.lm_per_quantum(self.photons);
-        let landings = tally.landings.lock().unwrap_or_else(PoisonError::into_inner);
-        let illuminance_lx = landings
-            .iter()
-            .map(|(&key, quanta)| {
-                let parts = parts(world, key.facet, self.element_m);
-                let area_m2 = world.facets[key.facet as usize].area_m2() / (parts * parts);
-                let factor = lm_per_quantum / area_m2;
-                (key, S::from_channels(|c| quanta[c] as f64 * factor))
-            })
-            .collect();
-        HiddenMap { illuminance_lx }
-    }
-
-    fn lm_per_quantum(&self, photons: u64) -> f64 {
-        self.flux_lm / photons.max(1) as f64 / QUANTA_PER_PHOTON
-    }
-
     fn lx_per_quantum(&self, target: usize) -> f64 {
-        let photons = self.ends[target].unwrap_or(self.photons);
-        self.lm_per_quantum(photons) / self.receivers.areas_m2[target]
+        let photons = self.ends[target].unwrap_or(self.photons).max(1) as f64;
+        self.flux_lm / photons / QUANTA_PER_PHOTON / self.receivers.areas_m2[target]
     }
 
-    /// What the paths of one replicate read.
+    /// The map that the paths of one replicate read; `None` before the first photon.
     pub(crate) fn map(&self, replicate: u32) -> Option<CausticLookup<'_, S>> {
-        let map = self.maps.get(replicate as usize)?;
-        Some(CausticLookup { map, element_m: self.element_m })
+        let photon_lm = (self.photons > 0).then(|| self.flux_lm / self.photons as f64)?;
+        let map = self.tallies[replicate as usize].map.read(photon_lm);
+        Some(CausticLookup { layout: &self.layout, map })
     }
 
     /// What a target gets in one replicate, in lx.
@@ -244,79 +200,37 @@ impl<S: Spectrum> CausticMap<S> {
     }
 }
 
-/// Everything, landings included.
+/// All of it, the map included.
 impl<S: Spectrum> Stored for CausticMap<S> {
     fn put(&self, out: &mut Writer) {
         self.put_targets(out);
-        for tally in &self.tallies {
-            let landings = tally.landings.lock().unwrap_or_else(PoisonError::into_inner);
-            out.u64(landings.len() as u64);
-            for (Key { facet, element, bounces }, quanta) in landings.iter() {
-                [facet, element, bounces].into_iter().for_each(|number| out.u32(*number));
-                quanta.iter().for_each(|quanta| out.i64(*quanta));
-            }
-        }
+        self.tallies.iter().for_each(|tally| tally.map.put(out));
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.take_targets(from)?;
-        for tally in &mut self.tallies {
-            let landings = tally.landings.get_mut().unwrap_or_else(PoisonError::into_inner);
-            for _ in 0..from.length(3 * size_of::<u32>() + 3 * size_of::<i64>())? {
-                let (facet, element, bounces) = (from.u32()?, from.u32()?, from.u32()?);
-                if facet as usize >= self.facets {
-                    return Err(StateError::Unfit("a landing"));
-                }
-                let quanta = landings.entry(Key { facet, element, bounces }).or_default();
-                quanta.iter_mut().try_for_each(|quanta| from.add_i64(quanta))?;
-            }
-        }
-        Ok(())
+        self.tallies.iter_mut().try_for_each(|tally| tally.map.merge_from(from))
     }
 }
 
-/// The map of one replicate, as its paths read it.
+/// The map of one replicate.
 #[derive(Clone, Copy)]
 pub(crate) struct CausticLookup<'a, S> {
-    map: &'a HiddenMap<S>,
-    element_m: f64,
+    layout: &'a MapLayout,
+    map: IlluminationMap<'a, S>,
 }
 
 impl<S: Spectrum> CausticLookup<'_, S> {
-    /// Illuminances in lx at a place, of light that took at most `most_bounces`, by their number;
-    /// all in one where it does not matter.
+    /// Caustic illuminances in lx at a place by the number of bounces, up to `most_bounces`; in one
+    /// sum where bounces are not told apart.
     pub(crate) fn illuminances_lx(
         &self,
-        world: &World<S>,
         at: &Interaction,
         most_bounces: u32,
     ) -> impl Iterator<Item = (u32, S)> {
-        let first = Key::new(world, at, self.element_m, 0);
-        let last = Key { bounces: most_bounces, ..first };
-        let entries = &self.map.illuminance_lx;
-        let start = entries.partition_point(|(key, _)| *key < first);
-        let own = entries[start..].iter().take_while(move |(key, _)| *key <= last);
-        own.map(|(key, illuminance_lx)| (key.bounces, *illuminance_lx))
+        let terms = self.map.terms_lx(self.layout.locate(at), most_bounces);
+        terms.filter(|(_, lx)| lx.max_channel() > 0.0)
     }
-}
-
-impl Key {
-    fn new<S: Spectrum>(world: &World<S>, at: &Interaction, element_m: f64, bounces: u32) -> Self {
-        let parts = parts(world, at.facet, element_m);
-        let [_, b, c] = at.barycentric.map(|weight| weight * parts);
-        // Rows and columns along two edges make rhombi, of two triangles each.
-        let [row, column] = [b, c].map(|place| (place as u32).min(parts as u32 - 1));
-        let hangs = (b - f64::from(row)) + (c - f64::from(column)) > 1.0;
-        let rhombus = row * parts as u32 + column;
-        let element = rhombus * 4 + u32::from(hangs) * 2 + u32::from(at.front);
-        Self { facet: at.facet, element, bounces }
-    }
-}
-
-/// In how many parts the edges of a facet are cut.
-fn parts<S: Spectrum>(world: &World<S>, facet: u32, element_m: f64) -> f64 {
-    let longest_m = world.facets[facet as usize].longest_edge_m();
-    (longest_m / element_m).ceil().clamp(1.0, MAX_PARTS)
 }
 
 impl Receivers {
@@ -344,7 +258,7 @@ impl Receivers {
         &mut self,
         context: &Context<'_, S>,
         number: usize,
-        grid: &quasilux_scene::sensor::Grid,
+        grid: &Grid,
         cell: usize,
     ) {
         let plane = GridPlane::new(&context.world, grid);

@@ -159,7 +159,6 @@ impl<S: Spectrum> Darkroom<'_, S> {
             false => caustics.grow(self.context, photons, &mut Watch::new(&mut nobody)),
         };
         work.rays += rays.unwrap_or_default();
-        caustics.show(self.context);
         rays.is_some()
     }
 

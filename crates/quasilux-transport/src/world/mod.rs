@@ -4,6 +4,7 @@ pub(crate) mod flight;
 pub(crate) mod frame;
 pub(crate) mod grid_plane;
 pub(crate) mod panes;
+pub(crate) mod subdivision;
 pub(crate) mod vertex;
 pub(crate) mod visibility;
 

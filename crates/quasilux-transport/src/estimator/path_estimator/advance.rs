@@ -45,9 +45,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
                 return false;
             }
         }
-        if let Some(caustics) = &mut self.caustics {
-            caustics.show(self.context);
-        }
         true
     }
 

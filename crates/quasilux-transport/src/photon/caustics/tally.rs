@@ -1,75 +1,59 @@
-//! Tallies of the photons of caustics: on map elements, on disks around sensor points, on cells.
+//! Tallies of caustic photons: on elements of an illumination map, on discs around sensor points,
+//! on grid cells.
 
-use super::{CellReceiver, Key, Receivers};
+use super::{CellReceiver, Receivers};
 use crate::lights::images::LightPathClass;
-use crate::photon::map::QUANTA_PER_PHOTON;
+use crate::photon::map::{MapLayout, MapTally, QUANTA_PER_PHOTON};
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
+use crate::world::Interaction;
 use crate::world::flight::Flight;
-use crate::world::{Interaction, World};
-use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicI64, Ordering};
-use std::sync::{Mutex, PoisonError};
 
-/// Photons counted in one replicate, in quanta.
-pub(super) struct Tally {
-    pub(super) landings: Mutex<BTreeMap<Key, [i64; 3]>>,
-    /// By number of bounces, where terms are listed, and by target.
+/// Photons counted in one replicate.
+pub(super) struct CausticTally<S> {
+    pub(super) map: MapTally<S>,
+    /// Quanta by number of bounces, where terms are listed, and by target.
     pub(super) targets: Vec<Vec<AtomicI64>>,
 }
 
-/// Counts the photons that no image shows.
-pub(super) struct HiddenReceiver<'a, S> {
-    pub(super) world: &'a World<S>,
-    pub(super) element_m: f64,
+/// Counts the photons of [`LightPathClass::Caustic`].
+pub(super) struct CausticReceiver<'a, S> {
+    pub(super) layout: &'a MapLayout,
     pub(super) receivers: &'a Receivers,
     pub(super) ends: &'a [Option<u64>],
-    pub(super) tally: &'a Tally,
-    pub(super) tells_bounces: bool,
+    pub(super) tally: &'a CausticTally<S>,
     /// Contributions that the tally refused.
     pub(super) invalid: u64,
 }
 
-impl Tally {
-    pub(super) fn new(targets: usize, listed_terms: u32) -> Self {
+impl<S: Spectrum> CausticTally<S> {
+    pub(super) fn new(layout: &MapLayout, layers: u32, targets: usize, listed_terms: u32) -> Self {
         let zeros = || (0..targets).map(|_| AtomicI64::new(0)).collect();
         let targets = (0..=listed_terms).map(|_| zeros()).collect();
-        Self { landings: Mutex::new(BTreeMap::new()), targets }
-    }
-
-    /// Adds to a target; 1 where the contribution was refused.
-    fn count(&self, target: usize, photons: f64, bounces: u32) -> u64 {
-        let Some(quanta) = checked_quanta(photons, QUANTA_PER_PHOTON) else { return 1 };
-        let term = (self.targets.len() - 1).min(bounces as usize);
-        self.targets[term][target].fetch_add(quanta, Ordering::Relaxed);
-        0
-    }
-
-    /// Adds to an element, channel by channel; how many of them were refused.
-    fn land<S: Spectrum>(&self, key: Key, weight: S) -> u64 {
-        let mut landings = self.landings.lock().unwrap_or_else(PoisonError::into_inner);
-        let counts = landings.entry(key).or_default();
-        let mut refused = 0;
-        for (channel, count) in counts.iter_mut().enumerate().take(S::CHANNELS) {
-            match checked_quanta(weight.channel(channel), QUANTA_PER_PHOTON) {
-                Some(quanta) => *count += quanta,
-                None => refused += 1,
-            }
-        }
-        refused
+        Self { map: MapTally::new(layout, 1.0, layers), targets }
     }
 }
 
-impl<S> HiddenReceiver<'_, S> {
+impl<S> CausticReceiver<'_, S> {
+    /// Adds to a target that is not frozen.
     fn count(&mut self, target: usize, photons: f64, bounces: u32) {
-        if self.ends[target].is_none() {
-            self.invalid += self.tally.count(target, photons, bounces);
+        if self.ends[target].is_some() {
+            return;
+        }
+        let terms = &self.tally.targets;
+        match checked_quanta(photons, QUANTA_PER_PHOTON) {
+            Some(quanta) => {
+                let term = &terms[(terms.len() - 1).min(bounces as usize)];
+                term[target].fetch_add(quanta, Ordering::Relaxed);
+            }
+            None => self.invalid += 1,
         }
     }
 }
 
-impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
+impl<S: Spectrum> PhotonReceiver<S> for CausticReceiver<'_, S> {
     const SPECULAR_ONLY: bool = true;
 
     fn flight(&mut self, _: &Flight, _: S, _: u32) {}
@@ -107,12 +91,9 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
         bounces: u32,
         path_class: LightPathClass,
     ) {
-        if path_class != LightPathClass::Caustic {
-            return;
+        if path_class == LightPathClass::Caustic {
+            self.invalid += self.tally.map.add(&self.layout.locate(at), weight, bounces);
         }
-        let bounces = if self.tells_bounces { bounces } else { 0 };
-        let key = Key::new(self.world, at, self.element_m, bounces);
-        self.invalid += self.tally.land(key, weight);
     }
 
     fn finish(self) -> ReceiverCounts {
@@ -123,17 +104,22 @@ impl<S: Spectrum> PhotonReceiver<S> for HiddenReceiver<'_, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use quasilux_scene::Rgb;
+    use crate::photon::map::fixture;
+    use crate::settings::Settings;
 
     #[test]
     fn invalid_photons_are_refused_and_counted() {
-        let (tally, key) = (Tally::new(1, 0), Key { facet: 0, element: 0, bounces: 0 });
+        let layout = MapLayout::new(&fixture::square(), &Settings::default());
+        let tally = CausticTally::<f64>::new(&layout, 1, 1, 0);
+        let receivers = Receivers { planes: Vec::new(), discs: Vec::new(), areas_m2: vec![1.0] };
+        let (layout, receivers, tally, ends) = (&layout, &receivers, &tally, &[None]);
+        let mut receiver = CausticReceiver { layout, receivers, ends, tally, invalid: 0 };
         for bad in [f64::NAN, f64::INFINITY, -1.0] {
-            assert_eq!((tally.count(0, bad, 0), tally.land(key, bad)), (1, 1), "{bad}");
+            receiver.count(0, bad, 0);
         }
-        assert_eq!(tally.land(key, Rgb([1.0, f64::NAN, -1.0])), 2);
-        assert_eq!(tally.targets[0][0].load(Ordering::Relaxed), 0);
-        let one = QUANTA_PER_PHOTON as i64;
-        assert_eq!(tally.landings.into_inner().unwrap()[&key], [one, 0, 0]);
+        assert_eq!((receiver.invalid, tally.targets[0][0].load(Ordering::Relaxed)), (3, 0));
+        receiver.count(0, 1.0, 0);
+        let counted = tally.targets[0][0].load(Ordering::Relaxed);
+        assert_eq!((receiver.invalid, counted), (3, QUANTA_PER_PHOTON as i64));
     }
 }

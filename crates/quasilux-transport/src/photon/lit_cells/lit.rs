@@ -5,11 +5,11 @@
 //! near, or its beam so narrow, that looks may miss what lies between them. It is a picture to draw
 //! places by, not an estimate: what it has wrong costs variance.
 
-use super::cell::Cell;
 use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::lights::{Incidence, PointLikes};
 use crate::spectrum::Spectrum;
+use crate::world::subdivision::SubTriangle;
 use glam::DVec3;
 use quasilux_scene::Light;
 
@@ -24,6 +24,9 @@ const LARGEST: [f64; 2] = [0.5, 0.2];
 const BEAM: f64 = 6.0;
 /// No cell has edges shorter than this power of 1/2 of the facet's.
 const DEEPEST: u32 = 24;
+/// An order of the [`SubTriangle::quarters`] in which successive ones share an edge, but for the
+/// last.
+const NEIGHBOURS: [usize; 4] = [0, 3, 1, 2];
 /// Looks at corners are this share of the way to the centroid: other surfaces touch there.
 const INWARD: f64 = 1.0 / 1024.0;
 /// The share of its mean intensity that a light is taken to have where its table has less, and that
@@ -47,7 +50,7 @@ pub(super) struct Beam<'s, 'a, S> {
 
 /// A cell, and what lands at its corners.
 pub(super) struct LitCell {
-    pub(super) cell: Cell,
+    pub(super) cell: SubTriangle,
     pub(super) facet: u32,
     pub(super) light: u32,
     pub(super) front: bool,
@@ -136,7 +139,7 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
             rays: 0,
             found: Vec::new(),
         };
-        let whole = Cell::WHOLE;
+        let whole = SubTriangle::WHOLE;
         let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let short_looks = corners.map(|corner| view.look(whole, corner));
         view.cut(whole, short_looks, 0);
@@ -146,14 +149,13 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
 
 impl<S: Spectrum> View<'_, '_, '_, S> {
     /// Keeps a cell or cuts it.
-    fn cut(&mut self, cell: Cell, corners: [Look; 3], depth: u32) {
+    fn cut(&mut self, cell: SubTriangle, corners: [Look; 3], depth: u32) {
         let middles = [[0.0, 0.5, 0.5], [0.5, 0.0, 0.5], [0.5, 0.5, 0.0]];
         let middles = middles.map(|middle| self.look(cell, middle));
         let area_m2 = self.area_m2 * cell.area_share();
         if depth < DEEPEST && self.wants_cut(cell, area_m2, &corners, &middles) {
-            for (part, short_looks) in cell.parts().into_iter().zip(Cell::split(corners, middles)) {
-                self.cut(part, short_looks, depth + 1);
-            }
+            let (parts, looks) = (cell.quarters(), SubTriangle::quarter_corners(corners, middles));
+            NEIGHBOURS.into_iter().for_each(|i| self.cut(parts[i], looks[i], depth + 1));
             return;
         }
         self.found.push(LitCell {
@@ -169,7 +171,7 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
 
     fn wants_cut(
         &self,
-        cell: Cell,
+        cell: SubTriangle,
         area_m2: f64,
         corners: &[Look; 3],
         middles: &[Look; 3],
@@ -183,11 +185,11 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
     }
 
     /// Whether much light may land between the looks.
-    fn may_hide(&self, cell: Cell, area_m2: f64) -> bool {
+    fn may_hide(&self, cell: SubTriangle, area_m2: f64) -> bool {
         let Beam { position, largest_cd, largest_angle, all_lm, .. } = *self.beam;
         let place = |weights| self.beam.context.world.facets[self.facet as usize].point(weights);
         let edge_m = self.edge_m * cell.area_share().sqrt();
-        let to_light = position - place(cell.place([1.0 / 3.0; 3]));
+        let to_light = position - place(cell.point([1.0 / 3.0; 3]));
         let height_m = self.n.dot(to_light);
         // No corner is farther from the centroid than two thirds of the longest edge.
         let nearest_m = (to_light.length() - edge_m * (2.0 / 3.0)).max(height_m);
@@ -195,8 +197,8 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         edge_m > largest_angle * nearest_m && most_lx * area_m2 * self.most_kept > NOTABLE * all_lm
     }
 
-    fn look(&mut self, cell: Cell, weights: [f64; 3]) -> Look {
-        let weights = cell.place(weights).map(|w| w + (1.0 / 3.0 - w) * INWARD);
+    fn look(&mut self, cell: SubTriangle, weights: [f64; 3]) -> Look {
+        let weights = cell.point(weights).map(|w| w + (1.0 / 3.0 - w) * INWARD);
         let world = &self.beam.context.world;
         let at = world.interaction_on(self.facet, self.front, weights);
         let from = world.ray_origin(&at);

@@ -19,7 +19,6 @@
 //!
 //! Read on at `lit` for the picture, at `pilot` for when it is used.
 
-mod cell;
 mod lit;
 #[cfg(test)]
 mod tests;
@@ -31,7 +30,7 @@ use crate::photon::receiver::Arrival;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use cell::Cell;
+use crate::world::subdivision::SubTriangle;
 use lit::{Beam, LitCell};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::warp::sample_linear_triangle;
@@ -61,7 +60,7 @@ pub(crate) struct LitCells {
 /// A cell with a density for places in it.
 #[derive(Clone, Copy)]
 struct DrawnCell {
-    cell: Cell,
+    cell: SubTriangle,
     facet: u32,
     light: u32,
     front: bool,
@@ -200,7 +199,7 @@ impl LitCells {
         };
         let weights = sample_linear_triangle(drawn.density, u);
         let density_lm_m2: f64 = drawn.density.iter().zip(weights).map(|(d, w)| d * w).sum();
-        let at = context.world.interaction_on(drawn.facet, drawn.front, drawn.cell.place(weights));
+        let at = context.world.interaction_on(drawn.facet, drawn.front, drawn.cell.point(weights));
         let light = context.lights.pointlikes.get(drawn.light as usize)?;
         let incidence = Incidence::new(light, context.world.ray_origin(&at).position(), at.n)?;
         // E over the density of the place (m^-2), which is density_lm_m2 over the sum of all

@@ -8,7 +8,7 @@ use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::{Bsdf, Material, Mesh, Rgb, Scene};
 
 /// A horizontal rectangle of 2 m by 1 m from the origin, of two triangles.
-pub(super) fn square() -> World<f64> {
+pub(in crate::photon) fn square() -> World<f64> {
     let bsdf = Bsdf::Diffuse(Diffuse { reflectance: Rgb::grey(0.5) });
     let scene = Scene {
         mesh: Mesh {
@@ -28,7 +28,7 @@ pub(super) fn square() -> World<f64> {
 
 /// A place anywhere on the rectangle, on either side; even in each triangle, which have the same
 /// area.
-pub(super) fn at(world: &World<f64>, numbers: &mut Numbers) -> Interaction {
+pub(in crate::photon) fn at(world: &World<f64>, numbers: &mut Numbers) -> Interaction {
     let facet = u32::from(numbers.next() < 0.5);
     let barycentric = sample_triangle([numbers.next(), numbers.next()]);
     let front = numbers.next() < 0.5;
@@ -39,10 +39,10 @@ pub(super) fn at(world: &World<f64>, numbers: &mut Numbers) -> Interaction {
 }
 
 /// Numbers in [0, 1) from a counter (Steele, Lea and Flood 2014, SplitMix64).
-pub(super) struct Numbers(pub(super) u64);
+pub(in crate::photon) struct Numbers(pub(in crate::photon) u64);
 
 impl Numbers {
-    pub(super) fn next(&mut self) -> f64 {
+    pub(in crate::photon) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,9 +1,9 @@
 //! Which element a place belongs to.
 
-use super::subdivision::{InCell, cut, split};
 use crate::codec::Writer;
 use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
+use crate::world::subdivision::{InCell, locate_in_grid, locate_in_quarters};
 use crate::world::{Facet, Interaction, World};
 
 /// Elements a metre of scene size get where nothing is asked for.
@@ -132,7 +132,7 @@ impl MapLayout {
     /// The element under a place on a facet that keeps illuminance, on the side that was hit.
     pub(crate) fn locate(&self, at: &Interaction) -> Place {
         let facet = self.facets[at.facet as usize];
-        let part = cut(at.barycentric, facet.parts);
+        let part = locate_in_grid(at.barycentric, facet.parts);
         let (leaf, cell) = self.trees.descend(facet.first as usize + part.number, part);
         // Sides that see no light lie together, so that they take no memory.
         let element = if at.front { leaf } else { self.trees.leaves + leaf };
@@ -153,7 +153,7 @@ impl Trees {
         let Some(&root) = self.roots.get(tree) else { return (tree, at) };
         let mut entry = root;
         while entry & SPLIT != 0 {
-            let child = split(at.weights);
+            let child = locate_in_quarters(at.weights);
             entry = self.lists[(entry & !SPLIT) as usize][child.number];
             at = InCell { step: at.step * child.step, ..child };
         }

@@ -13,11 +13,10 @@
 
 mod blocks;
 #[cfg(test)]
-mod fixture;
+pub(super) mod fixture;
 mod layout;
 mod reconstruction;
 mod refine;
-mod subdivision;
 mod tally;
 
 pub(crate) use layout::{

@@ -10,7 +10,6 @@
 
 use super::blocks::Blocks;
 use super::layout::{MapLayout, Place};
-use super::subdivision::split;
 use super::tally::most_bounces;
 use crate::context::{Context, Stream};
 use crate::lights::images::LightPathClass;
@@ -24,6 +23,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
+use crate::world::subdivision::{SubTriangle, locate_in_quarters};
 use std::ops::Range;
 
 /// Pilot photons of the first round; each further round has as many as all before it.
@@ -111,17 +111,13 @@ impl<S: Spectrum> PhotonReceiver<S> for Pilot<'_> {
 
 /// The part of its element that holds a place.
 fn part(place: &Place) -> usize {
-    let outer = split(place.barycentric);
-    4 * outer.number + split(outer.weights).number
+    let outer = locate_in_quarters(place.barycentric);
+    4 * outer.number + locate_in_quarters(outer.weights).number
 }
 
 /// Barycentric weights of the centre of a part.
 fn centre(part: usize) -> [f64; 3] {
-    let parent = |child: usize, weights: [f64; 3]| match child {
-        3 => weights.map(|weight| 0.5 - 0.5 * weight),
-        corner => std::array::from_fn(|i| 0.5 * (weights[i] + f64::from(u8::from(i == corner)))),
-    };
-    parent(part / 4, parent(part % 4, [1.0 / 3.0; 3]))
+    SubTriangle::WHOLE.quarters()[part / 4].quarters()[part % 4].point([1.0 / 3.0; 3])
 }
 
 /// Leaves worth splitting, in their order.

@@ -14,6 +14,7 @@ use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
 use std::marker::PhantomData;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Photons are counted in so many quanta each: 2^44 photons fit a counter.
 pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
@@ -22,18 +23,18 @@ pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
 /// bounces. Elements where nothing lands take next to no memory; others take 4 bytes for each
 /// moment and channel in each layer that counts something there.
 pub(crate) struct MapTally<S> {
-    /// Layer after layer.
-    sums: Blocks,
+    /// The first is for photons that bounced once, the last for all that bounced as often as there
+    /// are layers or more. A layer is allocated with its first photon.
+    layers: Vec<OnceLock<Blocks>>,
     /// Counters of a layer.
-    layer: usize,
-    /// The first is for photons that bounced once, the last for all that bounced so often or more.
-    layers: u32,
+    counters: usize,
     reconstruction: Reconstruction,
     quanta_per_photon: f64,
     channels: PhantomData<S>,
 }
 
 /// The illuminance that a tally stands for when each photon carries a certain flux.
+#[derive(Clone, Copy)]
 pub(crate) struct IlluminationMap<'m, S> {
     tally: &'m MapTally<S>,
     lm_per_quantum: f64,
@@ -58,21 +59,26 @@ impl<S: Spectrum> MapTally<S> {
     /// For photons that weigh `lightest` or more, a power of two, in so many layers, one at least.
     pub(crate) fn new(layout: &MapLayout, lightest: f64, layers: u32) -> Self {
         let reconstruction = layout.reconstruction();
-        let layer = layout.len() * reconstruction.moments() * S::CHANNELS;
-        let quanta_per_photon = QUANTA_PER_PHOTON / lightest;
-        let sums = Blocks::new(layer * layers as usize);
-        Self { sums, layer, layers, reconstruction, quanta_per_photon, channels: PhantomData }
+        Self {
+            layers: (0..layers).map(|_| OnceLock::new()).collect(),
+            counters: layout.len() * reconstruction.moments() * S::CHANNELS,
+            reconstruction,
+            quanta_per_photon: QUANTA_PER_PHOTON / lightest,
+            channels: PhantomData,
+        }
     }
 
     /// Counts a photon with this colour, which bounced so often, once at least; the number of its
     /// moments that were refused, which are not in the sums.
     pub(crate) fn add(&self, place: &Place, weight: S, bounces: u32) -> u64 {
-        let first = self.first(place) + (bounces.min(self.layers) - 1) as usize * self.layer;
+        let layer = &self.layers[(bounces as usize).min(self.layers.len()) - 1];
+        let sums = layer.get_or_init(|| Blocks::new(self.counters));
+        let first = self.first(place);
         let mut refused = 0;
         match self.reconstruction {
             Reconstruction::Constant => {
                 for channel in 0..S::CHANNELS {
-                    refused += self.count(first + channel, weight.channel(channel));
+                    refused += self.count(sums, first + channel, weight.channel(channel));
                 }
             }
             Reconstruction::Linear => {
@@ -81,7 +87,7 @@ impl<S: Spectrum> MapTally<S> {
                 for channel in 0..S::CHANNELS {
                     for (corner, share) in shares.into_iter().enumerate() {
                         let moment = weight.channel(channel) * share;
-                        refused += self.count(first + 3 * channel + corner, moment);
+                        refused += self.count(sums, first + 3 * channel + corner, moment);
                     }
                 }
             }
@@ -96,14 +102,24 @@ impl<S: Spectrum> MapTally<S> {
 
     /// Adds to a counter; 1 where the moment was refused.
     #[inline]
-    fn count(&self, counter: usize, photons: f64) -> u64 {
+    fn count(&self, sums: &Blocks, counter: usize, photons: f64) -> u64 {
         match checked_quanta(photons, self.quanta_per_photon) {
             Some(quanta) => {
-                self.sums.add(counter, quanta.cast_unsigned());
+                sums.add(counter, quanta.cast_unsigned());
                 0
             }
             None => 1,
         }
+    }
+
+    /// Layers of photons with at most this many bounces.
+    fn layers_up_to(&self, most_bounces: u32) -> Range<usize> {
+        0..self.layers.len().min(most_bounces as usize)
+    }
+
+    /// A counter, summed over layers.
+    fn quanta(&self, layers: Range<usize>, counter: usize) -> u64 {
+        self.layers[layers].iter().filter_map(OnceLock::get).map(|sums| sums.get(counter)).sum()
     }
 
     fn first(&self, place: &Place) -> usize {
@@ -113,11 +129,23 @@ impl<S: Spectrum> MapTally<S> {
 
 impl<S> Stored for MapTally<S> {
     fn put(&self, out: &mut Writer) {
-        self.sums.put(out);
+        let used =
+            || (0_u32..).zip(&self.layers).filter_map(|(at, layer)| Some((at, layer.get()?)));
+        out.u64(used().count() as u64);
+        used().for_each(|(number, sums)| {
+            out.u32(number);
+            sums.put(out);
+        });
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.sums.merge_from(from)
+        for _ in 0..from.length(size_of::<u32>())? {
+            let layer = self.layers.get_mut(from.u32()? as usize);
+            let layer = layer.ok_or(StateError::Unfit("an illumination map"))?;
+            layer.get_or_init(|| Blocks::new(self.counters));
+            layer.get_mut().map_or(Ok(()), |sums| sums.merge_from(from))?;
+        }
+        Ok(())
     }
 }
 
@@ -125,7 +153,7 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
     /// Illuminance in lx at a place, by photons with so many bounces at most; the last layer counts
     /// whole. Linear ones may be negative in places.
     pub(crate) fn illuminance_lx(&self, place: &Place, most_bounces: u32) -> S {
-        self.of_layers_lx(place, 0..self.tally.layers.min(most_bounces))
+        self.of_layers_lx(place, self.tally.layers_up_to(most_bounces))
     }
 
     /// The parts of it by the number of bounces of the photons, the last of so many and more.
@@ -134,8 +162,8 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
         place: Place,
         most_bounces: u32,
     ) -> impl Iterator<Item = (u32, S)> {
-        (0..self.tally.layers.min(most_bounces))
-            .map(move |layer| (layer + 1, self.of_layers_lx(&place, layer..layer + 1)))
+        let layers = self.tally.layers_up_to(most_bounces);
+        layers.map(move |layer| (layer as u32 + 1, self.of_layers_lx(&place, layer..layer + 1)))
     }
 
     /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order
@@ -146,7 +174,7 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
     /// 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre and 3 at corners, for `E[b_i
     /// b_j]` of a uniform place is 1/6 and 1/12.
     pub(crate) fn noise_lx(&self, place: &Place, most_bounces: u32) -> S {
-        let MapTally { sums, layer, layers, reconstruction, .. } = self.tally;
+        let MapTally { reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
         let moments = reconstruction.moments();
         let photon_lx = self.lm_per_quantum * QUANTA_PER_PHOTON / place.area_m2;
@@ -158,22 +186,18 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
             }
         };
         S::from_channels(|channel| {
-            let counters = || first + moments * channel..first + moments * (channel + 1);
-            let of_layer = |number: u32| counters().map(move |at| number as usize * layer + at);
-            let layers = 0..most_bounces.min(*layers);
-            let quanta: u64 = layers.flat_map(of_layer).map(|at| sums.get(at)).sum();
+            let counters = first + moments * channel..first + moments * (channel + 1);
+            let layers = self.tally.layers_up_to(most_bounces);
+            let quanta: u64 = counters.map(|at| self.tally.quanta(layers.clone(), at)).sum();
             (quanta as f64 / QUANTA_PER_PHOTON * kernel).sqrt() * photon_lx
         })
     }
 
     /// Quanta are added before all else: their sum has the bits of one layer for all.
-    fn of_layers_lx(&self, place: &Place, layers: Range<u32>) -> S {
-        let MapTally { sums, layer, reconstruction, .. } = self.tally;
+    fn of_layers_lx(&self, place: &Place, layers: Range<usize>) -> S {
+        let MapTally { reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
-        let of_layer = |number: u32, counter: usize| sums.get(number as usize * layer + counter);
-        let sum = |number: usize| -> f64 {
-            layers.clone().map(|layer| of_layer(layer, first + number)).sum::<u64>() as f64
-        };
+        let sum = |number: usize| self.tally.quanta(layers.clone(), first + number) as f64;
         let lx_per_quantum = self.lm_per_quantum / place.area_m2;
         S::from_channels(|channel| {
             let quanta = match reconstruction {
