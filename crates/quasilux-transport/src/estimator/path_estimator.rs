@@ -11,8 +11,9 @@ use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::{Exact, exact};
+use crate::estimator::pilot::Request;
 use crate::estimator::selection::{Decision, decide};
-use crate::path::end::PathEnd;
+use crate::path::end::{EndPilots, PathEnd, Prepared};
 use crate::path::lobes;
 use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::path::wave::PathWave;
@@ -98,11 +99,12 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
         let caustics = CausticMap::new(context, settings, &targets);
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
-        let Decision { light_vertices, frozen, photons, rays } =
-            decide(context, (settings, replicates), (&targets, &exact), quantum, watch);
+        let request = Request { settings, replicates, targets: &targets, exact: &exact, quantum };
+        let Decision { light_vertices, frozen, photons, rays } = decide(context, &request, watch);
         work.rays += rays;
-        let (end, photons) =
-            PathEnd::prepare(context, settings, &targets, (frozen, photons), watch);
+        let pilots = EndPilots { frozen, photons };
+        let Prepared { end, counts: photons } =
+            PathEnd::prepare(context, settings, &targets, pilots, watch);
         Self {
             context,
             scene,

@@ -10,16 +10,13 @@
 //! do not find the light that photons do.
 
 use crate::context::Context;
-use crate::estimator::connection::{self, Alone, LightVertexConnections};
-use crate::estimator::control_variate::{Choice, Outcome, PathTrial};
-use crate::estimator::exact::Exact;
-use crate::estimator::pilot::{ErrorTarget, PilotCost, Sample, short_looks};
-use crate::path::frozen_map::FrozenMap;
+use crate::estimator::connection::{ConnectionPilots, LightVertexConnections, PathsAlone};
+use crate::estimator::control_variate::{MapPilot, Outcome, PathPilot, PathTrial};
+use crate::estimator::pilot::{ErrorTarget, PilotCost, Request, Sample, Trial};
+use crate::path::frozen_map::TracedMap;
 use crate::photon::counts::PhotonCounts;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
-use crate::stats::tally::Quantum;
-use crate::stats::targets::Target;
 use crate::stats::watch::Watch;
 use quasilux_sampling::Sequence;
 
@@ -33,7 +30,7 @@ const LATER: f64 = 0.5;
 pub(crate) struct Decision<S> {
     pub(crate) light_vertices: Option<LightVertexConnections>,
     /// With its photons.
-    pub(crate) frozen: Option<(FrozenMap<S>, PhotonCounts)>,
+    pub(crate) frozen: Option<TracedMap<S>>,
     /// Photons of a map that was not taken, if they left the lights.
     pub(crate) photons: Option<PhotonCounts>,
     /// Rays of all trials, and of what joined photons need beforehand; but for those of photons
@@ -47,39 +44,34 @@ impl<S> Default for Decision<S> {
     }
 }
 
-/// Tries what the settings leave open, and decides, for so many replicates.
+/// Tries the estimators that the settings leave open, and decides.
 pub(crate) fn decide<S: Spectrum>(
     context: &Context<'_, S>,
-    (settings, replicates): (&Settings, u32),
-    (targets, exact): (&[Target], &[Exact]),
-    quantum: Quantum,
+    request: &Request<'_>,
     watch: &mut Watch<'_>,
 ) -> Decision<S> {
+    let settings = request.settings;
     let is_possible = settings.estimator == EstimatorKind::Bidirectional
         && settings.max_bounces != Some(0)
-        && !targets.is_empty();
+        && !request.targets.is_empty();
     if !is_possible {
         return Decision::default();
     }
     let connections = settings.connections();
-    let tried = Tried::new(context, settings, (targets, exact), quantum);
+    let tried = Tried::new(context, request);
     let mut rays = tried.paths.trial.rays as u64;
     let tries_map = connections != Some(true);
-    let choice = if tries_map { tried.map(context, settings, watch) } else { None };
+    let choice = if tries_map { tried.map_pilot(context, settings, watch) } else { None };
     let of_plain = tried.rays(&tried.plain());
     let of_map = choice.as_ref().map_or(f64::INFINITY, |choice| tried.rays(&choice.pilot_cost()));
     let best = of_plain.min(of_map);
     let misses_light = choice.as_ref().is_some_and(|choice| choice.misses_light);
     let finds_light = tried.paths.finds_light && !misses_light;
     if connections.unwrap_or(best > TRYING_TO_JOIN || !finds_light) {
-        let given = (targets, exact, &tried.sample);
-        let ways = connection::Ways::try_all(context, settings, given, quantum, watch);
-        rays += ways.rays;
-        let alone = Alone { trial: &tried.paths.trial, part: tried.part(best), finds_light };
-        let kept = (quantum, replicates);
-        if let Some(light_vertices) =
-            ways.choose(context, settings, &tried.sample, &alone, (targets, kept))
-        {
+        let pilots = ConnectionPilots::new(context, request, &tried.sample, watch);
+        rays += pilots.rays;
+        let alone = PathsAlone { trial: &tried.paths.trial, part: tried.part(best), finds_light };
+        if let Some(light_vertices) = pilots.select(context, request, &tried.sample, &alone) {
             rays += light_vertices.rays;
             let photons = choice.and_then(|choice| choice.give_up(&mut rays));
             return Decision { light_vertices: Some(light_vertices), frozen: None, photons, rays };
@@ -87,7 +79,7 @@ pub(crate) fn decide<S: Spectrum>(
     }
     match choice {
         Some(choice) if connections == Some(false) || of_map < of_plain => {
-            let importance = tried.importance_per_lx(context, (targets, exact), quantum, &mut rays);
+            let importance = tried.importance_per_lx(context, request, &mut rays);
             let frozen = choice.freeze(context, importance, watch);
             Decision { frozen: Some(frozen), rays, ..Decision::default() }
         }
@@ -105,28 +97,24 @@ struct Tried<S> {
     wanted: ErrorTarget,
     /// Variances of these paths in a run.
     noted: Vec<f64>,
-    /// Of paths alone, and their rays in a trial.
-    plain: (Vec<f64>, f64),
+    /// Of paths that end by Russian roulette, on no map.
+    plain: Outcome,
 }
 
 impl<S: Spectrum> Tried<S> {
-    fn new(
-        context: &Context<'_, S>,
-        settings: &Settings,
-        (targets, exact): (&[Target], &[Exact]),
-        quantum: Quantum,
-    ) -> Self {
-        let sample = Sample::new(targets, exact);
-        let paths = PathTrial::new(context, &sample, quantum);
+    fn new(context: &Context<'_, S>, request: &Request<'_>) -> Self {
+        let settings = request.settings;
+        let sample = Sample::new(request.targets, request.exact);
+        let paths = PathTrial::new(context, &sample, request.quantum);
         let trial = &paths.trial;
         let found_lx = |(target, exact_lx): (usize, &f64)| exact_lx + trial.moments(target).mean;
         let means_lx = sample.exact_lx.iter().enumerate().map(found_lx).collect();
         let wanted = ErrorTarget::new(settings, &sample, means_lx);
         let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
         let noted: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
-        let Outcome { of_chances, rays } = paths.walks.alone(&wanted);
-        let plain = noted.iter().zip(of_chances).map(|(v, of_chances)| v + of_chances).collect();
-        Self { sample, paths, wanted, noted, plain: (plain, rays) }
+        let Outcome { variances, rays } = paths.walks.alone(&wanted);
+        let variances = noted.iter().zip(variances).map(|(v, more)| v + more).collect();
+        Self { sample, paths, wanted, noted, plain: Outcome { variances, rays } }
     }
 
     fn noted(&self) -> PilotCost<'_> {
@@ -134,7 +122,7 @@ impl<S: Spectrum> Tried<S> {
     }
 
     fn plain(&self) -> PilotCost<'_> {
-        PilotCost::of_paths(&self.plain.0, self.plain.1)
+        PilotCost::of_paths(&self.plain.variances, self.plain.rays)
     }
 
     /// Of a run that keeps a promise.
@@ -143,14 +131,15 @@ impl<S: Spectrum> Tried<S> {
     }
 
     /// A map that these paths would end on.
-    fn map(
+    fn map_pilot(
         &self,
         context: &Context<'_, S>,
         settings: &Settings,
         watch: &mut Watch<'_>,
-    ) -> Option<Choice<S>> {
-        let promises = (&self.paths.walks, &self.noted(), &self.plain());
-        Choice::new(context, settings, promises, &self.wanted, watch)
+    ) -> Option<MapPilot<S>> {
+        let (recorded, alone) = (&self.noted(), &self.plain());
+        let paths = PathPilot { records: &self.paths.walks, recorded, alone };
+        MapPilot::new(context, settings, &paths, &self.wanted, watch)
     }
 
     /// So many rays over those of paths like these.
@@ -163,18 +152,18 @@ impl<S: Spectrum> Tried<S> {
     fn importance_per_lx(
         &self,
         context: &Context<'_, S>,
-        (targets, exact): (&[Target], &[Exact]),
-        quantum: Quantum,
+        request: &Request<'_>,
         rays: &mut u64,
     ) -> Vec<f64> {
+        let &Request { targets, exact, quantum, .. } = request;
         if self.sample.step == 1 {
             return (0..targets.len())
                 .map(|target| self.wanted.importance_per_lx(target))
                 .collect();
         }
-        let (looks_lx, of_looks) = short_looks(context, targets, quantum);
-        *rays += of_looks;
-        let found = exact.iter().zip(&looks_lx);
+        let trial = Trial::of_one_replicate(context, targets, quantum);
+        *rays += trial.rays as u64;
+        let found = exact.iter().zip(&trial.lx);
         found.map(|(exact, lx)| self.wanted.importance_of(exact.sum_lx() + lx)).collect()
     }
 }

@@ -5,8 +5,9 @@ use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
 use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::exact;
+use crate::estimator::pilot::Request;
 use crate::estimator::selection::{Decision, decide};
-use crate::path::end::PathEnd;
+use crate::path::end::{EndPilots, PathEnd};
 use crate::path::sections::Section;
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
@@ -59,28 +60,30 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         let all = targets(scene);
         let count = all.len().min(TARGETS);
         let number = |i| (2 * i + 1) * all.len() / (2 * count);
-        let looked_at = || (0..count).map(number).map(|number| (number, all[number]));
+        let numbers: Vec<usize> = (0..count).map(number).collect();
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
         let exact = exact(context, &all, &mut 0);
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
-        let Decision { light_vertices, frozen, .. } =
-            decide(context, (settings, 1), (&all, &exact), quantum, &mut watch);
-        let mut light_vertices =
-            light_vertices.map(|light_vertices| light_vertices.of_some(context, looked_at()));
+        let (targets, exact) = (all.as_slice(), exact.as_slice());
+        let request = Request { settings, replicates: 1, targets, exact, quantum };
+        let Decision { light_vertices, frozen, .. } = decide(context, &request, &mut watch);
+        let mut light_vertices = light_vertices
+            .map(|light_vertices| light_vertices.with_targets(context, &numbers, targets));
         if let Some(light_vertices) = &mut light_vertices {
             // As many photons as say how much light they find.
             light_vertices.grow(context, JOINED_SAMPLES, &mut watch);
         }
-        let targets = looked_at().enumerate().map(|(i, (number, target))| PathTarget {
+        let targets = numbers.iter().enumerate().map(|(i, &number)| PathTarget {
             number: number as u64,
-            target,
+            target: all[number],
             given_lx: exact[number].sum_lx()
                 + light_vertices.as_ref().map_or(0.0, |light_vertices| light_vertices.lx(0, i)),
         });
         let mut targets: Vec<PathTarget> = targets.collect();
-        let (mut end, _) = PathEnd::prepare(context, &one, &all, (frozen, None), &mut watch);
+        let pilots = EndPilots { frozen, photons: None };
+        let mut end = PathEnd::prepare(context, &one, &all, pilots, &mut watch).end;
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(context, photons, |_| None, &mut watch);
         let caustics = Self::caustics(context, &one, &targets, &mut watch);
@@ -101,7 +104,7 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
     pub(super) fn beside(&self, whole_lx: &[f64]) -> impl Iterator<Item = BesideSource<'_, S>> {
         let walks = self.light_vertices.iter().flat_map(move |light_vertices| {
             // Of a target that is nearly dark, little is known but what was predicted.
-            let known = whole_lx.iter().zip(light_vertices.foretold_lx());
+            let known = whole_lx.iter().zip(light_vertices.predicted_lx());
             let whole_lx: Vec<f64> = known.map(|(lx, predicted)| lx.max(0.5 * predicted)).collect();
             [Role::Counted, Role::LightVertexConnections].map(|role| {
                 let whole_lx = whole_lx.clone();

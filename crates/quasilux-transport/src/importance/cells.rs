@@ -28,11 +28,18 @@ pub(crate) struct Regions {
     number_of_cell: Vec<u32>,
 }
 
-/// The regions around a place, and what part of it is told to each.
+/// The regions around a place, with weights of interpolation.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Around {
-    parts: [(u32, f64); CORNERS],
+    parts: [CellWeight; CORNERS],
     known: usize,
+}
+
+/// A cell with its weight in an interpolation.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct CellWeight {
+    pub(crate) cell: usize,
+    pub(crate) weight: f64,
 }
 
 /// A grid of boxes over the scene.
@@ -69,23 +76,23 @@ impl Regions {
     /// interpolation between the middles of their boxes.
     pub(crate) fn around(&self, position: DVec3, n: DVec3) -> Around {
         let mut around = Around::default();
-        for (cell, weight) in self.cells.corners(position, n) {
+        for CellWeight { cell, weight } in self.cells.corners(position, n) {
             let number = self.number_of_cell[cell];
             if number != Self::UNKNOWN && weight > 0.0 {
-                around.parts[around.known] = (number, weight);
+                around.parts[around.known] = CellWeight { cell: number as usize, weight };
                 around.known += 1;
             }
         }
-        let sum: f64 = around.iter().map(|(_, weight)| weight).sum();
-        around.parts.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        let sum: f64 = around.iter().map(|part| part.weight).sum();
+        around.parts.iter_mut().for_each(|part| part.weight /= sum);
         around
     }
 }
 
 impl Around {
     /// Each known region with its weight; the weights sum to 1. None where no region is known.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.parts[..self.known].iter().map(|(number, weight)| (*number as usize, *weight))
+    pub(crate) fn iter(&self) -> impl Iterator<Item = CellWeight> {
+        self.parts[..self.known].iter().copied()
     }
 }
 
@@ -127,7 +134,7 @@ impl Cells {
 
     /// The cells in the boxes around a place, and the weights of linear interpolation. Where there
     /// is no such box, the nearest stands for it.
-    fn corners(&self, position: DVec3, n: DVec3) -> [(usize, f64); CORNERS] {
+    fn corners(&self, position: DVec3, n: DVec3) -> [CellWeight; CORNERS] {
         let from_middles =
             ((position - self.low) / self.edge_m).to_array().map(|x| (x + 0.5).max(0.0));
         let along = |axis: usize| {
@@ -139,7 +146,8 @@ impl Cells {
         let (along, side) = ([0, 1, 2].map(along), side(n));
         std::array::from_fn(|corner| {
             let [x, y, z] = std::array::from_fn(|axis| along[axis][corner >> axis & 1]);
-            (self.number([x.0, y.0, z.0], side), x.1 * y.1 * z.1)
+            let cell = self.number([x.0, y.0, z.0], side);
+            CellWeight { cell, weight: x.1 * y.1 * z.1 }
         })
     }
 
@@ -223,10 +231,10 @@ mod tests {
             let part = [31, 57, 83].map(|step| f64::from(i * step % 1000) / 990.0 - 0.005);
             let at = low + size_m * DVec3::from(part);
             let corners = cells.corners(at, -DVec3::Y);
-            let found: DVec3 = corners.iter().map(|&(cell, weight)| middle(cell) * weight).sum();
+            let found: DVec3 = corners.iter().map(|part| middle(part.cell) * part.weight).sum();
             let wanted = at.clamp(low + half, low + size_m - half);
             assert!(found.distance(wanted) < 1e-12, "{at}: {found}");
-            assert!(corners.iter().all(|&(cell, weight)| cell % SIDES == 2 && weight >= 0.0));
+            assert!(corners.iter().all(|part| part.cell % SIDES == 2 && part.weight >= 0.0));
         }
     }
 }

@@ -4,7 +4,7 @@
 //! never bias.
 
 use crate::codec::Writer;
-use crate::importance::cells::{Around, Regions};
+use crate::importance::cells::{Around, CellWeight, Regions};
 use crate::importance::flux_and_importance::FluxAndImportance;
 use crate::importance::survey::Survey;
 use crate::world::Interaction;
@@ -117,8 +117,8 @@ impl Landings {
     /// nothing. It changes smoothly along a surface.
     pub(crate) fn density(&self, around: &Around) -> Density {
         let mut density = Density::default();
-        for (number, weight) in around.iter() {
-            let there = self.per_m2[number];
+        for CellWeight { cell, weight } in around.iter() {
+            let there = self.per_m2[cell];
             density.first += weight * there.first;
             density.rest += weight * there.rest;
         }

@@ -17,14 +17,15 @@ mod survey;
 mod tests;
 mod weight_windows;
 
-pub(crate) use cells::Around;
+pub(crate) use cells::{Around, CellWeight};
 pub(crate) use forecast::{Density, Forecast, Landings};
 pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
-pub(crate) use weight_windows::{Performance, Split, WeightWindows};
+pub(crate) use weight_windows::{Split, WeightWindows};
 
 use crate::context::Context;
 use crate::settings::Switch;
 use crate::spectrum::Spectrum;
+use crate::stats::efficiency::Performance;
 use crate::stats::targets::Target;
 use flux_and_importance::FluxAndImportance;
 use std::sync::Arc;
@@ -61,12 +62,12 @@ pub(crate) fn plan<S: Spectrum>(
 ) -> Plan {
     match importance {
         Switch::Off => Plan::default(),
-        Switch::Auto | Switch::On => foresee(context, targets, importance),
+        Switch::Auto | Switch::On => survey(context, targets, importance),
     }
 }
 
 /// Surveys the scene, whether photons are to be steered or not, and decides.
-pub(crate) fn foresee<S: Spectrum>(
+pub(crate) fn survey<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
     importance: Switch,

@@ -13,6 +13,7 @@ use crate::importance::cells::Regions;
 use crate::importance::flux_and_importance::FluxAndImportance;
 use crate::importance::guiding_tree::{GuidingSample, GuidingTree};
 use crate::importance::survey::{Survey, SurveyCell, Transition};
+use crate::stats::efficiency::Performance;
 use crate::world::Interaction;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -38,14 +39,6 @@ pub(crate) struct Window {
     pub(crate) weight: f64,
     /// In which directions.
     pub(crate) guide: GuidingTree,
-}
-
-/// What a plan of weights costs and gives, both for each emitted photon.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Performance {
-    pub(crate) rays: f64,
-    /// Variance of the sum over the sensors of what a photon gives to each, in units of the sensor.
-    pub(crate) variance: f64,
 }
 
 impl WeightWindows {
@@ -86,6 +79,8 @@ impl WeightWindows {
     }
 }
 
+/// Predictions for one emitted photon: its rays, and the variance of the sum over the sensors of
+/// what it gives to each, in units of the sensor.
 impl Performance {
     /// Of photons of equal weight.
     pub(crate) fn plain(survey: &Survey, balance: &FluxAndImportance) -> Self {
@@ -102,11 +97,6 @@ impl Performance {
     /// photon.
     pub(crate) fn of_each_sensor(self, survey: &Survey) -> Self {
         Self { variance: self.variance / survey.sensors.len().max(1) as f64, ..self }
-    }
-
-    /// Rays times variance: what an error costs.
-    pub(crate) fn cost_of_error(self) -> f64 {
-        self.rays * self.variance
     }
 
     /// Sums over all landings of the variance that the decision there and the next step bring. From

@@ -111,29 +111,30 @@ pub(crate) struct Incidence {
 impl Incidence {
     /// E = I cos / d^2 on the side `n`; `None` from behind.
     pub(crate) fn new(light: &Light, place: DVec3, n: DVec3) -> Option<Self> {
+        let incidence = Self::with_cosine(light, place, |direction| n.dot(direction));
+        // A light right at the place has no direction.
+        incidence.filter(|incidence| incidence.lx_per_cd > 0.0)
+    }
+
+    /// The same where `cos` gives the cosine that illuminance takes, of a unit direction.
+    fn with_cosine(light: &Light, place: DVec3, cos: impl FnOnce(DVec3) -> f64) -> Option<Self> {
         let toward = self::position(light) - place;
         let distance_m = toward.length();
         let direction = toward / distance_m;
-        let lx_per_cd = n.dot(direction) / (distance_m * distance_m);
-        (lx_per_cd > 0.0).then(|| Self {
-            direction,
-            distance_m,
-            illuminance_lx: intensity_cd(light, -direction) * lx_per_cd,
-            lx_per_cd,
-        })
+        let cos = cos(direction);
+        if cos <= 0.0 {
+            return None;
+        }
+        let square_m2 = distance_m * distance_m;
+        let illuminance_lx = intensity_cd(light, -direction) * cos / square_m2;
+        Some(Self { direction, distance_m, illuminance_lx, lx_per_cd: cos / square_m2 })
     }
 }
 
-/// E = I cos / d^2; `None` from behind.
 fn light_sample<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<LightSample<S>> {
-    let toward = self::position(light) - vertex.position();
-    let distance_m = toward.length();
-    let direction = toward / distance_m;
-    let cos = vertex.cos(direction);
-    if cos <= 0.0 {
-        return None;
-    }
-    let illuminance_lx = intensity_cd(light, -direction) * cos / (distance_m * distance_m);
+    let cos = |direction| vertex.cos(direction);
+    let Incidence { direction, distance_m, illuminance_lx, .. } =
+        Incidence::with_cosine(light, vertex.position(), cos)?;
     LightSample::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
 }
 

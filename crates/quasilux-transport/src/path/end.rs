@@ -3,7 +3,7 @@
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::importance::{self, Plan, WeightWindows};
-use crate::path::frozen_map::{FrozenEnd, FrozenMap, MapFacts};
+use crate::path::frozen_map::{FrozenEnd, FrozenMap, MapFacts, TracedMap};
 use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_in_view};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
@@ -39,6 +39,20 @@ pub(crate) enum PathEnd<S> {
         /// What steers their photons.
         windows: Option<WeightWindows>,
     },
+}
+
+/// What pilots left behind.
+pub(crate) struct EndPilots<S> {
+    /// The map that they chose.
+    pub(crate) frozen: Option<TracedMap<S>>,
+    /// Photons from the lights, of a map that they did not choose.
+    pub(crate) photons: Option<PhotonCounts>,
+}
+
+/// What the paths end on, and the photons that were traced for it.
+pub(crate) struct Prepared<S> {
+    pub(crate) end: PathEnd<S>,
+    pub(crate) counts: PhotonCounts,
 }
 
 /// Where the light at a diffuse surface comes from, but for the direct light.
@@ -90,25 +104,26 @@ impl<S: Spectrum> PathEnd<S> {
         context: &Context<'_, S>,
         settings: &Settings,
         targets: &[Target],
-        (frozen, photons): (Option<(FrozenMap<S>, PhotonCounts)>, Option<PhotonCounts>),
+        pilots: EndPilots<S>,
         watch: &mut Watch<'_>,
-    ) -> (Self, PhotonCounts) {
+    ) -> Prepared<S> {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         let balance = |watch: &mut Watch<'_>| {
             let batch = PhotonBatch::for_plan(Source::Lights, 0..BALANCE_PHOTONS);
             let none: Option<MapReceiver<'_, S>> = None;
             trace_photons(context, &batch, |_| none, watch).unwrap_or_default()
         };
-        if let Some((map, mut counts)) = frozen {
+        if let Some(TracedMap { map, mut counts }) = pilots.frozen {
             if map.facts().first_shot {
                 // Photons of the lit cells do not say where the flux of the lights goes.
                 counts += balance(watch);
             }
-            return (Self::Frozen(map), counts);
+            return Prepared { end: Self::Frozen(map), counts };
         }
         if settings.estimator != EstimatorKind::BidirectionalMap || settings.max_bounces == Some(0)
         {
-            return (Self::Nothing, photons.unwrap_or_else(|| balance(watch)));
+            let counts = pilots.photons.unwrap_or_else(|| balance(watch));
+            return Prepared { end: Self::Nothing, counts };
         }
         let mut counts = PhotonCounts::default();
         let lit_cells = decide(context, settings, u64::MAX, &mut counts);
@@ -116,8 +131,7 @@ impl<S: Spectrum> PathEnd<S> {
             counts += balance(watch);
         }
         let source = Source::of(lit_cells.as_ref());
-        let (layout, pilots) = refined(context, settings, watch);
-        counts += pilots;
+        let layout = refined(context, settings, watch, &mut counts);
         let Plan { windows, rays, .. } = importance::plan(context, targets, settings.importance);
         counts.rays += rays;
         let lightest = windows.as_ref().map_or(source.usual_weight(), WeightWindows::lightest);
@@ -126,8 +140,8 @@ impl<S: Spectrum> PathEnd<S> {
         let layers = context.listed_terms.saturating_sub(1).max(1);
         let tallies = replicates.map(|_| MapTally::new(&layout, lightest, layers)).collect();
         let photons_per_path = u64::from(settings.map_photons.max(1));
-        let own = Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
-        (own, counts)
+        let end = Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
+        Prepared { end, counts }
     }
 
     /// Photons of each map that grows, from those so far to those that so many paths of a sensor

@@ -14,6 +14,7 @@ use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
+use crate::stats::efficiency::{Performance, WeightSums};
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
@@ -29,10 +30,7 @@ const EVENNESS: f64 = 1.5;
 
 /// Weights of photons that leave the first surface.
 #[derive(Default)]
-struct Weights {
-    sum: f64,
-    squares: f64,
-}
+struct FirstWeights(WeightSums);
 
 /// The lit cells that photons leave from where that is asked for, or pays and should not take many
 /// more rays than these to find out; adds what it took.
@@ -63,21 +61,20 @@ fn work<S: Spectrum>(
     counts: &mut PhotonCounts,
 ) -> f64 {
     let points = context.points(0, Stream::FirstShotPilots);
-    let (mut weights, mut of_pilots) = (Weights::default(), PhotonCounts::default());
+    let (mut weights, mut of_pilots) = (FirstWeights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
         let sampler = Sampler::new(&points, index);
         trace_photon(context, Lead::by_chance(source, None), sampler, &mut weights, &mut of_pilots);
     }
     counts.rays += of_pilots.rays;
-    let Weights { sum, squares } = weights;
-    if sum > 0.0 { of_pilots.rays as f64 * squares / (sum * sum) } else { f64::INFINITY }
+    let variance = weights.0.relative_variance().unwrap_or(f64::INFINITY);
+    Performance { rays: of_pilots.rays as f64, variance }.cost_of_error()
 }
 
-impl<S: Spectrum> PhotonReceiver<S> for Weights {
+impl<S: Spectrum> PhotonReceiver<S> for FirstWeights {
     fn flight(&mut self, _flight: &Flight, weight: S, bounces: u32) {
         if bounces == 1 {
-            self.sum += weight.luminance();
-            self.squares += weight.luminance() * weight.luminance();
+            self.0.add(weight.luminance());
         }
     }
 

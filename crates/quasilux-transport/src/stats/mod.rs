@@ -2,10 +2,12 @@
 //!
 //! [`tally`] holds the sums, [`interval`] and [`minimum`] the intervals, [`sequential`] what
 //! looking several times costs them, [`schedule`] and [`tolerance`] the decision to stop,
-//! [`convergence`] the prediction of the end, [`observer`] and [`watch`] the way out of a run.
+//! [`convergence`] the prediction of the end, [`efficiency`] the choice between estimators,
+//! [`observer`] and [`watch`] the way out of a run.
 
 pub mod convergence;
 pub(crate) mod decisions;
+pub(crate) mod efficiency;
 pub mod estimates;
 pub mod interval;
 pub(crate) mod minimum;

@@ -2,7 +2,7 @@
 
 use super::ConnectionPlan;
 use super::cell_transfer::{CLASSES, CellTransfer};
-use super::exitant_flux::ExitantFlux;
+use super::exitant_flux::{CellFlux, ExitantFlux};
 use super::lock;
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
@@ -151,7 +151,7 @@ impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
         let Some(leaving) = leaving else { return };
         let slot = (bounces as usize).min(self.slots - 1);
         for side in leaving.sides {
-            for (cell, lm_sr) in side.parts_lm_sr() {
+            for CellFlux { cell, lm_sr } in side.by_cell() {
                 self.own[cell * self.slots + slot].add(lm_sr, self.quantum);
             }
         }

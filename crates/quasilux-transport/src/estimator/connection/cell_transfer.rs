@@ -5,7 +5,7 @@
 //! coarse picture of the sensors' views. It need not be right, see [`super`].
 
 use super::ConnectionPlan;
-use super::exitant_flux::{ExitantFlux, Side};
+use super::exitant_flux::{CellFlux, ExitantFlux, Side};
 use super::receiver_element::ReceiverElement;
 use super::view::View;
 use crate::codec::Writer;
@@ -25,21 +25,24 @@ pub(super) const CLASSES: usize = 2;
 /// cell.
 pub(super) struct CellTransfer {
     targets: usize,
+    /// Rays that it took.
+    pub(super) rays: u64,
     /// Of target t by class k from cell c at `(c * CLASSES + k) * targets + t`.
     lx_sr_lm: Vec<f32>,
 }
 
 impl CellTransfer {
-    /// Looks from all targets at all cells; also says how many rays that took.
+    /// Looks from all targets at all cells.
     pub(super) fn new<S: Spectrum>(
         context: &Context<'_, S>,
         connection: &ConnectionPlan,
         spots: &[ReceiverElement],
-    ) -> (Self, u64) {
+    ) -> Self {
         let look = |places: &Vec<Interaction>| look(context, connection, places, spots);
-        let (rows, rays): (Vec<Vec<f32>>, Vec<u64>) =
-            connection.places.par_iter().map(look).unzip();
-        (Self { targets: spots.len(), lx_sr_lm: rows.concat() }, rays.iter().sum())
+        let rows: Vec<Row> = connection.places.par_iter().map(look).collect();
+        let rays = rows.iter().map(|row| row.rays).sum();
+        let lx_sr_lm = rows.into_iter().flat_map(|row| row.lx_sr_lm).collect();
+        Self { targets: spots.len(), rays, lx_sr_lm }
     }
 
     /// Puts it among the decisions.
@@ -56,7 +59,7 @@ impl CellTransfer {
     /// Finds out what all targets are taken to get of what leaves a place.
     pub(super) fn foresee(&self, leaving: &ExitantFlux, is_first: bool, lx: &mut [f64]) {
         lx.fill(0.0);
-        for (cell, lm_sr) in leaving.sides.iter().flat_map(Side::parts_lm_sr) {
+        for CellFlux { cell, lm_sr } in leaving.sides.iter().flat_map(Side::by_cell) {
             let seen = self.of_cell(cell, is_first);
             let sums = lx.iter_mut().zip(seen);
             sums.for_each(|(sum, lx_sr_lm)| *sum += lm_sr * f64::from(*lx_sr_lm));
@@ -70,14 +73,19 @@ impl CellTransfer {
     }
 }
 
-/// What all targets see of one cell, first light that comes there straight, then other light; and
-/// the number of rays.
+/// The transfer from one cell to all targets: first light that comes there straight, then other
+/// light.
+struct Row {
+    lx_sr_lm: Vec<f32>,
+    rays: u64,
+}
+
 fn look<S: Spectrum>(
     context: &Context<'_, S>,
     connection: &ConnectionPlan,
     places: &[Interaction],
     spots: &[ReceiverElement],
-) -> (Vec<f32>, u64) {
+) -> Row {
     let densities: Vec<_> =
         places.iter().map(|at| connection.partition.density(at.position, at.n)).collect();
     let (mut shadow_rays, mut light_samples) = (Vec::new(), Vec::new());
@@ -107,5 +115,5 @@ fn look<S: Spectrum>(
         row[spots.len() + number] += rest as f32;
     }
     row.iter_mut().filter(|lx| !lx.is_finite()).for_each(|lx| *lx = 0.0);
-    (row, shadow_rays.len() as u64)
+    Row { lx_sr_lm: row, rays: shadow_rays.len() as u64 }
 }

@@ -3,7 +3,7 @@
 use super::ConnectionPlan;
 use crate::bsdf::TransportMode;
 use crate::context::Context;
-use crate::importance::Around;
+use crate::importance::{Around, CellWeight};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use glam::DVec3;
@@ -21,6 +21,12 @@ pub(super) struct Side {
     pub(super) lm_sr: f64,
     /// The cells around the place, where anything leaves it.
     pub(super) around: Around,
+}
+
+/// The part of it that one cell counts.
+pub(super) struct CellFlux {
+    pub(super) cell: usize,
+    pub(super) lm_sr: f64,
 }
 
 impl ExitantFlux {
@@ -61,7 +67,8 @@ impl ExitantFlux {
 impl Side {
     /// What is told to each cell around, in lm/sr, in proportion to linear interpolation: where it
     /// is told jumps nowhere.
-    pub(super) fn parts_lm_sr(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.around.iter().map(|(cell, weight)| (cell, weight * self.lm_sr))
+    pub(super) fn by_cell(&self) -> impl Iterator<Item = CellFlux> {
+        let flux = |part: CellWeight| CellFlux { cell: part.cell, lm_sr: part.weight * self.lm_sr };
+        self.around.iter().map(flux)
     }
 }

@@ -1,11 +1,11 @@
 //! What joined photons gave to all targets, in all replicates.
 
-use super::ConnectionPlan;
 use super::cell_tally::CellTally;
 use super::cell_transfer::CellTransfer;
 use super::lock;
 use super::receiver::{ConnectionReceiver, Group};
 use super::receiver_element::ReceiverElement;
+use super::{ConnectionPlan, TallySettings};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
@@ -54,8 +54,7 @@ impl LightVertexConnections {
         connection: ConnectionPlan,
         targets: &[Target],
         expected_lx: Vec<f64>,
-        replicates: Range<u32>,
-        (listed_terms, quantum): (u32, Quantum),
+        TallySettings { replicates, listed_terms, quantum }: TallySettings,
     ) -> Self {
         let terms = listed_terms as usize + 1;
         let spots: Vec<ReceiverElement> =
@@ -68,8 +67,8 @@ impl LightVertexConnections {
         let mut rays = 0;
         let coarse = (connection.cell_photons > 0).then(|| {
             let look = |group: &[ReceiverElement]| {
-                let (outlook, short_looks) = CellTransfer::new(context, &connection, group);
-                rays += short_looks;
+                let outlook = CellTransfer::new(context, &connection, group);
+                rays += outlook.rays;
                 outlook
             };
             let quantum = Quantum::for_reference(context.lights.flux_lm);
@@ -95,15 +94,17 @@ impl LightVertexConnections {
         }
     }
 
-    /// The same from its beginning, for one replicate of some of the targets.
-    pub(crate) fn of_some<S: Spectrum>(
+    /// The same from its beginning, for one replicate of those of all `targets` with these numbers.
+    pub(crate) fn with_targets<S: Spectrum>(
         self,
         context: &Context<'_, S>,
-        targets: impl Iterator<Item = (usize, Target)>,
+        numbers: &[usize],
+        targets: &[Target],
     ) -> Self {
-        let of_target = |(number, target): (usize, Target)| (self.expected_lx[number], target);
-        let (expected_lx, targets): (Vec<f64>, Vec<Target>) = targets.map(of_target).unzip();
-        Self::new(context, self.connection, &targets, expected_lx, 0..1, (0, self.quantum))
+        let expected_lx = numbers.iter().map(|number| self.expected_lx[*number]).collect();
+        let targets: Vec<Target> = numbers.iter().map(|number| targets[*number]).collect();
+        let tallies = TallySettings { replicates: 0..1, listed_terms: 0, quantum: self.quantum };
+        Self::new(context, self.connection, &targets, expected_lx, tallies)
     }
 
     /// Puts what was found out before the first photon among the decisions.
@@ -115,7 +116,7 @@ impl LightVertexConnections {
     }
 
     /// The illuminance that the survey predicts for each target, in lx.
-    pub(crate) fn foretold_lx(&self) -> &[f64] {
+    pub(crate) fn predicted_lx(&self) -> &[f64] {
         &self.expected_lx
     }
 
@@ -167,13 +168,7 @@ impl LightVertexConnections {
             let receiver = |r: u32| {
                 let points = context.points(r, Stream::ConnectionPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
-                ConnectionReceiver::new(
-                    context,
-                    &self.connection,
-                    group,
-                    (points, self.quantum),
-                    sums,
-                )
+                ConnectionReceiver::new(context, &self.connection, group, points, sums)
             };
             let batch = PhotonBatch {
                 stream: Stream::ConnectedPhotons(number),
@@ -199,6 +194,7 @@ impl LightVertexConnections {
             outlook: self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number]),
             ends: &self.ends[range],
             terms: self.terms,
+            quantum: self.quantum,
         }
     }
 

@@ -39,27 +39,28 @@
 //! spent on them.
 //!
 //! How many photons of each kind come on a path, and whether any, is found out by trials
-//! ([`ways`]).
+//! ([`pilot`]).
 
-mod candidates;
 mod cell_tally;
 mod cell_transfer;
 mod exitant_flux;
 mod light_vertices;
+mod pilot;
 mod receiver;
 mod receiver_element;
 mod single;
 mod view;
 
-pub(crate) use candidates::{Alone, Ways};
 pub(crate) use light_vertices::LightVertexConnections;
+pub(crate) use pilot::{ConnectionPilots, PathsAlone};
 
 use crate::codec::Writer;
 use crate::importance::WeightWindows;
 use crate::path::partition::Partition;
 use crate::photon::trace::{Lead, Source};
-use crate::stats::tally::Sum;
+use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Photons that are steered by nothing go on for certain as long as absorption leaves so much of
@@ -117,6 +118,15 @@ impl ConnectionPlan {
     pub(crate) fn uses_importance(&self) -> bool {
         self.windows.is_some()
     }
+}
+
+/// Size and resolution of the sums.
+#[derive(Clone)]
+pub(crate) struct TallySettings {
+    pub(crate) replicates: Range<u32>,
+    /// Terms of the Neumann series that are told apart; 0 for none.
+    pub(crate) listed_terms: u32,
+    pub(crate) quantum: Quantum,
 }
 
 /// The sums behind a mutex; a panic of another thread does not make them unusable.

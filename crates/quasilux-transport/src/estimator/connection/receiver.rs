@@ -47,6 +47,7 @@ pub(super) struct Group<'a> {
     pub(super) ends: &'a [Option<u64>],
     /// Terms of the Neumann series that are told apart.
     pub(super) terms: usize,
+    pub(super) quantum: Quantum,
 }
 
 /// Connections the photons of one wave to all targets of a group.
@@ -54,7 +55,6 @@ pub(super) struct ConnectionReceiver<'a, S> {
     context: &'a Context<'a, S>,
     connection: &'a ConnectionPlan,
     group: Group<'a>,
-    quantum: Quantum,
     /// Where what this wave found is added in the end.
     sums: &'a Mutex<Vec<Sum>>,
     own: Vec<Sum>,
@@ -103,14 +103,13 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         context: &'a Context<'a, S>,
         connection: &'a ConnectionPlan,
         group: Group<'a>,
-        (points, quantum): (PointSet, Quantum),
+        points: PointSet,
         sums: &'a Mutex<Vec<Sum>>,
     ) -> Self {
         Self {
             context,
             connection,
             group,
-            quantum,
             sums,
             own: vec![Sum::default(); group.spots.len() * group.terms],
             points,
@@ -161,7 +160,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
                     self.shadow_rays.push(view.shadow_ray());
                     self.light_samples.push(light_sample);
                 }
-                _ => self.own[sum].add_signed(-light_sample.foreseen_lx, self.quantum),
+                _ => self.own[sum].add_signed(-light_sample.foreseen_lx, self.group.quantum),
             }
         }
     }
@@ -181,7 +180,8 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         self.context.world.are_visible(&self.shadow_rays, &mut self.visible);
         for (light_sample, visible) in self.light_samples.drain(..).zip(&self.visible) {
             let lx = if *visible { light_sample.lx } else { 0.0 };
-            self.own[light_sample.sum].add_signed(lx - light_sample.foreseen_lx, self.quantum);
+            self.own[light_sample.sum]
+                .add_signed(lx - light_sample.foreseen_lx, self.group.quantum);
         }
         self.shadow_rays.clear();
     }

@@ -80,11 +80,10 @@ impl ReceiverElement {
 
     /// The place for a photon that landed at `from`; `None` where what was drawn lies outside.
     pub(super) fn place(&self, from: DVec3, u: [f64; 2]) -> Option<Place> {
-        let (position, weight) = match &self.cell {
-            None => (self.centre, 1.0),
-            Some(cell) => cell.place(from, u)?,
-        };
-        Some(Place { position, normal: self.normal, weight })
+        match &self.cell {
+            None => Some(Place { position: self.centre, normal: self.normal, weight: 1.0 }),
+            Some(cell) => cell.place(self.normal, from, u),
+        }
     }
 
     /// The most lux for each lm/sr that it can get from a landing there; infinite close by.
@@ -104,7 +103,7 @@ impl ReceiverElement {
 
 impl Cell {
     /// A place, and what it counts.
-    fn place(&self, from: DVec3, u: [f64; 2]) -> Option<(DVec3, f64)> {
+    fn place(&self, normal: DVec3, from: DVec3, u: [f64; 2]) -> Option<Place> {
         let Self { corner, edges: [du, dv], dual, area_m2, n } = self;
         let evenly = |[u, v]: [f64; 2]| *corner + *du * u + *dv * v;
         let in_edges = |way: DVec3| dual.map(|dual| way.dot(dual));
@@ -115,7 +114,7 @@ impl Cell {
         let is_near =
             square_m2 > 0.0 && square_m2 < *area_m2 && in_edges(way).into_iter().all(is_beside);
         if !is_near {
-            return Some((evenly(u), 1.0));
+            return Some(Place { position: evenly(u), normal, weight: 1.0 });
         }
         let foot = from - *n * height_m;
         let position = if u[0] < 0.5 {
@@ -134,7 +133,7 @@ impl Cell {
         };
         let d2 = square_m2 + (position - foot).length_squared();
         let by_view = area_m2 * square_m2 * FRAC_1_PI / (d2 * d2);
-        Some((position, 2.0 / (1.0 + by_view)))
+        Some(Place { position, normal, weight: 2.0 / (1.0 + by_view) })
     }
 }
 

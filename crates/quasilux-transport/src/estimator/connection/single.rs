@@ -60,7 +60,6 @@ impl LightVertexConnections {
         }
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.spots.len() * group.terms]);
-        let places = (places, self.quantum);
         let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, &sums);
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish().rays;
@@ -86,6 +85,7 @@ mod tests {
     use super::*;
     use crate::context::Stream;
     use crate::estimator::exact::exact;
+    use crate::estimator::pilot::Request;
     use crate::estimator::selection::{Decision, decide};
     use crate::scenes::{diffuse, level_grid, point_light, points, room};
     use crate::settings::{EstimatorKind, Settings, Switch};
@@ -109,13 +109,12 @@ mod tests {
         let quantum = Quantum::for_reference(100.0);
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
-        let given = (all.as_slice(), exact.as_slice());
-        let Decision { light_vertices, .. } =
-            decide(&context, (&settings, 1), given, quantum, &mut watch);
+        let (settings, exact, targets) = (&settings, exact.as_slice(), all.as_slice());
+        let request = Request { settings, replicates: 1, targets, exact, quantum };
+        let Decision { light_vertices, .. } = decide(&context, &request, &mut watch);
         let light_vertices = light_vertices.expect("it was asked for");
         let numbers = [0, 2, 5];
-        let mut light_vertices =
-            light_vertices.of_some(&context, numbers.map(|n| (n, all[n])).into_iter());
+        let mut light_vertices = light_vertices.with_targets(&context, &numbers, targets);
         let samples = 16;
         let [of_connected, of_counted] =
             light_vertices.grow(&context, samples, &mut watch).expect("it ends");

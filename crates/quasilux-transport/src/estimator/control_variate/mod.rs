@@ -29,5 +29,5 @@ mod replay;
 mod tests;
 
 pub(crate) use path_trial::PathTrial;
-pub(crate) use pilot::{Choice, MAX_PHOTONS};
+pub(crate) use pilot::{MAX_PHOTONS, MapPilot, PathPilot};
 pub(crate) use replay::{Outcome, PathRecords};

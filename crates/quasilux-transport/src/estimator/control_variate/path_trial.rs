@@ -26,8 +26,9 @@ impl<S: Spectrum> PathTrial<S> {
             partition: None,
             quantum,
         };
+        let traced = trace(context, &paths, PathRecords::add).into_iter();
         let (pieces, walks): (Vec<Piece>, Vec<PathRecords<S>>) =
-            trace(context, &paths, PathRecords::add).into_iter().unzip();
+            traced.map(|traced| (traced.piece, traced.records)).unzip();
         let finds_light = pieces.chunks(REPLICATES.len()).all(|of_target| {
             let sums = of_target.iter().map(|piece| &piece.sums[0]);
             let looked = sums.filter(|sums| sums.reflected > 0);

@@ -7,7 +7,7 @@ use super::replay::{Outcome, Replay};
 use crate::context::Context;
 use crate::estimator::pilot::{ErrorTarget, PilotCost};
 use crate::path::frozen_map::survival::{MIN, Survival};
-use crate::path::frozen_map::{FrozenMap, bounces_left, layers};
+use crate::path::frozen_map::{FrozenMap, TracedMap, bounces_left, layers};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
@@ -16,6 +16,7 @@ use crate::photon::map::{MapLayout, MapReceiver, MapTally};
 use crate::photon::trace::Source;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::stats::efficiency::cheapest;
 use crate::stats::watch::Watch;
 use std::f64::consts::SQRT_2;
 
@@ -26,21 +27,30 @@ const PHOTONS_SHARE: u64 = 32;
 /// The part of them, 1 over this, that it may take to find where light lands.
 const FIRST_SHOT_SHARE: u64 = 8;
 /// Bounds on them, and on those of a map.
-const PILOT_PHOTONS: (u64, u64) = (1 << 12, 1 << 16);
+const PILOT_PHOTONS: [u64; 2] = [1 << 12, 1 << 16];
 pub(crate) const MAX_PHOTONS: u64 = 1 << 20;
 /// The search begins where paths go on with about the least probability; each step is a factor of
 /// sqrt(2).
 const STEPS: u32 = 16;
 
 /// A map as a pilot left it, and what is best made of it.
-pub(crate) struct Choice<S> {
+pub(crate) struct MapPilot<S> {
     map: Growing<S>,
     use_of_it: Use,
     /// Whether its photons found much that the paths of the trial did not.
     pub(crate) misses_light: bool,
 }
 
-/// What may be made of a map, and what that promises.
+/// The paths of a trial, and their cost.
+pub(crate) struct PathPilot<'p, S> {
+    pub(crate) records: &'p PathRecords<S>,
+    /// As they were traced, nearly without Russian roulette.
+    pub(crate) recorded: &'p PilotCost<'p>,
+    /// Ended by Russian roulette, on no map.
+    pub(crate) alone: &'p PilotCost<'p>,
+}
+
+/// Survival probabilities and photons of a map, and the cost of a run with them.
 struct Use {
     survival: Survival,
     photons: u64,
@@ -63,55 +73,44 @@ struct Growing<S> {
     counts: PhotonCounts,
 }
 
-impl<S: Spectrum> Choice<S> {
-    /// Tries a map on the paths of a trial, which promise `noted` as they are, and `alone` if they
-    /// end as paths without a map do; `None` where too few bounces are wanted for any.
+impl<S: Spectrum> MapPilot<S> {
+    /// Tries a map on the paths of a trial; `None` where too few bounces are wanted for any.
     pub(crate) fn new(
         context: &Context<'_, S>,
         settings: &Settings,
-        (walks, noted, alone): (&PathRecords<S>, &PilotCost<'_>, &PilotCost<'_>),
+        paths: &PathPilot<'_, S>,
         wanted: &ErrorTarget,
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
+        let PathPilot { records, recorded, alone } = paths;
         let affordable = wanted.rays(alone, alone) as u64;
         let mut map = Growing::new(context, settings, affordable / FIRST_SHOT_SHARE)?;
         let before = map.counts.rays;
         let pilots = PHOTONS_PER_ELEMENT * map.layout.len() as u64;
         let pilots = pilots.min(affordable / PHOTONS_SHARE);
-        let pilots = pilots.clamp(PILOT_PHOTONS.0, PILOT_PHOTONS.1).next_power_of_two();
+        let [min, max] = PILOT_PHOTONS;
+        let pilots = pilots.clamp(min, max).next_power_of_two();
         map.grow(context, pilots, watch);
         let rays_for_photon = (map.counts.rays - before) as f64 / pilots as f64;
-        let read = map.tally.read(map.photon_lm(context));
-        let trips = walks.on(context, (&map.layout, &read), wanted);
-        let survival = trips.survival();
+        let trips =
+            records.on(context, &map.layout, &map.tally.read(map.photon_lm(context)), wanted);
         let noise_share = trips.noise_share();
-        let mut best = None;
-        let mut least = f64::INFINITY;
-        for survival in candidates(&trips, &survival) {
-            let Outcome { of_chances, rays } = trips.outcome(Ending::OnMap(&survival), wanted);
-            for doublings in 0..=(MAX_PHOTONS / pilots).ilog2() {
+        let uses = candidates(&trips).into_iter().flat_map(|survival| {
+            let Outcome { variances, rays } = trips.outcome(Ending::OnMap(&survival), wanted);
+            let with_photons = move |doublings| {
                 let photons = pilots << doublings;
                 // More photons take out noise.
                 let off = 1.0 - noise_share * (1.0 - pilots as f64 / photons as f64);
                 let beforehand = (photons - pilots) as f64 * rays_for_photon;
-                let chances = of_chances.iter().zip(noted.variances);
-                let variances: Vec<f64> = chances.map(|(chance, v)| v + off * chance).collect();
-                let pilot_cost = PilotCost {
-                    variances: &variances,
-                    of_paths: rays,
-                    of_photons: 0.0,
-                    beforehand,
-                };
-                let in_all = wanted.rays(alone, &pilot_cost);
-                if in_all < least {
-                    least = in_all;
-                    let survival = survival.clone();
-                    best = Some(Use { survival, photons, variances, rays, beforehand });
-                }
-            }
-        }
+                let variances = variances.iter().zip(recorded.variances);
+                let variances = variances.map(|(more, v)| v + off * more).collect();
+                Use { survival: survival.clone(), photons, variances, rays, beforehand }
+            };
+            (0..=(MAX_PHOTONS / pilots).ilog2()).map(with_photons)
+        });
+        let use_of_it = cheapest(uses, |tried| wanted.rays(alone, &tried.pilot_cost()))?;
         let misses_light = trips.miss_light(wanted);
-        best.map(|use_of_it| Self { map, use_of_it, misses_light })
+        Some(Self { map, use_of_it, misses_light })
     }
 
     /// What it promises.
@@ -129,22 +128,20 @@ impl<S: Spectrum> Choice<S> {
         lit_cells.is_none().then_some(counts)
     }
 
-    /// The map with all its photons, for targets where a lux counts so much; and what it took from
-    /// the start.
+    /// The map with all its photons, for targets with these weights of a lux.
     pub(crate) fn freeze(
         mut self,
         context: &Context<'_, S>,
         importance_per_lx: Vec<f64>,
         watch: &mut Watch<'_>,
-    ) -> (FrozenMap<S>, PhotonCounts) {
+    ) -> TracedMap<S> {
         let Use { survival, photons, .. } = self.use_of_it;
         self.map.grow(context, photons, watch);
         let photon_lm = self.map.photon_lm(context);
         let Growing { layout, tally, lit_cells, counts, .. } = self.map;
         let first_shot = lit_cells.is_some();
-        let frozen =
-            FrozenMap { layout, tally, photon_lm, first_shot, survival, importance_per_lx };
-        (frozen, counts)
+        let map = FrozenMap { layout, tally, photon_lm, first_shot, survival, importance_per_lx };
+        TracedMap { map, counts }
     }
 }
 
@@ -155,9 +152,10 @@ impl Use {
     }
 }
 
-/// Paths that go on seldom, more often, and nearly always.
-fn candidates(trips: &Replay, survival: &Survival) -> Vec<Survival> {
-    let usual = trips.usual_loss(survival);
+/// Survival probabilities from low ones to nearly one.
+fn candidates(trips: &Replay) -> Vec<Survival> {
+    let survival = trips.survival();
+    let usual = trips.usual_loss(&survival);
     let first = if usual > 0.0 { MIN / usual } else { 0.0 };
     let sureness = |step: u32| first * libm::pow(SQRT_2, f64::from(step));
     (0..=STEPS).map(|step| survival.with_sureness(sureness(step))).collect()

@@ -58,8 +58,8 @@ struct ReplayedPath {
 
 /// What a trial would have been with paths that end by chance.
 pub(crate) struct Outcome {
-    /// What chances add to the variance, of each target that is seen.
-    pub(crate) of_chances: Vec<f64>,
+    /// Added by Russian roulette, of each target that gets light.
+    pub(crate) variances: Vec<f64>,
     pub(crate) rays: f64,
 }
 
@@ -90,7 +90,8 @@ impl<S: Spectrum> PathRecords<S> {
     pub(super) fn on(
         &self,
         context: &Context<'_, S>,
-        (layout, map): (&MapLayout, &IlluminationMap<'_, S>),
+        layout: &MapLayout,
+        map: &IlluminationMap<'_, S>,
         wanted: &ErrorTarget,
     ) -> Replay {
         self.trips(wanted, |note| {
@@ -220,10 +221,10 @@ impl Replay {
             *count += 1.0;
         }
         // Of the mean of the samples of a trial.
-        let of_chances =
+        let variances =
             wanted.seen().map(|target| sums[target].0 / sums[target].1 / SAMPLES as f64);
         let flights: f64 = prices.iter().map(|price| price.flights).sum();
         let rays = self.rays.at_start + flights * self.rays_for_flight;
-        Outcome { of_chances: of_chances.collect(), rays }
+        Outcome { variances: variances.collect(), rays }
     }
 }

@@ -89,7 +89,7 @@ fn mean(values: &[f64]) -> f64 {
 
 /// A trial of a few hundred paths is itself only good to some tens of percent in variances, which
 /// have long tails, and to a few percent in rays.
-fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
+fn assert_predicted(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let (sequence, randomization) = (Sequence::Independent, Randomization::None);
     let settings = Settings { sequence, randomization, max_bounces, ..Settings::default() };
     let context = Context::<f64>::new(scene, &settings);
@@ -112,37 +112,37 @@ fn assert_foretold(what: &str, scene: &Scene, max_bounces: Option<u32>) {
         assert!((0.9..1.1).contains(&ratios[1]), "{what}, {who}: {ratios:?}");
     };
     let alone = walks.alone(&bench.wanted);
-    let predicted = (mean(&alone.of_chances), alone.rays);
+    let predicted = (mean(&alone.variances), alone.rays);
     assert_found("alone", predicted, bench.variance_and_rays(Paths::Alone));
 
     let nothing = vec![0.0; bench.targets.len()];
     let noted = PilotCost::of_paths(&nothing, trial.rays);
-    let plain = PilotCost::of_paths(&alone.of_chances, alone.rays);
+    let plain = PilotCost::of_paths(&alone.variances, alone.rays);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);
-    let promises = (&walks, &noted, &plain);
-    let choice = Choice::new(&context, &settings, promises, &bench.wanted, &mut watch).unwrap();
+    let paths = PathPilot { records: &walks, recorded: &noted, alone: &plain };
+    let choice = MapPilot::new(&context, &settings, &paths, &bench.wanted, &mut watch).unwrap();
     assert!(!choice.misses_light);
     let pilot_cost = choice.pilot_cost();
     let predicted = (mean(pilot_cost.variances), pilot_cost.of_paths);
     let importance =
         (0..bench.targets.len()).map(|target| bench.wanted.importance_per_lx(target)).collect();
-    let (map, _) = choice.freeze(&context, importance, &mut watch);
+    let map = choice.freeze(&context, importance, &mut watch).map;
     assert_found("on a map", predicted, bench.variance_and_rays(Paths::OnMap(&map)));
 }
 
 #[test]
-fn a_trial_foretells_what_paths_cost_in_a_cube() {
+fn a_trial_predicts_what_paths_cost_in_a_cube() {
     let scene = diffuse_cube(&[(0.0, 0.0), (0.5, 0.5), (0.9, 0.2)]);
-    assert_foretold("a cube", &scene, None);
-    assert_foretold("a cube, five bounces", &scene, Some(5));
-    assert_foretold("a cube, twenty bounces", &scene, Some(20));
+    assert_predicted("a cube", &scene, None);
+    assert_predicted("a cube, five bounces", &scene, Some(5));
+    assert_predicted("a cube, twenty bounces", &scene, Some(20));
 }
 
 /// Walls that emit are looked for where paths end, cells ask all lamps where paths start, and at
 /// mirrors no path ends on a map.
 #[test]
-fn a_trial_foretells_what_paths_cost_among_lights_and_mirrors() {
+fn a_trial_predicts_what_paths_cost_among_lights_and_mirrors() {
     let mut scene = room(DVec3::new(3.0, 4.0, 2.5), diffuse(0.6));
     all_walls_emit(&mut scene, 5.0);
     scene.materials.push(Material { name: "mirror".to_owned(), bsdf: mirror(0.8) });
@@ -152,7 +152,7 @@ fn a_trial_foretells_what_paths_cost_among_lights_and_mirrors() {
         scene.lights.push(point_light(DVec3::new(x, 2.0, 2.2), 20.0));
     }
     scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 0.7), [2.0, 3.0], [2, 2]));
-    assert_foretold("lights and mirrors", &scene, None);
+    assert_predicted("lights and mirrors", &scene, None);
 }
 
 /// Where nothing is known of a map, paths go on as without: they end.
@@ -166,9 +166,9 @@ fn paths_that_know_nothing_of_a_map_go_alone() {
     let sample = Sample::new(&targets(&scene), &exact(&context, &targets(&scene), &mut 0));
     let wanted = ErrorTarget::new(&settings, &sample, vec![1000.0]);
     let none = PilotCost::of_paths(&[], 0.0);
-    let walks = PathRecords::default();
-    let choice = Choice::new(&context, &settings, (&walks, &none, &none), &wanted, &mut watch);
-    let (map, _) = choice.unwrap().freeze(&context, vec![0.0], &mut watch);
+    let paths = PathPilot { records: &PathRecords::default(), recorded: &none, alone: &none };
+    let choice = MapPilot::new(&context, &settings, &paths, &wanted, &mut watch);
+    let map = choice.unwrap().freeze(&context, vec![0.0], &mut watch).map;
     let place =
         map.layout.locate(&context.world.facet_under(DVec3::new(0.0, 5.0, 5.0), DVec3::X).unwrap());
     assert_eq!(map.end(0).chance(&place, 1.0, 1.0), None);

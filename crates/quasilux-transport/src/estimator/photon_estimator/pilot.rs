@@ -1,12 +1,12 @@
-//! Whether steering pays where sensors count photons: pilots of both kinds tell.
+//! Pilot photons that confirm or refuse weight windows where sensors count photons.
 //!
-//! The survey knows what photons are worth where they land. Sensors count them in flight, and a
-//! flight through a cell is a chance that the survey does not weigh: after the last surface before
-//! a sensor it may thin photons out. So what it predicts is tried before it is believed.
+//! The survey predicts the importance of photons where they land. Sensors count them in flight, and
+//! a flight through a cell is a chance that the survey does not weigh: after the last surface
+//! before a sensor it may thin photons out.
 //!
-//! With s_i what the i-th of N photons leaves in a counter, the relative variance of their mean is
-//! at most `sum s_i^2 / (sum s_i)^2` (Kish 1965), and 1 is said where none came. Photons of both
-//! kinds take as many rays; the mean over the counters decides.
+//! With s_i the contribution of the i-th of N photons to a counter, the relative variance of their
+//! mean is at most `sum s_i^2 / (sum s_i)^2` (Kish 1965); a counter without photons has 1. Photons
+//! with and without windows take about as many rays; the efficiency over all counters decides.
 
 use super::Receivers;
 use crate::context::{Context, Stream};
@@ -16,6 +16,7 @@ use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
+use crate::stats::efficiency::{Performance, WeightSums};
 use crate::stats::targets::targets;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
@@ -43,19 +44,20 @@ pub(crate) fn plan<S: Spectrum>(
         let steered = trace(plan.windows.as_ref(), 0..PILOTS);
         let mut plain = trace(None, 0..PILOTS);
         let as_many = PILOTS * steered.rays / plain.rays.max(1);
-        plain.add(&trace(None, PILOTS..as_many.min(MAX_PLAIN)));
+        plain.merge(&trace(None, PILOTS..as_many.min(MAX_PLAIN)));
         plan.rays += plain.rays + steered.rays;
-        if plain.relative_variance() <= steered.relative_variance() {
+        let [plain, steered] = [plain, steered].map(|pilots| pilots.performance().cost_of_error());
+        if plain <= steered {
             plan.windows = None;
         }
     }
     plan
 }
 
-/// What photons left in each counter.
+/// What photons left in each counter, and the rays of all.
 struct Pilots {
-    /// Sums, and sums of squares by photon.
-    sums: Vec<[f64; 2]>,
+    /// By photon.
+    sums: Vec<WeightSums>,
     rays: u64,
 }
 
@@ -70,74 +72,77 @@ impl Pilots {
         let lead = Lead::by_chance(Source::Lights, windows);
         let piece = |first: u64| {
             let mut counts = PhotonCounts::default();
-            let mut left = Vec::new();
+            let mut weights = Vec::new();
             for index in first..(first + PIECE).min(photons.end) {
-                let mut found = Found { receivers, left: Vec::new() };
+                let mut receiver = CounterWeights { receivers, weights: Vec::new() };
                 let sampler = Sampler::new(&points, index);
-                trace_photon(context, lead, sampler, &mut found, &mut counts);
-                left.extend(found.by_counter());
+                trace_photon(context, lead, sampler, &mut receiver, &mut counts);
+                weights.extend(receiver.by_counter());
             }
-            (left, counts.rays)
+            (weights, counts.rays)
         };
         let firsts: Vec<u64> = photons.clone().step_by(PIECE as usize).collect();
-        let pieces: Vec<(Vec<(usize, f64)>, u64)> = firsts.into_par_iter().map(piece).collect();
-        let mut pilots = Self { sums: vec![[0.0; 2]; receivers.counters], rays: 0 };
-        for (left, rays) in pieces {
+        let pieces: Vec<(Vec<CounterWeight>, u64)> = firsts.into_par_iter().map(piece).collect();
+        let mut pilots = Self { sums: vec![WeightSums::default(); receivers.counters], rays: 0 };
+        for (weights, rays) in pieces {
             pilots.rays += rays;
-            for (counter, left) in left {
-                let [sum, squares] = &mut pilots.sums[counter];
-                *sum += left;
-                *squares += left * left;
-            }
+            weights.iter().for_each(|own| pilots.sums[own.counter].add(own.weight));
         }
         pilots
     }
 
-    fn add(&mut self, more: &Self) {
+    fn merge(&mut self, more: &Self) {
         self.rays += more.rays;
-        for (own, more) in self.sums.iter_mut().flatten().zip(more.sums.iter().flatten()) {
-            *own += more;
-        }
+        self.sums.iter_mut().zip(&more.sums).for_each(|(own, more)| own.merge(*more));
     }
 
-    /// Summed over the counters.
-    fn relative_variance(&self) -> f64 {
-        let of_counter = |[sum, squares]: &[f64; 2]| {
-            if *sum > 0.0 { squares / (sum * sum) } else { 1.0 }
-        };
-        self.sums.iter().map(of_counter).sum()
+    /// With the sum of the relative variances over the counters.
+    fn performance(&self) -> Performance {
+        let of_counter = |sums: &WeightSums| sums.relative_variance().unwrap_or(1.0);
+        let variance = self.sums.iter().map(of_counter).sum();
+        Performance { rays: self.rays as f64, variance }
     }
 }
 
-/// What one photon leaves in counters, entry by entry.
-struct Found<'r> {
+/// What one photon leaves in one counter.
+struct CounterWeight {
+    counter: usize,
+    weight: f64,
+}
+
+/// What one photon leaves in counters, contribution by contribution.
+struct CounterWeights<'r> {
     receivers: &'r Receivers,
-    left: Vec<(usize, f64)>,
+    weights: Vec<CounterWeight>,
 }
 
-impl Found<'_> {
+impl CounterWeights<'_> {
     /// Each counter once.
-    fn by_counter(mut self) -> Vec<(usize, f64)> {
-        self.left.sort_by_key(|(counter, _)| *counter);
-        self.left.dedup_by(|next, kept| {
-            let is_same = next.0 == kept.0;
+    fn by_counter(mut self) -> Vec<CounterWeight> {
+        self.weights.sort_by_key(|own| own.counter);
+        self.weights.dedup_by(|next, kept| {
+            let is_same = next.counter == kept.counter;
             if is_same {
-                kept.1 += next.1;
+                kept.weight += next.weight;
             }
             is_same
         });
-        self.left
+        self.weights
+    }
+
+    fn add(&mut self, counters: impl Iterator<Item = usize>, weight: f64) {
+        self.weights.extend(counters.map(|counter| CounterWeight { counter, weight }));
     }
 }
 
-impl<S: Spectrum> PhotonReceiver<S> for Found<'_> {
+impl<S: Spectrum> PhotonReceiver<S> for CounterWeights<'_> {
     fn flight(&mut self, flight: &Flight, weight: S, _bounces: u32) {
-        let passed = self.receivers.passed(flight);
-        self.left.extend(passed.map(|counter| (counter, weight.luminance())));
+        let receivers = self.receivers;
+        self.add(receivers.passed(flight), weight.luminance());
     }
 
     fn landing(&mut self, at: &Interaction, weight: S, _bounces: u32) {
-        let landed = self.receivers.landed_on(at);
-        self.left.extend(landed.map(|counter| (counter, weight.luminance())));
+        let receivers = self.receivers;
+        self.add(receivers.landed_on(at).into_iter(), weight.luminance());
     }
 }

@@ -61,9 +61,8 @@ impl<'v> PilotCost<'v> {
 }
 
 impl Budget {
-    /// As these settings end a run, with so many targets, and so many for each that is in the
-    /// trial.
-    pub(crate) fn of(settings: &Settings, (all, targets): (usize, f64)) -> Self {
+    /// As these settings end a run of `all` targets, of which the trial has one in `targets`.
+    pub(crate) fn new(settings: &Settings, all: usize, targets: f64) -> Self {
         let fixed = settings.sequence.points();
         let is_tolerance = settings.has_tolerance() && fixed.is_none();
         let for_points = is_tolerance && settings.tolerance_on == ToleranceOn::Points;
@@ -142,11 +141,11 @@ mod tests {
     #[test]
     fn targets_are_done_one_by_one_only_with_a_tolerance_of_their_own() {
         let settings = Settings::default();
-        assert_eq!(Budget::of(&settings, (1, 1.0)).cost, Cost::UntilEachIsDone);
+        assert_eq!(Budget::new(&settings, 1, 1.0).cost, Cost::UntilEachIsDone);
         let summary = Settings { tolerance_on: ToleranceOn::Summary, ..settings.clone() };
         let given = Settings { rel_tol: 0.0, abs_tol_lx: 0.0, ..settings };
         assert_eq!(
-            [summary, given].map(|settings| Budget::of(&settings, (1, 1.0)).cost),
+            [summary, given].map(|settings| Budget::new(&settings, 1, 1.0).cost),
             [Cost::ForAll; 2]
         );
     }
@@ -160,7 +159,7 @@ mod tests {
                 beforehand: 1000.0,
                 ..PilotCost::of_paths(variances, 800.0)
             });
-            Budget::of(settings, (9, targets)).rays(&plain, &pilot_cost)
+            Budget::new(settings, 9, targets).rays(&plain, &pilot_cost)
         };
         let rays = |settings: &Settings, variance: f64| rays_for(1.0, settings, variance);
         let open = Settings::default();

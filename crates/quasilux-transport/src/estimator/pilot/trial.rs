@@ -56,8 +56,8 @@ impl Sample {
         self.all as f64 / self.targets.len().max(1) as f64
     }
 
-    /// Those that are looked at of all.
-    pub(crate) fn of(&self, all: &[f64]) -> Vec<f64> {
+    /// Values of the sample, out of those of all targets.
+    pub(crate) fn select(&self, all: &[f64]) -> Vec<f64> {
         all.iter().step_by(self.step).copied().collect()
     }
 }
@@ -80,10 +80,21 @@ impl Trial {
         Self::without_records(context, &paths)
     }
 
+    /// Of paths to their ends from all these targets, in one replicate.
+    pub(crate) fn of_one_replicate<S: Spectrum>(
+        context: &Context<'_, S>,
+        targets: &[Target],
+        quantum: Quantum,
+    ) -> Self {
+        let (replicates, is_recorded, partition) = (1, false, None);
+        let paths = TrialPaths { targets, replicates, is_recorded, partition, quantum };
+        Self::without_records(context, &paths)
+    }
+
     /// A trial whose paths record nothing.
     fn without_records<S: Spectrum>(context: &Context<'_, S>, paths: &TrialPaths<'_>) -> Self {
         let pieces = trace(context, paths, |(), _, _| {});
-        Self::from_pieces(pieces.iter().map(|(piece, ())| piece), paths.quantum)
+        Self::from_pieces(pieces.iter().map(|traced| &traced.piece), paths.quantum)
     }
 
     /// Values and rays of what was traced.
@@ -108,18 +119,6 @@ impl Trial {
     }
 }
 
-/// What one short look finds at each target, in lx, by paths to their ends in one replicate; and
-/// its rays.
-pub(crate) fn short_looks<S: Spectrum>(
-    context: &Context<'_, S>,
-    targets: &[Target],
-    quantum: Quantum,
-) -> (Vec<f64>, u64) {
-    let paths = TrialPaths { targets, replicates: 1, is_recorded: false, partition: None, quantum };
-    let Trial { lx, rays } = Trial::without_records(context, &paths);
-    (lx, rays as u64)
-}
-
 /// What a trial traces.
 pub(crate) struct TrialPaths<'t> {
     pub(crate) targets: &'t [Target],
@@ -132,14 +131,20 @@ pub(crate) struct TrialPaths<'t> {
     pub(crate) quantum: Quantum,
 }
 
+/// The paths of one target in one replicate.
+pub(crate) struct Traced<R> {
+    pub(crate) piece: Piece,
+    pub(crate) records: R,
+}
+
 /// Traces the paths of a trial; `record` gets each with the number of its target. Results are in
 /// the order of [`Trial::lx`].
 pub(crate) fn trace<S: Spectrum, R: Default + Send>(
     context: &Context<'_, S>,
     paths: &TrialPaths<'_>,
     record: impl Fn(&mut R, usize, &mut PathResult<S>) + Sync,
-) -> Vec<(Piece, R)> {
-    let trace = |wave: &mut PathWave<S>, number: usize| -> (Piece, R) {
+) -> Vec<Traced<R>> {
+    let trace = |wave: &mut PathWave<S>, number: usize| -> Traced<R> {
         let target = number / paths.replicates;
         let replicate = REPLICATES.start + (number % paths.replicates) as u32;
         let section = Section {
@@ -155,7 +160,7 @@ pub(crate) fn trace<S: Spectrum, R: Default + Send>(
         let piece = trace_and_look(context, &[section], paths.quantum, wave, |path| {
             record(&mut records, target, path);
         });
-        (piece, records)
+        Traced { piece, records }
     };
     let numbers = (0..paths.targets.len() * paths.replicates).into_par_iter();
     numbers.map_init(PathWave::default, trace).collect()

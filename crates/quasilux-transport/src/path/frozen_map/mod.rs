@@ -7,6 +7,7 @@
 pub(crate) mod survival;
 
 use crate::codec::{Stored, Writer};
+use crate::photon::counts::PhotonCounts;
 use crate::photon::map::{IlluminationMap, MapLayout, MapTally, Place};
 use crate::spectrum::Spectrum;
 use survival::Survival;
@@ -39,6 +40,12 @@ pub(crate) struct FrozenMap<S> {
     /// What a lux at each target counts: one over the error that matters there, 0 where that is not
     /// known.
     pub(crate) importance_per_lx: Vec<f64>,
+}
+
+/// A frozen map with the counts of its photons.
+pub(crate) struct TracedMap<S> {
+    pub(crate) map: FrozenMap<S>,
+    pub(crate) counts: PhotonCounts,
 }
 
 /// How paths of one target end on it.

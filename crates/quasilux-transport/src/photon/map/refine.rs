@@ -36,17 +36,17 @@ const MIN_PHOTONS: u64 = 4 * PARTS as u64;
 /// Elements that splits add, three each, where every pilot photon lands eight times.
 pub(crate) const MAX_NEW_ELEMENTS: u64 = 3 * 8 * (FIRST_PHOTONS << (ROUNDS - 1)) / MIN_PHOTONS;
 
-/// The layout that the settings ask for, refined by pilot photons if they ask for that, and what
-/// these cost.
+/// The layout that the settings ask for, refined by pilot photons if they ask for that; adds these
+/// to `counts`.
 pub(crate) fn refined<S: Spectrum>(
     context: &Context<'_, S>,
     settings: &Settings,
     watch: &mut Watch<'_>,
-) -> (MapLayout, PhotonCounts) {
-    let mut counts = PhotonCounts::default();
+    counts: &mut PhotonCounts,
+) -> MapLayout {
     let most_bounces = most_bounces(context);
     if !settings.map_adaptive || most_bounces == 0 {
-        return (MapLayout::new(&context.world, settings), counts);
+        return MapLayout::new(&context.world, settings);
     }
     let mut layout = MapLayout::coarse(&context.world, settings);
     let mut indices = 0..FIRST_PHOTONS;
@@ -57,14 +57,14 @@ pub(crate) fn refined<S: Spectrum>(
         }
         let parts = Blocks::new(layout.len() * PARTS);
         let pilot = Pilot { layout: &layout, parts: &parts, most_bounces };
-        counts += pilot.trace(context, indices.clone(), watch);
+        *counts += pilot.trace(context, indices.clone(), watch);
         let chosen = chosen(&layout, &parts, affordable as usize);
         if !chosen.is_empty() {
             layout = layout.split(|leaf| chosen.binary_search(&leaf).is_ok());
         }
         indices = indices.end..2 * indices.end;
     }
-    (layout, counts)
+    layout
 }
 
 /// Counts pilot photons in the parts of elements.
