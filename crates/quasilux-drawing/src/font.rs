@@ -27,6 +27,9 @@ static FACES: LazyLock<[Face<'static>; 3]> = LazyLock::new(|| {
     .map(|file| Face::parse(file, 0).expect("bundled fonts are well-formed"))
 });
 
+/// A straight line from one point to another.
+pub(crate) type Segment = [DVec2; 2];
+
 /// The drawing of one character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Glyph {
@@ -56,11 +59,6 @@ impl Glyph {
         Self::find(REPLACEMENT) == Some(self)
     }
 
-    /// Whether this is an East Asian letter or sign, about one em wide.
-    pub(crate) fn is_east_asian(self) -> bool {
-        self.face == FACES.len() - 1
-    }
-
     /// Distance to the next glyph in em.
     pub(crate) fn advance_em(self) -> f64 {
         let face = &FACES[self.face];
@@ -69,7 +67,7 @@ impl Glyph {
 
     /// The closed outlines in em as straight pieces, x to the right and y upward from the origin on
     /// the base line. The inside is where the winding number is not zero.
-    pub(crate) fn outline_em(self) -> Vec<[DVec2; 2]> {
+    pub(crate) fn outline_em(self) -> Vec<Segment> {
         let face = &FACES[self.face];
         let mut outline = Outline { scale: 1.0 / f64::from(face.units_per_em()), ..<_>::default() };
         // A glyph without an outline, such as a space, has no pieces.
@@ -86,7 +84,7 @@ pub(crate) fn width_em(text: &str) -> f64 {
 /// Collects an outline, its curves cut into straight pieces.
 #[derive(Default)]
 struct Outline {
-    pieces: Vec<[DVec2; 2]>,
+    pieces: Vec<Segment>,
     scale: f64,
     start: DVec2,
     here: DVec2,

@@ -2,6 +2,15 @@
 
 use crate::number::{decimal_exponent, to_place};
 
+/// A mark on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Its place: 0 at the low end, 1 at the high one.
+    pub share: f64,
+    /// Its text, where it has one.
+    pub label: Option<String>,
+}
+
 /// Equally spaced round numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ticks {
@@ -36,6 +45,12 @@ impl Ticks {
             }
             (digit, place) = coarser(digit, place);
         }
+    }
+
+    /// The numbers as marks on an axis, at the shares of its length that `share` gives.
+    pub(crate) fn marks(&self, share: impl Fn(f64) -> f64) -> Vec<Tick> {
+        let mark = |value: &f64| Tick { share: share(*value), label: Some(self.label(*value)) };
+        self.values.iter().map(mark).collect()
     }
 
     /// A tick as text, with as many decimals as the step needs.

@@ -17,7 +17,7 @@ pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8
     let grid = sensor.grid?;
     let cell = |figure: Figure| Cell { value: figure.value, half_width: figure.half_width };
     let cells: Vec<Cell> = sensor.points.iter().map(|p| cell(p.illuminance_lx)).collect();
-    Some(picture::grid_png(&GridPicture {
+    let drawing = picture::grid(&GridPicture {
         caption: Caption {
             title: &sensor.name,
             facts: &sensor_facts(sensor),
@@ -30,13 +30,14 @@ pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8
         v_m: grid.v.to_array(),
         counts: grid.counts,
         cells: &cells,
-    }))
+    });
+    Some(drawing.to_png(1.0))
 }
 
 /// The luminances of a camera in false colours as a PNG file.
 #[must_use]
 pub fn camera_false_colour_png(camera: &CameraReport, report: &Report) -> Vec<u8> {
-    picture::luminance_png(&LuminancePicture {
+    picture::luminance(&LuminancePicture {
         caption: Caption {
             title: &camera.name,
             facts: &camera_facts(camera),
@@ -46,6 +47,7 @@ pub fn camera_false_colour_png(camera: &CameraReport, report: &Report) -> Vec<u8
         resolution: camera.resolution,
         luminances_cd_m2: &luminances_cd_m2(&camera.pixels),
     })
+    .to_png(1.0)
 }
 
 /// The picture of a camera as it would look on a screen, a PNG file. Luminances are relative to the
@@ -110,7 +112,7 @@ pub fn series_png(
         image: Image { resolution, rgb, luminance },
     });
     let labelled: Vec<LabelledImage<'_>> = labelled.collect();
-    picture::series_png(resolution, &labelled, &luminances_cd_m2(exposure))
+    picture::series(resolution, &labelled, &luminances_cd_m2(exposure)).to_png(1.0)
 }
 
 fn rgb_cd_m2(pixels: &[Pixel]) -> Vec<[f32; 3]> {

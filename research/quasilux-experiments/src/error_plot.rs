@@ -1,6 +1,7 @@
 //! Errors over the number of photons, logarithmic both ways.
 
-use quasilux_drawing::svg::{Axis, Figure, LegendEntry, Line, Panel, Scale, Stroke, figure};
+use quasilux_drawing::Stroke;
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
 
 /// The errors of one setup.
 pub(super) struct ErrorLine {
@@ -29,4 +30,5 @@ pub(super) fn error_plot(title: &str, subtitle: &str, lines: &[ErrorLine]) -> St
         columns: 1,
         legend: lines.iter().map(entry).collect(),
     })
+    .to_svg()
 }

@@ -5,13 +5,9 @@
 //! colours. It is perceptually uniform and stays in order for the usual kinds of colour blindness
 //! and in print without colour, because lightness alone carries the order.
 
-/// sRGB, 8 bits a channel.
-pub(crate) type Colour = [u8; 3];
+use crate::canvas::mix;
+use crate::style::Colour;
 
-/// Colour of titles.
-pub(crate) const INK: Colour = [24, 24, 24];
-/// Colour of axes and remarks.
-pub(crate) const SOFT_INK: Colour = [96, 96, 96];
 /// Colour of what a reader must not miss.
 pub(crate) const CAUTION_INK: Colour = [168, 52, 0];
 
@@ -40,14 +36,6 @@ pub(crate) fn colour(t: f64) -> Colour {
     let x = t.clamp(0.0, 1.0) * intervals as f64;
     let i = (x as usize).min(intervals - 1);
     mix(VIRIDIS[i], VIRIDIS[i + 1], x - i as f64)
-}
-
-/// The colour between `a` (`t` = 0) and `b` (`t` = 1).
-pub(crate) fn mix(a: Colour, b: Colour, t: f64) -> Colour {
-    std::array::from_fn(|c| {
-        let (a, b) = (f64::from(a[c]), f64::from(b[c]));
-        (a + (b - a) * t).round() as u8
-    })
 }
 
 /// Near-black or white, readable on `background`.

@@ -1,10 +1,11 @@
-//! What stands around every false-colour picture: its title, the scale, and how it was made.
+//! The words and the colour scale around every false-colour picture.
 
-use super::canvas::Canvas;
-use super::colour_map::{self, CAUTION_INK, Colour, INK, SOFT_INK};
-use super::layout::{self, Layout};
-use super::text::{self, Align, TextStyle};
-use glam::DVec2;
+use super::colour_map::{self, CAUTION_INK};
+use super::layout::{self, Layout, capital_px};
+use crate::drawing::Drawing;
+use crate::style::{Anchor, Colour, GREY, INK, Stroke, TextStyle};
+use crate::text::{fitted, width_px};
+use crate::ticks::Tick;
 
 /// The words around a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,58 +26,58 @@ pub(crate) struct Legend<'a> {
     /// Lines across the scale.
     pub(crate) marks: Vec<f64>,
     /// Ticks below it with their numbers, ascending.
-    pub(crate) ticks: Vec<(f64, String)>,
+    pub(crate) ticks: Vec<Tick>,
 }
 
-/// Draws the title and the figures under it.
-pub(crate) fn draw_title(canvas: &mut Canvas, layout: &Layout, name: &str) {
+/// A sheet for a picture, with the title and the figures under it.
+pub(crate) fn titled(layout: &Layout, caption: &Caption<'_>) -> Drawing {
+    let mut drawing = Drawing::new(caption.title, layout.size.map(|n| n as f64));
     let left = layout.content_left();
-    let title = text::fitted(name, layout::TITLE_PX, layout.content_width());
-    let style = TextStyle::new(layout::TITLE_PX, INK, Align::Left);
-    text::draw(canvas, &title, DVec2::new(left, layout.title_base()), style);
+    let title = fitted(caption.title, layout::TITLE_PX, layout.content_width());
+    let style = TextStyle::new(layout::TITLE_PX, INK, Anchor::Start);
+    drawing.text([left, layout.title_base()], style, &title);
+    let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
     for (k, line) in layout.summary_lines.iter().enumerate() {
-        let at = DVec2::new(left, layout.summary_base(k));
-        text::draw(canvas, line, at, TextStyle::new(layout::SUMMARY_PX, INK, Align::Left));
+        drawing.text([left, layout.summary_base(k)], style, line);
     }
+    drawing
 }
 
 /// Draws the colour scale.
-pub(crate) fn draw_legend(canvas: &mut Canvas, layout: &Layout, legend: &Legend<'_>) {
-    let ([x, y], [w, h]) = (layout.legend_corner, layout.legend_size);
-    for column in 0..w {
-        let colour = colour_map::colour((column as f64 + 0.5) / w as f64);
-        canvas.fill([x + column, y], [1, h], colour);
-    }
-    let top = y as f64;
-    let place = |share: f64| (x as f64 + share * w as f64).floor() + 0.5;
+pub(crate) fn draw_legend(drawing: &mut Drawing, layout: &Layout, legend: &Legend<'_>) {
+    let frame = layout.legend();
+    let ([left, top], [width, height]) = (frame.corner_px, frame.size_px);
+    let columns = layout.legend_size[0];
+    let colour = |column: usize| colour_map::colour((column as f64 + 0.5) / width);
+    drawing.cells(frame, columns, (0..columns).map(colour).collect());
+    let place = |share: f64| (left + share * width).floor() + 0.5;
     for &share in &legend.marks {
-        let ends = [DVec2::new(place(share), top), DVec2::new(place(share), top + h as f64)];
-        canvas.stroke(&[ends], 1.0, colour_map::ink_on(colour_map::colour(share)));
+        let stroke = Stroke::solid(colour_map::ink_on(colour_map::colour(share)), 1.0);
+        drawing.line(&[[place(share), top], [place(share), top + height]], stroke);
     }
-    let style = TextStyle::new(layout::SMALL_PX, SOFT_INK, Align::Centre);
-    let below = top + h as f64;
+    let style = TextStyle::new(layout::SMALL_PX, GREY, Anchor::Middle);
+    let below = top + height;
     let mut free_from = f64::NEG_INFINITY;
-    for (share, number) in &legend.ticks {
-        let column = place(*share);
-        let tick = [DVec2::new(column, below + 1.0), DVec2::new(column, below + 5.0)];
-        canvas.stroke(&[tick], 1.0, SOFT_INK);
-        let half_px = 0.5 * text::width_px(number, layout::SMALL_PX);
+    for Tick { share, label } in &legend.ticks {
+        let (column, number) = (place(*share), label.as_deref().unwrap_or_default());
+        drawing.line(&[[column, below + 1.0], [column, below + 5.0]], Stroke::solid(GREY, 1.0));
+        let half_px = 0.5 * width_px(number, layout::SMALL_PX);
         if column - half_px > free_from {
-            text::draw(canvas, number, DVec2::new(column, below + 19.5), style);
+            drawing.text([column, below + 19.5], style, number);
             free_from = column + half_px + 8.0;
         }
     }
-    let unit = TextStyle::new(layout::SUMMARY_PX, INK, Align::Left);
-    let base = top + 0.5 * (h as f64 + layout::SUMMARY_PX);
-    text::draw(canvas, legend.unit, DVec2::new((x + w) as f64 + 10.0, base), unit);
+    let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
+    let base = top + 0.5 * (height + capital_px(layout::SUMMARY_PX));
+    drawing.text([left + width + 10.0, base], style, legend.unit);
 }
 
 /// Draws how the numbers were made, and what restricts them.
-pub(crate) fn draw_footer(canvas: &mut Canvas, layout: &Layout, caption: &Caption<'_>) {
-    let lines: [(&str, Colour); 2] = [(caption.method, SOFT_INK), (caption.caution, CAUTION_INK)];
+pub(crate) fn draw_footer(drawing: &mut Drawing, layout: &Layout, caption: &Caption<'_>) {
+    let lines: [(&str, Colour); 2] = [(caption.method, GREY), (caption.caution, CAUTION_INK)];
     for (k, (line, colour)) in lines.into_iter().enumerate() {
-        let line = text::fitted(line, layout::SMALL_PX, layout.content_width());
-        let style = TextStyle::new(layout::SMALL_PX, colour, Align::Left);
-        text::draw(canvas, &line, DVec2::new(layout.content_left(), layout.footer_base(k)), style);
+        let line = fitted(line, layout::SMALL_PX, layout.content_width());
+        let style = TextStyle::new(layout::SMALL_PX, colour, Anchor::Start);
+        drawing.text([layout.content_left(), layout.footer_base(k)], style, &line);
     }
 }

@@ -1,76 +1,70 @@
 //! The false-colour picture of a grid with its axes and legend.
 
 use super::axis::Axis;
-use super::canvas::Canvas;
 use super::cells::GridPicture;
-use super::colour_map::SOFT_INK;
 use super::frame::{self, Legend};
 use super::layout::{self, Layout};
 use super::plot;
 use super::scale::ValueScale;
-use super::text::{self, Align, TextStyle};
-use glam::{DVec2, DVec3};
+use crate::drawing::Drawing;
+use crate::style::{Anchor, GREY, Stroke, TextStyle};
+use crate::text::width_px;
+use glam::DVec3;
 
-/// The picture of a grid as a PNG file.
+const TICK: Stroke = Stroke::solid(GREY, 1.0);
+
+/// Draws a grid in false colours.
 ///
 /// # Panics
 /// If the number of cells is not the product of the counts.
 #[must_use]
-pub fn grid_png(grid: &GridPicture<'_>) -> Vec<u8> {
+pub fn grid(grid: &GridPicture<'_>) -> Drawing {
     let [columns, rows] = grid.counts.map(|n| n as usize);
     assert_eq!(grid.cells.len(), columns * rows, "cells of another grid");
     let scale = ValueScale::of(grid.cells);
     let layout = Layout::of(grid.edges_m(), grid.caption.facts);
-    let mut canvas = Canvas::new(layout.size[0], layout.size[1]);
-    frame::draw_title(&mut canvas, &layout, grid.caption.title);
-    plot::draw(&mut canvas, &layout, grid, &scale);
-    draw_axes(&mut canvas, &layout, grid);
-    frame::draw_legend(&mut canvas, &layout, &legend(&scale, grid.unit));
-    frame::draw_footer(&mut canvas, &layout, &grid.caption);
-    canvas.to_png()
+    let mut drawing = frame::titled(&layout, &grid.caption);
+    plot::draw(&mut drawing, &layout, grid, &scale);
+    draw_axes(&mut drawing, &layout, grid);
+    let levels = scale.levels.values.iter();
+    let legend = Legend {
+        unit: grid.unit,
+        marks: levels.map(|value| scale.share(*value)).collect(),
+        ticks: scale.ticks.marks(|value| scale.share(value)),
+    };
+    frame::draw_legend(&mut drawing, &layout, &legend);
+    frame::draw_footer(&mut drawing, &layout, &grid.caption);
+    drawing
 }
 
-/// The scale as a legend, with the levels of the contour lines.
-fn legend<'a>(scale: &ValueScale, unit: &'a str) -> Legend<'a> {
-    let share = |value: &f64| scale.share(*value);
-    let ticks = scale.ticks.values.iter();
-    Legend {
-        unit,
-        marks: scale.levels.values.iter().map(share).collect(),
-        ticks: ticks.map(|value| (share(value), scale.ticks.label(*value))).collect(),
-    }
-}
-
-fn draw_axes(canvas: &mut Canvas, layout: &Layout, grid: &GridPicture<'_>) {
-    let ([x, y], [w, h]) = (layout.plot_corner, layout.plot_size);
-    let bottom = (y + h) as f64;
+fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>) {
+    let plot = layout.plot();
     let most = |length_px: usize| (length_px / 70).max(2);
     let origin = DVec3::from(grid.origin_m);
-    let along = Axis::of(origin, DVec3::from(grid.u_m), "u", most(w));
-    let across = Axis::of(origin, DVec3::from(grid.v_m), "v", most(h));
-    let mut style = TextStyle::new(layout::SMALL_PX, SOFT_INK, Align::Centre);
-    for (share, number) in &along.ticks {
-        let column = (x as f64 + share * w as f64).floor() + 0.5;
-        let ends = [DVec2::new(column, bottom + 1.0), DVec2::new(column, bottom + 6.0)];
-        canvas.stroke(&[ends], 1.0, SOFT_INK);
-        text::draw(canvas, number, DVec2::new(column, bottom + 20.5), style);
+    let along = Axis::of(origin, DVec3::from(grid.u_m), "u", most(layout.plot_size[0]));
+    let across = Axis::of(origin, DVec3::from(grid.v_m), "v", most(layout.plot_size[1]));
+    let style = |anchor| TextStyle::new(layout::SMALL_PX, GREY, anchor);
+    for tick in &along.ticks {
+        let [x, bottom] = plot.at([tick.share, 0.0]);
+        let x = x.floor() + 0.5;
+        drawing.line(&[[x, bottom + 1.0], [x, bottom + 6.0]], TICK);
+        let number = tick.label.as_deref().unwrap_or_default();
+        drawing.text([x, bottom + 20.5], style(Anchor::Middle), number);
     }
-    let middle = DVec2::new(x as f64 + 0.5 * w as f64, bottom + 38.5);
-    text::draw(canvas, &along.title, middle, style);
-    style.align = Align::Right;
+    let [x, bottom] = plot.at([0.5, 0.0]);
+    drawing.text([x, bottom + 38.5], style(Anchor::Middle), &along.title);
     let mut widest: f64 = 0.0;
-    for (share, number) in &across.ticks {
-        let row = (bottom - share * h as f64).ceil() - 0.5;
-        let left = x as f64;
-        canvas.stroke(&[[DVec2::new(left - 6.0, row), DVec2::new(left - 1.0, row)]], 1.0, SOFT_INK);
-        let base = DVec2::new(left - 10.5, row + 0.5 * layout::SMALL_PX);
-        text::draw(canvas, number, base, style);
-        widest = widest.max(text::width_px(number, layout::SMALL_PX));
+    for tick in &across.ticks {
+        let [left, y] = plot.at([0.0, tick.share]);
+        let y = y.ceil() - 0.5;
+        drawing.line(&[[left - 6.0, y], [left - 1.0, y]], TICK);
+        let number = tick.label.as_deref().unwrap_or_default();
+        let base = y + 0.5 * layout::capital_px(layout::SMALL_PX);
+        drawing.text([left - 10.5, base], style(Anchor::End), number);
+        widest = widest.max(width_px(number, layout::SMALL_PX));
     }
-    style.align = Align::Centre;
-    style.direction = DVec2::NEG_Y;
-    let at = DVec2::new(x as f64 - 18.5 - widest, bottom - 0.5 * h as f64);
-    text::draw(canvas, &across.title, at, style);
+    let [left, y] = plot.at([0.0, 0.5]);
+    drawing.text([left - 18.5 - widest, y], style(Anchor::Middle).upward(), &across.title);
 }
 
 #[cfg(test)]
@@ -90,7 +84,7 @@ mod tests {
     #[test]
     fn the_picture_has_the_expected_size_and_proportion() {
         let grid = Grid::new([5.0, 4.0], [24, 20], 0.01, batwing);
-        let (size, pixels) = decoded(&grid_png(&grid.picture("workplane")));
+        let (size, pixels) = decoded(&super::grid(&grid.picture("workplane")).to_png(1.0));
         let layout = Layout::of([5.0, 4.0], &grid.facts);
         assert_eq!(layout.plot_size, [900, 720]);
         assert_eq!(size.map(|n| n as usize), layout.size);
@@ -108,7 +102,7 @@ mod tests {
                     if x > 0.5 && y > 0.5 { 400.0 } else { 100.0 }
                 },
             );
-        let (size, pixels) = decoded(&grid_png(&grid.picture("s")));
+        let (size, pixels) = decoded(&super::grid(&grid.picture("s")).to_png(1.0));
         let layout = Layout::of([2.0, 2.0], &grid.facts);
         let scale = ValueScale::of(&grid.cells);
         let at = |x: usize, y: usize| {
@@ -125,7 +119,8 @@ mod tests {
     #[test]
     fn the_same_grid_gives_the_same_bytes() {
         let [first, second] = [(); 2].map(|()| Grid::new([5.0, 4.0], [24, 20], 0.01, batwing));
-        assert_eq!(grid_png(&first.picture("a")), grid_png(&second.picture("a")));
+        let png = |grid: &Grid| super::grid(&grid.picture("a")).to_png(1.0);
+        assert_eq!(png(&first), png(&second));
     }
 
     #[test]
@@ -160,7 +155,7 @@ mod tests {
                         half_width: cell.half_width.filter(finite),
                     };
                 });
-                let ([width, height], _) = decoded(&grid_png(&grid.picture(name)));
+                let ([width, height], _) = decoded(&super::grid(&grid.picture(name)).to_png(1.0));
                 assert!((500..1200).contains(&width) && (200..1300).contains(&height));
             }
         }

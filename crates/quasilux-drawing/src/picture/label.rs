@@ -1,6 +1,5 @@
 //! Where a contour line carries its number: along its straightest stretch, in a gap of the line.
 
-use super::canvas::Segment;
 use super::contour::Line;
 use glam::DVec2;
 
@@ -57,24 +56,17 @@ pub(crate) fn place(
         .map(|(place, _)| place)
 }
 
-/// The straight pieces of a line, without the gap of its label.
-pub(crate) fn pieces(line: &Line, label: Option<LabelPlace>) -> Vec<Segment> {
+/// The parts of a line before and behind the gap of its label.
+pub(crate) fn parts(line: &Line, label: Option<LabelPlace>) -> Vec<Line> {
     let Some(LabelPlace { gap_px: [from, to], .. }) = label else {
-        return line.windows(2).map(|w| [w[0], w[1]]).collect();
+        return vec![line.clone()];
     };
     let lengths = lengths_along(line);
-    let total = lengths.last().copied().unwrap_or(0.0);
-    let mut kept = Vec::new();
-    for [low, high] in [[0.0, from], [to, total]] {
-        for (w, s) in line.windows(2).zip(lengths.windows(2)) {
-            let (a, b) = (s[0].max(low), s[1].min(high));
-            if a < b {
-                let at = |x: f64| w[0].lerp(w[1], (x - s[0]) / (s[1] - s[0]));
-                kept.push([at(a), at(b)]);
-            }
-        }
-    }
-    kept
+    let until = lengths.partition_point(|length| *length < from);
+    let behind = lengths.partition_point(|length| *length <= to);
+    let [gap, end] = [from, to].map(|s| point_at(line, &lengths, s));
+    let before = line[..until].iter().copied().chain([gap]).collect();
+    vec![before, std::iter::once(end).chain(line[behind..].iter().copied()).collect()]
 }
 
 /// Length of the line up to each of its points.
@@ -110,7 +102,9 @@ mod tests {
         assert!(place.centre.x >= 55.0 && place.centre.y == 60.0);
         assert!(place.direction.distance(DVec2::X) < 1e-12);
         let total: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
-        let drawn: f64 = pieces(&line, Some(place)).iter().map(|[a, b]| a.distance(*b)).sum();
+        let parts = parts(&line, Some(place));
+        let steps = parts.iter().flat_map(|part| part.windows(2));
+        let drawn: f64 = steps.map(|w| w[0].distance(w[1])).sum();
         assert!((total - drawn - 30.0).abs() < 1e-9);
     }
 

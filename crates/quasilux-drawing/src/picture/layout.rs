@@ -1,13 +1,15 @@
 //! Where everything lies in a picture. All lengths in pixels.
 
-use super::text::width_px;
+use crate::drawing::Frame;
+use crate::font::CAPITAL_EM;
+use crate::text::width_px;
 
-/// Height of the title's capitals.
-pub(crate) const TITLE_PX: f64 = 20.0;
-/// Height of the capitals of the figures under it.
-pub(crate) const SUMMARY_PX: f64 = 11.0;
-/// Height of the capitals of numbers on axes and legend.
-pub(crate) const SMALL_PX: f64 = 9.0;
+/// Font size of the title.
+pub(crate) const TITLE_PX: f64 = 28.0;
+/// Font size of the figures under it.
+pub(crate) const SUMMARY_PX: f64 = 15.5;
+/// Font size of numbers on axes and legend.
+pub(crate) const SMALL_PX: f64 = 12.6;
 
 /// Longer side of the grid.
 const PLOT_LONG: f64 = 900.0;
@@ -16,8 +18,9 @@ const PLOT_SHORT_LEAST: f64 = 24.0;
 /// Everything is at least this wide, so that the figures fit.
 const CONTENT_LEAST: usize = 520;
 const LEFT: usize = 72;
-const RIGHT: usize = 56;
+const RIGHT: usize = 64;
 const TOP: usize = 30;
+const TITLE: usize = 20;
 const SUMMARY_GAP: &str = "     ";
 const SUMMARY_LINE: usize = 22;
 const BELOW_PLOT: usize = 62;
@@ -58,7 +61,7 @@ impl Layout {
     fn around(plot_size: [usize; 2], below_plot: usize, summary: &[String]) -> Self {
         let content_width = plot_size[0].max(CONTENT_LEAST);
         let summary_lines = wrapped(summary, content_width as f64);
-        let plot_top = TOP + TITLE_PX as usize + 18 + SUMMARY_LINE * summary_lines.len() + 10;
+        let plot_top = TOP + TITLE + 18 + SUMMARY_LINE * summary_lines.len() + 10;
         let plot_corner = [LEFT + (content_width - plot_size[0]) / 2, plot_top];
         let legend_top = plot_top + plot_size[1] + below_plot;
         Self {
@@ -75,6 +78,16 @@ impl Layout {
         }
     }
 
+    /// The rectangle of the plot.
+    pub(crate) fn plot(&self) -> Frame {
+        frame(self.plot_corner, self.plot_size)
+    }
+
+    /// The rectangle of the colour scale.
+    pub(crate) fn legend(&self) -> Frame {
+        frame(self.legend_corner, self.legend_size)
+    }
+
     pub(crate) fn content_left(&self) -> f64 {
         LEFT as f64
     }
@@ -86,17 +99,26 @@ impl Layout {
     /// Base line of the title. All base lines lie on pixel centres, so that horizontal strokes are
     /// sharp.
     pub(crate) fn title_base(&self) -> f64 {
-        TOP as f64 + TITLE_PX + 0.5
+        (TOP + TITLE) as f64 + 0.5
     }
 
     pub(crate) fn summary_base(&self, line: usize) -> f64 {
-        self.title_base() + 18.0 + SUMMARY_PX + (SUMMARY_LINE * line) as f64
+        self.title_base() + (29 + SUMMARY_LINE * line) as f64
     }
 
     pub(crate) fn footer_base(&self, line: usize) -> f64 {
         let legend_bottom = self.legend_corner[1] + self.legend_size[1];
         (legend_bottom + BELOW_LEGEND + FOOTER_LINE * (line + 1)) as f64 - 2.5
     }
+}
+
+fn frame(corner: [usize; 2], size: [usize; 2]) -> Frame {
+    Frame { corner_px: corner.map(|x| x as f64), size_px: size.map(|x| x as f64) }
+}
+
+/// Height of a capital at a font size.
+pub(crate) fn capital_px(size_px: f64) -> f64 {
+    CAPITAL_EM * size_px
 }
 
 /// Joins pieces of text into lines of at most a width.

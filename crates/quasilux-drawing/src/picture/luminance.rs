@@ -1,10 +1,10 @@
 //! The false-colour picture of luminances: each pixel in the colour of its luminance, and a legend
 //! in cd/m2.
 
-use super::canvas::Canvas;
 use super::frame::{self, Caption};
 use super::layout::Layout;
 use super::luminance_scale::LuminanceScale;
+use crate::drawing::Drawing;
 
 /// Small pictures are enlarged by a whole number, as long as they stay within this many pixels.
 const LONG_PX: usize = 1000;
@@ -20,23 +20,20 @@ pub struct LuminancePicture<'a> {
     pub luminances_cd_m2: &'a [f32],
 }
 
-/// Luminances as a PNG file. Pixels of small pictures are drawn as squares.
+/// Draws luminances in false colours; pixels of small pictures are squares.
 #[must_use]
-pub fn luminance_png(picture: &LuminancePicture<'_>) -> Vec<u8> {
+pub fn luminance(picture: &LuminancePicture<'_>) -> Drawing {
     let scale = LuminanceScale::of(picture.luminances_cd_m2);
     let [width, height] = picture.resolution.map(|n| n as usize);
     let zoom = (LONG_PX / width.max(height)).max(1);
     let layout = Layout::without_axes([zoom * width, zoom * height], picture.caption.facts);
-    let mut canvas = Canvas::new(layout.size[0], layout.size[1]);
-    frame::draw_title(&mut canvas, &layout, picture.caption.title);
-    let [left, top] = layout.plot_corner;
-    for (i, luminance) in picture.luminances_cd_m2.iter().enumerate() {
-        let corner = [left + zoom * (i % width), top + zoom * (i / width)];
-        canvas.fill(corner, [zoom; 2], scale.colour(f64::from(*luminance)));
-    }
-    frame::draw_legend(&mut canvas, &layout, &scale.legend());
-    frame::draw_footer(&mut canvas, &layout, &picture.caption);
-    canvas.to_png()
+    let mut drawing = frame::titled(&layout, &picture.caption);
+    let luminances = picture.luminances_cd_m2.iter();
+    let colours = luminances.map(|luminance| scale.colour(f64::from(*luminance))).collect();
+    drawing.cells(layout.plot(), width, colours);
+    frame::draw_legend(&mut drawing, &layout, &scale.legend());
+    frame::draw_footer(&mut drawing, &layout, &picture.caption);
+    drawing
 }
 
 #[cfg(test)]
@@ -53,7 +50,7 @@ mod tests {
 
     fn png(resolution: [u32; 2], luminances_cd_m2: &[f32]) -> Vec<u8> {
         let caption = Caption { title: "view", ..Caption::default() };
-        luminance_png(&LuminancePicture { caption, resolution, luminances_cd_m2 })
+        luminance(&LuminancePicture { caption, resolution, luminances_cd_m2 }).to_png(1.0)
     }
 
     /// Dark on the left, bright on the right, the top row brighter.

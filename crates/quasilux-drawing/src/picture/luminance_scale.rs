@@ -4,13 +4,15 @@
 //! a power of ten. It ends above the brightest pixel and begins below all but the darkest 1 % of
 //! those with light, at most four decades lower. What is below has the colour of its low end.
 
-use super::colour_map::{self, Colour};
+use super::colour_map;
 use super::frame::Legend;
 use crate::number::brief;
+use crate::style::Colour;
+use crate::ticks::Tick;
 
 /// Share of the lit pixels that may be too dark for the scale.
 const TOO_DARK: f64 = 0.01;
-/// The scale spans at most so many decades.
+/// The largest number of decades that the scale spans.
 const MAX_DECADES: f64 = 4.0;
 
 /// Luminances in 32 bits are this near to a round number where they are meant to be one.
@@ -56,10 +58,10 @@ impl LuminanceScale {
     }
 
     pub(crate) fn legend(&self) -> Legend<'static> {
-        let ticks: Vec<(f64, String)> =
-            self.ticks.iter().map(|&tick| (self.share(tick), brief(tick, 1))).collect();
+        let tick = |value: &f64| Tick { share: self.share(*value), label: Some(brief(*value, 1)) };
+        let ticks: Vec<Tick> = self.ticks.iter().map(tick).collect();
         let inner = ticks.get(1..ticks.len() - 1).unwrap_or_default();
-        let marks = inner.iter().map(|(share, _)| *share).collect();
+        let marks = inner.iter().map(|tick| tick.share).collect();
         Legend { unit: "cd/m²", marks, ticks }
     }
 }
@@ -90,7 +92,8 @@ mod tests {
         assert_eq!(room.ticks, [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
         assert_eq!((room.share(2.0), room.share(500.0)), (0.0, 1.0));
         assert!((room.share(libm::sqrt(1000.0)) - 0.5).abs() < 1e-12);
-        let labels: Vec<String> = room.legend().ticks.into_iter().map(|(_, label)| label).collect();
+        let labels: Vec<String> =
+            room.legend().ticks.into_iter().filter_map(|tick| tick.label).collect();
         assert_eq!(labels, ["2", "5", "10", "20", "50", "100", "200", "500"]);
         let dim = LuminanceScale::of(&[0.01, 0.05]);
         assert_eq!(dim.ticks, [0.01, 0.02, 0.05]);

@@ -7,7 +7,6 @@
 //! beyond them up to the border).
 
 mod axis;
-mod canvas;
 mod cells;
 mod colour_map;
 mod contour;
@@ -21,13 +20,12 @@ mod luminance_scale;
 mod plot;
 mod scale;
 mod series;
-mod text;
 mod tone_map;
 
 pub use cells::{Cell, GridPicture};
 pub use frame::Caption;
-pub use grid::grid_png;
+pub use grid::grid;
 pub use image::Image;
-pub use luminance::{LuminancePicture, luminance_png};
-pub use series::{LabelledImage, series_png};
+pub use luminance::{LuminancePicture, luminance};
+pub use series::{LabelledImage, series};
 pub use tone_map::tone_mapped_png;

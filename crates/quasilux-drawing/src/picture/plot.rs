@@ -1,20 +1,22 @@
 //! The grid itself: cells, contour lines with their labels, and numbers in the cells.
 
-use super::canvas::Canvas;
 use super::cells::GridPicture;
-use super::colour_map::{Colour, SOFT_INK, ink_on, mix};
+use super::colour_map::ink_on;
 use super::contour::{Field, Line};
 use super::label::{self, LabelPlace};
-use super::layout::Layout;
+use super::layout::{Layout, capital_px};
 use super::scale::ValueScale;
-use super::text::{self, Align, TextStyle};
+use crate::canvas::mix;
+use crate::drawing::{Drawing, Frame};
 use crate::number::{decimal_exponent, to_place};
+use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle};
+use crate::text::width_px;
 use glam::DVec2;
 
-/// Height of the capitals of contour labels in pixels.
-const LABEL_PX: f64 = 10.0;
-/// Heights tried for the numbers in the cells, the largest that fits is taken.
-const NUMBER_PX: [f64; 4] = [12.0, 10.0, 9.0, 8.0];
+/// Font size of contour labels.
+const LABEL_PX: f64 = 14.0;
+/// Font sizes tried for the numbers in the cells, the largest that fits is taken.
+const NUMBER_PX: [f64; 4] = [16.8, 14.0, 12.6, 11.2];
 /// Clear space around a number in its cell in pixels.
 const NUMBER_MARGIN_PX: f64 = 6.5;
 /// Width of contour lines in pixels.
@@ -24,26 +26,31 @@ const NO_VALUE: Colour = [200, 200, 200];
 
 /// Draws a grid.
 pub(crate) fn draw(
-    canvas: &mut Canvas,
+    drawing: &mut Drawing,
     layout: &Layout,
     grid: &GridPicture<'_>,
     scale: &ValueScale,
 ) {
+    let frame = layout.plot();
     let plot = Plot {
         counts: grid.counts.map(|n| n as usize),
-        corner: DVec2::new(layout.plot_corner[0] as f64, layout.plot_corner[1] as f64),
-        size: DVec2::new(layout.plot_size[0] as f64, layout.plot_size[1] as f64),
+        frame,
+        corner: DVec2::from(frame.corner_px),
+        size: DVec2::from(frame.size_px),
         values: grid.cells.iter().map(|cell| cell.value).collect(),
         scale,
     };
-    plot.draw_cells(canvas, layout);
-    let labels = plot.draw_contours(canvas);
-    plot.draw_numbers(canvas, &labels);
-    plot.draw_frame(canvas);
+    plot.draw_cells(drawing);
+    let labels = plot.draw_contours(drawing);
+    plot.draw_numbers(drawing, &labels);
+    let [[left, top], [width, height]] = [frame.corner_px, frame.size_px];
+    let border = Frame { corner_px: [left - 0.5, top - 0.5], size_px: [width + 1.0, height + 1.0] };
+    drawing.outline(border, Stroke::solid(GREY, 1.0));
 }
 
 struct Plot<'a> {
     counts: [usize; 2],
+    frame: Frame,
     corner: DVec2,
     size: DVec2,
     values: Vec<Option<f64>>,
@@ -66,19 +73,13 @@ impl Plot<'_> {
         value.map_or(NO_VALUE, |value| self.scale.colour(value))
     }
 
-    fn draw_cells(&self, canvas: &mut Canvas, layout: &Layout) {
-        let ([x0, y0], [w, h]) = (layout.plot_corner, layout.plot_size);
-        let [columns, rows] = self.counts;
-        for y in 0..h {
-            let j = rows - 1 - y * rows / h;
-            for x in 0..w {
-                let i = x * columns / w;
-                canvas.set(x0 + x, y0 + y, self.colour_of(self.values[j * columns + i]));
-            }
-        }
+    fn draw_cells(&self, drawing: &mut Drawing) {
+        let rows = self.values.chunks(self.counts[0]).rev();
+        let colours = rows.flatten().map(|value| self.colour_of(*value)).collect();
+        drawing.cells(self.frame, self.counts[0], colours);
     }
 
-    fn draw_contours(&self, canvas: &mut Canvas) -> Vec<LabelPlace> {
+    fn draw_contours(&self, drawing: &mut Drawing) -> Vec<LabelPlace> {
         let values: Vec<f64> = self.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
         let pieces = (self.cell_px().max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
@@ -86,15 +87,17 @@ impl Plot<'_> {
         for &level in &self.scale.levels.values {
             let ink = ink_on(self.scale.colour(level));
             let number = self.scale.levels.label(level);
-            let length_px = text::width_px(&number, LABEL_PX) + 10.0;
+            let length_px = width_px(&number, LABEL_PX) + 10.0;
             for line in field.contours(level) {
                 let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
                 let place = label::place(&line, length_px, self.size, &labels);
-                let mut segments = label::pieces(&line, place);
-                segments.iter_mut().flatten().for_each(|p| *p += self.corner);
-                canvas.stroke(&segments, LINE_PX, ink);
+                for part in label::parts(&line, place) {
+                    let points: Vec<[f64; 2]> =
+                        part.iter().map(|p| (*p + self.corner).to_array()).collect();
+                    drawing.line(&points, Stroke::solid(ink, LINE_PX));
+                }
                 if let Some(place) = place {
-                    self.draw_label(canvas, &number, ink, place);
+                    self.draw_label(drawing, &number, ink, place);
                     labels.push(place);
                 }
             }
@@ -102,15 +105,15 @@ impl Plot<'_> {
         labels
     }
 
-    fn draw_label(&self, canvas: &mut Canvas, number: &str, ink: Colour, place: LabelPlace) {
-        let mut style = TextStyle::new(LABEL_PX, ink, Align::Centre);
-        style.direction = place.direction;
+    fn draw_label(&self, drawing: &mut Drawing, number: &str, ink: Colour, place: LabelPlace) {
+        let direction = place.direction.to_array();
+        let style = TextStyle { direction, ..TextStyle::new(LABEL_PX, ink, Anchor::Middle) };
         let down = DVec2::new(-place.direction.y, place.direction.x);
-        let base = self.corner + place.centre + down * (0.5 * LABEL_PX);
-        text::draw(canvas, number, base, style);
+        let base = self.corner + place.centre + down * (0.5 * capital_px(LABEL_PX));
+        drawing.text(base.to_array(), style, number);
     }
 
-    fn draw_numbers(&self, canvas: &mut Canvas, labels: &[LabelPlace]) {
+    fn draw_numbers(&self, drawing: &mut Drawing, labels: &[LabelPlace]) {
         let largest = self.values.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
         let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
         let numbers: Vec<String> = self
@@ -119,35 +122,29 @@ impl Plot<'_> {
             .map(|value| value.map_or_else(|| "-".into(), |value| to_place(value, place)))
             .collect();
         let room = self.cell_px() - 2.0 * NUMBER_MARGIN_PX;
-        let fits =
-            |px: &f64| *px <= room.y && numbers.iter().all(|n| text::width_px(n, *px) <= room.x);
+        let fits = |px: &f64| {
+            capital_px(*px) <= room.y && numbers.iter().all(|n| width_px(n, *px) <= room.x)
+        };
         let Some(&px) = NUMBER_PX.iter().find(|px| fits(px)) else {
             return;
         };
         for (cell, number) in numbers.iter().enumerate() {
             let [i, j] = [cell % self.counts[0], cell / self.counts[0]];
             let centre = self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
-            let half_diagonal = 0.5 * text::width_px(number, px).max(px);
-            let hidden = labels
+            let half_diagonal = 0.5 * width_px(number, px).max(capital_px(px));
+            let is_covered = labels
                 .iter()
                 .any(|l| l.centre.distance(centre) < l.radius_px + 0.8 * half_diagonal);
-            if hidden {
+            if is_covered {
                 continue;
             }
             let colour = self.colour_of(self.values[cell]);
             // A little fainter than the contour lines, which are read first.
             let ink = mix(colour, ink_on(colour), 0.85);
-            let style = TextStyle::new(px, ink, Align::Centre);
-            let base = (self.corner + centre + DVec2::Y * (0.5 * px)).round() + DVec2::splat(0.5);
-            text::draw_on(canvas, number, base, style, colour);
+            let style = TextStyle { halo: Some(colour), ..TextStyle::new(px, ink, Anchor::Middle) };
+            let below = DVec2::Y * (0.5 * capital_px(px));
+            let base = (self.corner + centre + below).round() + DVec2::splat(0.5);
+            drawing.text(base.to_array(), style, number);
         }
-    }
-
-    fn draw_frame(&self, canvas: &mut Canvas) {
-        let low = self.corner - 0.5;
-        let high = self.corner + self.size + 0.5;
-        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-        let sides: Vec<_> = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect();
-        canvas.stroke(&sides, 1.0, SOFT_INK);
     }
 }

@@ -1,7 +1,8 @@
 //! Which value gets which colour, and at which values the contour lines and the legend's ticks lie.
 
 use super::cells::Cell;
-use super::colour_map::{self, Colour};
+use super::colour_map;
+use crate::style::Colour;
 use crate::ticks::Ticks;
 
 /// About as many contour lines as a reader can tell apart.

@@ -1,14 +1,13 @@
 //! Several pictures of one view side by side, under one exposure, so that they can be compared.
 
-use super::canvas::Canvas;
-use super::colour_map::INK;
 use super::image::Image;
-use super::text::{self, Align, TextStyle};
 use super::tone_map::Operator;
-use glam::DVec2;
+use crate::drawing::{Drawing, Frame};
+use crate::style::{Anchor, INK, TextStyle};
+use crate::text::fitted;
 
-/// Height of a capital in a label, in pixels.
-const CAPITAL_PX: f64 = 11.0;
+/// Font size of a label.
+const LABEL_SIZE_PX: f64 = 15.5;
 /// Room above each picture for its label, and between pictures and around them.
 const LABEL_PX: usize = 26;
 const GAP_PX: usize = 8;
@@ -22,31 +21,32 @@ pub struct LabelledImage<'a> {
     pub image: Image<'a>,
 }
 
-/// Images of one resolution in a row, each below its label, as a PNG file. All have the exposure
+/// Draws images of one resolution in a row, each below its label. All have the exposure
 /// that [`tone_mapped_png`](super::tone_mapped_png) gives an image with the luminances `exposure`;
 /// brighter pixels are white.
 #[must_use]
-pub fn series_png(
+pub fn series(
     [width, height]: [u32; 2],
     pictures: &[LabelledImage<'_>],
     exposure: &[f32],
-) -> Vec<u8> {
+) -> Drawing {
     let operator = Operator::of(exposure);
     let [width, height] = [width, height].map(|n| n as usize);
     let size = [GAP_PX + pictures.len() * (width + GAP_PX), height + LABEL_PX + GAP_PX];
-    let mut canvas = Canvas::new(size[0], size[1]);
-    let style = TextStyle::new(CAPITAL_PX, INK, Align::Left);
+    let labels: Vec<&str> = pictures.iter().map(|picture| picture.label).collect();
+    let mut drawing = Drawing::new(&labels.join(", "), size.map(|n| n as f64));
+    let style = TextStyle::new(LABEL_SIZE_PX, INK, Anchor::Start);
     for (number, picture) in pictures.iter().enumerate() {
-        let left = GAP_PX + number * (width + GAP_PX);
-        let base = DVec2::new(left as f64, LABEL_PX as f64 - 7.5);
-        let label = text::fitted(picture.label, CAPITAL_PX, width as f64);
-        text::draw(&mut canvas, &label, base, style);
-        let colours = operator.all_shown(&picture.image);
-        for (i, colour) in colours.into_iter().take(width * height).enumerate() {
-            canvas.set(left + i % width, LABEL_PX + i / width, colour);
-        }
+        let left = (GAP_PX + number * (width + GAP_PX)) as f64;
+        let label = fitted(picture.label, LABEL_SIZE_PX, width as f64);
+        drawing.text([left, LABEL_PX as f64 - 7.5], style, &label);
+        let frame = Frame {
+            corner_px: [left, LABEL_PX as f64],
+            size_px: [width, height].map(|n| n as f64),
+        };
+        drawing.cells(frame, width, operator.all_shown(&picture.image));
     }
-    canvas.to_png()
+    drawing
 }
 
 #[cfg(test)]
@@ -63,7 +63,7 @@ mod tests {
             image: Image { resolution: [2, 1], rgb, luminance },
         };
         let pictures = [picture("dark", &dark_rgb, &dark), picture("light", &light_rgb, &light)];
-        let png = series_png([2, 1], &pictures, &light);
+        let png = series([2, 1], &pictures, &light).to_png(1.0);
         let mut reader = png::Decoder::new(std::io::Cursor::new(&png)).read_info().expect("a PNG");
         let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
         let info = reader.next_frame(&mut pixels).expect("a frame");
@@ -78,9 +78,9 @@ mod tests {
 
     #[test]
     fn no_pictures_and_no_light_do_not_break() {
-        assert!(!series_png([3, 2], &[], &[]).is_empty());
+        assert!(!series([3, 2], &[], &[]).to_png(1.0).is_empty());
         let image = Image { resolution: [3, 2], rgb: &[[0.0; 3]; 6], luminance: &[0.0; 6] };
         let picture = LabelledImage { label: "a label that does not fit", image };
-        assert!(!series_png([3, 2], &[picture], image.luminance).is_empty());
+        assert!(!series([3, 2], &[picture], image.luminance).to_png(1.0).is_empty());
     }
 }

@@ -8,8 +8,8 @@
 //! 1, then encoded for sRGB (IEC 61966-2-1:1999, clause 5.2), whose primaries are those of the
 //! channels.
 
-use super::canvas::srgb_png;
 use super::image::Image;
+use crate::canvas::srgb_png;
 
 /// Display luminance of the log-average: a picture that is neither light nor dark.
 const KEY: f64 = 0.18;

@@ -3,12 +3,11 @@
 use super::SEQUENCES;
 use super::count::{Count, Figure, Moment};
 use super::report::ALL;
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure as Drawing, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure as Drawing, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Sequence;
 
-const GUIDE: Stroke = Stroke::solid("#c4c4c4", 1.0);
+const GUIDE: Stroke = Stroke::solid([0xc4; 3], 1.0);
 /// Widths that are drawn, in units of the reported ones.
 const WIDTHS: [f64; 2] = [0.4, 1.6];
 const STEPS: u32 = 60;
@@ -29,6 +28,7 @@ pub(super) fn svg(counts: &[Count]) -> String {
         columns: 2,
         legend: legend(),
     })
+    .to_svg()
 }
 
 fn guides() -> Vec<Line> {

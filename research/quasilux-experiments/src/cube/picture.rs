@@ -7,11 +7,10 @@ use super::curve::Currency;
 use super::floor::{End, Floor};
 use super::paper;
 use super::setup::{Form, Points};
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Colour, Dash, PALETTE, Stroke};
 
-const FLOOR: Stroke = Stroke { colour: "#767676", width_px: 1.0, dash: Dash::Dashed };
+const FLOOR: Stroke = Stroke { colour: [0x76; 3], width_px: 1.0, dash: Dash::Dashed };
 
 /// Luminances of table 4: the paper's, and those by radiosity and the spectral method.
 const PAPER: Stroke = Stroke { colour: PALETTE[6], width_px: 2.0, dash: Dash::Dotted };
@@ -27,6 +26,7 @@ pub(super) fn svg(findings: &Findings) -> String {
         by_place(findings),
     ];
     figure(&Figure { title: "The diffuse cube".to_owned(), panels, columns: 2, legend: legend() })
+        .to_svg()
 }
 
 fn by_n(findings: &Findings) -> Panel {
@@ -169,10 +169,10 @@ fn stroke(column: Column) -> Stroke {
     Stroke { colour, width_px: 2.0, dash }
 }
 
-fn colour(points: Points) -> &'static str {
+fn colour(points: Points) -> Colour {
     let all = [Points::Random].into_iter().chain(Points::SEQUENCES);
     let number = all.into_iter().position(|other| other == points).unwrap_or(0);
-    ["#767676", PALETTE[0], PALETTE[4], PALETTE[3], PALETTE[2], PALETTE[6]][number]
+    [[0x76; 3], PALETTE[0], PALETTE[4], PALETTE[3], PALETTE[2], PALETTE[6]][number]
 }
 
 fn legend() -> Vec<Vec<LegendEntry>> {

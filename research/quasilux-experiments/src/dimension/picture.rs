@@ -3,7 +3,7 @@
 use super::Setup;
 use super::walk::Features;
 use crate::error_plot::{ErrorLine, error_plot};
-use quasilux_drawing::svg::{Dash, PALETTE, Stroke};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Sequence;
 
 /// The plot as an SVG file.

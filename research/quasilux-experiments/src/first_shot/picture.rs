@@ -2,9 +2,8 @@
 
 use super::trial::{Part, Trial, error};
 use crate::course::Stage;
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Sequence;
 
 /// What stands along the lower axis: its name, its base, its values.
@@ -22,6 +21,7 @@ pub(super) fn svg(trials: &[Trial]) -> String {
         columns: 2,
         legend: legend(&trials[..2]),
     })
+    .to_svg()
 }
 
 fn panel(trials: &[Trial], (label, base, cost): Cost) -> Panel {

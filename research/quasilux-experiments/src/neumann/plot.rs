@@ -2,9 +2,8 @@
 
 use super::terms::Terms;
 use crate::course::mean_interval;
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 
 const LANDING: Stroke = Stroke::solid(PALETTE[0], 2.5);
 const PATHS: Stroke = Stroke::solid(PALETTE[2], 4.0);
@@ -51,4 +50,5 @@ pub(super) fn svg(terms: &Terms) -> String {
             vec![entry("a term by paths", PATHS), entry("a term by photons", PHOTONS)],
         ],
     })
+    .to_svg()
 }

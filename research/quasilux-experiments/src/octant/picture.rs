@@ -3,9 +3,8 @@
 use super::Findings;
 use super::curve::{Curve, Stop};
 use super::paper::{Printed, TABLE};
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 
 /// Of the curves in their order: pseudo, Halton, Halton once, ours.
 const STROKES: [Stroke; 4] = [
@@ -63,6 +62,7 @@ pub(super) fn svg(findings: &Findings) -> String {
         columns: 2,
         legend: legend(curves),
     })
+    .to_svg()
 }
 
 fn legend(curves: &[Curve]) -> Vec<Vec<LegendEntry>> {

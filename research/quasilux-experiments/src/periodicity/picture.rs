@@ -1,9 +1,8 @@
 //! Width of groups against their number.
 
 use super::Width;
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Randomization;
 
 /// The plot as an SVG file.
@@ -45,4 +44,5 @@ pub(super) fn svg(widths: &[Width]) -> String {
         lines,
     };
     figure(&Figure { title: "Coherent groups".to_owned(), panels: vec![panel], columns: 1, legend })
+        .to_svg()
 }

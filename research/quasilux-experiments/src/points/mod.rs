@@ -9,7 +9,7 @@ mod report;
 
 use super::claim::Claim;
 use crate::outcome::{Options, Outcome};
-use quasilux_drawing::svg::{Scatter, scatters};
+use quasilux_drawing::diagram::{Scatter, scatters};
 use quasilux_sampling::quality::{PointsView, cell_counts, star_discrepancy};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 use quasilux_transport::interval::t_quantile_for;
@@ -109,7 +109,7 @@ fn svg(sets: &[Set], seen: &[Seen]) -> String {
         let labels = ["coordinate 0", "coordinate 1"];
         Scatter { title: set.name, subtitle, labels, points: &set.points, cells: SIDE as u32 }
     };
-    scatters(&sets.iter().zip(&subtitles).map(scatter).collect::<Vec<_>>())
+    scatters(&sets.iter().zip(&subtitles).map(scatter).collect::<Vec<_>>()).to_svg()
 }
 
 fn claims(seen: &[Seen], empty: &[usize]) -> Vec<Claim> {

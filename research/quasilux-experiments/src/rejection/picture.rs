@@ -3,7 +3,7 @@
 use super::{Curve, REPLICATES};
 use crate::emission::Method;
 use crate::error_plot::{ErrorLine, error_plot};
-use quasilux_drawing::svg::{Dash, PALETTE, Stroke};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Sequence;
 
 /// Slopes of the guides, with their names.
@@ -28,7 +28,7 @@ fn guides(curve: &Curve) -> impl Iterator<Item = ErrorLine> {
     let [last, _] = curve.last().point();
     GUIDES.into_iter().map(move |(slope, name, dash)| ErrorLine {
         name: name.to_owned(),
-        stroke: Stroke { dash, ..Stroke::solid("#c4c4c4", 1.0) },
+        stroke: Stroke { dash, ..Stroke::solid([0xc4; 3], 1.0) },
         points: vec![[first, top], [last, top * libm::pow(last / first, slope)]],
     })
 }

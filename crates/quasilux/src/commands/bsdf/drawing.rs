@@ -5,7 +5,8 @@ use crate::arguments::Incidence;
 use crate::commands::inputs::stem_of;
 use glam::DVec3;
 use quasilux_bsdf::{ScatteringMode, Side, luminance};
-use quasilux_drawing::svg::{Dash, IntensityCurve, Lobe, LobeDiagram, PALETTE, Stroke, lobes};
+use quasilux_drawing::diagram::{IntensityCurve, Lobe, LobeDiagram, lobes};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 
 /// Directions are looked at in steps of this.
 const STEP_DEG: f64 = 0.25;
@@ -28,7 +29,7 @@ pub(super) fn drawing(input: &Input, surface: &Surface, incidences: &[Incidence]
         .collect();
     let facts = surface.bsdf.facts();
     let stem = stem_of(&input.name);
-    lobes(if facts.name.is_empty() { &stem } else { &facts.name }, &diagrams)
+    lobes(if facts.name.is_empty() { &stem } else { &facts.name }, &diagrams).to_svg()
 }
 
 /// f times the cosine, over the angle around the surface: 180 degrees is the normal of the side

@@ -3,9 +3,8 @@
 use super::input::{Input, Luminaire};
 use super::words;
 use crate::arguments::DiagramName;
-use quasilux_drawing::svg::{
-    Dash, Diagram, Intensities, IntensityCurve, PALETTE, Stroke, intensities,
-};
+use quasilux_drawing::diagram::{Diagram, Intensities, IntensityCurve, intensities};
+use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_photometry::Photometry;
 use quasilux_photometry::analysis::{Plane, PlaneCurve};
 use quasilux_report::number::brief;
@@ -35,6 +34,7 @@ pub(super) fn drawing(input: &Input, luminaire: &Luminaire, diagram: DiagramName
             DiagramName::Both => Diagram::Both,
         },
     })
+    .to_svg()
 }
 
 fn curve(photometry: &Photometry, plane: Plane, stroke: Stroke) -> IntensityCurve {

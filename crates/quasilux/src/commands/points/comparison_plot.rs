@@ -2,14 +2,13 @@
 
 use super::curve::Curve;
 use super::setup::{Measure, REPLICATES};
-use quasilux_drawing::svg::{
-    Axis, Dash, Figure, LegendEntry, Line, PALETTE, Panel, Scale, Stroke, figure,
-};
+use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
+use quasilux_drawing::{Colour, Dash, PALETTE, Stroke};
 use quasilux_sampling::{Randomization, Sequence};
 
 /// Plots side by side: 2, 8 and 32 dimensions.
 const COLUMNS: usize = 3;
-const GUIDE: Stroke = Stroke::solid("#c4c4c4", 1.0);
+const GUIDE: Stroke = Stroke::solid([0xc4; 3], 1.0);
 /// Slopes of the guides.
 const GUIDES: [f64; 3] = [-0.5, -1.0, -1.5];
 const GUIDES_NAME: &str = "guides: N^{−1/2}, N^{−1}, N^{−3/2}";
@@ -29,6 +28,7 @@ pub(super) fn svg(curves: &[Curve]) -> String {
         columns: COLUMNS,
         legend: legend(curves),
     })
+    .to_svg()
 }
 
 fn panel(block: &[Curve], is_first: bool, is_lowest: bool) -> Panel {
@@ -84,12 +84,8 @@ fn stroke(curve: &Curve) -> Stroke {
     Stroke { colour: colour(curve.setup.number, curve.setup.sequence), width_px, dash }
 }
 
-fn colour(number: usize, sequence: Sequence) -> &'static str {
-    if sequence == Sequence::Independent {
-        "#000000"
-    } else {
-        PALETTE[number % (PALETTE.len() - 1)]
-    }
+fn colour(number: usize, sequence: Sequence) -> Colour {
+    if sequence == Sequence::Independent { [0; 3] } else { PALETTE[number % (PALETTE.len() - 1)] }
 }
 
 fn dash(randomization: Randomization, sequence: Sequence) -> Dash {
@@ -116,7 +112,7 @@ fn legend(curves: &[Curve]) -> Vec<Vec<LegendEntry>> {
     let mut randomizations = vec![heading("randomisation")];
     randomizations.extend(Randomization::NAMES.into_iter().map(|(name, kind)| {
         let dash = dash(kind, Sequence::Sobol);
-        let stroke = Stroke { colour: "#555555", width_px: 1.6, dash };
+        let stroke = Stroke { colour: [0x55; 3], width_px: 1.6, dash };
         LegendEntry { text: name.to_owned(), stroke: Some(stroke) }
     }));
     randomizations.push(LegendEntry { text: GUIDES_NAME.to_owned(), stroke: Some(GUIDE) });

@@ -11,7 +11,7 @@ use crate::arguments::PointsArguments;
 use crate::exit::{CliError, Exit};
 use crate::print::to_stdout;
 use crate::{names, results};
-use quasilux_drawing::svg::{Scatter, scatter};
+use quasilux_drawing::diagram::{Scatter, scatter};
 use quasilux_report::number::exact;
 use quasilux_sampling::quality::{CellCounts, PointsView, cell_counts, star_discrepancy};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
@@ -97,7 +97,8 @@ fn drawing(points: &PointSet, arguments: &PointsArguments) -> Result<(String, St
         labels: [&labels[0], &labels[1]],
         points: &coordinates,
         cells: arguments.cells,
-    });
+    })
+    .to_svg();
     Ok((drawing, facts))
 }
 

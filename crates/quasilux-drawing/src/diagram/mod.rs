@@ -1,34 +1,34 @@
-//! Drawings and plots as SVG 1.1 files (W3C 2011), for print and the web.
+//! Diagrams of lines and points: line plots, scatter plots, and the photometric diagrams of
+//! luminaires and surfaces.
 //!
 //! [`scatter`] and [`scatters`] draw points of the unit square, [`figure`] a grid of line plots
-//! with a common legend, [`intensities`] what a luminaire sends where. All stand on [`Drawing`],
-//! which writes the elements. Text is text, so that it can be searched and read aloud. Colours are
-//! [`PALETTE`]'s; dashes tell the lines apart where there is no colour.
+//! with a common legend, [`intensities`] where a luminaire sends light, [`lobes`] where a surface
+//! scatters it. Each returns a [`Drawing`](crate::Drawing). Colours are
+//! [`PALETTE`](crate::PALETTE)'s; dashes tell the lines apart where there is no colour.
 
 mod axis;
 mod curve;
-mod drawing;
 mod figure;
 mod intensities;
+mod legend;
 mod lobes;
 mod panel;
 mod polar;
 mod scatter;
-mod style;
 
-pub use axis::{Axis, Scale, Tick};
+pub use axis::{Axis, Scale};
 pub use curve::IntensityCurve;
-pub use drawing::{Drawing, Frame};
-pub use figure::{Figure, LegendEntry, figure};
+pub use figure::{Figure, figure};
 pub use intensities::{Diagram, Intensities, intensities};
+pub use legend::LegendEntry;
 pub use lobes::{Lobe, LobeDiagram, lobes};
 pub use panel::{Line, Panel};
 pub use scatter::{Scatter, scatter, scatters};
-pub use style::{Anchor, Dash, PALETTE, Stroke, TextStyle};
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::style::{Dash, PALETTE, Stroke};
 
     /// Every element is closed in order, every attribute is quoted, and no number is missing: what
     /// a reader of XML insists on. Our files have neither comments nor sections of other kinds.
@@ -59,7 +59,8 @@ mod tests {
             labels: ["x", "y"],
             points: &points,
             cells: 8,
-        });
+        })
+        .to_svg();
         assert_well_formed(&file);
         assert_eq!(file.matches("<circle").count(), 3);
         assert_eq!(file.matches("#bbbbbb").count(), 14);
@@ -85,7 +86,8 @@ mod tests {
                         per_klm,
                         sides: ["C180, C270", "C0, C90"],
                         diagram,
-                    });
+                    })
+                    .to_svg();
                     assert_well_formed(&file);
                     assert!(file.contains("a &lt; b"));
                     assert_eq!(
@@ -113,10 +115,11 @@ mod tests {
             panels,
             columns: 2,
             legend: vec![vec![entry]],
-        });
+        })
+        .to_svg();
         assert_well_formed(&file);
         assert_eq!(file.matches("<clipPath").count(), 3);
         let none = Figure { title: String::new(), panels: vec![], columns: 0, legend: vec![] };
-        assert_well_formed(&figure(&none));
+        assert_well_formed(&figure(&none).to_svg());
     }
 }

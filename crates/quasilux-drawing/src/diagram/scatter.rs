@@ -1,7 +1,7 @@
 //! Points of the unit square, with the cells of a grid.
 
-use super::drawing::{Drawing, Frame};
-use super::style::{Anchor, GREY, INK, PALETTE, Stroke, TEXT_PX, TextStyle};
+use crate::drawing::{Drawing, Frame};
+use crate::style::{Anchor, GREY, INK, PALETTE, Stroke, TEXT_PX, TextStyle};
 
 /// Points of the unit square to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,18 +26,20 @@ const BOTTOM_PX: f64 = 56.0;
 /// More lines than this along a side are a grey surface.
 const MAX_LINES: u32 = 128;
 
-/// The points as an SVG file.
+/// Draws the points.
 #[must_use]
-pub fn scatter(scatter: &Scatter<'_>) -> String {
+pub fn scatter(scatter: &Scatter<'_>) -> Drawing {
     scatters(std::slice::from_ref(scatter))
 }
 
-/// Several squares of points side by side, as an SVG file.
+/// Draws several squares of points side by side.
 #[must_use]
-pub fn scatters(scatters: &[Scatter<'_>]) -> String {
+pub fn scatters(scatters: &[Scatter<'_>]) -> Drawing {
     let width_px = LEFT_PX + SIDE_PX + RIGHT_PX;
     let all_px = width_px * scatters.len() as f64;
-    let mut drawing = Drawing::new([all_px, TOP_PX + SIDE_PX + BOTTOM_PX]);
+    let titles = scatters.iter().map(|s| format!("{}, {}", s.title, s.subtitle));
+    let title = titles.collect::<Vec<_>>().join("; ");
+    let mut drawing = Drawing::new(&title, [all_px, TOP_PX + SIDE_PX + BOTTOM_PX]);
     for (place, scatter) in scatters.iter().enumerate() {
         let corner_px = [LEFT_PX + width_px * place as f64, TOP_PX];
         let frame = Frame { corner_px, size_px: [SIDE_PX, SIDE_PX] };
@@ -49,8 +51,7 @@ pub fn scatters(scatters: &[Scatter<'_>]) -> String {
             drawing.disk(frame.at(*point), radius_px, PALETTE[0]);
         }
     }
-    let titles = scatters.iter().map(|s| format!("{}, {}", s.title, s.subtitle));
-    drawing.finish(&titles.collect::<Vec<_>>().join("; "))
+    drawing
 }
 
 /// Few points can be large; of many each covers a tenth of its share of the square.
@@ -61,7 +62,7 @@ fn radius_px(points: usize) -> f64 {
 fn draw_cells(drawing: &mut Drawing, frame: Frame, cells: u32) {
     for i in 1..cells.min(MAX_LINES) {
         let share = f64::from(i) / f64::from(cells);
-        let stroke = Stroke::solid("#bbbbbb", 0.8);
+        let stroke = Stroke::solid([0xbb; 3], 0.8);
         drawing.line(&[frame.at([share, 0.0]), frame.at([share, 1.0])], stroke);
         drawing.line(&[frame.at([0.0, share]), frame.at([1.0, share])], stroke);
     }
@@ -69,7 +70,7 @@ fn draw_cells(drawing: &mut Drawing, frame: Frame, cells: u32) {
 
 fn draw_text(drawing: &mut Drawing, frame: Frame, scatter: &Scatter<'_>) {
     let [left, top] = frame.at([0.0, 1.0]);
-    let title = TextStyle { size_px: 16.0, ..TextStyle::plain(Anchor::Start) };
+    let title = TextStyle::new(16.0, INK, Anchor::Start);
     drawing.text([left, top - 34.0], title, scatter.title);
     let subtitle = TextStyle { colour: GREY, ..TextStyle::plain(Anchor::Start) };
     drawing.text([left, top - 14.0], subtitle, scatter.subtitle);
@@ -84,6 +85,5 @@ fn draw_text(drawing: &mut Drawing, frame: Frame, scatter: &Scatter<'_>) {
     let [x, bottom] = frame.at([0.5, 0.0]);
     drawing.text([x, bottom + 26.0 + TEXT_PX], middle, scatter.labels[0]);
     let [left, y] = frame.at([0.0, 0.5]);
-    let upwards = TextStyle { upwards: true, ..middle };
-    drawing.text([left - 36.0, y], upwards, scatter.labels[1]);
+    drawing.text([left - 36.0, y], middle.upward(), scatter.labels[1]);
 }

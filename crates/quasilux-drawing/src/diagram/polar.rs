@@ -2,12 +2,12 @@
 //! 0 points down, distance from the centre is the intensity.
 
 use super::curve::IntensityCurve;
-use super::drawing::{Drawing, Frame};
-use super::style::{Anchor, GREY, INK, Stroke, TEXT_PX, TextStyle};
+use crate::drawing::Drawing;
+use crate::style::{Anchor, GREY, INK, Stroke, TEXT_PX, TextStyle, WHITE};
 use crate::ticks::Ticks;
 use std::f64::consts::PI;
 
-/// Which directions are worth drawing.
+/// Which directions are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Extent {
     /// Below the horizon.
@@ -51,7 +51,7 @@ const MAX_RINGS: usize = 6;
 const RAYS_DEG: u32 = 30;
 /// Curves are straight in gamma, so bent in the diagram: drawn in steps of a degree.
 const STEP_DEG: f64 = 1.0;
-const GRID: Stroke = Stroke::solid("#cccccc", 0.9);
+const GRID: Stroke = Stroke::solid([0xcc; 3], 0.9);
 
 impl Extent {
     pub(super) fn of(curves: &[IntensityCurve]) -> Self {
@@ -148,8 +148,7 @@ impl Polar<'_> {
     /// The rings' values along the horizon, and their unit.
     fn draw_scale(&self, drawing: &mut Drawing, [x, y]: [f64; 2], extent: Extent, rings: &Ticks) {
         let outermost = rings.values.last().copied().unwrap_or(1.0);
-        let style =
-            TextStyle { size_px: TEXT_PX - 1.0, colour: INK, ..TextStyle::plain(Anchor::Middle) };
+        let style = TextStyle::new(TEXT_PX - 1.0, INK, Anchor::Middle);
         let base = match extent {
             Extent::Down => y - 7.0,
             Extent::Up => y + 17.0,
@@ -158,11 +157,8 @@ impl Polar<'_> {
         for value in rings.values.iter().filter(|value| **value > 0.0 && **value < outermost) {
             let label = rings.label(*value);
             let x = x + RADIUS_PX * value / outermost;
-            if extent == Extent::Full {
-                let width = 7.0 * label.chars().count() as f64 + 2.0;
-                let frame = Frame { corner_px: [x - 0.5 * width, y - 7.0], size_px: [width, 14.0] };
-                drawing.fill(frame, "#ffffff");
-            }
+            let halo = (extent == Extent::Full).then_some(WHITE);
+            let style = TextStyle { halo, ..style };
             drawing.text([x, base], style, &label);
         }
         let style = TextStyle { colour: GREY, ..style };

@@ -1,8 +1,8 @@
 //! One line plot.
 
 use super::Axis;
-use super::drawing::{Drawing, Frame};
-use super::style::{Anchor, FAINT, INK, Stroke, TEXT_PX, TextStyle};
+use crate::drawing::{Drawing, Frame};
+use crate::style::{Anchor, INK, Stroke, TEXT_PX, TextStyle};
 
 /// A plot with two axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +29,8 @@ pub struct Line {
 const MAX_X_LABELS: usize = 7;
 const MAX_Y_LABELS: usize = 6;
 const SMALL_PX: f64 = 11.0;
+const GRID: Stroke = Stroke::solid([0xe4; 3], 1.0);
+const TICK: Stroke = Stroke::solid(INK, 1.0);
 
 impl Panel {
     /// Room that title, ticks and labels take: left, top, right, bottom.
@@ -43,7 +45,7 @@ impl Panel {
                 self.draw_line(drawing, frame, line);
             }
         });
-        drawing.outline(frame, Stroke::solid(INK, 1.0));
+        drawing.outline(frame, TICK);
         let [x, y] = frame.at([0.0, 1.0]);
         drawing.text([x, y - 9.0], TextStyle::plain(Anchor::Start), &self.title);
     }
@@ -55,16 +57,16 @@ impl Panel {
     }
 
     fn draw_x_axis(&self, drawing: &mut Drawing, frame: Frame) {
-        let small = TextStyle { size_px: SMALL_PX, ..TextStyle::plain(Anchor::Middle) };
+        let small = TextStyle::new(SMALL_PX, INK, Anchor::Middle);
         for tick in self.x.ticks(MAX_X_LABELS) {
             let [x, bottom] = frame.at([tick.share, 0.0]);
             if let Some(label) = &tick.label {
                 let top = frame.at([tick.share, 1.0]);
-                drawing.line(&[[x, bottom], top], Stroke::solid(FAINT, 1.0));
+                drawing.line(&[[x, bottom], top], GRID);
                 drawing.text([x, bottom + 17.0], small, label);
             }
             let length_px = if tick.label.is_some() { 4.0 } else { 2.5 };
-            drawing.line(&[[x, bottom], [x, bottom + length_px]], Stroke::solid(INK, 1.0));
+            drawing.line(&[[x, bottom], [x, bottom + length_px]], TICK);
         }
         if !self.x.label.is_empty() {
             let [x, bottom] = frame.at([0.5, 0.0]);
@@ -74,20 +76,20 @@ impl Panel {
     }
 
     fn draw_y_axis(&self, drawing: &mut Drawing, frame: Frame) {
-        let small = TextStyle { size_px: SMALL_PX, ..TextStyle::plain(Anchor::End) };
+        let small = TextStyle::new(SMALL_PX, INK, Anchor::End);
         for tick in self.y.ticks(MAX_Y_LABELS) {
             let [left, y] = frame.at([0.0, tick.share]);
             if let Some(label) = &tick.label {
                 let right = frame.at([1.0, tick.share]);
-                drawing.line(&[[left, y], right], Stroke::solid(FAINT, 1.0));
+                drawing.line(&[[left, y], right], GRID);
                 drawing.text([left - 7.0, y + 4.0], small, label);
             }
             let length_px = if tick.label.is_some() { 4.0 } else { 2.5 };
-            drawing.line(&[[left, y], [left - length_px, y]], Stroke::solid(INK, 1.0));
+            drawing.line(&[[left, y], [left - length_px, y]], TICK);
         }
         if !self.y.label.is_empty() {
             let [left, y] = frame.at([0.0, 0.5]);
-            let style = TextStyle { upwards: true, ..TextStyle::plain(Anchor::Middle) };
+            let style = TextStyle::plain(Anchor::Middle).upward();
             drawing.text([left - 44.0, y], style, &self.y.label);
         }
     }

@@ -2,12 +2,13 @@
 //! side of the light up.
 
 use super::curve::IntensityCurve;
-use super::drawing::Drawing;
 use super::intensities::{HEAD_PX, LEGEND_PX, MARGIN_PX, draw_head, draw_legend};
 use super::polar::{Polar, Zero};
-use super::style::{Anchor, Dash, GREY, Stroke, TextStyle};
+use crate::drawing::Drawing;
+use crate::style::{Anchor, Dash, GREY, Stroke, TextStyle};
 
-const SUBTITLE: &str = "f cos in the plane of incidence; dotted: where light comes from; up: reflected, down: transmitted";
+const SUBTITLE: &str = "f cos in the plane of incidence; dotted: where light comes from; \
+    up: reflected, down: transmitted";
 /// Room for what a diagram shows.
 const TITLE_PX: f64 = 18.0;
 
@@ -31,17 +32,18 @@ pub struct Lobe {
     pub curve: IntensityCurve,
 }
 
-/// Diagrams side by side as an SVG file; those of one incidence have the same names and strokes in
-/// all of them.
+/// Draws diagrams side by side; lobes of one incidence have the same names and strokes in all of
+/// them.
 #[must_use]
-pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> String {
+pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> Drawing {
     let curves: Vec<Vec<IntensityCurve>> = diagrams.iter().map(curves_and_rays).collect();
     let polars: Vec<Polar<'_>> = curves.iter().map(|curves| polar(curves)).collect();
     let sizes: Vec<[f64; 2]> = polars.iter().map(Polar::size_px).collect();
     let width = sizes.iter().map(|[width, _]| width).sum::<f64>();
     let height = sizes.iter().map(|[_, height]| *height).fold(0.0, f64::max);
     let below = HEAD_PX + TITLE_PX + height + LEGEND_PX;
-    let mut drawing = Drawing::new([width.max(1.0) + 2.0 * MARGIN_PX, below + MARGIN_PX]);
+    let size_px = [width.max(1.0) + 2.0 * MARGIN_PX, below + MARGIN_PX];
+    let mut drawing = Drawing::new(&format!("{title}: {SUBTITLE}"), size_px);
     draw_head(&mut drawing, [title, SUBTITLE], width);
     let style = TextStyle { colour: GREY, ..TextStyle::plain(Anchor::Middle) };
     let mut x = MARGIN_PX;
@@ -52,11 +54,9 @@ pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> String {
         x += width;
     }
     if let Some(diagram) = diagrams.first() {
-        let named: Vec<IntensityCurve> =
-            diagram.lobes.iter().map(|lobe| lobe.curve.clone()).collect();
-        draw_legend(&mut drawing, &named, below - 10.0);
+        draw_legend(&mut drawing, diagram.lobes.iter().map(|lobe| &lobe.curve), below - 10.0);
     }
-    drawing.finish(&format!("{title}: {SUBTITLE}"))
+    drawing
 }
 
 fn polar(curves: &[IntensityCurve]) -> Polar<'_> {

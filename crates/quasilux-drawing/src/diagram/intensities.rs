@@ -1,10 +1,12 @@
 //! A luminaire's intensities over gamma: the polar diagram of data sheets, and a Cartesian one.
 
 use super::curve::IntensityCurve;
-use super::drawing::{Drawing, Frame};
+use super::legend::{self, LegendEntry};
 use super::polar::{Extent, Polar, Zero};
-use super::style::{Anchor, GREY, TextStyle, room_px, shortened};
 use super::{Axis, Line, Panel, Scale};
+use crate::drawing::{Drawing, Frame};
+use crate::style::{Anchor, GREY, INK, TextStyle};
+use crate::text::fitted;
 
 /// Intensities to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,13 +39,12 @@ pub enum Diagram {
 
 pub(super) const HEAD_PX: f64 = 58.0;
 pub(super) const LEGEND_PX: f64 = 40.0;
-const LEGEND_LINE_PX: f64 = 34.0;
 pub(super) const MARGIN_PX: f64 = 14.0;
 const PANEL_PX: [f64; 2] = [440.0, 250.0];
 
-/// The diagrams as an SVG file.
+/// Draws the diagrams of a luminaire.
 #[must_use]
-pub fn intensities(intensities: &Intensities<'_>) -> String {
+pub fn intensities(intensities: &Intensities<'_>) -> Drawing {
     let Intensities { curves, sides, diagram, .. } = *intensities;
     let (factor, unit) = intensities.per_klm.map_or((1.0, "cd"), |factor| (factor, "cd/klm"));
     let polar = Polar { curves, factor, unit, sides, zero: Zero::Nadir };
@@ -57,8 +58,9 @@ pub fn intensities(intensities: &Intensities<'_>) -> String {
             (polar_width + PANEL_PX[0] + left + right, polar_height.max(PANEL_PX[1] + top + bottom))
         }
     };
-    let mut drawing =
-        Drawing::new([width + 2.0 * MARGIN_PX, HEAD_PX + height + LEGEND_PX + MARGIN_PX]);
+    let title = format!("{}, {}", intensities.title, intensities.subtitle);
+    let below = HEAD_PX + height + LEGEND_PX;
+    let mut drawing = Drawing::new(&title, [width + 2.0 * MARGIN_PX, below + MARGIN_PX]);
     draw_head(&mut drawing, [intensities.title, intensities.subtitle], width);
     let mut x = MARGIN_PX;
     if diagram != Diagram::Cartesian {
@@ -69,8 +71,8 @@ pub fn intensities(intensities: &Intensities<'_>) -> String {
         let size_px = panel_size(height - top - bottom);
         panel(curves).draw(&mut drawing, Frame { corner_px: [x + left, HEAD_PX + top], size_px });
     }
-    draw_legend(&mut drawing, curves, HEAD_PX + height + LEGEND_PX - 10.0);
-    drawing.finish(&format!("{}, {}", intensities.title, intensities.subtitle))
+    draw_legend(&mut drawing, curves, below - 10.0);
+    drawing
 }
 
 fn panel(curves: &[IntensityCurve]) -> Panel {
@@ -89,22 +91,22 @@ fn panel(curves: &[IntensityCurve]) -> Panel {
 
 /// A title, and what stands below it, smaller.
 pub(super) fn draw_head(drawing: &mut Drawing, [title, subtitle]: [&str; 2], width_px: f64) {
-    for (y, size_px, colour, text) in
-        [(26.0, 16.0, None, title), (46.0, 12.0, Some(GREY), subtitle)]
-    {
-        let plain = TextStyle::plain(Anchor::Start);
-        let style = TextStyle { size_px, colour: colour.unwrap_or(plain.colour), ..plain };
-        drawing.text([MARGIN_PX + 4.0, y], style, &shortened(text, size_px, width_px));
+    for (y, size_px, colour, text) in [(26.0, 16.0, INK, title), (46.0, 12.0, GREY, subtitle)] {
+        let style = TextStyle::new(size_px, colour, Anchor::Start);
+        let text = fitted(text, size_px, width_px / legend::WIDER);
+        drawing.text([MARGIN_PX + 4.0, y], style, &text);
     }
 }
 
-pub(super) fn draw_legend(drawing: &mut Drawing, curves: &[IntensityCurve], y: f64) {
-    let style = TextStyle::plain(Anchor::Start);
-    let mut x = MARGIN_PX + 4.0;
-    for curve in curves {
-        drawing.line(&[[x, y - 4.0], [x + LEGEND_LINE_PX, y - 4.0]], curve.stroke);
-        x += LEGEND_LINE_PX + 6.0;
-        drawing.text([x, y], style, &curve.name);
-        x += room_px(&curve.name, style.size_px) + 24.0;
-    }
+pub(super) fn draw_legend<'a>(
+    drawing: &mut Drawing,
+    curves: impl IntoIterator<Item = &'a IntensityCurve>,
+    y: f64,
+) {
+    let entry = |curve: &IntensityCurve| LegendEntry {
+        text: curve.name.clone(),
+        stroke: Some(curve.stroke),
+    };
+    let entries: Vec<LegendEntry> = curves.into_iter().map(entry).collect();
+    legend::draw_row(drawing, [MARGIN_PX + 4.0, y], &entries);
 }

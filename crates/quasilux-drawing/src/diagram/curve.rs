@@ -1,6 +1,6 @@
 //! A curve over the angle gamma, as polar and Cartesian diagrams draw it.
 
-use super::style::Stroke;
+use crate::style::Stroke;
 
 /// The intensities of one plane.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Axes: from values to places along them, and their ticks.
 
 use crate::number::brief;
-use crate::ticks::Ticks;
+use crate::ticks::{Tick, Ticks};
 
 /// How values are spread along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,15 +23,6 @@ pub struct Axis {
     high: f64,
     /// Distance of the ticks, where it is not chosen by the range.
     step: Option<f64>,
-}
-
-/// A mark on an axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tick {
-    /// Its place: 0 at the low end, 1 at the high one.
-    pub share: f64,
-    /// Its text, where it has one.
-    pub label: Option<String>,
 }
 
 impl Axis {
@@ -80,12 +71,7 @@ impl Axis {
         match self.scale {
             Scale::Linear if self.step.is_some_and(|step| step > 0.0) => self.multiples(),
             Scale::Linear => {
-                let ticks = Ticks::within(self.low, self.high, most, 0.0);
-                let tick = |value: &f64| Tick {
-                    share: self.share(*value),
-                    label: Some(ticks.label(*value)),
-                };
-                ticks.values.iter().map(tick).collect()
+                Ticks::within(self.low, self.high, most, 0.0).marks(|value| self.share(value))
             }
             Scale::Log(base) => self.powers(base, most),
         }

@@ -1,7 +1,8 @@
 //! A small canvas: rectangles, lines and filled outlines with smooth edges. Pixel (0, 0) is at the
 //! top left, and its centre is at (0.5, 0.5).
 
-use super::colour_map::{Colour, mix};
+use crate::font::Segment;
+use crate::style::Colour;
 use ab_glyph_rasterizer::{Rasterizer, point};
 use glam::DVec2;
 
@@ -10,30 +11,44 @@ pub(crate) struct Canvas {
     width: usize,
     height: usize,
     pixels: Vec<Colour>,
+    clip: Clip,
 }
 
-/// A straight line from one point to another, in pixels.
-pub(crate) type Segment = [DVec2; 2];
+/// The pixels that can be drawn: the first ones, and those behind the last ones.
+#[derive(Clone, Copy)]
+pub(crate) struct Clip {
+    from: [usize; 2],
+    to: [usize; 2],
+}
 
 impl Canvas {
     /// A white canvas.
     pub(crate) fn new(width: usize, height: usize) -> Self {
-        Self { width, height, pixels: vec![[255; 3]; width * height] }
+        let clip = Clip { from: [0, 0], to: [width, height] };
+        Self { width, height, pixels: vec![[255; 3]; width * height], clip }
+    }
+
+    /// Restricts drawing to the pixels from `from` to `to`, the ends excluded, and returns the
+    /// restriction before.
+    pub(crate) fn clip(&mut self, from: [usize; 2], to: [usize; 2]) -> Clip {
+        let before = self.clip;
+        self.clip = Clip {
+            from: [0, 1].map(|axis| from[axis].max(before.from[axis])),
+            to: [0, 1].map(|axis| to[axis].min(before.to[axis])),
+        };
+        before
+    }
+
+    /// Takes back a restriction.
+    pub(crate) fn restore(&mut self, before: Clip) {
+        self.clip = before;
     }
 
     /// Sets a pixel; outside the canvas nothing happens.
     pub(crate) fn set(&mut self, x: usize, y: usize, colour: Colour) {
-        if x < self.width && y < self.height {
+        let Clip { from, to } = self.clip;
+        if (from[0]..to[0]).contains(&x) && (from[1]..to[1]).contains(&y) {
             self.pixels[y * self.width + x] = colour;
-        }
-    }
-
-    /// Fills the pixels from `x` to `x + w` and from `y` to `y + h`, the ends excluded.
-    pub(crate) fn fill(&mut self, [x, y]: [usize; 2], [w, h]: [usize; 2], colour: Colour) {
-        for row in y..y + h {
-            for column in x..x + w {
-                self.set(column, row, colour);
-            }
         }
     }
 
@@ -74,7 +89,7 @@ impl Canvas {
             return;
         };
         let corner = DVec2::new(x0 as f64, y0 as f64);
-        // What lies outside the canvas moves to its border; a piece that crosses the border bends.
+        // What lies outside moves to the border; a piece that crosses the border bends.
         let last = DVec2::new(w as f64, h as f64);
         let inside = |p: DVec2| {
             let p = (p - corner).clamp(DVec2::ZERO, last);
@@ -106,10 +121,11 @@ impl Canvas {
         let points = || segments.iter().flatten();
         let low = points().copied().reduce(DVec2::min)? - reach;
         let high = points().copied().reduce(DVec2::max)? + reach;
-        let size = [self.width, self.height];
-        let from = [low.x, low.y].map(|x| x.floor().max(0.0) as usize);
-        let to = [high.x, high.y].map(|x| x.ceil().max(0.0) as usize);
-        let to = [to[0].min(size[0]), to[1].min(size[1])];
+        let Clip { from, to } = self.clip;
+        let low = [low.x, low.y].map(|x| x.floor().max(0.0) as usize);
+        let high = [high.x, high.y].map(|x| x.ceil().max(0.0) as usize);
+        let from = [low[0].max(from[0]), low[1].max(from[1])];
+        let to = [high[0].min(to[0]), high[1].min(to[1])];
         (from[0] < to[0] && from[1] < to[1]).then(|| (from, [to[0] - from[0], to[1] - from[1]]))
     }
 }
@@ -125,6 +141,14 @@ pub(crate) fn srgb_png([width, height]: [u32; 2], pixels: &[u8]) -> Vec<u8> {
     writer.write_image_data(pixels).expect("memory takes a picture");
     writer.finish().expect("memory takes an end");
     bytes
+}
+
+/// The colour between `a` (`t` = 0) and `b` (`t` = 1).
+pub(crate) fn mix(a: Colour, b: Colour, t: f64) -> Colour {
+    std::array::from_fn(|c| {
+        let (a, b) = (f64::from(a[c]), f64::from(b[c]));
+        (a + (b - a) * t).round() as u8
+    })
 }
 
 /// Distance from a point to a segment.
@@ -177,7 +201,7 @@ mod tests {
         canvas.stroke(&[], 2.0, [0; 3]);
         canvas.fill_outline(&[[far, far * 2.0], [far * 2.0, far]], [0; 3]);
         canvas.fill_outline(&[[-far, far], [far, -far], [far, far * 2.0]], [255; 3]);
-        canvas.fill([3, 3], [9, 9], [1; 3]);
+        (3..9).for_each(|x| canvas.set(x, 3, [1; 3]));
         assert_eq!(canvas.pixels.iter().filter(|p| **p != [255; 3]).count(), 1);
     }
 }
