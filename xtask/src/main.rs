@@ -35,6 +35,7 @@ cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test package   the crates that others may take can be packed
 cargo xtask test examples  every example runs and gives the numbers it promises
+cargo xtask test deep      all tests, in variants that take long and find smaller errors
 cargo xtask arrows CRATE   imports between the modules of a crate that no order allows
 cargo xtask order CRATE    an order of a crate's rooms with few imports against it
 cargo xtask order CRATE write   put that order into xtask/order.toml

@@ -19,7 +19,7 @@ const STEPS: [Step; 7] = [
         run: || cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[]),
     },
     Step { name: "fuzz", run: check_fuzz_targets },
-    Step { name: "tests", run: run_tests },
+    Step { name: "tests", run: || run_tests(&[]) },
     Step {
         name: "docs",
         run: || cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")]),
@@ -27,6 +27,10 @@ const STEPS: [Step; 7] = [
     Step { name: "package", run: package_crates },
     Step { name: "examples", run: || examples::run_all(&workspace_root()) },
 ];
+
+/// The step that [`run_all`] leaves out: all tests, in the variants that take long and find smaller
+/// errors.
+const DEEP: Step = Step { name: "deep", run: || run_tests(&[("QUASILUX_DEEP", "1")]) };
 
 /// Runs all steps and stops at the first that fails.
 pub(crate) fn run_all() -> Result<(), Failure> {
@@ -40,8 +44,9 @@ pub(crate) fn run_all() -> Result<(), Failure> {
 
 /// Runs the step of that name.
 pub(crate) fn run_one(name: &str) -> Result<(), Failure> {
-    let Some(step) = STEPS.iter().find(|step| step.name == name) else {
-        let names: Vec<&str> = STEPS.iter().map(|step| step.name).collect();
+    let steps = || STEPS.iter().chain([&DEEP]);
+    let Some(step) = steps().find(|step| step.name == name) else {
+        let names: Vec<&str> = steps().map(|step| step.name).collect();
         return Err(format!("no step {name:?}; the steps are {}", names.join(", ")));
     };
     run(step).map(|_| ())
@@ -60,10 +65,11 @@ fn run(step: &Step) -> Result<Duration, Failure> {
 }
 
 /// Runs all tests, and tells how many were left out for want of files (`quasilux-corpus`).
-fn run_tests() -> Result<(), Failure> {
+fn run_tests(more: &[(&str, &str)]) -> Result<(), Failure> {
     let list = std::env::temp_dir().join(format!("quasilux-left-out-{}", std::process::id()));
     let name = list.to_string_lossy();
-    let outcome = cargo(&["test", "--workspace"], &[("QUASILUX_LEFT_OUT", &name)]);
+    let variables = [&[("QUASILUX_LEFT_OUT", name.as_ref())], more].concat();
+    let outcome = cargo(&["test", "--workspace"], &variables);
     let left_out = std::fs::read_to_string(&list).unwrap_or_default();
     let _ = std::fs::remove_file(&list);
     // A test that asks for several files has a line for each.
@@ -119,7 +125,7 @@ mod tests {
     #[test]
     fn an_unknown_step_is_refused_with_the_names_of_all() {
         let failure = run_one("teste").unwrap_err();
-        assert!(STEPS.iter().all(|step| failure.contains(step.name)), "{failure}");
+        assert!(STEPS.iter().chain([&DEEP]).all(|step| failure.contains(step.name)), "{failure}");
     }
 
     #[test]
