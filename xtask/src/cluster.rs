@@ -39,7 +39,7 @@ pub(crate) fn run(root: &Path, out: &Path) -> Result<(), Failure> {
 
 fn start(root: &Path, arguments: &[&str]) -> Result<Child, Failure> {
     Command::new("cargo")
-        .args(["run", "--release", "--quiet", "--package", "quasilux", "--"])
+        .args(["run", "--profile", "ci", "--quiet", "--package", "quasilux", "--"])
         .args(arguments)
         .current_dir(root)
         .spawn()

@@ -1,6 +1,6 @@
 //! The steps of the test command, in the order in which they are cheapest to fail.
 
-use crate::examples;
+use crate::{examples, same_bits};
 use std::collections::BTreeSet;
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -29,8 +29,14 @@ const STEPS: [Step; 7] = [
 ];
 
 /// The step that [`run_all`] leaves out: all tests, in the variants that take long and find smaller
-/// errors.
-const DEEP: Step = Step { name: "deep", run: || run_tests(&[("QUASILUX_DEEP", "1")]) };
+/// errors, and the program built twice.
+const DEEP: Step = Step {
+    name: "deep",
+    run: || {
+        run_tests(&[("QUASILUX_DEEP", "1")])?;
+        same_bits::check(&workspace_root())
+    },
+};
 
 /// Runs all steps and stops at the first that fails.
 pub(crate) fn run_all() -> Result<(), Failure> {
@@ -69,7 +75,7 @@ fn run_tests(more: &[(&str, &str)]) -> Result<(), Failure> {
     let list = std::env::temp_dir().join(format!("quasilux-left-out-{}", std::process::id()));
     let name = list.to_string_lossy();
     let variables = [&[("QUASILUX_LEFT_OUT", name.as_ref())], more].concat();
-    let outcome = cargo(&["test", "--workspace"], &variables);
+    let outcome = cargo(&["test", "--workspace", "--profile", "ci"], &variables);
     let left_out = std::fs::read_to_string(&list).unwrap_or_default();
     let _ = std::fs::remove_file(&list);
     // A test that asks for several files has a line for each.

@@ -77,8 +77,8 @@ fn sobol_directions_of_published_files_fill_boxes_evenly() {
     }
 }
 
-/// 2 % on half of the sphere is 1 % on each half after normalisation. Deep: 1 %, which Sobol' points
-/// do not find.
+/// 2 % on half of the sphere is 1 % on each half after normalisation. Deep: 1 %, which Sobol'
+/// points do not find.
 #[test]
 fn a_density_two_percent_wrong_is_rejected() {
     let factor = if deep() { 1.01 } else { 1.02 };

@@ -131,7 +131,7 @@ fn terms_add_up_and_disturb_nothing() {
                 connections,
                 max_bounces,
                 list_terms,
-                max_samples: Some(256),
+                max_samples: Some(64),
                 rel_tol: 0.0,
                 ..Settings::default()
             };
