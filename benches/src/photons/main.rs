@@ -9,7 +9,7 @@
 use quasilux_benches::median;
 use quasilux_benches::scenes::{self, Named};
 use quasilux_foreign::{all_processors_seconds, processor_seconds};
-use quasilux_transport::trial::{PhotonTrial, Step, Stopwatch, Way, try_photons};
+use quasilux_transport::trial::{PhotonOrder, PhotonTrial, Step, Stopwatch, try_photons};
 use quasilux_transport::{EstimatorKind, Settings};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::Range;
@@ -26,7 +26,7 @@ const STEPS: [Step; 5] =
 /// One that takes turns.
 struct Contestant {
     name: &'static str,
-    way: Way,
+    order: PhotonOrder,
     threads: usize,
     rounds: Vec<Round>,
 }
@@ -70,19 +70,21 @@ fn indices(round: u64) -> Range<u64> {
 }
 
 fn compare(named: &Named, pools: &[ThreadPool; 2]) {
-    let contestant = |name, way, threads| Contestant { name, way, threads, rounds: Vec::new() };
+    let contestant = |name, order, threads| Contestant { name, order, threads, rounds: Vec::new() };
     let mut contestants = [
-        contestant("one by one", Way::OneByOne, 1),
-        contestant("waves", Way::Waves, 1),
-        contestant("coherent waves", Way::CoherentWaves, 1),
-        contestant("one by one", Way::OneByOne, 2),
-        contestant("coherent waves", Way::CoherentWaves, 2),
+        contestant("one by one", PhotonOrder::OneByOne, 1),
+        contestant("waves", PhotonOrder::Waves, 1),
+        contestant("coherent waves", PhotonOrder::CoherentWaves, 1),
+        contestant("one by one", PhotonOrder::OneByOne, 2),
+        contestant("coherent waves", PhotonOrder::CoherentWaves, 2),
     ];
     try_photons(&named.scene, &settings(), None, |trial| {
         for round in 0..ROUNDS {
             for contestant in &mut contestants {
                 let pool = &pools[contestant.threads - 1];
-                contestant.rounds.push(pool.install(|| run(trial, contestant.way, indices(round))));
+                contestant
+                    .rounds
+                    .push(pool.install(|| run(trial, contestant.order, indices(round))));
             }
         }
     });
@@ -100,9 +102,9 @@ fn compare(named: &Named, pools: &[ThreadPool; 2]) {
 }
 
 #[expect(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
-fn run(trial: &mut dyn PhotonTrial, way: Way, indices: Range<u64>) -> Round {
+fn run(trial: &mut dyn PhotonTrial, order: PhotonOrder, indices: Range<u64>) -> Round {
     let (start, processor) = (Instant::now(), all_processors_seconds());
-    let traced = trial.trace(way, indices);
+    let traced = trial.trace(order, indices);
     Round {
         photons: traced.photons,
         rays: traced.rays,
@@ -131,7 +133,7 @@ fn shares(named: &Named, pool: &ThreadPool) {
         pool.install(|| {
             for round in 0..ROUNDS {
                 laps.0.lock().expect("one thread").0 = processor_seconds();
-                trial.trace(Way::CoherentWaves, indices(round));
+                trial.trace(PhotonOrder::CoherentWaves, indices(round));
             }
         });
     });

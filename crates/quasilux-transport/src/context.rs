@@ -66,18 +66,18 @@ pub(crate) enum Stream {
     MapPilots,
     /// Photons that show whether to begin where light lands.
     FirstShotPilots,
-    /// Photons that show whether steering pays where they are counted.
-    SteeringPilots,
+    /// Photons that show whether guiding pays where they are counted.
+    WindowPilots,
     /// Photons that look for what paths cannot find.
     CausticPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
     Survey(u64),
-    /// Photons that are joined to a group of sensor points.
+    /// Photons that are connected to a group of sensor points.
     ConnectedPhotons(u64),
     /// Photons that are counted by the cell they land in.
     CellPhotons,
-    /// Places in the cells of a group that photons are joined to, in dimensions that photons leave
-    /// alone.
+    /// Places in the cells of a group that photons are connected to, in dimensions that photons
+    /// leave alone.
     ConnectionPlaces(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
@@ -98,7 +98,7 @@ impl Stream {
             Self::PlanPhotons => 1,
             Self::MapPilots => 1 << 62,
             Self::FirstShotPilots => 1 << 62 | 1,
-            Self::SteeringPilots => u64::MAX - 65,
+            Self::WindowPilots => u64::MAX - 65,
             Self::CausticPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
             Self::ConnectedPhotons(group) => (1 << 62) + 2 + 2 * group,
@@ -120,7 +120,7 @@ impl Stream {
                 Self::PlanPhotons
                 | Self::MapPilots
                 | Self::FirstShotPilots
-                | Self::SteeringPilots
+                | Self::WindowPilots
                 | Self::CausticPhotons
                 | Self::ConnectedPhotons(_)
                 | Self::CellPhotons
@@ -215,10 +215,10 @@ mod tests {
     fn streams_have_numbers_of_their_own() {
         use Stream::{
             CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, FirstShotPilots,
-            MapPilots, Paths, Photons, PlanPhotons, SteeringPilots, Survey,
+            MapPilots, Paths, Photons, PlanPhotons, Survey, WindowPilots,
         };
         let single =
-            [Photons, PlanPhotons, MapPilots, FirstShotPilots, SteeringPilots, CausticPhotons];
+            [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
         let pixels = numbers(1 << 20).flat_map(|camera| {
             numbers(1 << 32)
                 .map(move |pixel| Stream::Pixel { camera: camera as u32, pixel: pixel as u32 })

@@ -1,4 +1,5 @@
-//! Rough metal: single reflection by GGX facets, and what they reflect more than once.
+//! Rough conductor: the GGX microfacet BSDF ([`super::ggx`]) with Schlick's Fresnel factor, and
+//! multiple scattering between the facets (Kulla and Conty 2017).
 //!
 //! The facets reflect by Schlick's approximation, `F = F0 + (1 - F0) (1 - cos)^5` (Schlick 1994).
 //! Light that a second facet catches is lost to single reflection: with facets that reflect all,
@@ -8,10 +9,10 @@
 //! f_more = R (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)).
 //! ```
 //!
-//! MultipleScattering light was reflected once and is reflected again; then the share `E` (the
-//! mean) leaves and the rest is caught again. Each time the mean Fresnel factor `F` is kept, so
-//! that of the caught light `R = F^2 E (1 + F (1 - E) + ...) = F^2 E / (1 - F (1 - E))` comes out.
-//! With `F0 = 1`, R = 1.
+//! This light was reflected once and is reflected again; then the share `E` (the mean) leaves and
+//! the rest is scattered again. Each time the mean Fresnel factor `F` is kept, so that of multiple
+//! scattering `R = F^2 E (1 + F (1 - E) + ...) = F^2 E / (1 - F (1 - E))` comes out. With `F0 = 1`,
+//! R = 1.
 
 use super::BsdfSample;
 use super::albedo_curve::AlbedoCurve;

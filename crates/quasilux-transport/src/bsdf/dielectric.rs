@@ -1,4 +1,5 @@
-//! A smooth clear body: Fresnel reflection, refraction, total reflection.
+//! Smooth dielectric: the specular BSDF of Fresnel reflection and refraction (Walter et al. 2007,
+//! without roughness).
 //!
 //! The front side of its facets is outside. Light is reflected or refracted by chance with
 //! Fresnel's probabilities, and neither way loses any. Along a refracted ray basic radiance `L /

@@ -1,4 +1,4 @@
-//! The choice between a sharp lobe and a broad one.
+//! Discrete choice between the two lobes of a BSDF.
 
 use glam::DVec3;
 use quasilux_sampling::Sampler;

@@ -1,4 +1,5 @@
-//! A measured sheet: what its tables say of both sides.
+//! Measured BSDF: tabulated scattering of a sheet, with one table for each side that light comes
+//! from.
 //!
 //! Photons take the table of light that arrives as they do: its inverse transform draws their
 //! directions. Paths run against the light. They need f with the light coming from where they go:

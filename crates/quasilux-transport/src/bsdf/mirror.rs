@@ -1,4 +1,4 @@
-//! Perfect specular reflection.
+//! Ideal mirror: the BSDF of perfect specular reflection.
 
 use crate::bsdf::BsdfSample;
 use glam::DVec3;

@@ -1,4 +1,5 @@
-//! How surfaces scatter light on its way: a closed set, one file a kind.
+//! BSDFs, a closed set of one file a kind: their value, albedo, sampling and pdf. A new one gets a
+//! file here, a variant of [`Bsdf`] and its match arms.
 //!
 //! Directions are local: z is the geometric normal of the side that `wo` is on, so `wo.z > 0`, and
 //! `wi.z < 0` means transmitted; x and y are those of [`Frame`]. Both point away from the surface.
@@ -42,7 +43,7 @@ pub struct Scattering(Bsdf<Rgb>);
 impl Scattering {
     /// Of a material.
     #[must_use]
-    pub fn of(material: &quasilux_scene::Bsdf) -> Self {
+    pub fn from_material(material: &quasilux_scene::Bsdf) -> Self {
         Self(Bsdf::new(material))
     }
 

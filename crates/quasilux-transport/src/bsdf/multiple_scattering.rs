@@ -1,15 +1,16 @@
-//! Where light leaves that met several facets: the density `(1 - E(cos)) cos / (pi (1 - mean E))`.
+//! Multiple scattering between microfacets: the lobe with density `(1 - E(cos)) cos / (pi (1 - mean
+//! E))` (Kulla and Conty 2017).
 //!
-//! On smooth metal only grazing light is caught, and it leaves at grazing angles: a cosine lobe
-//! would seldom go there. The density is taken as constant in `s` within each cell of the
-//! [`AlbedoCurve`], so that inversion is a search in 96 sums.
+//! On smooth metal only grazing light is scattered several times, and it leaves at grazing angles:
+//! a cosine lobe would seldom go there. The density is taken as constant in `s` within each cell of
+//! the [`AlbedoCurve`], so that inversion is a search in 96 sums.
 
 use super::albedo_curve::{AlbedoCurve, CELLS};
 use glam::DVec3;
 use quasilux_sampling::Discrete;
 use std::f64::consts::TAU;
 
-/// The directions of caught light.
+/// Directions of multiply scattered light.
 #[derive(Clone, Debug)]
 pub(super) struct MultipleScattering {
     cells: Discrete,
@@ -53,7 +54,7 @@ pub(super) fn pdf_multiple_scattering(
 
 /// The coordinates that [`sample_multiple_scattering`] maps to `wi`.
 #[cfg_attr(not(test), expect(dead_code, reason = "the third function of a distribution"))]
-pub(super) fn invert_caught(
+pub(super) fn invert_multiple_scattering(
     multiple_scattering: &MultipleScattering,
     curve: &AlbedoCurve,
     wi: DVec3,
@@ -82,7 +83,7 @@ mod tests {
                 let product = pdf_multiple_scattering(&multiple_scattering, &curve, wi)
                     * sphere_jacobian(map, u, 1e-6);
                 assert!((product - 1.0).abs() < 1e-4, "{alpha} {u:?}: {product}");
-                let [a, b] = invert_caught(&multiple_scattering, &curve, wi);
+                let [a, b] = invert_multiple_scattering(&multiple_scattering, &curve, wi);
                 assert!(
                     (a - u[0]).abs() < 1e-9 && (b - u[1]).abs() < 1e-12,
                     "{alpha} {u:?}: {a} {b}"

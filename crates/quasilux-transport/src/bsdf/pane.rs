@@ -1,4 +1,5 @@
-//! A flat pane drawn as a single sheet: light goes straight through or is mirrored.
+//! Thin dielectric slab: the specular BSDF of a flat pane drawn as a single sheet, which mirrors
+//! light or lets it straight through.
 //!
 //! A clear pane has two boundaries of reflectance r each, and light goes to and fro between them.
 //! For each polarisation the series gives `R = 2 r / (1 + r)` reflected and `T = (1 - r) / (1 + r)`

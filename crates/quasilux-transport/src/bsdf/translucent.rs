@@ -1,4 +1,4 @@
-//! Lambertian reflection and transmission: paper, cloth, opal glass.
+//! Lambertian reflection and transmission, the BSDF of paper, cloth and opal glass.
 //!
 //! `reflectance / pi` toward the side the light comes from, `transmittance / pi` to the other,
 //! both sides alike.

@@ -63,7 +63,7 @@ pub(crate) fn exact<S: Spectrum>(
         };
         let receivers: Vec<Receiver<'_, S>> = (0..).zip(targets).filter_map(receiver).collect();
         let mut shadows = ShadowQueue::default();
-        shadows.most_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let mut receive =
             |who: u32, lx: S, bounces: u32| exact[who as usize].add(bounces, lx.luminance());
         let pointlikes = &context.lights.pointlikes;

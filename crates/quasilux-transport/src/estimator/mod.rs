@@ -1,4 +1,4 @@
-//! Estimators of sensor values, and the selection between them.
+//! Estimators of sensor values, and the selection between them by pilots.
 
 pub(crate) mod connection;
 pub(crate) mod control_variate;
@@ -71,7 +71,7 @@ pub(crate) trait Estimator {
 }
 
 /// The estimator of the settings, its surveys and pilots done.
-pub(crate) fn estimation<'a, S: Spectrum>(
+pub(crate) fn new_estimator<'a, S: Spectrum>(
     context: &'a Context<'a, S>,
     scene: &'a Scene,
     settings: &Settings,

@@ -1,4 +1,5 @@
-//! The estimators that gather: paths from every sensor point, alone or ending on a map.
+//! Path tracing estimator of all sensors (Kajiya 1986), alone, on illumination maps or beside light
+//! vertex connections.
 
 mod advance;
 mod resolved;
@@ -258,6 +259,38 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             .collect()
     }
 
+    /// Illuminances at all targets in one replicate.
+    fn replicate_lx(&self, replicate: usize) -> Vec<f64> {
+        let own = self.sums.iter().skip(replicate).step_by(self.replicates as usize);
+        let value_lx = |(target, (sums, exact)): (usize, (&PathSums, &Exact))| {
+            let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
+            let caustics = self.caustics.as_ref();
+            let caustic_lx = caustics.map_or(0.0, |map| map.target_lx(replicate, target));
+            exact.sum_lx() + sampled_lx + caustic_lx + self.connected_lx(replicate, target)
+        };
+        own.zip(&self.exact).enumerate().map(value_lx).collect()
+    }
+
+    /// Direct illuminances at all targets, mean over the replicates.
+    fn direct_lx(&self) -> Vec<f64> {
+        let replicates = self.replicates as usize;
+        let own = self.sums.chunks_exact(replicates).zip(&self.exact).enumerate();
+        own.map(|(target, (own, Exact { direct_lx, .. }))| {
+            let sampled_lx = own.iter().map(|sums| self.mean(target, sums.direct));
+            direct_lx + sampled_lx.sum::<f64>() / replicates as f64
+        })
+        .collect()
+    }
+
+    /// Contributions that were refused, with those of photons.
+    fn invalid_contributions(&self, of_photons: u64) -> u64 {
+        self.invalid_points
+            + of_photons
+            + self.caustics.as_ref().map_or(0, CausticMap::invalid)
+            + self.light_vertices.as_ref().map_or(0, LightVertexConnections::invalid)
+            + self.sums.iter().map(PathSums::invalid).sum::<u64>()
+    }
+
     /// All that was traced.
     fn costs(&self) -> Costs {
         let Self { prepared, shared, contribution, .. } = self;
@@ -277,33 +310,11 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     fn estimates(&self) -> Estimates {
         let Costs { work, photons } = self.costs();
         let replicates = self.replicates as usize;
-        let caustic_lx = |r: usize, target: usize| {
-            self.caustics.as_ref().map_or(0.0, |caustics| caustics.target_lx(r, target))
-        };
-        let row = |r: usize| -> Vec<f64> {
-            let own = self.sums.iter().skip(r).step_by(replicates);
-            let own = own.zip(&self.exact).enumerate();
-            own.map(|(target, (sums, exact))| {
-                let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
-                exact.sum_lx() + sampled_lx + caustic_lx(r, target) + self.connected_lx(r, target)
-            })
-            .collect()
-        };
-        let direct_lx = self
-            .sums
-            .chunks_exact(replicates)
-            .zip(&self.exact)
-            .enumerate()
-            .map(|(target, (own, Exact { direct_lx, .. }))| {
-                let sampled_lx = own.iter().map(|sums| self.mean(target, sums.direct));
-                direct_lx + sampled_lx.sum::<f64>() / replicates as f64
-            })
-            .collect();
         let missed_lobes = self.missed_lobes();
         let of_lobes = lobes::warning(missed_lobes.iter().filter(|missed| **missed).count());
         let all = SensorEstimates {
-            replicate_lx: (0..replicates).map(row).collect(),
-            direct_lx,
+            replicate_lx: (0..replicates).map(|r| self.replicate_lx(r)).collect(),
+            direct_lx: self.direct_lx(),
             resolved: self.resolved(&missed_lobes),
             missed_lobes,
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
@@ -324,11 +335,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
                 photon_events: photons.events,
                 path: work.dimensions,
             },
-            invalid_contributions: self.invalid_points
-                + photons.invalid
-                + self.caustics.as_ref().map_or(0, CausticMap::invalid)
-                + self.light_vertices.as_ref().map_or(0, LightVertexConnections::invalid)
-                + self.sums.iter().map(PathSums::invalid).sum::<u64>(),
+            invalid_contributions: self.invalid_contributions(photons.invalid),
             ..Estimates::default()
         }
     }

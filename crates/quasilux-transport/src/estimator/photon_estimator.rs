@@ -1,4 +1,5 @@
-//! The estimator that counts: photons that pass through grids or land on map elements.
+//! Light tracing estimator: sensors count photons that pass through grids or land on elements of an
+//! illumination map.
 //!
 //! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
 //! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
@@ -11,10 +12,10 @@ use crate::codec::{Reader, StateError, Stored, Writer, digest};
 use crate::context::{Context, Stream};
 use crate::estimator::Estimator;
 use crate::importance::{Plan, WeightWindows};
-use crate::photon::batch::{PhotonBatch, trace_photons_in_view};
+use crate::photon::batch::{PhotonBatch, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::map::{MapLayout, QUANTA_PER_PHOTON};
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
@@ -43,7 +44,7 @@ pub(crate) struct PhotonEstimator<'a, S> {
     context: &'a Context<'a, S>,
     scene: &'a Scene,
     receivers: Receivers,
-    /// What steers the photons.
+    /// What guides the photons.
     plan: Plan,
     /// One row of counters a replicate.
     counters: Vec<Counters>,
@@ -103,7 +104,7 @@ impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
     /// Traces and counts the photons `indices` of all replicates.
     pub(crate) fn count(
         &self,
-        way: Way,
+        order: PhotonOrder,
         indices: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> Option<PhotonCounts> {
@@ -115,12 +116,12 @@ impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
             stream: Stream::Photons,
             replicates,
             indices,
-            way,
+            order,
             lead: Lead::by_chance(Source::Lights, windows),
         };
         let before = self.samples * counters.len() as u64;
         let look = |emitted: u64| Some(self.snapshot(before + emitted));
-        trace_photons_in_view(self.context, &batch, receiver, look, watch)
+        trace_photons_with_snapshots(self.context, &batch, receiver, look, watch)
     }
 
     /// What the sensors show after so many photons of all replicates together.
@@ -147,7 +148,9 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
             let end = piece.end;
-            let Some(counts) = self.count(Way::CoherentWaves, piece, watch) else { return false };
+            let Some(counts) = self.count(PhotonOrder::CoherentWaves, piece, watch) else {
+                return false;
+            };
             self.photons += counts;
             self.samples = end;
             if !watch.keep(|out| self.put(out)) {

@@ -1,13 +1,14 @@
-//! How the estimator `bidirectional` goes about a scene, by what pilots measure.
+//! Selection of the estimator for `bidirectional` by pilot runs: path tracing alone, on a frozen
+//! map, or beside light vertex connections.
 //!
 //! It has three ways. Paths go alone to their ends; or they end on a frozen map, which some of them
-//! correct ([`crate::estimator::control_variate`]); or photons are joined to the targets and share
-//! the light with them ([`crate::estimator::connection`]). All three have the right mean, so any
-//! choice is right, and the cheapest is best: by the rays of the whole run, foreseen from variances
-//! and rays of trials ([`ErrorTarget`]). Trials themselves cost rays, most of all those of joined
-//! photons, for which the scene is surveyed. So a few paths are tried first, and a map of a few
-//! photons; photons are only joined where what is best without them takes many rays, or where paths
-//! do not find the light that photons do.
+//! correct ([`crate::estimator::control_variate`]); or photons are connected to the targets and
+//! share the light with them ([`crate::estimator::connection`]). All three have the right mean, so
+//! any choice is right, and the cheapest is best: by the rays of the whole run, foreseen from
+//! variances and rays of trials ([`ErrorTarget`]). Trials themselves cost rays, most of all those
+//! of connected photons, for which the scene is surveyed. So a few paths are tried first, and a map
+//! of a few photons; photons are only connected where what is best without them takes many rays, or
+//! where paths do not find the light that photons do.
 
 use crate::context::Context;
 use crate::estimator::connection::{ConnectionPilots, LightVertexConnections, PathsAlone};
@@ -26,14 +27,14 @@ const TRYING_TO_JOIN: f64 = (1 << 20) as f64;
 /// more of them bring: quasi-random points. Random ones bring nothing.
 const LATER: f64 = 0.5;
 
-/// What was decided, and what it took. Without joined photons and map, paths go alone.
+/// What was decided, and what it took. Without connected photons and map, paths go alone.
 pub(crate) struct Decision<S> {
     pub(crate) light_vertices: Option<LightVertexConnections>,
     /// With its photons.
     pub(crate) frozen: Option<TracedMap<S>>,
     /// Photons of a map that was not taken, if they left the lights.
     pub(crate) photons: Option<PhotonCounts>,
-    /// Rays of all trials, and of what joined photons need beforehand; but for those of photons
+    /// Rays of all trials, and of what connected photons need beforehand; but for those of photons
     /// above.
     pub(crate) rays: u64,
 }
@@ -96,7 +97,7 @@ struct Tried<S> {
     paths: PathTrial<S>,
     wanted: ErrorTarget,
     /// Variances of these paths in a run.
-    noted: Vec<f64>,
+    recorded: Vec<f64>,
     /// Of paths that end by Russian roulette, on no map.
     plain: Outcome,
 }
@@ -111,14 +112,14 @@ impl<S: Spectrum> Tried<S> {
         let means_lx = sample.exact_lx.iter().enumerate().map(found_lx).collect();
         let wanted = ErrorTarget::new(settings, &sample, means_lx);
         let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
-        let noted: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
-        let Outcome { variances, rays } = paths.walks.alone(&wanted);
-        let variances = noted.iter().zip(variances).map(|(v, more)| v + more).collect();
-        Self { sample, paths, wanted, noted, plain: Outcome { variances, rays } }
+        let recorded: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
+        let Outcome { variances, rays } = paths.records.alone(&wanted);
+        let variances = recorded.iter().zip(variances).map(|(v, more)| v + more).collect();
+        Self { sample, paths, wanted, recorded, plain: Outcome { variances, rays } }
     }
 
-    fn noted(&self) -> PilotCost<'_> {
-        PilotCost::of_paths(&self.noted, self.paths.trial.rays)
+    fn recorded(&self) -> PilotCost<'_> {
+        PilotCost::of_paths(&self.recorded, self.paths.trial.rays)
     }
 
     fn plain(&self) -> PilotCost<'_> {
@@ -137,15 +138,15 @@ impl<S: Spectrum> Tried<S> {
         settings: &Settings,
         watch: &mut Watch<'_>,
     ) -> Option<MapPilot<S>> {
-        let (recorded, alone) = (&self.noted(), &self.plain());
-        let paths = PathPilot { records: &self.paths.walks, recorded, alone };
+        let (recorded, alone) = (&self.recorded(), &self.plain());
+        let paths = PathPilot { records: &self.paths.records, recorded, alone };
         MapPilot::new(context, settings, &paths, &self.wanted, watch)
     }
 
     /// So many rays over those of paths like these.
     fn part(&self, rays: f64) -> f64 {
-        let of_noted = self.rays(&self.noted());
-        if of_noted > 0.0 { rays / of_noted } else { 1.0 }
+        let of_recorded = self.rays(&self.recorded());
+        if of_recorded > 0.0 { rays / of_recorded } else { 1.0 }
     }
 
     /// What a lux counts at each target, by a short look at those that are not in the trial.

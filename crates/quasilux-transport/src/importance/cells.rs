@@ -1,4 +1,4 @@
-//! CellTally places: boxes of space, and in each the way that a surface faces.
+//! Cells of the survey: boxes of a regular grid, times six directions that a surface faces.
 //!
 //! Bounded whatever the mesh, and the two sides of a wall are apart in it. A box holds what faces
 //! one of six ways together: coarse, which costs effort and never bias.

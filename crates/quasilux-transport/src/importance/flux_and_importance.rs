@@ -1,5 +1,4 @@
-//! How much light comes to each surveyed cell, and what light that leaves it is worth to the
-//! sensors.
+//! Forward flux and adjoint importance by survey cell, the two solutions of FW-CADIS.
 //!
 //! With s the first landings, T the steps between cells (mean over the rays from a cell, absorption
 //! left out) and a the albedo, the flux that lands is `phi = s + T^t a phi`. A photon that lands
@@ -15,7 +14,7 @@
 
 use crate::importance::survey::{Survey, Surveyed, Transition};
 
-/// Sweeps after which a solution is taken as it is: it only steers.
+/// Sweeps after which a solution is taken as it is: it only guides.
 const MAX_SWEEPS: usize = 64;
 /// Largest relative change of an entry in the last sweep.
 const SETTLED: f64 = 0.05;
@@ -27,7 +26,7 @@ pub(crate) struct FluxAndImportance {
     /// What a photon of weight one is worth that has landed after a bounce, before its next.
     pub(crate) landed_importance: Vec<f64>,
     /// What a photon of weight one is worth that leaves.
-    pub(crate) leaving_worth: Vec<f64>,
+    pub(crate) leaving_importance: Vec<f64>,
     /// Illuminance at each surveyed sensor, in lx.
     pub(crate) sensors_lx: Vec<f64>,
 }
@@ -37,12 +36,12 @@ impl FluxAndImportance {
     pub(crate) fn new(survey: &Survey, areas_m2: &[f64], flux_lm: f64) -> Option<Self> {
         let landing = landing(survey);
         let sensors_lx = sensors_lx(survey, areas_m2, &landing, flux_lm);
-        let read = read_worth(survey, areas_m2, &sensors_lx, flux_lm)?;
-        let leaving_worth = leaving_worth(survey, &read);
+        let read = read_importance(survey, areas_m2, &sensors_lx, flux_lm)?;
+        let leaving_importance = leaving_importance(survey, &read);
         let landed_importance = (0..read.len())
-            .map(|cell| read[cell] + survey.known[cell].albedo * leaving_worth[cell])
+            .map(|cell| read[cell] + survey.known[cell].albedo * leaving_importance[cell])
             .collect();
-        Some(Self { landing, landed_importance, leaving_worth, sensors_lx })
+        Some(Self { landing, landed_importance, leaving_importance, sensors_lx })
     }
 }
 
@@ -77,30 +76,39 @@ fn landing(survey: &Survey) -> Vec<f64> {
     landing
 }
 
-/// The share of a sensor's view that each of its rays found, in m^-2, absorption folded in: what a
-/// lumen that lands in the cell is read as, in lx.
+/// A part of a sensor's view.
+struct View {
+    cell: usize,
+    /// Its share in m^-2, absorption folded in: what a lumen that lands in the cell is read as, in
+    /// lx.
+    share_m2: f64,
+}
+
+/// The view of a sensor, by its rays.
 fn views<'s>(
     survey: &'s Survey,
     areas_m2: &'s [f64],
     sensor: &'s Surveyed,
-) -> impl Iterator<Item = (usize, f64)> + 's {
+) -> impl Iterator<Item = View> + 's {
     sensor.landings.iter().map(|ray| {
         let cell = ray.cell as usize;
         let albedo = survey.known[cell].albedo;
-        (cell, ray.weight * albedo / (sensor.rays as f64 * areas_m2[cell]))
+        let share_m2 = ray.weight * albedo / (sensor.rays as f64 * areas_m2[cell]);
+        View { cell, share_m2 }
     })
 }
 
 fn sensors_lx(survey: &Survey, areas_m2: &[f64], landing: &[f64], flux_lm: f64) -> Vec<f64> {
     let sensor_lx = |sensor: &Surveyed| {
         let views = views(survey, areas_m2, sensor);
-        sensor.direct_lx + flux_lm * views.map(|(cell, view)| view * landing[cell]).sum::<f64>()
+        let seen = views.map(|view| view.share_m2 * landing[view.cell]).sum::<f64>();
+        sensor.direct_lx + flux_lm * seen
     };
     survey.sensors.iter().map(sensor_lx).collect()
 }
 
 /// What a landing is worth by being read, summed over the sensors that get any light so.
-fn read_worth(
+fn read_importance(
     survey: &Survey,
     areas_m2: &[f64],
     sensors_lx: &[f64],
@@ -110,14 +118,14 @@ fn read_worth(
     for (sensor, &lx) in survey.sensors.iter().zip(sensors_lx) {
         if lx > sensor.direct_lx {
             views(survey, areas_m2, sensor)
-                .for_each(|(cell, view)| importance[cell] += view * flux_lm / lx);
+                .for_each(|view| importance[view.cell] += view.share_m2 * flux_lm / lx);
         }
     }
     importance.iter().any(|importance| *importance > 0.0).then_some(importance)
 }
 
 /// `d = T (r + a d)` by sweeps in place.
-fn leaving_worth(survey: &Survey, read: &[f64]) -> Vec<f64> {
+fn leaving_importance(survey: &Survey, read: &[f64]) -> Vec<f64> {
     let known = &survey.known;
     let mut importance = vec![0.0; known.len()];
     for sweep in 0..MAX_SWEEPS {

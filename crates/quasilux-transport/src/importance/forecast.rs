@@ -1,4 +1,4 @@
-//! What a survey predicts of a run: where photons will land, and how much light sensors will get.
+//! Predictions of a survey: densities of landing photons, and indirect illuminances of the sensors.
 //!
 //! Whoever shares work between photons and paths goes by it; a wrong forecast costs effort and
 //! never bias.
@@ -47,11 +47,11 @@ impl Forecast {
     pub(super) fn new(
         survey: &Survey,
         regions: Arc<Regions>,
-        balance: &FluxAndImportance,
+        solution: &FluxAndImportance,
         areas_m2: &[f64],
         weights: &[f64],
     ) -> Self {
-        let lit_per_m2 = lit_per_m2(survey, balance, areas_m2);
+        let lit_per_m2 = lit_per_m2(survey, solution, areas_m2);
         let first = survey.first_landings.iter().zip(areas_m2);
         let per_m2 = first.enumerate().map(|(cell, (photons, area_m2))| Density {
             first: photons / area_m2,
@@ -59,7 +59,7 @@ impl Forecast {
         });
         let per_m2 = per_m2.collect();
         let landings = Landings { regions, per_m2 };
-        let sensors = balance.sensors_lx.iter().zip(&survey.sensors);
+        let sensors = solution.sensors_lx.iter().zip(&survey.sensors);
         let indirect_lx = sensors.map(|(lx, sensor)| lx - sensor.direct_lx).collect();
         let places = survey.known.iter().map(|cell| cell.places.clone()).collect();
         Self { landings, places, indirect_lx, step: survey.sensor_step }
@@ -75,12 +75,12 @@ impl Forecast {
 /// Flux that lands on a square metre of each surveyed cell, as a share of what all lights emit. Few
 /// of the steps that the balance is made of end in any one cell; many cells are seen from it, so
 /// what comes after a bounce is gathered from there.
-fn lit_per_m2(survey: &Survey, balance: &FluxAndImportance, areas_m2: &[f64]) -> Vec<f64> {
+fn lit_per_m2(survey: &Survey, solution: &FluxAndImportance, areas_m2: &[f64]) -> Vec<f64> {
     let per_m2 = |flux: &[f64]| -> Vec<f64> {
         flux.iter().zip(areas_m2).map(|(flux, area_m2)| flux / area_m2).collect()
     };
     let first = per_m2(&survey.first_landings);
-    let mut lit = per_m2(&balance.landing);
+    let mut lit = per_m2(&solution.landing);
     for _ in 0..SWEEPS {
         let gather = |cell: usize| first[cell] + seen_from(survey, cell, |there| lit[there]);
         lit = (0..first.len()).map(gather).collect();

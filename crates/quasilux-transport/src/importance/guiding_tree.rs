@@ -1,4 +1,5 @@
-//! Guided directions: where photons that leave a cell should go.
+//! Path guiding for photons: a binary tree over the unit square that directions are drawn from, by
+//! importance.
 //!
 //! From a lit wall to the far end of a corridor lead few directions, and whole photons that take
 //! them carry far more than the end is due. A photon's direction is made from a point of the unit
@@ -22,7 +23,7 @@ const MIN_RAYS: usize = 8;
 const MAX_HALVINGS: u32 = 24;
 /// No guide halves more regions.
 pub(crate) const MAX_NODES: usize = 128;
-const _: () = assert!(MAX_NODES <= 1 << u8::BITS, "forks are numbered in a byte");
+const _: () = assert!(MAX_NODES <= 1 << u8::BITS, "nodes are numbered in a byte");
 /// In so many parts shares of points are told.
 const WHOLE: f64 = 65_536.0;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
@@ -33,7 +34,7 @@ const EVEN: f64 = 0.3;
 pub(crate) struct GuidingTree {
     /// The regions that are halved, the whole square first: halved along the first edge, its halves
     /// along the second, and so on. Empty where all points are alike.
-    forks: Vec<Node>,
+    nodes: Vec<Node>,
 }
 
 /// A region that is halved, small: photons ask guides of all cells in turn.
@@ -73,7 +74,7 @@ pub(crate) struct GuidingSample {
 
 /// A region that may be halved.
 struct Region {
-    /// The fork that it is a half of, and which one.
+    /// The node that it is a half of, and which one.
     of: Option<(usize, usize)>,
     halvings: u32,
     /// Its rays.
@@ -89,52 +90,53 @@ impl GuidingSample {
 
 impl GuidingTree {
     /// By rays and what they were worth.
-    pub(crate) fn new(mut hints: Vec<GuidingSample>) -> Self {
-        hints.sort_unstable_by_key(|hint| hint.digits);
+    pub(crate) fn new(mut samples: Vec<GuidingSample>) -> Self {
+        samples.sort_unstable_by_key(|sample| sample.digits);
         let mut sums = vec![0.0];
-        for hint in &hints {
-            sums.push(sums[sums.len() - 1] + hint.importance);
+        for sample in &samples {
+            sums.push(sums[sums.len() - 1] + sample.importance);
         }
-        let total = sums[hints.len()];
-        let mut forks: Vec<Node> = Vec::new();
-        let mut open = VecDeque::from([Region { of: None, halvings: 0, from: 0, to: hints.len() }]);
+        let total = sums[samples.len()];
+        let mut nodes: Vec<Node> = Vec::new();
+        let mut open =
+            VecDeque::from([Region { of: None, halvings: 0, from: 0, to: samples.len() }]);
         while let Some(Region { of, halvings, from, to }) = open.pop_front() {
             let is_halved = to - from >= MIN_RAYS
                 && (sums[to] - sums[from]) * PARTS > total
                 && halvings < MAX_HALVINGS
-                && forks.len() < MAX_NODES;
+                && nodes.len() < MAX_NODES;
             if !is_halved {
                 continue;
             }
-            let is_low = |hint: &GuidingSample| hint.digits << halvings >> (u32::BITS - 1) == 0;
-            let middle = from + hints[from..to].partition_point(is_low);
+            let is_low = |sample: &GuidingSample| sample.digits << halvings >> (u32::BITS - 1) == 0;
+            let middle = from + samples[from..to].partition_point(is_low);
             // In proportion to the worths, but for an even share.
             let area = libm::ldexp(1.0, -1 - halvings as i32);
             let share = |from: usize, to: usize| {
                 (1.0 - EVEN) * (sums[to] - sums[from]) / total + EVEN * area
             };
             let [low, high] = [share(from, middle), share(middle, to)];
-            let number = forks.len();
-            if let Some((fork, half)) = of {
-                forks[fork].halves[half] = number as u8;
+            let number = nodes.len();
+            if let Some((node, half)) = of {
+                nodes[node].halves[half] = number as u8;
             }
-            forks.push(Node::new(low / (low + high)));
+            nodes.push(Node::new(low / (low + high)));
             for (half, (from, to)) in [(from, middle), (middle, to)].into_iter().enumerate() {
                 let of = Some((number, half));
                 open.push_back(Region { of, halvings: halvings + 1, from, to });
             }
         }
-        Self { forks }
+        Self { nodes }
     }
 
     /// All points alike.
     pub(crate) fn even() -> Self {
-        Self { forks: Vec::new() }
+        Self { nodes: Vec::new() }
     }
 
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
-        for Node { low_share, halves } in &self.forks {
+        for Node { low_share, halves } in &self.nodes {
             out.u32(u32::from(*low_share));
             halves.iter().for_each(|half| out.u8(*half));
         }
@@ -145,9 +147,9 @@ impl GuidingTree {
         // The edge that is halved next, then the other.
         let [mut this, mut other] = u.map(|u| Stretch { corner: 0.0, size: 1.0, u });
         let (mut density, mut is_first) = (1.0, true);
-        let mut next = self.forks.first();
-        while let Some(fork) = next {
-            let low_share = fork.low_share();
+        let mut next = self.nodes.first();
+        while let Some(node) = next {
+            let low_share = node.low_share();
             let is_high = this.u >= low_share;
             let (start, share) =
                 if is_high { (low_share, 1.0 - low_share) } else { (0.0, low_share) };
@@ -156,7 +158,7 @@ impl GuidingTree {
             (this, other) = (other, Stretch { corner, size, u: (this.u - start) / share });
             density *= 2.0 * share;
             is_first = !is_first;
-            next = self.half(fork, usize::from(is_high));
+            next = self.half(node, usize::from(is_high));
         }
         let most = 1.0 - f64::EPSILON / 2.0;
         let at = |stretch: Stretch| (stretch.corner + stretch.size * stretch.u).min(most);
@@ -168,20 +170,20 @@ impl GuidingTree {
     pub(crate) fn density(&self, u: [f64; 2]) -> f64 {
         let mut digits = digits(u);
         let mut density = 1.0;
-        let mut next = self.forks.first();
-        while let Some(fork) = next {
+        let mut next = self.nodes.first();
+        while let Some(node) = next {
             let half = (digits >> (u32::BITS - 1)) as usize;
-            let low_share = fork.low_share();
+            let low_share = node.low_share();
             density *= 2.0 * if half == 0 { low_share } else { 1.0 - low_share };
-            next = self.half(fork, half);
+            next = self.half(node, half);
             digits <<= 1;
         }
         density
     }
 
-    fn half(&self, fork: &Node, half: usize) -> Option<&Node> {
-        let number = usize::from(fork.halves[half]);
-        if number > 0 { self.forks.get(number) } else { None }
+    fn half(&self, node: &Node, half: usize) -> Option<&Node> {
+        let number = usize::from(node.halves[half]);
+        if number > 0 { self.nodes.get(number) } else { None }
     }
 }
 
@@ -219,14 +221,14 @@ mod tests {
 
     /// Rays around three places, few of them worth much.
     fn guide() -> GuidingTree {
-        let mut hints = Vec::new();
+        let mut samples = Vec::new();
         for i in 0..40 {
             let x = f64::from(i) / 40.0;
-            hints.push(GuidingSample::new([0.3 + 0.1 * x, 0.9 - 0.2 * x], 5.0));
-            hints.push(GuidingSample::new([0.31 + 0.001 * x, 0.1], 0.2));
-            hints.push(GuidingSample::new([0.999, x], 1e-3));
+            samples.push(GuidingSample::new([0.3 + 0.1 * x, 0.9 - 0.2 * x], 5.0));
+            samples.push(GuidingSample::new([0.31 + 0.001 * x, 0.1], 0.2));
+            samples.push(GuidingSample::new([0.999, x], 1e-3));
         }
-        GuidingTree::new(hints)
+        GuidingTree::new(samples)
     }
 
     /// The density is the inverse of the Jacobian determinant, by differences inside a region.

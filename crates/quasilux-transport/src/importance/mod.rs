@@ -1,12 +1,13 @@
-//! Steering photons to where sensors need them.
+//! Importance of photons to the sensors: the survey (FW-CADIS), weight windows that split photons
+//! or end them, and guiding of their directions.
 //!
 //! In a long corridor lit from one end photons die out, and the far end is found by hardly any. A
-//! coarse [`survey`] of the scene says, by linear algebra ([`balance`]), how much light there is
-//! and what it is worth to the sensors; [`windows`] then say how many photons should follow each
-//! that lands, and [`guide`] in which directions. The survey has pilot rays of its own, their
-//! number is fixed and their coordinates serve nothing else: whatever it says, the estimate has the
-//! same mean. It also predicts what steering saves; where that is little, as in a plain room,
-//! photons are left alone.
+//! coarse [`survey`] of the scene says, by linear algebra ([`flux_and_importance`]), how much light
+//! there is and what it is worth to the sensors; [`weight_windows`] then say how many photons
+//! should follow each that lands, and [`guiding_tree`] in which directions. The survey has pilot
+//! rays of its own, their number is fixed and their coordinates serve nothing else: whatever it
+//! says, the estimate has the same mean. It also predicts what guiding saves; where that is little,
+//! as in a plain room, photons are left alone.
 
 mod cells;
 mod flux_and_importance;
@@ -31,8 +32,8 @@ use flux_and_importance::FluxAndImportance;
 use std::sync::Arc;
 use survey::Survey;
 
-/// Photons are steered by themselves where the same error then costs this many times fewer rays. A
-/// small gain would not repay the closer look that steering takes.
+/// Photons are guided by themselves where the same error then costs this many times fewer rays. A
+/// small gain would not repay the closer look that guiding takes.
 pub(crate) const WORTHWHILE: f64 = 8.0;
 
 /// Times that far cells are connected on a closer look, each time chosen by what was learnt before.
@@ -45,9 +46,9 @@ pub(crate) struct Plan {
     pub(crate) windows: Option<WeightWindows>,
     /// What to expect then; `None` where the survey found no light on its way to sensors.
     pub(crate) forecast: Option<Forecast>,
-    /// Of photons that are steered.
-    pub(crate) steered: Option<Performance>,
-    /// Times that the same error costs fewer rays where photons are steered, as predicted before
+    /// Of photons that are guided.
+    pub(crate) guided: Option<Performance>,
+    /// Times that the same error costs fewer rays where photons are guided, as predicted before
     /// the closer look.
     pub(crate) gain: f64,
     /// Rays of the survey.
@@ -66,18 +67,18 @@ pub(crate) fn plan<S: Spectrum>(
     }
 }
 
-/// Surveys the scene, whether photons are to be steered or not, and decides.
+/// Surveys the scene, whether photons are to be guided or not, and decides.
 pub(crate) fn survey<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
     importance: Switch,
 ) -> Plan {
     let Some(mut survey) = Survey::new(context, targets) else { return Plan::default() };
-    let Some((mut balance, mut areas_m2)) = look_far(context, &mut survey, 1) else {
+    let Some(mut solved) = connect_far_cells(context, &mut survey, 1) else {
         return Plan { rays: survey.rays, ..Plan::default() };
     };
-    let plain = Performance::plain(&survey, &balance);
-    let gain = plain.cost_of_error() / Performance::steered(&survey, &balance).cost_of_error();
+    let plain = Performance::plain(&survey, &solved.solution).cost_of_error();
+    let gain = plain / Performance::guided(&survey, &solved.solution).cost_of_error();
     let uses_importance = match importance {
         Switch::Auto => gain >= WORTHWHILE,
         Switch::On => true,
@@ -85,35 +86,42 @@ pub(crate) fn survey<S: Spectrum>(
     };
     if uses_importance {
         survey.refine(context);
-        let Some(refined) = look_far(context, &mut survey, LOOKS) else {
+        let Some(refined) = connect_far_cells(context, &mut survey, LOOKS) else {
             return Plan { rays: survey.rays, ..Plan::default() };
         };
-        (balance, areas_m2) = refined;
+        solved = refined;
     }
+    let Solved { solution, areas_m2 } = solved;
     let regions = Arc::new(survey.regions());
     let windows =
-        uses_importance.then(|| WeightWindows::new(&survey, Arc::clone(&regions), &balance));
-    let steered = windows.as_ref().map(|windows| windows.performance(&survey, &balance));
-    let steered = steered.map(|of_all| of_all.of_each_sensor(&survey));
+        uses_importance.then(|| WeightWindows::new(&survey, Arc::clone(&regions), &solution));
+    let guided = windows.as_ref().map(|windows| windows.performance(&survey, &solution));
+    let guided = guided.map(|of_all| of_all.of_each_sensor(&survey));
     let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], WeightWindows::weights);
-    let forecast = Forecast::new(&survey, regions, &balance, &areas_m2, &weights);
-    Plan { windows, forecast: Some(forecast), steered, gain, rays: survey.rays }
+    let forecast = Forecast::new(&survey, regions, &solution, &areas_m2, &weights);
+    Plan { windows, forecast: Some(forecast), guided, gain, rays: survey.rays }
 }
 
-/// Connects cells over distances, to where light is worth most by what is known so far; what
-/// follows from all of it, and the cells' areas in m^2.
-fn look_far<S: Spectrum>(
+/// Flux and importance of the known cells, and their areas.
+struct Solved {
+    solution: FluxAndImportance,
+    areas_m2: Vec<f64>,
+}
+
+/// Connects cells over distances, to those of most importance by the solution so far, and solves
+/// for flux and importance anew.
+fn connect_far_cells<S: Spectrum>(
     context: &Context<'_, S>,
     survey: &mut Survey,
     short_looks: u32,
-) -> Option<(FluxAndImportance, Vec<f64>)> {
+) -> Option<Solved> {
     let flux_lm = context.lights.flux_lm;
     let areas_m2 = areas_m2(context, survey);
     for _ in 0..short_looks {
-        let balance = FluxAndImportance::new(survey, &areas_m2, flux_lm)?;
-        survey.connect(context, &areas_m2, &balance.landed_importance);
+        let solution = FluxAndImportance::new(survey, &areas_m2, flux_lm)?;
+        survey.connect(context, &areas_m2, &solution.landed_importance);
     }
-    Some((FluxAndImportance::new(survey, &areas_m2, flux_lm)?, areas_m2))
+    Some(Solved { solution: FluxAndImportance::new(survey, &areas_m2, flux_lm)?, areas_m2 })
 }
 
 /// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets

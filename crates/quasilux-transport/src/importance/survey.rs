@@ -1,5 +1,5 @@
-//! A coarse survey of where light goes: pilot rays from the lights, from sensors, and on from every
-//! place that any of them finds.
+//! Survey of light transport between cells: pilot rays from the lights, from sensors, and on from
+//! every cell that any of them finds.
 //!
 //! A pilot of whole photons never sees the far end of a corridor. A survey of single steps does:
 //! each cell sends as many rays as any other, however little light comes to it, and chains of steps
@@ -106,7 +106,7 @@ pub(crate) struct Surveyed {
 }
 
 /// A ray's end on a surface that keeps illuminance.
-struct Found {
+struct DiffuseHit {
     at: Interaction,
     weight: f64,
     /// Whether it came past no other surface.
@@ -118,12 +118,76 @@ struct Flown {
     /// See [`Transition`].
     u: [f32; 2],
     far_per_m2: f32,
-    found: Option<Found>,
+    found: Option<DiffuseHit>,
     rays: u64,
 }
 
 impl Flown {
     const NOWHERE: Self = Self { u: [0.0; 2], far_per_m2: 0.0, found: None, rays: 0 };
+}
+
+/// Connections of known cells to far ones that are drawn by their importance.
+struct FarConnections<'s, 'w, 'a, S> {
+    context: &'s Context<'a, S>,
+    known: &'s [SurveyCell],
+    /// See [`Cells::far_m`].
+    far_m: f64,
+    points: PointSet,
+    weights: FarWeights<'w>,
+}
+
+/// The choice of far cells.
+struct FarWeights<'w> {
+    areas_m2: &'w [f64],
+    by_importance: Discrete,
+}
+
+/// A step that was tried.
+struct FarConnection {
+    step: Transition,
+    is_visible: bool,
+}
+
+impl FarWeights<'_> {
+    /// The weight of a step to a far cell by the balance heuristic.
+    fn weight(&self, far_per_m2: f32, cell: usize) -> f64 {
+        let p = f64::from(far_per_m2) * self.areas_m2[cell];
+        p / (p + self.by_importance.pdf(cell))
+    }
+}
+
+impl<S: Spectrum> FarConnections<'_, '_, '_, S> {
+    /// Draws a point of a far cell and tries whether light goes there from a cell; `None` where
+    /// they are too near, or one of them turns its back on the other.
+    fn connect(&self, number: usize, ray: u32) -> Option<FarConnection> {
+        let Self { context, known, far_m, points, weights } = self;
+        let index = number as u64 * u64::from(MORE_CELL_RAYS) + u64::from(ray);
+        let mut sampler = Sampler::new(points, index);
+        let choice = weights.by_importance.sample(sampler.next_1d());
+        let (from, to) = (&known[number].places, &known[choice.index].places);
+        let start = &from[ray as usize % from.len()];
+        let end = &to[((sampler.next_1d() * to.len() as f64) as usize).min(to.len() - 1)];
+        let line = end.position - start.position;
+        let distance_m = line.length();
+        let direction = line / distance_m;
+        let (cos, cos_end) = (start.n.dot(direction), -end.n.dot(direction));
+        if !(distance_m > *far_m && cos > 0.0 && cos_end > 0.0) {
+            return None;
+        }
+        let world = &context.world;
+        let is_visible =
+            world.is_visible(world.ray_origin(start), direction, distance_m, end.facet);
+        let far_per_m2 = (cos * cos_end / (PI * distance_m * distance_m)) as f32;
+        let local = world.frame(start).to_local(direction);
+        let step = Transition {
+            cell: choice.index as u32,
+            share: weights.weight(far_per_m2, choice.index),
+            weight: 1.0,
+            far_per_m2,
+            u: invert_cosine_hemisphere(local.to_array()).map(|u| u as f32),
+        };
+        Some(FarConnection { step, is_visible })
+    }
 }
 
 impl Survey {
@@ -140,8 +204,8 @@ impl Survey {
             rays: 0,
             sent: 0,
         };
-        survey.look_from_lights(context);
-        survey.look_from_sensors(context, targets);
+        survey.sample_from_lights(context);
+        survey.sample_from_sensors(context, targets);
         survey.explore(context, CELL_RAYS);
         Some(survey)
     }
@@ -172,58 +236,32 @@ impl Survey {
         importances: &[f64],
     ) {
         let weights: Vec<f64> = areas_m2.iter().zip(importances).map(|(a, w)| a * w).collect();
-        let Some(choices) = Discrete::new(&weights) else { return };
-        let points = context.points(0, Stream::Survey(3));
-        let counted = |far_per_m2: f32, cell: usize| {
-            let p = f64::from(far_per_m2) * areas_m2[cell];
-            p / (p + choices.pdf(cell))
+        let Some(by_importance) = Discrete::new(&weights) else { return };
+        let connections = FarConnections {
+            context,
+            known: &self.known,
+            far_m: self.cells.far_m(),
+            points: context.points(0, Stream::Survey(3)),
+            weights: FarWeights { areas_m2, by_importance },
         };
-        let (known, far_m) = (&self.known, self.cells.far_m());
-        let connect = |number: usize| {
-            let from = &known[number];
-            let try_one = |ray: u32| {
-                let index = number as u64 * u64::from(MORE_CELL_RAYS) + u64::from(ray);
-                let mut sampler = Sampler::new(&points, index);
-                let choice = choices.sample(sampler.next_1d());
-                let to = &known[choice.index];
-                let start = &from.places[ray as usize % from.places.len()];
-                let places = to.places.len() as f64;
-                let end =
-                    &to.places[((sampler.next_1d() * places) as usize).min(to.places.len() - 1)];
-                let way = end.position - start.position;
-                let distance_m = way.length();
-                let direction = way / distance_m;
-                let (cos, cos_end) = (start.n.dot(direction), -end.n.dot(direction));
-                if !(distance_m > far_m && cos > 0.0 && cos_end > 0.0) {
-                    return None;
-                }
-                let ray_origin = context.world.ray_origin(start);
-                let lit = context.world.is_visible(ray_origin, direction, distance_m, end.facet);
-                let far_per_m2 = (cos * cos_end / (PI * distance_m * distance_m)) as f32;
-                let local = context.world.frame(start).to_local(direction);
-                let connection = Transition {
-                    cell: choice.index as u32,
-                    share: counted(far_per_m2, choice.index),
-                    weight: 1.0,
-                    far_per_m2,
-                    u: invert_cosine_hemisphere(local.to_array()).map(|u| u as f32),
-                };
-                Some((lit, connection))
-            };
-            (0..from.rays).filter_map(try_one).collect::<Vec<_>>()
+        let from_cell = |number: usize| {
+            let tries = 0..self.known[number].rays;
+            tries.filter_map(|ray| connections.connect(number, ray)).collect::<Vec<_>>()
         };
-        let found: Vec<Vec<(bool, Transition)>> =
-            (0..known.len()).into_par_iter().map(connect).collect();
+        let found: Vec<Vec<FarConnection>> =
+            (0..self.known.len()).into_par_iter().map(from_cell).collect();
+        let weights = connections.weights;
         for (cell, found) in self.known.iter_mut().zip(found) {
             self.rays += found.len() as u64;
-            cell.connections = found.into_iter().filter(|(lit, _)| *lit).map(|(_, c)| c).collect();
+            let visible = found.into_iter().filter(|connection| connection.is_visible);
+            cell.connections = visible.map(|connection| connection.step).collect();
             for ray in cell.landings.iter_mut().filter(|ray| ray.far_per_m2 > 0.0) {
-                ray.share = counted(ray.far_per_m2, ray.cell as usize);
+                ray.share = weights.weight(ray.far_per_m2, ray.cell as usize);
             }
         }
     }
 
-    fn look_from_lights<S: Spectrum>(&mut self, context: &Context<'_, S>) {
+    fn sample_from_lights<S: Spectrum>(&mut self, context: &Context<'_, S>) {
         let points = context.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut sampler = Sampler::new(&points, index);
@@ -240,7 +278,7 @@ impl Survey {
         }
     }
 
-    fn look_from_sensors<S: Spectrum>(&mut self, context: &Context<'_, S>, targets: &[Target]) {
+    fn sample_from_sensors<S: Spectrum>(&mut self, context: &Context<'_, S>, targets: &[Target]) {
         let asked = targets.iter().step_by(self.sensor_step).map(centre);
         let asked: Vec<(DVec3, DVec3)> = asked.collect();
         let rays = (SENSOR_RAYS / asked.len().max(1) as u64).max(MIN_SENSOR_RAYS);
@@ -304,7 +342,7 @@ impl Survey {
     /// ended nowhere, or there is no room for new cells.
     fn enter<S: Spectrum>(&mut self, context: &Context<'_, S>, flown: Flown) -> Option<Transition> {
         self.rays += flown.rays;
-        let Found { at, weight, .. } = flown.found?;
+        let DiffuseHit { at, weight, .. } = flown.found?;
         let place = self.cells.cell(&at);
         let number = &mut self.number_of_cell[place];
         if *number == Regions::UNKNOWN {
@@ -378,7 +416,7 @@ fn go_on<S: Spectrum>(
     let start = Emission { from, direction: world.frame(at).to_world(wi) };
     let flown = fly(context, start, &mut sampler);
     let far_per_m2 = match &flown.found {
-        Some(Found { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
+        Some(DiffuseHit { at, is_straight: true, .. }) if wi.z > 0.0 && at.distance_m > far_m => {
             (wi.z * -at.n.dot(start.direction) / (PI * at.distance_m * at.distance_m)) as f32
         }
         _ => 0.0,
@@ -397,7 +435,7 @@ fn fly<S: Spectrum>(context: &Context<'_, S>, start: Emission, sampler: &mut Sam
         let Some(at) = world.trace(from, direction) else { return nothing };
         let (bsdf, frame) = (world.bsdf(&at), world.frame(&at));
         if bsdf.keeps_illuminance() {
-            let found = Some(Found { at, weight, is_straight: passed == 0 });
+            let found = Some(DiffuseHit { at, weight, is_straight: passed == 0 });
             return Flown { found, rays, ..Flown::NOWHERE };
         }
         let wo = frame.to_local(-direction);

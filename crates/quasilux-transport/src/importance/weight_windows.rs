@@ -1,4 +1,5 @@
-//! Weight windows of no width: the weight that photons leave each place with.
+//! Weight windows, of no width: the weight that photons leave each cell with, by splitting and
+//! Russian roulette.
 //!
 //! A photon of weight w that lands where photons leave with weight W is followed by `m = w a / W`
 //! photons on average, a the albedo: splitting where m is above one, roulette and absorption in one
@@ -43,13 +44,17 @@ pub(crate) struct Window {
 
 impl WeightWindows {
     /// By worth.
-    pub(crate) fn new(survey: &Survey, regions: Arc<Regions>, balance: &FluxAndImportance) -> Self {
-        Self { regions, windows: steered_windows(survey, balance) }
+    pub(crate) fn new(
+        survey: &Survey,
+        regions: Arc<Regions>,
+        solution: &FluxAndImportance,
+    ) -> Self {
+        Self { regions, windows: importance_windows(survey, solution) }
     }
 
     /// What they cost and give.
-    pub(crate) fn performance(&self, survey: &Survey, balance: &FluxAndImportance) -> Performance {
-        Performance::of(survey, balance, &self.windows)
+    pub(crate) fn performance(&self, survey: &Survey, solution: &FluxAndImportance) -> Performance {
+        Performance::predict(survey, solution, &self.windows)
     }
 
     /// The weight with which photons leave each known cell.
@@ -83,14 +88,14 @@ impl WeightWindows {
 /// what it gives to each, in units of the sensor.
 impl Performance {
     /// Of photons of equal weight.
-    pub(crate) fn plain(survey: &Survey, balance: &FluxAndImportance) -> Self {
+    pub(crate) fn plain(survey: &Survey, solution: &FluxAndImportance) -> Self {
         let even = Window { weight: 1.0, guide: GuidingTree::even() };
-        Self::of(survey, balance, &vec![even; survey.known.len()])
+        Self::predict(survey, solution, &vec![even; survey.known.len()])
     }
 
-    /// Of photons that are steered.
-    pub(crate) fn steered(survey: &Survey, balance: &FluxAndImportance) -> Self {
-        Self::of(survey, balance, &steered_windows(survey, balance))
+    /// Of photons that are guided.
+    pub(crate) fn guided(survey: &Survey, solution: &FluxAndImportance) -> Self {
+        Self::predict(survey, solution, &importance_windows(survey, solution))
     }
 
     /// The same with the sum of the variances at the sensors, if each gets about the same of every
@@ -102,14 +107,14 @@ impl Performance {
     /// Sums over all landings of the variance that the decision there and the next step bring. From
     /// weight w come `m = w a / W` photons, n of them by chance; what one of them brings has mean d
     /// and mean square q: in all `W^2 (m (q - d^2) + Var n d^2)`.
-    fn of(survey: &Survey, balance: &FluxAndImportance, windows: &[Window]) -> Self {
+    fn predict(survey: &Survey, solution: &FluxAndImportance, windows: &[Window]) -> Self {
         let known = &survey.known;
         let guides = windows.iter().map(|window| &window.guide);
-        let next_square = next_squares(survey, balance, guides);
+        let next_square = next_squares(survey, solution, guides);
         let mut performance = Self { rays: 1.0, variance: 0.0 };
         let mut land = |cell: usize, photons: f64, weight: f64| {
             let split = Split::new(weight * known[cell].albedo, windows[cell].weight);
-            let (d, q) = (balance.leaving_worth[cell], next_square[cell]);
+            let (d, q) = (solution.leaving_importance[cell], next_square[cell]);
             let of_next = split.expected * (q - d * d).max(0.0) + split.variance() * d * d;
             performance.rays += photons * split.expected;
             performance.variance += photons * split.weight * split.weight * of_next;
@@ -119,7 +124,7 @@ impl Performance {
         }
         for (cell, from) in known.iter().enumerate() {
             let window = &windows[cell];
-            let photons = balance.landing[cell] * from.albedo / window.weight;
+            let photons = solution.landing[cell] * from.albedo / window.weight;
             for step in from.steps() {
                 let density = window.guide.density(step.u.map(f64::from));
                 let weight = window.weight * step.weight / density;
@@ -155,19 +160,19 @@ impl Split {
 }
 
 /// What the survey says of each known cell.
-fn steered_windows(survey: &Survey, balance: &FluxAndImportance) -> Vec<Window> {
-    let guides = guides(survey, balance);
-    let weights = steered_weights(survey, balance, &guides);
+fn importance_windows(survey: &Survey, solution: &FluxAndImportance) -> Vec<Window> {
+    let guides = guides(survey, solution);
+    let weights = importance_weights(survey, solution, &guides);
     let windows = weights.into_iter().zip(guides);
     windows.map(|(weight, guide)| Window { weight, guide }).collect()
 }
 
 /// Directions from each known cell by what its rays, and those of the cells around it, were worth.
-fn guides(survey: &Survey, balance: &FluxAndImportance) -> Vec<GuidingTree> {
+fn guides(survey: &Survey, solution: &FluxAndImportance) -> Vec<GuidingTree> {
     let hints = |cell: &SurveyCell| -> Vec<GuidingSample> {
         let hint = |step: Transition| {
             let importance =
-                step.share * step.weight * balance.landed_importance[step.cell as usize];
+                step.share * step.weight * solution.landed_importance[step.cell as usize];
             GuidingSample::new(step.u.map(f64::from), importance)
         };
         cell.steps().map(hint).collect()
@@ -184,12 +189,12 @@ fn guides(survey: &Survey, balance: &FluxAndImportance) -> Vec<GuidingTree> {
 /// over even rays, worth^2 / density.
 fn next_squares<'g>(
     survey: &Survey,
-    balance: &FluxAndImportance,
+    solution: &FluxAndImportance,
     guides: impl Iterator<Item = &'g GuidingTree>,
 ) -> Vec<f64> {
     let of_cell = |(cell, guide): (&SurveyCell, &GuidingTree)| {
         let squares = cell.steps().map(|step| {
-            let importance = step.weight * balance.landed_importance[step.cell as usize];
+            let importance = step.weight * solution.landed_importance[step.cell as usize];
             step.share * importance * importance / guide.density(step.u.map(f64::from))
         });
         squares.sum::<f64>()
@@ -200,12 +205,12 @@ fn next_squares<'g>(
 /// The weight with which photons leave each known cell: in inverse proportion to the root mean
 /// square of what they are worth next, which makes rays times variance least. Mean squares are
 /// those of the cells around.
-fn steered_weights(
+fn importance_weights(
     survey: &Survey,
-    balance: &FluxAndImportance,
+    solution: &FluxAndImportance,
     guides: &[GuidingTree],
 ) -> Vec<f64> {
-    let squares = next_squares(survey, balance, guides.iter());
+    let squares = next_squares(survey, solution, guides.iter());
     let root_mean = |cell: &SurveyCell| {
         let around = survey.numbers_around(cell);
         let (sum, count) =
@@ -220,9 +225,9 @@ fn steered_weights(
         .zip(&importances)
         .map(|(share, importance)| share * importance)
         .sum::<f64>();
-    let mean_worth = total / leaving.sum::<f64>();
-    let weight = |importance: &f64| (mean_worth / importance).clamp(LIGHTEST, HEAVIEST);
-    if mean_worth > 0.0 {
+    let mean_importance = total / leaving.sum::<f64>();
+    let weight = |importance: &f64| (mean_importance / importance).clamp(LIGHTEST, HEAVIEST);
+    if mean_importance > 0.0 {
         importances.iter().map(weight).collect()
     } else {
         vec![1.0; importances.len()]

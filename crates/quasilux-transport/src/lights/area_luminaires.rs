@@ -1,4 +1,4 @@
-//! Luminaires with a luminous area, seen from a surface: their direct light is sampled.
+//! Direct light of luminaires with a luminous area, by sampling points of their shape.
 //!
 //! The light that the shape S of a luminaire gives to a point x with normal n is `E = integral over
 //! S of I(w) p(w, y) (n.-w) / |x - y|^2 dy`, with w from y to x and p(w, y) the part of the
@@ -11,6 +11,7 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
+use crate::lights::pointlike::LightCentre;
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
@@ -57,9 +58,12 @@ impl<'a> AreaLuminaires<'a> {
         self.0.get(index).map(|light| light.luminaire)
     }
 
-    /// Their centres in m and fluxes in lm.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (DVec3, f64)> {
-        self.0.iter().map(|light| (light.luminaire.position, light.flux_lm))
+    /// Their centres and fluxes.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = LightCentre> {
+        self.0.iter().map(|&AreaLuminaire { luminaire, flux_lm, .. }| LightCentre {
+            position: luminaire.position,
+            flux_lm,
+        })
     }
 
     /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the

@@ -1,4 +1,5 @@
-//! Emitting facets seen from a surface, by two strategies that share their weight.
+//! Direct light of area lights (emitting facets), by light sampling and BSDF sampling with multiple
+//! importance sampling.
 //!
 //! Light that reaches a surface straight from an area light is estimated both by a point on the
 //! light, uniform over its area within equal luminance, and by the direction in which the path goes
@@ -23,7 +24,7 @@ pub(crate) struct Emitters {
 }
 
 /// A point on an emitting facet.
-pub(crate) struct Place {
+pub(crate) struct EmitterPoint {
     pub(crate) facet: u32,
     pub(crate) position: DVec3,
 }
@@ -59,11 +60,11 @@ impl Emitters {
     }
 
     /// A point uniform over area within equal luminance; density in m^-2.
-    pub(crate) fn place<S: Spectrum>(&self, world: &World<S>, u: [f64; 2]) -> Place {
+    pub(crate) fn sample_point<S: Spectrum>(&self, world: &World<S>, u: [f64; 2]) -> EmitterPoint {
         let choice = self.by_flux.sample(u[0]);
         let facet = self.facets[choice.index];
         let weights = sample_triangle([choice.u_remapped, u[1]]);
-        Place { facet, position: world.facets[facet as usize].point(weights) }
+        EmitterPoint { facet, position: world.facets[facet as usize].point(weights) }
     }
 
     /// What one point on the lights gives, weighted against the direction in which the path goes
@@ -74,7 +75,7 @@ impl Emitters {
         vertex: &Vertex<'_, S>,
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
-        let place = self.place(world, u);
+        let place = self.sample_point(world, u);
         let facet = &world.facets[place.facet as usize];
         let toward = place.position - vertex.position();
         let distance_m = toward.length();
@@ -105,8 +106,8 @@ impl Emitters {
         pdf_sr / (pdf_sr + pdf_light)
     }
 
-    /// Density in sr^-1 with which [`Self::offer`] finds a point on a facet of this luminance:
-    /// uniform density over equal luminance, in m^-2, turned into solid angle.
+    /// Density in sr^-1 with which [`Self::light_sample`] finds a point on a facet of this
+    /// luminance: uniform density over equal luminance, in m^-2, turned into solid angle.
     fn pdf_sr(&self, emitted_cd_m2: f64, distance_m: f64, cos_light: f64) -> f64 {
         emitted_cd_m2 / self.by_flux.total() * distance_m * distance_m / cos_light
     }

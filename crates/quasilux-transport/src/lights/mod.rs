@@ -1,4 +1,6 @@
-//! The lights of a scene as transport uses them: photons leave them, surfaces see them.
+//! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
+//! `emitters`, luminaires with a luminous area in `area_luminaires`, lights without extent in
+//! `pointlike` and `images`.
 
 mod area_luminaires;
 mod emitters;
@@ -7,7 +9,7 @@ mod pointlike;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitters::Emitters;
-pub(crate) use pointlike::{Incidence, PointLikes};
+pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};
@@ -62,7 +64,7 @@ impl<'a> Lights<'a> {
         let emitters = Emitters::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
         let centred = pointlikes.iter().chain(area_luminaires.iter());
-        let fluxes: Vec<f64> = centred.map(|(_, flux_lm)| flux_lm).chain([emitters_lm]).collect();
+        let fluxes: Vec<f64> = centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
         let (by_flux, flux_lm) = (Discrete::new(&fluxes), fluxes.iter().sum());
         Self { pointlikes, area_luminaires, emitters, by_flux, fluxes_lm: fluxes, flux_lm }
     }
@@ -72,7 +74,7 @@ impl<'a> Lights<'a> {
     pub(crate) fn reference_lx<S: Spectrum>(&self, world: &World<S>) -> f64 {
         let near_m = 0.01 * world.size_m();
         let centred = self.pointlikes.iter().chain(self.area_luminaires.iter());
-        let centred = centred.map(|(position, flux_lm)| {
+        let centred = centred.map(|LightCentre { position, flux_lm }| {
             let to_box_m = world
                 .bounds()
                 .map_or(0.0, |[low, high]| (position - position.clamp(low, high)).length());
@@ -151,7 +153,7 @@ impl<'a> Lights<'a> {
                 path_class: LightPathClass::Straight,
             });
         }
-        let place = self.emitters.as_ref()?.place(world, u);
+        let place = self.emitters.as_ref()?.sample_point(world, u);
         let n = world.facets[place.facet as usize].front_normal;
         let local = DVec3::from_array(sample_cosine_hemisphere(more()));
         let direction = Frame::around(n).to_world(local);

@@ -1,4 +1,5 @@
-//! Point-like lights seen from a surface: their direct light is computed, not sampled.
+//! Direct light of point-like lights, computed without sampling or from one light chosen by its
+//! unshadowed illuminance.
 
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -10,6 +11,13 @@ use quasilux_scene::{Light, Scene};
 
 /// The lights without extent: points, and luminaires without a luminous area.
 pub(crate) struct PointLikes<'a>(Vec<&'a Light>);
+
+/// The centre of a light.
+#[derive(Clone, Copy)]
+pub(crate) struct LightCentre {
+    pub(crate) position: DVec3,
+    pub(crate) flux_lm: f64,
+}
 
 impl<'a> PointLikes<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
@@ -33,9 +41,11 @@ impl<'a> PointLikes<'a> {
         self.0.get(index).copied()
     }
 
-    /// Their positions in m and fluxes in lm.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (DVec3, f64)> {
-        self.0.iter().map(|light| (position(light), light.flux_lm()))
+    /// Their positions and fluxes.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = LightCentre> {
+        let centre =
+            |light: &&Light| LightCentre { position: position(light), flux_lm: light.flux_lm() };
+        self.0.iter().map(centre)
     }
 
     /// Luminous intensity in cd of the light `index` toward a unit direction.
@@ -43,19 +53,18 @@ impl<'a> PointLikes<'a> {
         intensity_cd(self.0[index as usize], direction)
     }
 
-    /// Illuminance in lx of each that is not behind the side `n` of a place, or of all where both
-    /// sides count, if nothing stands in the way; and how far off it is, in m.
+    /// Light of each that is not behind the side `n` of a place, or of all where both sides count,
+    /// if nothing stands in the way.
     pub(crate) fn unshadowed(
         &self,
         place: DVec3,
         n: DVec3,
         takes_both_sides: bool,
-    ) -> impl Iterator<Item = (f64, f64)> {
+    ) -> impl Iterator<Item = Incidence> {
         let sides = [Some(n), takes_both_sides.then_some(-n)].into_iter().flatten();
-        let incidences = sides.flat_map(move |n| {
+        sides.flat_map(move |n| {
             self.0.iter().filter_map(move |light| Incidence::new(light, place, n))
-        });
-        incidences.map(|incidence| (incidence.illuminance_lx, incidence.distance_m))
+        })
     }
 
     /// What all of them give, every one tested: tells `receive` who gets how much. One light comes

@@ -1,4 +1,5 @@
-//! What one path found, apart by how often the light was reflected.
+//! Contribution of one path, split into direct and indirect light and into terms of the Neumann
+//! series.
 
 use crate::path::lobes::Lobes;
 use crate::spectrum::Spectrum;

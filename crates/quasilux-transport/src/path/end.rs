@@ -1,15 +1,15 @@
-//! What the paths of a run end on: nothing, one frozen map, or a map for each replicate.
+//! Illumination maps that paths end on: none, one frozen map, or a growing map for each replicate.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::importance::{self, Plan, WeightWindows};
 use crate::path::frozen_map::{FrozenEnd, FrozenMap, MapFacts, TracedMap};
-use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_in_view};
+use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
 use crate::photon::lit_cells::LitCells;
 use crate::photon::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::photon::trace::{Lead, Source};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
@@ -36,7 +36,7 @@ pub(crate) enum PathEnd<S> {
         photons_per_path: u64,
         /// Where photons leave from instead of the point-like lights.
         lit_cells: Option<LitCells>,
-        /// What steers their photons.
+        /// What guides their photons.
         windows: Option<WeightWindows>,
     },
 }
@@ -60,7 +60,7 @@ pub(crate) enum Rest<'m, S> {
     /// From the path itself.
     Path,
     /// The same, and the path notes where it might have ended on a map.
-    Noted,
+    Recorded,
     /// From a map.
     Map(MapEnd<'m, S>),
     /// From a map that is corrected.
@@ -130,7 +130,7 @@ impl<S: Spectrum> PathEnd<S> {
         if lit_cells.is_some() {
             counts += balance(watch);
         }
-        let source = Source::of(lit_cells.as_ref());
+        let source = Source::from_lit_cells(lit_cells.as_ref());
         let layout = refined(context, settings, watch, &mut counts);
         let Plan { windows, rays, .. } = importance::plan(context, targets, settings.importance);
         counts.rays += rays;
@@ -195,12 +195,12 @@ impl<S: Spectrum> PathEnd<S> {
         };
         let indices = *photons..end;
         let receiver = |r: u32| Some(MapReceiver::new(context, layout, &tallies[r as usize]));
-        let source = Source::of(lit_cells.as_ref());
+        let source = Source::from_lit_cells(lit_cells.as_ref());
         let batch = PhotonBatch {
             stream: Stream::Photons,
             replicates: 0..tallies.len() as u32,
             indices,
-            way: Way::CoherentWaves,
+            order: PhotonOrder::CoherentWaves,
             lead: Lead::by_chance(source, windows.as_ref()),
         };
         let before = batch.indices.start * tallies.len() as u64;
@@ -208,7 +208,7 @@ impl<S: Spectrum> PathEnd<S> {
             let photon_lm = context.lights.flux_lm / (before + emitted) as f64;
             look(&GrowingMaps { layout, tallies, photon_lm })
         };
-        let counts = trace_photons_in_view(context, &batch, receiver, look, watch)?;
+        let counts = trace_photons_with_snapshots(context, &batch, receiver, look, watch)?;
         *photons = end;
         Some(source.counted(counts))
     }

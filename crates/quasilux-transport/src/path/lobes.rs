@@ -1,4 +1,5 @@
-//! Narrow lobes under point-like lights: whether paths may have missed where they are bright.
+//! Test for missed lobes: whether enough paths met the bright part of narrow lobes under point-like
+//! lights.
 //!
 //! A path that meets a glossy surface asks there for the light of a point-like light, and finds
 //! nearly always that the lobe points elsewhere. The few that meet the place from where it points
@@ -15,7 +16,7 @@
 
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::lights::PointLikes;
+use crate::lights::{Incidence, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
@@ -64,7 +65,8 @@ impl Lobes {
     pub(crate) fn meet(&mut self, lights: &PointLikes<'_>, met: &Met<'_>) {
         let Met { at, transmits, goes_on, sharpness } = *met;
         let (mut all_lx, mut weighed) = (0.0, 0.0);
-        for (lx, distance_m) in lights.unshadowed(at.position, at.n, transmits) {
+        for incidence in lights.unshadowed(at.position, at.n, transmits) {
+            let Incidence { illuminance_lx: lx, distance_m, .. } = incidence;
             let turn = (at.distance_m + distance_m) / distance_m;
             all_lx += lx;
             weighed += lx * turn * turn;

@@ -1,5 +1,5 @@
-//! Paths of several targets and replicates that travel together, and what each of these gets of
-//! them.
+//! Sections of paths, one target in one replicate each, that are traced in one wave, and their
+//! sums.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Context;
@@ -47,7 +47,7 @@ pub(crate) struct Section<'g, S> {
     pub(crate) points: PointSet,
     pub(crate) rest: Rest<'g, S>,
     pub(crate) caustics: Option<CausticLookup<'g, S>>,
-    /// What photons that are joined to the target leave to the paths.
+    /// What photons that are connected to the target leave to the paths.
     pub(crate) partition: Option<&'g Partition>,
     pub(crate) indices: Range<u64>,
 }
@@ -68,11 +68,11 @@ pub(crate) fn trace_sections<S: Spectrum>(
     quantum: Quantum,
     wave: &mut PathWave<S>,
 ) -> Piece {
-    trace_and_look(context, sections, quantum, wave, |_| ())
+    trace_and_visit(context, sections, quantum, wave, |_| ())
 }
 
 /// The same, and shows each path that is over.
-pub(crate) fn trace_and_look<S: Spectrum>(
+pub(crate) fn trace_and_visit<S: Spectrum>(
     context: &Context<'_, S>,
     sections: &[Section<'_, S>],
     quantum: Quantum,

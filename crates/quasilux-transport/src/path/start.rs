@@ -1,4 +1,4 @@
-//! The start of a path: a sensor point or a pixel, and what is measured there.
+//! Start of a path: a sensor point or a pixel, and the quantity measured there.
 
 use crate::path::end::Rest;
 use crate::path::partition::Partition;

@@ -1,4 +1,5 @@
-//! One path, from a sensor point toward the lights.
+//! Path tracing with next-event estimation and Russian roulette (Kajiya 1986): one path, from a
+//! sensor toward the lights.
 //!
 //! The illuminance at x is `E(x) = integral of L(x, w) cos dw`. A cosine-distributed direction has
 //! density cos / pi, so the light that arrives along it counts pi-fold. At each diffuse surface the
@@ -9,7 +10,7 @@
 //! are: the map is a control variate, its elements cause no bias, and no light is lost with those
 //! that end.
 //!
-//! Read on at `asking` for what lights are asked.
+//! Read on at `direct_light` for next-event estimation.
 
 mod direct_light;
 
@@ -25,7 +26,7 @@ use crate::path::partition::{Partition, PartitionWeights};
 use crate::path::start::{Measurement, Start};
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
-use crate::photon::map::{IlluminationMap, Place};
+use crate::photon::map::{IlluminationMap, MapPoint};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
@@ -38,21 +39,21 @@ use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// Bounces after which a path goes on for certain; after later ones by chance.
+/// Bounces after which a path goes on for certain; after later ones by survival.
 const CERTAIN_BOUNCES: u32 = 2;
 
-/// Those that note where they might have ended go on for certain while so much is left, and up to
-/// so many notes.
-const NOTED: f64 = 1.0 / 32.0;
-const MAX_NOTES: usize = 32;
+/// Those that record where they might have ended go on for certain while so much is left, and up to
+/// so many records.
+const MIN_RECORDED_GAIN: f64 = 1.0 / 32.0;
+const MAX_RECORDS: usize = 32;
 
 /// A path that is over.
 pub(crate) struct PathResult<S> {
     pub(crate) found: PathContribution<S>,
     /// How many coordinates it used.
     pub(crate) dimensions: u32,
-    /// Where it might have ended on a map, if it was to note that.
-    pub(crate) notes: Vec<VertexRecord<S>>,
+    /// Where it might have ended on a map, if it was to record that.
+    pub(crate) records: Vec<VertexRecord<S>>,
     /// Its rays, but for those that ask for light.
     pub(crate) flights: u32,
 }
@@ -84,7 +85,7 @@ pub(crate) struct Path<'p, S> {
     /// From the point-like lights at its start.
     pointlikes: S,
     found: PathContribution<S>,
-    notes: Vec<VertexRecord<S>>,
+    records: Vec<VertexRecord<S>>,
     flights: u32,
 }
 
@@ -151,13 +152,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             arrived: S::black(),
             pointlikes: S::black(),
             found: PathContribution::default(),
-            notes: Vec::new(),
+            records: Vec::new(),
             flights: 0,
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
             path.found.list_terms(context.listed_terms);
             let vertex = Vertex::sensor(from, n);
-            work.shadows.most_bounces = context.max_bounces.unwrap_or(u32::MAX);
+            work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
             if tests_pointlikes {
                 path.sample_direct_images(context, &vertex, work);
             }
@@ -207,8 +208,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if let Some(at) = at {
             self.add_emitted(context, bounces, at);
         }
-        if let Some(note) = self.notes.last_mut() {
-            note.begin([before, self.found.indirect]);
+        if let Some(record) = self.records.last_mut() {
+            record.begin([before, self.found.indirect]);
         }
         let Some(at) = at else { return false };
         let bsdf = context.world.bsdf(at);
@@ -274,11 +275,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             Rest::Frozen(end) if bsdf.keeps_illuminance() => {
                 self.end_on_frozen(end, context, bounces, at)
             }
-            Rest::Noted if self.gain.left() > NOTED && self.notes.len() < MAX_NOTES => {
-                self.note(context, bounces, at, albedo);
+            Rest::Recorded
+                if self.gain.left() > MIN_RECORDED_GAIN && self.records.len() < MAX_RECORDS =>
+            {
+                self.record_vertex(context, bounces, at, albedo);
                 Some(Onward { emitted: 1.0, everything: 1.0 })
             }
-            Rest::Path | Rest::Noted | Rest::Map(_) | Rest::Frozen(_) => None,
+            Rest::Path | Rest::Recorded | Rest::Map(_) | Rest::Frozen(_) => None,
         }
     }
 
@@ -322,13 +325,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
     pub(crate) fn end(mut self) -> PathResult<S> {
         self.add_arrived();
         self.found.add(0, self.pointlikes);
-        for note in &mut self.notes {
-            note.end(self.found.indirect);
+        for record in &mut self.records {
+            record.end(self.found.indirect);
         }
         PathResult {
             found: self.found,
             dimensions: self.sampler.used(),
-            notes: self.notes,
+            records: self.records,
             flights: self.flights,
         }
     }
@@ -339,9 +342,15 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// Notes that it might have ended here.
-    fn note(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction, albedo: f64) {
+    fn record_vertex(
+        &mut self,
+        context: &Context<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+        albedo: f64,
+    ) {
         let keeps_illuminance = context.world.bsdf(at).keeps_illuminance();
-        self.notes.push(VertexRecord {
+        self.records.push(VertexRecord {
             at: *at,
             weight: keeps_illuminance.then(|| self.weight(context, at)),
             alone: if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) },
@@ -386,18 +395,19 @@ impl<'p, S: Spectrum> Path<'p, S> {
         bounces: u32,
         at: &Interaction,
     ) -> Option<Onward> {
-        let most_bounces = bounces_left(context.max_bounces, bounces, end.layout.len() as u64)?;
+        let max_bounces = bounces_left(context.max_bounces, bounces, end.layout.len() as u64)?;
         let weight = self.weight(context, at);
         let place = end.layout.locate(at);
-        let lx = end.map.illuminance_lx(&place, most_bounces);
-        let chance = end.chance(&place, weight.luminance(), (weight * lx).luminance())?;
+        let lx = end.map.illuminance_lx(&place, max_bounces);
+        let survival =
+            end.survival_probability(&place, weight.luminance(), (weight * lx).luminance())?;
         let correction = Purpose::Correction { surface: bounces + 1 };
         let everything = context.draw(&mut self.sampler, correction, |sampler| {
-            russian_roulette_factor(chance, sampler)
+            russian_roulette_factor(survival, sampler)
         });
         let weight = weight * (1.0 - everything);
         self.found.indirect += weight * lx;
-        self.take_terms(&end.map, &place, (bounces, most_bounces), weight);
+        self.take_terms(&end.map, &place, (bounces, max_bounces), weight);
         Some(Onward { emitted: 1.0, everything })
     }
 
@@ -406,13 +416,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
     fn take_terms(
         &mut self,
         map: &IlluminationMap<'_, S>,
-        place: &Place,
-        (bounces, most_bounces): (u32, u32),
+        place: &MapPoint,
+        (bounces, max_bounces): (u32, u32),
         weight: S,
     ) {
         if !self.found.terms.is_empty() {
-            for (photon_bounces, lx) in map.terms_lx(*place, most_bounces) {
-                self.found.add_to_term(bounces + 1 + photon_bounces, weight * lx);
+            for term in map.terms_lx(*place, max_bounces) {
+                let bounces = bounces + 1 + term.bounces;
+                self.found.add_to_term(bounces, weight * term.illuminance_lx);
             }
         }
     }
@@ -432,13 +443,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let most = context.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
         let to_start = self.weight(context, at);
         let share = if bounces == 0 { self.weights_of_paths.rest } else { 1.0 };
-        for (caustic_bounces, lx) in caustics.illuminances_lx(at, most) {
-            let lx = lx * share;
-            self.found.add(bounces + 1 + caustic_bounces, to_start * lx);
+        for term in caustics.illuminances_lx(at, most) {
+            let lx = term.illuminance_lx * share;
+            self.found.add(bounces + 1 + term.bounces, to_start * lx);
         }
     }
 
-    /// Where photons are joined to the sensor, it takes along from its first surface what they
+    /// Where photons are connected to the sensor, it takes along from its first surface what they
     /// leave to it. Else Russian roulette after the first bounces, by the albedo of the channel
     /// that is left strongest, so that the weight of a survivor never grows in it and stays bounded
     /// in all.

@@ -1,4 +1,4 @@
-//! Records of the vertices of a path: what it found beyond each, had it ended there.
+//! Records of path vertices: the light that a path found beyond each.
 
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;

@@ -1,4 +1,4 @@
-//! Many paths at once: they advance together, bounce by bounce.
+//! Wavefront path tracing: many paths advance together, bounce by bounce.
 //!
 //! All rays of one bounce are traced together, then all that the paths ask of the lights. Every
 //! path takes its coordinates and adds its contributions in the order in which it would alone.
@@ -83,7 +83,7 @@ impl<S: Spectrum> PathWave<S> {
         let receive =
             |who: u32, light: S, panes| paths[who as usize].receive_at_start(light, panes);
         let Context { world, lights, .. } = context;
-        self.work.shadows.most_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        self.work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         lights.pointlikes.all(world, &self.receivers, &mut self.work.shadows, receive);
     }
 

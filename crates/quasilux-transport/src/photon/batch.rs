@@ -1,9 +1,9 @@
-//! Many photons at once: ranges of indices of all replicates, shared between threads.
+//! Batches of photons: a range of indices of all replicates, shared between threads.
 
 use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::photon::counts::PhotonCounts;
-use crate::photon::order::{WAVES_PER_FIELD, Waves, Way};
+use crate::photon::order::{PhotonOrder, WAVES_PER_FIELD, Waves};
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
@@ -24,7 +24,7 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) stream: Stream,
     pub(crate) replicates: Range<u32>,
     pub(crate) indices: Range<u64>,
-    pub(crate) way: Way,
+    pub(crate) order: PhotonOrder,
     pub(crate) lead: Lead<'w>,
 }
 
@@ -35,7 +35,7 @@ impl<'s> PhotonBatch<'s> {
             stream: Stream::PlanPhotons,
             replicates: 0..1,
             indices,
-            way: Way::CoherentWaves,
+            order: PhotonOrder::CoherentWaves,
             lead: Lead::by_chance(source, None),
         }
     }
@@ -49,66 +49,33 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     receiver: impl Fn(u32) -> R + Sync,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    trace_photons_in_view(context, batch, receiver, |_| None, watch)
+    trace_photons_with_snapshots(context, batch, receiver, |_| None, watch)
 }
 
 /// The same where `look` tells what the sensors show, when so many of the photons were emitted and
 /// none of them flies.
-pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
+pub(crate) fn trace_photons_with_snapshots<S: Spectrum, R: PhotonReceiver<S>>(
     context: &Context<'_, S>,
     batch: &PhotonBatch<'_>,
     receiver: impl Fn(u32) -> R + Sync,
     look: impl Fn(u64) -> Option<Snapshot>,
     watch: &mut Watch<'_>,
 ) -> Option<PhotonCounts> {
-    let PhotonBatch { stream, replicates, indices, way, lead } = batch;
-    let lead = *lead;
+    let PhotonBatch { stream, replicates, .. } = batch;
     let points: Vec<PointSet> = replicates.clone().map(|r| context.points(r, *stream)).collect();
-    let Some(leading) = points.first() else { return Some(PhotonCounts::default()) };
-    let close_in = match way {
-        Way::OneByOne | Way::Waves => 0,
-        Way::CoherentWaves => context.lights.leading_dimensions(),
-    };
-    let waves_each = Waves::new(leading, indices.clone(), close_in);
-    let waves = waves_each.len() * points.len() as u64;
-    // One space for each thread of this pool.
-    let spaces: Vec<Mutex<PhotonWave<'_, S>>> =
-        (0..rayon::current_num_threads()).map(|_| Mutex::new(PhotonWave::new())).collect();
-    let trace = |number: u64| {
-        let row = (number / waves_each.len()) as u32;
-        let points = &points[row as usize];
-        let indices = waves_each.indices(number % waves_each.len());
-        let mut receiver = receiver(replicates.start + row);
-        let mut counts = PhotonCounts::default();
-        if *way == Way::OneByOne {
-            for index in indices {
-                let sampler = Sampler::new(points, index);
-                trace_photon(context, lead, sampler, &mut receiver, &mut counts);
-            }
-        } else {
-            let thread = rayon::current_thread_index().unwrap_or(0);
-            let mut space = spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
-            let wave = Wave { points, indices, lead };
-            space.trace(context, wave, &mut receiver, &mut counts);
-        }
-        let ReceiverCounts { rays, invalid } = receiver.finish();
-        counts.connections = rays;
-        counts.rays += rays;
-        counts.invalid += invalid;
-        counts
+    let Some(waves) = BatchWaves::new(context, batch, &points) else {
+        return Some(PhotonCounts::default());
     };
     let mut counts = PhotonCounts::default();
     let mut done = 0;
-    while done < waves {
-        let end = (done + WAVES_PER_ROUND).min(waves);
-        let round =
-            done..end - end % waves_each.len() + waves_each.gap_before(end % waves_each.len());
+    while done < waves.len() {
+        let round = waves.round(done);
         done = round.end;
-        let of_round =
-            round.into_par_iter().map(trace).reduce(PhotonCounts::default, |mut a, b| {
-                a += b;
-                a
-            });
+        let traced = round.into_par_iter().map(|number| waves.trace(number, &receiver));
+        let of_round = traced.reduce(PhotonCounts::default, |mut a, b| {
+            a += b;
+            a
+        });
         let (photons, rays) = (of_round.emitted, of_round.rays);
         counts += of_round;
         watch.show(|| look(counts.emitted));
@@ -117,6 +84,76 @@ pub(crate) fn trace_photons_in_view<S: Spectrum, R: PhotonReceiver<S>>(
         }
     }
     Some(counts)
+}
+
+/// The waves of a batch, those of one replicate after the other, and working space.
+struct BatchWaves<'b, 'c, S> {
+    context: &'b Context<'c, S>,
+    batch: &'b PhotonBatch<'b>,
+    /// By replicate.
+    points: &'b [PointSet],
+    /// Of one replicate.
+    waves: Waves,
+    /// One for each thread of this pool.
+    spaces: Vec<Mutex<PhotonWave<'b, S>>>,
+}
+
+impl<'b, 'c, S: Spectrum> BatchWaves<'b, 'c, S> {
+    /// `None` where there are no replicates.
+    fn new(
+        context: &'b Context<'c, S>,
+        batch: &'b PhotonBatch<'b>,
+        points: &'b [PointSet],
+    ) -> Option<Self> {
+        let coherent_dimensions = match batch.order {
+            PhotonOrder::OneByOne | PhotonOrder::Waves => 0,
+            PhotonOrder::CoherentWaves => context.lights.leading_dimensions(),
+        };
+        let waves = Waves::new(points.first()?, batch.indices.clone(), coherent_dimensions);
+        let spaces =
+            (0..rayon::current_num_threads()).map(|_| Mutex::new(PhotonWave::new())).collect();
+        Some(Self { context, batch, points, waves, spaces })
+    }
+
+    fn len(&self) -> u64 {
+        self.waves.len() * self.points.len() as u64
+    }
+
+    /// The waves from `first` to the next word to the observer.
+    fn round(&self, first: u64) -> Range<u64> {
+        let each = self.waves.len();
+        let end = (first + WAVES_PER_ROUND).min(self.len());
+        first..end - end % each + self.waves.gap_before(end % each)
+    }
+
+    fn trace<R: PhotonReceiver<S>>(
+        &self,
+        number: u64,
+        receiver: &impl Fn(u32) -> R,
+    ) -> PhotonCounts {
+        let PhotonBatch { replicates, order, lead, .. } = self.batch;
+        let row = (number / self.waves.len()) as u32;
+        let points = &self.points[row as usize];
+        let indices = self.waves.indices(number % self.waves.len());
+        let mut receiver = receiver(replicates.start + row);
+        let mut counts = PhotonCounts::default();
+        if *order == PhotonOrder::OneByOne {
+            for index in indices {
+                let sampler = Sampler::new(points, index);
+                trace_photon(self.context, *lead, sampler, &mut receiver, &mut counts);
+            }
+        } else {
+            let thread = rayon::current_thread_index().unwrap_or(0);
+            let mut space = self.spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
+            let wave = Wave { points, indices, lead: *lead };
+            space.trace(self.context, wave, &mut receiver, &mut counts);
+        }
+        let ReceiverCounts { rays, invalid } = receiver.finish();
+        counts.connections = rays;
+        counts.rays += rays;
+        counts.invalid += invalid;
+        counts
+    }
 }
 
 impl PhotonCounts {

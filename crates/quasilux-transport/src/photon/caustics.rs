@@ -15,8 +15,10 @@ use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::cutoff::MAX_EVENTS;
 use crate::photon::batch::{PhotonBatch, trace_photons};
-use crate::photon::map::{ELEMENTS_ACROSS, IlluminationMap, MapLayout, QUANTA_PER_PHOTON};
-use crate::photon::order::Way;
+use crate::photon::map::{
+    BounceTerm, ELEMENTS_ACROSS, IlluminationMap, MapLayout, QUANTA_PER_PHOTON,
+};
+use crate::photon::order::PhotonOrder;
 use crate::photon::trace::{Lead, Source};
 use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
@@ -141,7 +143,7 @@ impl<S: Spectrum> CausticMap<S> {
             stream: Stream::CausticPhotons,
             replicates: 0..tallies.len() as u32,
             indices: self.photons..end,
-            way: Way::CoherentWaves,
+            order: PhotonOrder::CoherentWaves,
             lead: Lead::by_chance(Source::Lights, None),
         };
         let counts = trace_photons(context, &batch, receiver, watch)?;
@@ -221,15 +223,15 @@ pub(crate) struct CausticLookup<'a, S> {
 }
 
 impl<S: Spectrum> CausticLookup<'_, S> {
-    /// Caustic illuminances in lx at a place by the number of bounces, up to `most_bounces`; in one
+    /// Caustic illuminances in lx at a place by the number of bounces, up to `max_bounces`; in one
     /// sum where bounces are not told apart.
     pub(crate) fn illuminances_lx(
         &self,
         at: &Interaction,
-        most_bounces: u32,
-    ) -> impl Iterator<Item = (u32, S)> {
-        let terms = self.map.terms_lx(self.layout.locate(at), most_bounces);
-        terms.filter(|(_, lx)| lx.max_channel() > 0.0)
+        max_bounces: u32,
+    ) -> impl Iterator<Item = BounceTerm<S>> {
+        let terms = self.map.terms_lx(self.layout.locate(at), max_bounces);
+        terms.filter(|term| term.illuminance_lx.max_channel() > 0.0)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What became of photons, and what they cost: the balance of the flux.
+//! Counts of photons: the balance of their flux, rays and coordinates.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use quasilux_sampling::DimensionHistogram;

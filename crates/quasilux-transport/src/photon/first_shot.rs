@@ -1,4 +1,4 @@
-//! When the first shot is worth it: pilot photons of both kinds tell.
+//! Choice of the photons' source by pilots: lights, or the cells that they light directly.
 //!
 //! What counts are photons that leave the first surface. With weights w the variance is that of `N
 //! s` equal ones, `s = (sum w)^2 / (N sum w^2)` (Kish 1965), of N photons: w is 0 where the photon
@@ -37,16 +37,16 @@ struct FirstWeights(WeightSums);
 pub(crate) fn decide<S: Spectrum>(
     context: &Context<'_, S>,
     settings: &Settings,
-    most_rays: u64,
+    max_rays: u64,
     counts: &mut PhotonCounts,
 ) -> Option<LitCells> {
     let is_asked_for = settings.first_shot == Switch::On;
-    let most_rays = if is_asked_for { u64::MAX } else { most_rays };
+    let max_rays = if is_asked_for { u64::MAX } else { max_rays };
     let of_pilots = 2 * PILOTS * RAYS_OF_A_PILOT;
-    if settings.first_shot == Switch::Off || most_rays < of_pilots {
+    if settings.first_shot == Switch::Off || max_rays < of_pilots {
         return None;
     }
-    let cells = LitCells::new(context, most_rays - of_pilots)?;
+    let cells = LitCells::new(context, max_rays - of_pilots)?;
     counts.rays += cells.rays;
     let pays = is_asked_for
         || work(context, Source::LitCells(&cells), counts)

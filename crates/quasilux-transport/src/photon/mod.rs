@@ -1,4 +1,5 @@
-//! Light tracing: photons from the lights, and what counts them.
+//! Light tracing: a photon is emitted and scattered in `trace`, in waves in `wave`, and seen by a
+//! [`receiver`]; illumination maps are in `map`, caustics in `caustics`.
 
 pub(crate) mod batch;
 pub(crate) mod caustics;

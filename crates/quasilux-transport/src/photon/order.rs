@@ -1,4 +1,4 @@
-//! The order in which photons are taken: neighbours fly together.
+//! Order of photons: neighbours in their first coordinates are traced together.
 //!
 //! The first coordinates of a photon choose its light, its place and its direction, so photons
 //! whose indices share leading digits of them start at the same light in nearly the same direction
@@ -12,7 +12,7 @@ use std::ops::Range;
 
 /// How photons are taken. It changes the time, and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum PhotonOrder {
     /// One after the other, by a plain loop: the slow twin.
     OneByOne,
     /// In waves, in the order of their indices.

@@ -1,4 +1,4 @@
-//! What sees photons on their way: sensors, maps, connections.
+//! Photon receivers: the interface of sensors, maps and connections to photons in flight.
 
 use crate::lights::images::LightPathClass;
 use crate::world::Interaction;

@@ -3,7 +3,7 @@
 use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
@@ -48,14 +48,14 @@ impl PhotonReceiver<f64> for Guard {
     }
 }
 
-fn traced(reflectance: f64, way: Way) -> PhotonCounts {
+fn traced(reflectance: f64, order: PhotonOrder) -> PhotonCounts {
     let (scene, settings) = (floor(reflectance), Settings::default());
     let context = Context::<f64>::new(&scene, &settings);
     let batch = PhotonBatch {
         stream: Stream::Photons,
         replicates: 0..1,
         indices: 0..PHOTONS,
-        way,
+        order,
         lead: Lead::by_chance(Source::Lights, None),
     };
     trace_photons(&context, &batch, |_| Guard, &mut Watch::new(&mut ())).unwrap()
@@ -64,11 +64,11 @@ fn traced(reflectance: f64, way: Way) -> PhotonCounts {
 /// All that land are refused, once each, and the flux that they came with is absorbed.
 #[test]
 fn invalid_photons_end_and_are_counted() {
-    for way in [Way::OneByOne, Way::Waves] {
-        let valid = traced(0.5, way);
+    for order in [PhotonOrder::OneByOne, PhotonOrder::Waves] {
+        let valid = traced(0.5, order);
         assert_eq!(valid.invalid, 0);
         for bad in [f64::NAN, f64::INFINITY, -0.5, 1e300] {
-            let counts = traced(bad, way);
+            let counts = traced(bad, order);
             assert!(counts.events > PHOTONS / 4, "{bad}: {} landed", counts.events);
             assert_eq!(counts.invalid, counts.events, "{bad}");
             assert_eq!(counts.rays, PHOTONS, "{bad}");

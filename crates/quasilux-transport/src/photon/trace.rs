@@ -1,11 +1,11 @@
-//! One photon, from its light to its end: what happens to it at each step.
+//! Light tracing of one photon: emission, free flights, scattering, splitting and Russian roulette.
 //!
 //! Photons start with equal flux. At each surface they survive with the probability that keeps
 //! their luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never
 //! changes (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be
-//! drawn in exact proportion, leave it slightly changed. Photons that are steered
+//! drawn in exact proportion, leave it slightly changed. Photons that are guided
 //! ([`crate::importance`]) leave each place with the weight that belongs to it instead, by one or
-//! more of them or none; and those that are joined to sensors all leave the first surface, with
+//! more of them or none; and those that are connected to sensors all leave the first surface, with
 //! what absorption leaves. What goes on no more is counted as absorbed, whatever was due: so flux
 //! balances exactly, and as it should on average.
 
@@ -48,18 +48,18 @@ pub(crate) enum Source<'s> {
     LitCells(&'s LitCells),
 }
 
-/// Where photons begin, and what steers them.
+/// Where photons begin, and what guides them.
 #[derive(Clone, Copy)]
 pub(crate) struct Lead<'s> {
     pub(crate) source: Source<'s>,
     pub(crate) windows: Option<&'s WeightWindows>,
-    /// Where nothing steers them, photons go on for certain with what absorption leaves, if that is
+    /// Where nothing guides them, photons go on for certain with what absorption leaves, if that is
     /// so much of what the first of them carry.
     pub(crate) certain_weight: f64,
 }
 
 impl<'s> Lead<'s> {
-    /// Photons that survive by chance at each surface, unless something steers them.
+    /// Photons that survive by chance at each surface, unless something guides them.
     pub(crate) fn by_chance(source: Source<'s>, windows: Option<&'s WeightWindows>) -> Self {
         Self { source, windows, certain_weight: f64::INFINITY }
     }
@@ -67,7 +67,7 @@ impl<'s> Lead<'s> {
 
 impl<'s> Source<'s> {
     /// The lights, or lit cells where there are any.
-    pub(crate) fn of(lit_cells: Option<&'s LitCells>) -> Self {
+    pub(crate) fn from_lit_cells(lit_cells: Option<&'s LitCells>) -> Self {
         lit_cells.map_or(Source::Lights, Source::LitCells)
     }
 
@@ -146,7 +146,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
 
 /// A place that photons leave from again.
 #[derive(Clone, Copy)]
-struct Door<'a> {
+struct ScatteringPoint<'a> {
     at: &'a Interaction,
     /// Where the light came from.
     wo: DVec3,
@@ -242,15 +242,16 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             return counts.end(&self);
         };
         counts.events += 1;
-        let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
-        let wo = frame.to_local(-arrival.direction);
+        let bsdf = context.world.bsdf(at);
+        let wo = context.world.frame(at).to_local(-arrival.direction);
+        let bounces = arrival.bounces + self.bounces;
         let luminance = self.weight.luminance();
         let left = (self.weight * bsdf.albedo(wo, at.front, TransportMode::Importance)).luminance();
         if quanta(left).is_none() {
             counts.absorbed += arrived;
             return counts.refuse(&self);
         }
-        if !self.gain.grow(left / luminance, arrival.bounces + self.bounces) {
+        if !self.gain.grow(left / luminance, bounces) {
             return counts.give_up(&self);
         }
         let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
@@ -258,8 +259,8 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let is_certain = arrival.is_drawn || left >= lead.certain_weight;
         let survivor = if is_certain { left } else { luminance };
         let split = Split::new(left, window.map_or(survivor, |window| window.weight));
+        let bounce = Purpose::Bounce { surface: bounces + 1 };
         let whole = split.expected.floor();
-        let bounce = Purpose::Bounce { surface: arrival.bounces + self.bounces + 1 };
         let one_more = context
             .draw(&mut self.sampler, bounce, |sampler| sampler.choose_bool(split.expected - whole));
         let count = whole as u32 + u32::from(one_more);
@@ -267,26 +268,37 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         if count == 0 {
             return counts.end(&self);
         }
-        if context.max_bounces.is_some_and(|most| arrival.bounces + self.bounces >= most) {
-            let Some(of_each) = quanta(split.weight) else { return counts.refuse(&self) };
-            let goes_on = i64::from(count) * of_each;
-            counts.absorbed -= goes_on;
-            counts.cut += goes_on;
-            return counts.end(&self);
+        if context.max_bounces.is_some_and(|most| bounces >= most) {
+            return self.cut(count, &split, counts);
         }
-        let children: Vec<Sampler<'p>> =
-            (1..count).map(|child| self.sampler.child(child)).collect();
         self.bounces += u32::from(arrival.is_drawn);
-        let Self { weight, path_class, specular_only, bounces, gain, .. } = self;
-        let child = |sampler| Self { sampler, weight, path_class, specular_only, bounces, gain };
-        for mut photon in std::iter::once(self).chain(children.into_iter().map(child)) {
-            let guide = window.map(|window| &window.guide);
-            let (door, share) = (Door { at, wo, guide }, 1.0 / split.expected);
-            match photon.leave(context, bounce, &door, share) {
+        let guide = window.map(|window| &window.guide);
+        let (point, share) = (ScatteringPoint { at, wo, guide }, 1.0 / split.expected);
+        for mut photon in self.into_split(count) {
+            match photon.leave(context, bounce, &point, share) {
                 Some(start) => depart_valid(photon, start, counts, &mut depart),
                 None => counts.end(&photon),
             }
         }
+    }
+
+    /// Ends it, and all that it would be split into, at the limit of bounces.
+    fn cut(self, count: u32, split: &Split, counts: &mut PhotonCounts) {
+        let Some(of_each) = quanta(split.weight) else { return counts.refuse(&self) };
+        let goes_on = i64::from(count) * of_each;
+        counts.absorbed -= goes_on;
+        counts.cut += goes_on;
+        counts.end(&self);
+    }
+
+    /// The photon, and the children that it is split into, with coordinates of their own.
+    fn into_split(self, count: u32) -> impl Iterator<Item = Self> {
+        let children: Vec<Sampler<'p>> =
+            (1..count).map(|child| self.sampler.child(child)).collect();
+        let Self { weight, path_class, specular_only, bounces, gain, .. } = self;
+        let child =
+            move |sampler| Self { sampler, weight, path_class, specular_only, bounces, gain };
+        std::iter::once(self).chain(children.into_iter().map(child))
     }
 
     /// Takes a direction away from a surface, and its share of what leaves there.
@@ -294,10 +306,10 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         &mut self,
         context: &Context<'_, S>,
         bounce: Purpose,
-        door: &Door<'_>,
+        point: &ScatteringPoint<'_>,
         share: f64,
     ) -> Option<Emission> {
-        let Door { at, wo, guide } = *door;
+        let ScatteringPoint { at, wo, guide } = *point;
         let (world, bsdf) = (&context.world, context.world.bsdf(at));
         let (next, share) = context.draw(&mut self.sampler, bounce, |sampler| match guide {
             Some(guide) if bsdf.is_lambertian() => {

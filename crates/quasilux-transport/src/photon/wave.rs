@@ -1,4 +1,4 @@
-//! Photons in flight, many at once.
+//! Wavefront light tracing: many photons are traced, shown to receivers and scattered together.
 //!
 //! All photons of a wave leave their lights, then fly together, then land, then scatter, and those
 //! that go on close ranks. So each step is a short loop over neighbours in memory, and the ray
@@ -24,7 +24,7 @@ const LONGEST: usize = 1 << 14;
 pub(crate) struct Wave<'p, 'w, I> {
     pub(crate) points: &'p PointSet,
     pub(crate) indices: I,
-    /// Where from, and what steers them.
+    /// Where from, and what guides them.
     pub(crate) lead: Lead<'w>,
 }
 
@@ -89,7 +89,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         counts.emitted += self.photons.len() as u64;
         counts.begun += self.photons.len() as u64;
         self.begin(context, lead, counts);
-        self.look_for_light(context, points, counts);
+        self.trace_shadow_rays(context, points, counts);
         self.depart(context, lead, counts);
         lap(Step::Emission);
         let mut bounces = 0;
@@ -144,7 +144,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     }
 
     /// Finds out to which of the places that photons begin at light comes.
-    fn look_for_light(
+    fn trace_shadow_rays(
         &mut self,
         context: &Context<'_, S>,
         points: &PointSet,

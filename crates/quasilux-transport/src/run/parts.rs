@@ -8,7 +8,7 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
-use crate::estimator::{Estimator, estimation};
+use crate::estimator::{Estimator, new_estimator};
 use crate::run::pixels::add_pictures;
 use crate::run::simulate::{Look, look};
 use crate::settings::Settings;
@@ -29,7 +29,7 @@ pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
     fn of<S: Spectrum>(scene: &Scene, settings: &Settings) -> Decisions {
         let context = Context::<S>::new(scene, settings);
         let mut nobody = ();
-        estimation(&context, scene, settings, &mut Watch::new(&mut nobody)).decisions()
+        new_estimator(&context, scene, settings, &mut Watch::new(&mut nobody)).decisions()
     }
     if is_grey(scene) { of::<f64>(scene, settings) } else { of::<Rgb>(scene, settings) }
 }
@@ -124,7 +124,7 @@ fn trace<S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Option<Vec<u8>> {
     let context = Context::<S>::new(scene, settings);
-    let mut estimation = estimation(&context, scene, settings, watch);
+    let mut estimation = new_estimator(&context, scene, settings, watch);
     // There is no checkpoint before the end, and so no result if it is stopped.
     watch.obey();
     let mut out = Writer::default();
@@ -148,7 +148,7 @@ fn put_together<'p, S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Result<Estimates, MergeError> {
     let context = Context::<S>::new(scene, settings);
-    let mut estimation = estimation(&context, scene, settings, watch);
+    let mut estimation = new_estimator(&context, scene, settings, watch);
     let decisions = estimation.decisions();
     let expected = Expected {
         decisions: &decisions.digest,

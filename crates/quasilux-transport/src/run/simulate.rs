@@ -2,7 +2,7 @@
 
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
-use crate::estimator::{Estimator, estimation};
+use crate::estimator::{Estimator, new_estimator};
 use crate::run::check::{caveats, is_biased};
 use crate::run::checkpoint::Course;
 use crate::run::pixels::add_pictures;
@@ -86,7 +86,7 @@ fn run<S: Spectrum>(
 ) -> Result<Estimates, StateError> {
     let mut watch = Watch::new(observer);
     watch.limit_rays(settings.max_rays);
-    let mut estimation = estimation(context, scene, settings, &mut watch);
+    let mut estimation = new_estimator(context, scene, settings, &mut watch);
     let first = estimation.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };

@@ -7,7 +7,7 @@
 pub use quasilux_bvh::SimdLevel;
 
 pub use crate::context::{Step, Stopwatch};
-pub use crate::photon::order::Way;
+pub use crate::photon::order::PhotonOrder;
 
 use crate::context::Context;
 use crate::estimator::photon_estimator::PhotonEstimator;
@@ -28,11 +28,11 @@ pub struct Traced {
     pub rays: u64,
 }
 
-/// Photons on their way through one scene, seen by its sensors.
+/// Photons on their order through one scene, seen by its sensors.
 pub trait PhotonTrial: Send {
     /// Traces the photons of these indices in each replicate, on the threads of the rayon pool that
     /// the call is made in.
-    fn trace(&mut self, way: Way, indices: Range<u64>) -> Traced;
+    fn trace(&mut self, order: PhotonOrder, indices: Range<u64>) -> Traced;
 
     /// Everything that the sensors counted so far.
     fn counters(&self) -> Vec<u64>;
@@ -70,8 +70,8 @@ fn set_up<S: Spectrum>(
 }
 
 impl<S: Spectrum> PhotonTrial for PhotonEstimator<'_, S> {
-    fn trace(&mut self, way: Way, indices: Range<u64>) -> Traced {
-        let counts = self.count(way, indices, &mut Watch::new(&mut ())).unwrap_or_default();
+    fn trace(&mut self, order: PhotonOrder, indices: Range<u64>) -> Traced {
+        let counts = self.count(order, indices, &mut Watch::new(&mut ())).unwrap_or_default();
         Traced { photons: counts.emitted, rays: counts.rays }
     }
 

@@ -1,4 +1,4 @@
-//! A grid sensor as flights see it: which cell one passes through.
+//! Grid sensors as virtual planes: the cell that a free flight passes through.
 
 use crate::spectrum::Spectrum;
 use crate::world::World;

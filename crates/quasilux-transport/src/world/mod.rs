@@ -1,4 +1,5 @@
-//! The scene as rays see it: facets, the hierarchy over them, and where rays may start.
+//! The scene as rays see it: facets, the bounding volume hierarchy over them, and the origins of
+//! rays.
 
 pub(crate) mod flight;
 pub(crate) mod frame;
@@ -116,7 +117,7 @@ impl<S: Spectrum> World<S> {
         let bounds = mesh.bounds();
         let [low, high] = bounds.unwrap_or([DVec3::ZERO, DVec3::ONE]);
         let size_m = (high - low).length();
-        let least_m = MIN_OFFSET * low.abs().max(high.abs()).max_element();
+        let min_m = MIN_OFFSET * low.abs().max(high.abs()).max_element();
         let mut world = Self {
             facets,
             bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
@@ -126,10 +127,10 @@ impl<S: Spectrum> World<S> {
             has_panes: false,
             bounds,
             size_m,
-            offset_m: (OFFSET * size_m).max(least_m),
-            hair_m: (HAIR * size_m).max(4.0 * least_m),
+            offset_m: (OFFSET * size_m).max(min_m),
+            hair_m: (HAIR * size_m).max(4.0 * min_m),
         };
-        world.flush_emitters = FlushEmitters::of(&world, simd);
+        world.flush_emitters = FlushEmitters::new(&world, simd);
         let is_pane = |facet: &Facet| world.bsdf_of(facet).straight_transmittance(1.0).is_some();
         world.has_panes = world.facets.iter().any(is_pane);
         world
@@ -201,7 +202,7 @@ impl<S: Spectrum> World<S> {
         !self.bvh.is_occluded(&ray, &excluded)
     }
 
-    /// [`Self::trace`] of many rays made by [`RayOrigin::shot`], in their order.
+    /// [`Self::trace`] of many rays made by [`RayOrigin::query`], in their order.
     pub(crate) fn trace_all(
         &self,
         queries: &[RayQuery],
@@ -218,7 +219,7 @@ impl<S: Spectrum> World<S> {
         }));
     }
 
-    /// [`Self::is_visible`] of many rays made by [`RayOrigin::sight`], in their order.
+    /// [`Self::is_visible`] of many rays made by [`RayOrigin::shadow_ray`], in their order.
     pub(crate) fn are_visible(&self, shadow_rays: &[RayQuery], visible: &mut Vec<bool>) {
         visible.clear();
         visible.resize(shadow_rays.len(), false);
@@ -300,7 +301,7 @@ impl<S: Spectrum> World<S> {
     }
 
     /// Where rays leave from a point of a facet, on the side `n`.
-    pub(crate) fn vantage_before(&self, facet: u32, position: DVec3, n: DVec3) -> RayOrigin {
+    pub(crate) fn ray_origin_on_side(&self, facet: u32, position: DVec3, n: DVec3) -> RayOrigin {
         RayOrigin { position: position + n * self.offset_m, facet }
     }
 
@@ -327,7 +328,7 @@ impl<S: Spectrum> World<S> {
 
 impl FlushEmitters {
     /// Looks a hair in front of and behind each emitting facet, at 16 places spread over it.
-    fn of<S: Spectrum>(world: &World<S>, simd: SimdLevel) -> Option<Self> {
+    fn new<S: Spectrum>(world: &World<S>, simd: SimdLevel) -> Option<Self> {
         let emits = |&facet: &u32| world.facets[facet as usize].emitted_cd_m2 > 0.0;
         let facets: Vec<u32> = (0..world.facets.len() as u32).filter(emits).collect();
         let corners = facets.iter().map(|&facet| world.facets[facet as usize].corners).collect();

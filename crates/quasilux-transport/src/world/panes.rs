@@ -1,4 +1,4 @@
-//! Straight connections through flat panes: light in one line loses what each pane on it keeps.
+//! Transmittance of shadow rays through flat panes.
 
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -22,7 +22,7 @@ impl<S: Spectrum> Passage<S> {
 
 /// Looks along rays to their ends, in their order; `None` where one meets something else than a
 /// pane.
-pub(crate) fn look_through<S: Spectrum>(
+pub(crate) fn transmittances<S: Spectrum>(
     world: &World<S>,
     shadow_rays: &[RayQuery],
     passages: &mut Vec<Option<Passage<S>>>,

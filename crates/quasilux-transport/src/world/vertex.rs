@@ -1,4 +1,5 @@
-//! A place that light arrives at: where a path starts, or a surface on its way.
+//! Vertex of a path as lights see it: a sensor point or a surface, with its cosine, BSDF value and
+//! pdf.
 
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::spectrum::Spectrum;

@@ -1,4 +1,4 @@
-//! Light that waits for its visibility: many questions are asked first and answered together.
+//! Shadow rays in batches: light samples wait in a queue until their visibility is known.
 //!
 //! Whoever may get light from a place says so with an [`LightSample`] and goes on with what does
 //! not depend on it. The rays toward all these places are traced at once, in the order they were
@@ -6,7 +6,7 @@
 
 use crate::spectrum::Spectrum;
 use crate::world::World;
-use crate::world::panes::{Passage, look_through};
+use crate::world::panes::{Passage, transmittances};
 use crate::world::vertex::Vertex;
 use glam::DVec3;
 use quasilux_bvh::RayQuery;
@@ -39,7 +39,7 @@ pub(crate) struct ShadowQueue<S> {
     visible: Vec<bool>,
     passages: Vec<Option<Passage<S>>>,
     /// So many mirrors and panes may be in the way of what is asked for next.
-    pub(crate) most_bounces: u32,
+    pub(crate) max_bounces: u32,
 }
 
 /// Light that somebody gets if nothing stands in the way.
@@ -51,7 +51,7 @@ struct Question<S> {
     /// How many mirrors the way leads over.
     mirrors: u32,
     /// So many panes may stand in it, all together.
-    most_panes: u32,
+    max_panes: u32,
 }
 
 impl<S: Spectrum> LightSample<S> {
@@ -82,7 +82,7 @@ impl<S> Default for ShadowQueue<S> {
             questions: Vec::new(),
             visible: Vec::new(),
             passages: Vec::new(),
-            most_bounces: u32::MAX,
+            max_bounces: u32::MAX,
         }
     }
 }
@@ -98,9 +98,9 @@ impl<S: Spectrum> ShadowQueue<S> {
         ));
         // Paths run into facets that emit, behind panes too: only light of other places is let
         // through.
-        let most_panes = if light_sample.facet == RayQuery::NONE { self.most_bounces } else { 0 };
+        let max_panes = if light_sample.facet == RayQuery::NONE { self.max_bounces } else { 0 };
         let question =
-            Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, most_panes };
+            Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, max_panes };
         self.questions.push(question);
     }
 
@@ -116,8 +116,8 @@ impl<S: Spectrum> ShadowQueue<S> {
         let before = self.shadow_rays.len();
         look(&mut self.shadow_rays);
         let shadow_rays = (self.shadow_rays.len() - before) as u32;
-        let most_panes = self.most_bounces.saturating_sub(mirrors);
-        self.questions.push(Question { who, light, shadow_rays, mirrors, most_panes });
+        let max_panes = self.max_bounces.saturating_sub(mirrors);
+        self.questions.push(Question { who, light, shadow_rays, mirrors, max_panes });
     }
 
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
@@ -125,14 +125,14 @@ impl<S: Spectrum> ShadowQueue<S> {
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
         self.rays += self.shadow_rays.len() as u64;
         if world.has_panes() {
-            look_through(world, &self.shadow_rays, &mut self.passages);
+            transmittances(world, &self.shadow_rays, &mut self.passages);
             let mut passages = self.passages.iter();
             for question in &self.questions {
                 let open = Some(Passage { transmitted: question.light, panes: 0 });
                 let own = passages.by_ref().take(question.shadow_rays as usize);
                 let passage = own.fold(open, |way, next| way.zip(*next).map(|(a, b)| a.and(b)));
                 if let Some(Passage { transmitted, panes }) = passage
-                    && panes <= question.most_panes
+                    && panes <= question.max_panes
                 {
                     receive(question.who, transmitted, question.mirrors + panes);
                 }

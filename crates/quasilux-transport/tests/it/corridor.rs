@@ -6,7 +6,7 @@ use crate::measured_odd::grid_below;
 use crate::scenes::{diffuse, diffuse_cube, point_light, room, wall_grid};
 use glam::DVec3;
 use quasilux_scene::{Files, Quantity, Scene, SensorShape, load};
-use quasilux_transport::trial::{Traced, Way, try_photons};
+use quasilux_transport::trial::{PhotonOrder, Traced, try_photons};
 use quasilux_transport::{Estimates, EstimatorKind, Interval, Settings, Switch, simulate};
 use std::path::{Path, PathBuf};
 
@@ -135,12 +135,12 @@ fn joined_photons_know_all_of_four_orders_of_magnitude() {
 fn waves_of_split_photons_count_what_single_families_count() {
     let scene = corridor(Quantity::Mean);
     let settings = Settings { replicates: 2, ..settings(Switch::On) };
-    let outcome = |way, parts: &[u64]| {
+    let outcome = |order, parts: &[u64]| {
         let mut outcome = None;
         try_photons(&scene, &settings, None, |trial| {
             let mut traced = Traced::default();
             for part in parts.windows(2) {
-                let of_part = trial.trace(way, part[0]..part[1]);
+                let of_part = trial.trace(order, part[0]..part[1]);
                 traced.photons += of_part.photons;
                 traced.rays += of_part.rays;
             }
@@ -148,14 +148,14 @@ fn waves_of_split_photons_count_what_single_families_count() {
         });
         outcome.unwrap()
     };
-    let alone = outcome(Way::OneByOne, &[0, 3000]);
-    assert_eq!(alone, outcome(Way::Waves, &[0, 3000]));
-    assert_eq!(alone, outcome(Way::CoherentWaves, &[0, 1000, 1111, 3000]));
+    let alone = outcome(PhotonOrder::OneByOne, &[0, 3000]);
+    assert_eq!(alone, outcome(PhotonOrder::Waves, &[0, 3000]));
+    assert_eq!(alone, outcome(PhotonOrder::CoherentWaves, &[0, 1000, 1111, 3000]));
     assert!(alone.1.rays > 2 * alone.1.photons, "{:?}", alone.1);
 }
 
 /// So is a diffuse sheet in a black room under a cell that looks at it: the survey says that
-/// photons are worth nothing where they land, but it is on their way there that they are counted.
+/// photons are worth nothing where they land, but it is on their order there that they are counted.
 #[test]
 fn a_sheet_in_the_dark_is_left_alone() {
     let mut scene = room(DVec3::ONE, diffuse(0.0));
@@ -168,7 +168,7 @@ fn a_sheet_in_the_dark_is_left_alone() {
 
 /// Whatever rays the survey happens to find, photons are steered, and all cells are known with an
 /// error of 3 % root mean square. A survey that leaves far light to connections alone loses light
-/// on its way with two of these seeds, and gives up steering.
+/// on its order with two of these seeds, and gives up steering.
 #[test]
 fn no_seed_loses_the_way() {
     for seed in [0, 5, 10, 15] {

@@ -7,7 +7,7 @@
 //! % of the 240 cases of each way, by the same measure for three of them. Intervals that are 30 %
 //! too narrow cover about 89 %; the test shows that it would notice them.
 
-use crate::gatherers::GATHERERS;
+use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::diffuse_cube;
 use quasilux_transport::{Settings, simulate};
 use std::f64::consts::PI;
@@ -26,7 +26,7 @@ fn intervals_cover_where_runs_stop() {
     let (mut covered, mut covered_by_narrow) = ([0; 3], 0);
     let mut ends = Vec::new();
     for seed in 0..SEEDS {
-        for (way, (estimator, connections)) in GATHERERS.into_iter().enumerate() {
+        for (way, (estimator, connections)) in PATH_ESTIMATORS.into_iter().enumerate() {
             let settings = Settings {
                 estimator,
                 connections,

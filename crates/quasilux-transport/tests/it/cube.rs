@@ -1,6 +1,6 @@
 //! The diffuse cube, whose luminance is known from two independent solves.
 
-use crate::gatherers::GATHERERS;
+use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::{diffuse_cube, wall_grid};
 use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ fn run(settings: &Settings, known: &[((f64, f64), f64)]) -> Estimates {
 #[test]
 fn known_luminances_lie_in_the_intervals() {
     let map = (EstimatorKind::BidirectionalMap, Switch::Auto);
-    for (estimator, connections) in GATHERERS.into_iter().chain([map]) {
+    for (estimator, connections) in PATH_ESTIMATORS.into_iter().chain([map]) {
         // Next to an edge a point sees a few map elements, which a map without correction leaves
         // noisy for very long.
         let known =

@@ -1,6 +1,6 @@
 //! A closed room of emitting walls has the same light everywhere: pi L / (1 - r).
 
-use crate::gatherers::GATHERERS;
+use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::{all_walls_emit, diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
@@ -15,7 +15,7 @@ fn illuminance_is_pi_l_over_one_minus_r() {
         // Photons fly for very long where little is absorbed: joined ones need minutes for a point
         // a hair from a corner.
         let is_quick = |connections| connections != Switch::On || reflectance < 0.9;
-        for (estimator, connections) in GATHERERS.into_iter().filter(|way| is_quick(way.1)) {
+        for (estimator, connections) in PATH_ESTIMATORS.into_iter().filter(|way| is_quick(way.1)) {
             let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(reflectance));
             all_walls_emit(&mut scene, 100.0);
             scene.sensors.push(points(

@@ -27,7 +27,7 @@ fn metal(alpha: f64) -> Bsdf {
 }
 
 fn f(alpha: f64) -> impl Fn(DVec3, DVec3) -> f64 {
-    let metal = Scattering::of(&metal(alpha));
+    let metal = Scattering::from_material(&metal(alpha));
     move |wi, wo| metal.evaluate(wi, wo).0[0]
 }
 

@@ -31,7 +31,7 @@ fn metal(alpha: f64) -> Bsdf {
 /// The illuminance by the midpoint rule over the ceiling, in lx, with straight light.
 fn expected_lx(bsdf: &Bsdf) -> f64 {
     const SIDE: u32 = 1500;
-    let scattering = Scattering::of(bsdf);
+    let scattering = Scattering::from_material(bsdf);
     let step_m = CEILING_M / f64::from(SIDE);
     let given = |from: DVec3, to: DVec3| (from - to).normalize();
     let lx_of = |i: u32, j: u32| {

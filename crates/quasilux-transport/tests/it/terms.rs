@@ -1,7 +1,7 @@
 //! The terms of the Neumann series one by one: their sum, their closed form, and who agrees.
 
 use crate::agreement::coloured_room_with_mirror;
-use crate::gatherers::GATHERERS;
+use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::{all_walls_emit, diffuse, level_grid, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::Scene;
@@ -93,10 +93,10 @@ fn estimators_agree_term_by_term() {
             };
             run(scene, &settings)
         };
-        let [alone, gatherers @ ..] = GATHERERS;
+        let [alone, others @ ..] = PATH_ESTIMATORS;
         let paths = listed(alone, 1);
         let counted = [EstimatorKind::Photon, EstimatorKind::BidirectionalMap];
-        for way in counted.map(|counted| (counted, Switch::Auto)).into_iter().chain(gatherers) {
+        for way in counted.map(|counted| (counted, Switch::Auto)).into_iter().chain(others) {
             let others = listed(way, 2);
             for term in 0..=LISTED as usize {
                 let terms = [&others, &paths].map(|estimates| estimates.term_intervals(0, term));
@@ -124,7 +124,7 @@ fn terms_add_up_and_disturb_nothing() {
     let scene = coloured_room_with_mirror();
     let others = [EstimatorKind::Photon, EstimatorKind::BidirectionalMap];
     let others = others.map(|other| (other, Switch::Auto));
-    for (estimator, connections) in GATHERERS.into_iter().chain(others) {
+    for (estimator, connections) in PATH_ESTIMATORS.into_iter().chain(others) {
         for max_bounces in [None, Some(1), Some(3), Some(17)] {
             let limited = |list_terms| Settings {
                 estimator,

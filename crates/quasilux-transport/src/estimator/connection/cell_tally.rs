@@ -1,4 +1,4 @@
-//! Photons counted by the cells around where they land.
+//! Tally of exitant flux by survey cell: the coarse level of the two-level estimator.
 
 use super::ConnectionPlan;
 use super::cell_transfer::{CLASSES, CellTransfer};
@@ -8,7 +8,7 @@ use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
@@ -72,7 +72,7 @@ impl CellTally {
             stream: Stream::CellPhotons,
             replicates: self.replicates.clone(),
             indices: photons,
-            way: Way::CoherentWaves,
+            order: PhotonOrder::CoherentWaves,
             lead: connection.lead(),
         };
         trace_photons(context, &batch, receiver, watch)
@@ -98,19 +98,19 @@ impl CellTally {
         totals.into_iter().map(|sum| self.quantum.value(sum) / photons).collect()
     }
 
-    /// What a target with this outlook got in one replicate, in lx: of one term of the Neumann
+    /// What a target with this transfer got in one replicate, in lx: of one term of the Neumann
     /// series, or of all.
     pub(super) fn lx(
         &self,
         replicate: usize,
-        outlook: &CellTransfer,
+        transfer: &CellTransfer,
         target: usize,
         term: Option<usize>,
     ) -> f64 {
         let (part, cells) = (term.map_or(0, |term| 1 + term), self.cells);
         let of_class = |class: usize| -> f64 {
             let leaving = self.means_lm_sr[replicate].iter().skip((part * CLASSES + class) * cells);
-            let seen = outlook.of_target(target, class == 0);
+            let seen = transfer.of_target(target, class == 0);
             leaving.zip(seen).map(|(lm_sr, lx)| lm_sr * f64::from(lx)).sum()
         };
         (0..CLASSES).map(of_class).sum()

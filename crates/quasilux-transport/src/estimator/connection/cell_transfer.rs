@@ -1,4 +1,5 @@
-//! What sensors are expected to see of each cell of the survey.
+//! Cell transfer (form factors with visibility): the illuminance that each target gets of a unit of
+//! flux that leaves each cell of the survey.
 //!
 //! What a photon gives to a sensor changes little within a cell. What it gives on the mean is found
 //! once, from the few places that the survey remembers of each cell, before any photon counts: a
@@ -36,13 +37,13 @@ impl CellTransfer {
     pub(super) fn new<S: Spectrum>(
         context: &Context<'_, S>,
         connection: &ConnectionPlan,
-        spots: &[ReceiverElement],
+        elements: &[ReceiverElement],
     ) -> Self {
-        let look = |places: &Vec<Interaction>| look(context, connection, places, spots);
+        let look = |places: &Vec<Interaction>| look(context, connection, places, elements);
         let rows: Vec<Row> = connection.places.par_iter().map(look).collect();
         let rays = rows.iter().map(|row| row.rays).sum();
         let lx_sr_lm = rows.into_iter().flat_map(|row| row.lx_sr_lm).collect();
-        Self { targets: spots.len(), rays, lx_sr_lm }
+        Self { targets: elements.len(), rays, lx_sr_lm }
     }
 
     /// Puts it among the decisions.
@@ -57,7 +58,7 @@ impl CellTransfer {
     }
 
     /// Finds out what all targets are taken to get of what leaves a place.
-    pub(super) fn foresee(&self, leaving: &ExitantFlux, is_first: bool, lx: &mut [f64]) {
+    pub(super) fn predict(&self, leaving: &ExitantFlux, is_first: bool, lx: &mut [f64]) {
         lx.fill(0.0);
         for CellFlux { cell, lm_sr } in leaving.sides.iter().flat_map(Side::by_cell) {
             let seen = self.of_cell(cell, is_first);
@@ -84,14 +85,14 @@ fn look<S: Spectrum>(
     context: &Context<'_, S>,
     connection: &ConnectionPlan,
     places: &[Interaction],
-    spots: &[ReceiverElement],
+    elements: &[ReceiverElement],
 ) -> Row {
     let densities: Vec<_> =
         places.iter().map(|at| connection.partition.density(at.position, at.n)).collect();
     let (mut shadow_rays, mut light_samples) = (Vec::new(), Vec::new());
-    for (number, spot) in spots.iter().enumerate() {
+    for (number, element) in elements.iter().enumerate() {
         for ((at, density), in_cell) in places.iter().zip(&densities).zip(IN_CELL.iter().cycle()) {
-            let Some(view) = View::of(&context.world, spot, at, *in_cell) else { continue };
+            let Some(view) = View::new(&context.world, element, at, *in_cell) else { continue };
             if view.behind {
                 continue;
             }
@@ -107,12 +108,12 @@ fn look<S: Spectrum>(
     }
     let mut visible = Vec::new();
     context.world.are_visible(&shadow_rays, &mut visible);
-    let mut row = vec![0.0; CLASSES * spots.len()];
+    let mut row = vec![0.0; CLASSES * elements.len()];
     for ((number, first, rest), _) in
         light_samples.into_iter().zip(visible).filter(|(_, seen)| *seen)
     {
         row[number] += first as f32;
-        row[spots.len() + number] += rest as f32;
+        row[elements.len() + number] += rest as f32;
     }
     row.iter_mut().filter(|lx| !lx.is_finite()).for_each(|lx| *lx = 0.0);
     Row { lx_sr_lm: row, rays: shadow_rays.len() as u64 }

@@ -1,4 +1,5 @@
-//! What leaves a place where a photon landed.
+//! Exitant flux of a photon that landed: the intensity that a virtual point light sends to either
+//! side (Keller 1997).
 
 use super::ConnectionPlan;
 use crate::bsdf::TransportMode;

@@ -1,4 +1,5 @@
-//! What joined photons gave to all targets, in all replicates.
+//! Light vertex connections: the sums of what virtual point lights give to all targets, in all
+//! replicates.
 
 use super::cell_tally::CellTally;
 use super::cell_transfer::CellTransfer;
@@ -10,7 +11,7 @@ use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
@@ -18,15 +19,15 @@ use crate::stats::watch::Watch;
 use std::ops::Range;
 use std::sync::Mutex;
 
-/// Targets that the same photons are joined to; others have photons of their own.
+/// Targets that the same photons are connected to; others have photons of their own.
 const GROUP: usize = 256;
-/// A photon that is joined takes as long as so many others, about.
+/// A photon that is connected takes as long as so many others, about.
 const JOINING: u64 = 4;
 
 /// Sums that grow with a run.
 pub(crate) struct LightVertexConnections {
     pub(crate) connection: ConnectionPlan,
-    spots: Vec<ReceiverElement>,
+    elements: Vec<ReceiverElement>,
     /// Illuminance to expect at each, in lx.
     expected_lx: Vec<f64>,
     /// Terms of the Neumann series that are told apart.
@@ -57,30 +58,30 @@ impl LightVertexConnections {
         TallySettings { replicates, listed_terms, quantum }: TallySettings,
     ) -> Self {
         let terms = listed_terms as usize + 1;
-        let spots: Vec<ReceiverElement> =
+        let elements: Vec<ReceiverElement> =
             targets.iter().map(|target| ReceiverElement::new(&context.world, target)).collect();
         let of_group = |group: &[ReceiverElement]| -> Vec<Mutex<Vec<Sum>>> {
             let zeros = || Mutex::new(vec![Sum::default(); group.len() * terms]);
             replicates.clone().map(|_| zeros()).collect()
         };
-        let sums = spots.chunks(GROUP).map(of_group).collect();
+        let sums = elements.chunks(GROUP).map(of_group).collect();
         let mut rays = 0;
         let coarse = (connection.cell_photons > 0).then(|| {
             let look = |group: &[ReceiverElement]| {
-                let outlook = CellTransfer::new(context, &connection, group);
-                rays += outlook.rays;
-                outlook
+                let transfer = CellTransfer::new(context, &connection, group);
+                rays += transfer.rays;
+                transfer
             };
             let quantum = Quantum::for_reference(context.lights.flux_lm);
             let cells = connection.places.len();
-            let outlooks = spots.chunks(GROUP).map(look).collect();
-            (outlooks, CellTally::new(cells, terms, quantum, replicates.clone()))
+            let transfers = elements.chunks(GROUP).map(look).collect();
+            (transfers, CellTally::new(cells, terms, quantum, replicates.clone()))
         });
         let (samples, ends) = (0, vec![None; targets.len()]);
         let settled = vec![None; targets.len()];
         Self {
             connection,
-            spots,
+            elements,
             expected_lx,
             terms,
             quantum,
@@ -111,8 +112,8 @@ impl LightVertexConnections {
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         self.connection.put(out);
         out.f64s(&self.expected_lx);
-        let outlooks = self.coarse.iter().flat_map(|(outlooks, _)| outlooks);
-        outlooks.for_each(|outlook| outlook.put(out));
+        let transfers = self.coarse.iter().flat_map(|(transfers, _)| transfers);
+        transfers.for_each(|transfer| transfer.put(out));
     }
 
     /// The illuminance that the survey predicts for each target, in lx.
@@ -138,14 +139,14 @@ impl LightVertexConnections {
         }
     }
 
-    /// How much work an index is, in photons that are not joined.
+    /// How much work an index is, in photons that are not connected.
     pub(crate) fn work_of_an_index(&self) -> u64 {
         let light_vertices = self.connection.photons() * self.sums.len() as u64 * JOINING;
         (light_vertices + self.connection.cell_photons) * self.replicates.len() as u64
     }
 
-    /// Adds the photons that belong to the indices up to `samples`, those that are joined and those
-    /// that are counted; `None` when the observer stopped it.
+    /// Adds the photons that belong to the indices up to `samples`, those that are connected and
+    /// those that are counted; `None` when the observer stopped it.
     pub(crate) fn grow<S: Spectrum>(
         &mut self,
         context: &Context<'_, S>,
@@ -174,7 +175,7 @@ impl LightVertexConnections {
                 stream: Stream::ConnectedPhotons(number),
                 replicates: self.replicates.clone(),
                 indices: self.samples * photons..samples * photons,
-                way: Way::CoherentWaves,
+                order: PhotonOrder::CoherentWaves,
                 lead: self.connection.lead(),
             };
             counts += trace_photons(context, &batch, receiver, watch)?;
@@ -184,14 +185,14 @@ impl LightVertexConnections {
         Some([counts, counted])
     }
 
-    /// A group of targets that photons are joined to.
+    /// A group of targets that photons are connected to.
     pub(super) fn group(&self, number: usize) -> Group<'_> {
         let first = number * GROUP;
-        let range = first..(first + GROUP).min(self.spots.len());
+        let range = first..(first + GROUP).min(self.elements.len());
         Group {
-            spots: &self.spots[range.clone()],
+            elements: &self.elements[range.clone()],
             expected_lx: &self.expected_lx[range.clone()],
-            outlook: self.coarse.as_ref().map(|(outlooks, _)| &outlooks[number]),
+            transfer: self.coarse.as_ref().map(|(transfers, _)| &transfers[number]),
             ends: &self.ends[range],
             terms: self.terms,
             quantum: self.quantum,
@@ -222,7 +223,7 @@ impl LightVertexConnections {
         self.fine_lx(replicate, target) + self.cells_lx(replicate, target, None)
     }
 
-    /// By photons that are joined, beyond what was foreseen of them.
+    /// By photons that are connected, beyond what was foreseen of them.
     pub(super) fn fine_lx(&self, replicate: usize, target: usize) -> f64 {
         // Quanta first, so that listing terms changes no bit.
         let mut sum = Sum::default();
@@ -235,8 +236,8 @@ impl LightVertexConnections {
         if let Some(parts) = &self.settled[target] {
             return parts[replicate * (1 + self.terms) + term.map_or(0, |term| 1 + term)];
         }
-        self.coarse.as_ref().map_or(0.0, |(outlooks, coarse)| {
-            coarse.lx(replicate, &outlooks[target / GROUP], target % GROUP, term)
+        self.coarse.as_ref().map_or(0.0, |(transfers, coarse)| {
+            coarse.lx(replicate, &transfers[target / GROUP], target % GROUP, term)
         })
     }
 

@@ -1,4 +1,6 @@
-//! Photons joined to sensors, beside paths: each finds what the other seldom does.
+//! Connections of light vertices to sensors: each photon that lands is a virtual point light
+//! (Keller 1997) to every sensor point, combined with paths by weights that depend on position
+//! alone.
 //!
 //! A photon of flux P that lands at y on a diffuse surface of reflectance a gives `P a / pi * cos
 //! cos' / d^2` to a sensor at distance d that sees y. So a photon tells every sensor something:
@@ -19,14 +21,14 @@
 //! the part w along, which is 0 wherever a photon's contribution is bounded well enough. This is
 //! the compensation of clamped photons by T. Kollig and A. Keller, "Illumination in the presence of
 //! weak singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Where
-//! photons need steering, paths hardly ever find the light, and w = 0. The densities are
+//! photons need guiding, paths hardly ever find the light, and w = 0. The densities are
 //! interpolated, so that shares are continuous: each jump in what is summed costs quasi-random
 //! points some of their advantage.
 //!
 //! ConnectionPlan is dear: a photon flies a few rays and asks for one to each sensor. Most photons
 //! are therefore only counted, by the survey's cells around where they land (`coarse`), and give
-//! each sensor what it is expected to see of these cells, which was found out before (`outlook`)
-//! and is interpolated, so that it has no jumps. Few are joined, and tell how much more or less
+//! each sensor what it is expected to see of these cells, which was found out before (`transfer`)
+//! and is interpolated, so that it has no jumps. Few are connected, and tell how much more or less
 //! than that they give. With A and B independent photons,
 //!
 //! ```text
@@ -63,15 +65,15 @@ use crate::world::Interaction;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Photons that are steered by nothing go on for certain as long as absorption leaves so much of
+/// Photons that are guided by nothing go on for certain as long as absorption leaves so much of
 /// them, and by chance later: smooth sums are what quasi-random points are good at.
 const CERTAIN_WEIGHT: f64 = 0.1;
 
-/// How photons are joined to sensors.
+/// How photons are connected to sensors.
 pub(crate) struct ConnectionPlan {
     /// What paths leave to them.
     pub(crate) partition: Partition,
-    /// What steers them.
+    /// What guides them.
     windows: Option<WeightWindows>,
     /// Photons for each path, that are only counted by the cell they land in.
     cell_photons: u64,
@@ -98,7 +100,7 @@ impl ConnectionPlan {
         places.for_each(|x| out.f64(x));
     }
 
-    /// How photons begin, and what steers them.
+    /// How photons begin, and what guides them.
     fn lead(&self) -> Lead<'_> {
         let windows = self.windows.as_ref();
         Lead { source: Source::Lights, windows, certain_weight: CERTAIN_WEIGHT }
@@ -114,7 +116,7 @@ impl ConnectionPlan {
         self.cell_photons
     }
 
-    /// Whether they are steered.
+    /// Whether they are guided.
     pub(crate) fn uses_importance(&self) -> bool {
         self.windows.is_some()
     }

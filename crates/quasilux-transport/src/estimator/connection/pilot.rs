@@ -118,7 +118,7 @@ impl ConnectionPilots {
         Proposal { plan, doubt }: Proposal,
         watch: &mut Watch<'_>,
     ) {
-        let Plan { windows, forecast: Some(forecast), steered, .. } = plan else { return };
+        let Plan { windows, forecast: Some(forecast), guided, .. } = plan else { return };
         let expected_lx = request.exact.iter().enumerate();
         let expected_lx: Vec<f64> = expected_lx
             .map(|(target, exact)| exact.sum_lx() + forecast.indirect_lx(target))
@@ -133,7 +133,7 @@ impl ConnectionPilots {
             places: forecast.places,
             windows,
             cell_photons: if counts_cells { CELL_PHOTONS } else { 0 },
-            small: small_deviation(steered),
+            small: small_deviation(guided),
         };
         let quantum = request.quantum;
         let tallies = TallySettings { replicates: REPLICATES, listed_terms: 0, quantum };
@@ -345,12 +345,12 @@ fn powers_up_to(max: u64) -> impl Iterator<Item = u64> {
 /// efficiency-aware Russian roulette and splitting", ACM Trans. Graph. 41(4), 2022). V is the
 /// survey's prediction for photons with weight windows: a trial hardly sees the rare ones that make
 /// most of it.
-fn small_deviation(steered: Option<Performance>) -> f64 {
+fn small_deviation(guided: Option<Performance>) -> f64 {
     let of_steered = |Performance { rays, variance }: Performance| {
         (variance * SHADOW_RAY / rays).sqrt().clamp(SMALL, MAX_SMALL)
     };
     // Quasi-random points leave little of the variance of the others.
-    steered.map_or(SMALL, of_steered)
+    guided.map_or(SMALL, of_steered)
 }
 
 /// Light by connected photons, and by photons counted by cell.

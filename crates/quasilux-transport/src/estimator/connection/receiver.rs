@@ -1,4 +1,5 @@
-//! What joins each landing of a photon to the sensors that see it.
+//! Photon receiver that connects each landing to the sensors: shadow rays with Russian roulette on
+//! small deviations from the prediction.
 
 use super::ConnectionPlan;
 use super::cell_transfer::CellTransfer;
@@ -24,25 +25,25 @@ const RAYS: usize = 512;
 /// wrong.
 const DOUBT: f64 = 0.25;
 /// The first of the coordinates for places in cells. In two streams a dimension has the same
-/// digits, permuted: those that photons draw first would decide where they are joined.
+/// digits, permuted: those that photons draw first would decide where they are connected.
 const PLACE_DIMENSION: u32 = 512;
 /// Steps from target to target, and from bounce to bounce, of the number that decides it, and of
-/// the place in a cell from join to join: the additive sequence in two dimensions with the evenest
-/// gaps (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+/// the place in a cell from connection to connection: the additive sequence in two dimensions with
+/// the evenest gaps (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
-/// The same in one dimension, for the number that decides it from join to join.
+/// The same in one dimension, for the number that decides it, from connection to connection.
 const STEP: f64 = 0.618_033_988_749_894_9;
-/// One landing is joined to no more places of one cell.
-const MAX_JOINS: f64 = 16.0;
+/// One landing is connected to no more places of one cell.
+const MAX_CONNECTIONS: f64 = 16.0;
 
-/// Some targets that photons are joined to.
+/// Some targets that photons are connected to.
 #[derive(Clone, Copy)]
 pub(super) struct Group<'a> {
-    pub(super) spots: &'a [ReceiverElement],
+    pub(super) elements: &'a [ReceiverElement],
     /// Illuminance to expect at each, in lx.
     pub(super) expected_lx: &'a [f64],
     /// What photons are taken to give by the cell they land in.
-    pub(super) outlook: Option<&'a CellTransfer>,
+    pub(super) transfer: Option<&'a CellTransfer>,
     /// Those with an end get no more.
     pub(super) ends: &'a [Option<u64>],
     /// Terms of the Neumann series that are told apart.
@@ -53,18 +54,18 @@ pub(super) struct Group<'a> {
 /// Connections the photons of one wave to all targets of a group.
 pub(super) struct ConnectionReceiver<'a, S> {
     context: &'a Context<'a, S>,
-    connection: &'a ConnectionPlan,
+    plan: &'a ConnectionPlan,
     group: Group<'a>,
     /// Where what this wave found is added in the end.
     sums: &'a Mutex<Vec<Sum>>,
     own: Vec<Sum>,
-    /// Coordinates of the places in cells that photons are joined to.
+    /// Coordinates of the places in cells that photons are connected to.
     points: PointSet,
     photon: Option<Seen>,
     /// How close photons are to be expected where it landed, by side.
     landings: [Density; 2],
     /// What each target is taken to get in any case.
-    foreseen_lx: Vec<f64>,
+    predicted_lx: Vec<f64>,
     shadow_rays: Vec<RayQuery>,
     light_samples: Vec<LightSample>,
     visible: Vec<bool>,
@@ -73,10 +74,10 @@ pub(super) struct ConnectionReceiver<'a, S> {
 
 /// The photon that is being followed.
 pub(super) struct Seen {
-    /// The place in every cell.
+    /// The point in every cell.
     in_cell: [f64; 2],
     /// What decides over small contributions.
-    chance: f64,
+    u_roulette: f64,
 }
 
 /// What a target gets if nothing stands in the way, beside what it is taken to get in any case.
@@ -84,7 +85,7 @@ struct LightSample {
     /// Number of the sum.
     sum: usize,
     lx: f64,
-    foreseen_lx: f64,
+    predicted_lx: f64,
 }
 
 impl Seen {
@@ -94,28 +95,28 @@ impl Seen {
     }
 
     pub(super) fn draw(sampler: &mut Sampler<'_>) -> Self {
-        Self { in_cell: sampler.next_2d(), chance: sampler.next_1d() }
+        Self { in_cell: sampler.next_2d(), u_roulette: sampler.next_1d() }
     }
 }
 
 impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
     pub(super) fn new(
         context: &'a Context<'a, S>,
-        connection: &'a ConnectionPlan,
+        plan: &'a ConnectionPlan,
         group: Group<'a>,
         points: PointSet,
         sums: &'a Mutex<Vec<Sum>>,
     ) -> Self {
         Self {
             context,
-            connection,
+            plan,
             group,
             sums,
-            own: vec![Sum::default(); group.spots.len() * group.terms],
+            own: vec![Sum::default(); group.elements.len() * group.terms],
             points,
             photon: None,
             landings: [Density::default(); 2],
-            foreseen_lx: vec![0.0; group.spots.len()],
+            predicted_lx: vec![0.0; group.elements.len()],
             shadow_rays: Vec::new(),
             light_samples: Vec::new(),
             visible: Vec::new(),
@@ -125,26 +126,29 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
 
     /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
     fn ask(&mut self, number: usize, at: &Interaction, leaving: &ExitantFlux, bounces: u32) {
-        let Some(Seen { in_cell, chance }) = self.photon else { return };
-        let (foreseen_lx, spot) = (self.foreseen_lx[number], &self.group.spots[number]);
-        let certain_lx = self.connection.small * self.group.expected_lx[number];
-        let chance = chance + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
-        let most_lx = leaving.lm_sr() * spot.most_lx_sr_lm(at);
-        let is_surely_left = |lx: f64| (1.0 + DOUBT) * lx <= fraction(chance) * certain_lx;
-        if is_surely_left(most_lx) && is_surely_left(foreseen_lx) {
+        let Some(Seen { in_cell, u_roulette }) = self.photon else { return };
+        let (predicted_lx, element) = (self.predicted_lx[number], &self.group.elements[number]);
+        let certain_lx = self.plan.small * self.group.expected_lx[number];
+        let u_roulette = u_roulette + number as f64 * STEPS[0] + f64::from(bounces) * STEPS[1];
+        let max_lx = leaving.lm_sr() * element.max_lx_sr_lm(at);
+        let is_surely_left = |lx: f64| (1.0 + DOUBT) * lx <= fraction(u_roulette) * certain_lx;
+        if is_surely_left(max_lx) && is_surely_left(predicted_lx) {
             return;
         }
-        let connections = if foreseen_lx > certain_lx && !spot.is_point() {
-            (foreseen_lx / certain_lx).ceil().min(MAX_JOINS)
+        let connections = if predicted_lx > certain_lx && !element.is_point() {
+            (predicted_lx / certain_lx).ceil().min(MAX_CONNECTIONS)
         } else {
             1.0
         };
-        for join in (0..MAX_JOINS as u32).map(f64::from).take_while(|join| *join < connections) {
-            let place = [0, 1].map(|axis| fraction(in_cell[axis] + join * STEPS[axis]));
-            let u = fraction(chance + join * STEP);
-            let view = View::of(&self.context.world, spot, at, place);
+        for connection in (0..MAX_CONNECTIONS as u32)
+            .map(f64::from)
+            .take_while(|connection| *connection < connections)
+        {
+            let place = [0, 1].map(|axis| fraction(in_cell[axis] + connection * STEPS[axis]));
+            let u = fraction(u_roulette + connection * STEP);
+            let view = View::new(&self.context.world, element, at, place);
             let lx = view.as_ref().map_or(0.0, |view| self.unshadowed_lx(view, leaving, bounces));
-            let asked = ((lx - foreseen_lx).abs() + DOUBT * lx.max(foreseen_lx))
+            let asked = ((lx - predicted_lx).abs() + DOUBT * lx.max(predicted_lx))
                 / (connections * certain_lx);
             if asked <= u {
                 continue;
@@ -153,14 +157,14 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
             let term = (bounces as usize + 1).min(self.group.terms - 1);
             let sum = number * self.group.terms + term;
             let light_sample =
-                LightSample { sum, lx: lx * factor, foreseen_lx: foreseen_lx * factor };
+                LightSample { sum, lx: lx * factor, predicted_lx: predicted_lx * factor };
             match view {
                 // What is not a number counts: the tally must refuse it.
                 Some(view) if lx != 0.0 => {
                     self.shadow_rays.push(view.shadow_ray());
                     self.light_samples.push(light_sample);
                 }
-                _ => self.own[sum].add_signed(-light_sample.foreseen_lx, self.group.quantum),
+                _ => self.own[sum].add_signed(-light_sample.predicted_lx, self.group.quantum),
             }
         }
     }
@@ -168,8 +172,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
     /// What a target gets if nothing stands in the way.
     fn unshadowed_lx(&self, view: &View, leaving: &ExitantFlux, bounces: u32) -> f64 {
         let side = usize::from(view.behind);
-        let weights_of_paths =
-            self.connection.partition.path_weights(view.pdf_m2, self.landings[side]);
+        let weights_of_paths = self.plan.partition.path_weights(view.pdf_m2, self.landings[side]);
         let share = if bounces == 0 { weights_of_paths.first } else { weights_of_paths.rest };
         leaving.sides[side].lm_sr * PI * view.pdf_m2 * view.weight * (1.0 - share)
     }
@@ -181,7 +184,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         for (light_sample, visible) in self.light_samples.drain(..).zip(&self.visible) {
             let lx = if *visible { light_sample.lx } else { 0.0 };
             self.own[light_sample.sum]
-                .add_signed(lx - light_sample.foreseen_lx, self.group.quantum);
+                .add_signed(lx - light_sample.predicted_lx, self.group.quantum);
         }
         self.shadow_rays.clear();
     }
@@ -200,14 +203,14 @@ impl<S: Spectrum> PhotonReceiver<S> for ConnectionReceiver<'_, S> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
+        let leaving = ExitantFlux::new(self.context, self.plan, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.landings =
-            leaving.sides.map(|side| self.connection.partition.landings.density(&side.around));
-        if let Some(outlook) = self.group.outlook {
-            outlook.foresee(&leaving, bounces == 0, &mut self.foreseen_lx);
+            leaving.sides.map(|side| self.plan.partition.landings.density(&side.around));
+        if let Some(transfer) = self.group.transfer {
+            transfer.predict(&leaving, bounces == 0, &mut self.predicted_lx);
         }
-        for number in 0..self.group.spots.len() {
+        for number in 0..self.group.elements.len() {
             if self.group.ends[number].is_none() {
                 self.ask(number, at, &leaving, bounces);
             }

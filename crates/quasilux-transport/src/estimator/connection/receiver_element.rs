@@ -1,7 +1,8 @@
-//! Where in a sensor's cell a photon is joined.
+//! Receiver elements, sensor points and grid cells as photons see them, and sampling of a point in
+//! a cell.
 //!
 //! A cell's mean counts all of its places alike, but a photon that lands close to its plane, at
-//! height h, matters to few of them, with `1 / d^2`. Half of such photons are joined to a place
+//! height h, matters to few of them, with `1 / d^2`. Half of such photons are connected to a place
 //! that is drawn by the cosine distribution of the plane as seen from there, of density `h^2 / (pi
 //! d^4)`, the others to an even one, and the balance heuristic weighs both (Veach and Guibas 1995).
 
@@ -12,7 +13,7 @@ use glam::DVec3;
 use quasilux_scene::Grid;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// Photons are joined by their own view of a cell up to so many of its edges beside it.
+/// Photons are connected by their own view of a cell up to so many of its edges beside it.
 const BESIDE: f64 = 1.0;
 /// Closer to the centre than so many radii nothing is said about what a photon gives at most: their
 /// own view of a cell is for closer photons alone.
@@ -22,7 +23,7 @@ const CLOSE: f64 = 4.0;
 pub(super) struct ReceiverElement {
     centre: DVec3,
     normal: DVec3,
-    /// No place that photons are joined to is further from the centre.
+    /// No place that photons are connected to is further from the centre.
     radius_m: f64,
     /// `None` where it is a point.
     cell: Option<Cell>,
@@ -39,8 +40,8 @@ struct Cell {
     n: DVec3,
 }
 
-/// A place to join a photon to.
-pub(super) struct Place {
+/// A place to connect a photon to.
+pub(super) struct ConnectionPoint {
     pub(super) position: DVec3,
     pub(super) normal: DVec3,
     /// What it counts for the target: the even density over that of the place.
@@ -55,11 +56,11 @@ impl ReceiverElement {
             Target::Point { position, normal } => {
                 Self { centre: *position, normal: *normal, radius_m: hairs_m, cell: None }
             }
-            Target::Cell { grid, cell } => Self::of_cell(grid, *cell, hairs_m),
+            Target::Cell { grid, cell } => Self::for_cell(grid, *cell, hairs_m),
         }
     }
 
-    fn of_cell(grid: &Grid, cell: usize, hairs_m: f64) -> Self {
+    fn for_cell(grid: &Grid, cell: usize, hairs_m: f64) -> Self {
         let [du, dv] = grid.cell_edges();
         let across = du.cross(dv);
         let area_m2 = across.length();
@@ -79,15 +80,17 @@ impl ReceiverElement {
     }
 
     /// The place for a photon that landed at `from`; `None` where what was drawn lies outside.
-    pub(super) fn place(&self, from: DVec3, u: [f64; 2]) -> Option<Place> {
+    pub(super) fn place(&self, from: DVec3, u: [f64; 2]) -> Option<ConnectionPoint> {
         match &self.cell {
-            None => Some(Place { position: self.centre, normal: self.normal, weight: 1.0 }),
+            None => {
+                Some(ConnectionPoint { position: self.centre, normal: self.normal, weight: 1.0 })
+            }
             Some(cell) => cell.place(self.normal, from, u),
         }
     }
 
     /// The most lux for each lm/sr that it can get from a landing there; infinite close by.
-    pub(super) fn most_lx_sr_lm(&self, at: &Interaction) -> f64 {
+    pub(super) fn max_lx_sr_lm(&self, at: &Interaction) -> f64 {
         let way = at.position - self.centre;
         let distance_m = way.length();
         if distance_m < CLOSE * self.radius_m {
@@ -95,15 +98,15 @@ impl ReceiverElement {
         }
         let height_m = (self.normal.dot(way) + self.radius_m).max(0.0);
         let height_there_m = at.n.dot(way).abs() + self.radius_m;
-        let least_m = distance_m - self.radius_m;
-        let square_m2 = least_m * least_m;
+        let min_m = distance_m - self.radius_m;
+        let square_m2 = min_m * min_m;
         height_m * height_there_m / (square_m2 * square_m2)
     }
 }
 
 impl Cell {
     /// A place, and what it counts.
-    fn place(&self, normal: DVec3, from: DVec3, u: [f64; 2]) -> Option<Place> {
+    fn place(&self, normal: DVec3, from: DVec3, u: [f64; 2]) -> Option<ConnectionPoint> {
         let Self { corner, edges: [du, dv], dual, area_m2, n } = self;
         let evenly = |[u, v]: [f64; 2]| *corner + *du * u + *dv * v;
         let in_edges = |way: DVec3| dual.map(|dual| way.dot(dual));
@@ -114,7 +117,7 @@ impl Cell {
         let is_near =
             square_m2 > 0.0 && square_m2 < *area_m2 && in_edges(way).into_iter().all(is_beside);
         if !is_near {
-            return Some(Place { position: evenly(u), normal, weight: 1.0 });
+            return Some(ConnectionPoint { position: evenly(u), normal, weight: 1.0 });
         }
         let foot = from - *n * height_m;
         let position = if u[0] < 0.5 {
@@ -133,7 +136,7 @@ impl Cell {
         };
         let d2 = square_m2 + (position - foot).length_squared();
         let by_view = area_m2 * square_m2 * FRAC_1_PI / (d2 * d2);
-        Some(Place { position, normal, weight: 2.0 / (1.0 + by_view) })
+        Some(ConnectionPoint { position, normal, weight: 2.0 / (1.0 + by_view) })
     }
 }
 
@@ -155,7 +158,7 @@ mod tests {
             normal: DVec3::Z,
             quantity: Quantity::Mean,
         };
-        let spot = ReceiverElement::of_cell(&grid, 1, 0.0);
+        let element = ReceiverElement::for_cell(&grid, 1, 0.0);
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 7);
         for from in [[2.5, 2.5, 1.0], [3.0, 2.1, 0.95], [2.2, 1.2, 0.9], [9.0, 2.0, 3.0]] {
             let from = DVec3::from_array(from);
@@ -165,7 +168,7 @@ mod tests {
             };
             let count = 1_u64 << 14;
             let drawn = (0..count).filter_map(|index| {
-                let place = spot.place(from, Sampler::new(&points, index).next_2d())?;
+                let place = element.place(from, Sampler::new(&points, index).next_2d())?;
                 Some(place.weight * given(place.position))
             });
             let found = drawn.sum::<f64>() / count as f64;

@@ -1,4 +1,4 @@
-//! What one photon by itself gives, for those who look into the variance.
+//! Contributions of single photons to connected sensors, for the analysis of variance.
 
 use super::ConnectionPlan;
 use super::cell_transfer::CellTransfer;
@@ -22,7 +22,7 @@ use std::sync::Mutex;
 struct Expected<'a, S> {
     context: &'a Context<'a, S>,
     connection: &'a ConnectionPlan,
-    outlook: &'a CellTransfer,
+    transfer: &'a CellTransfer,
     at_once_lx: Vec<f64>,
     lx: Vec<f64>,
 }
@@ -35,18 +35,18 @@ impl LightVertexConnections {
         sampler: Sampler<'_>,
         counts: &mut PhotonCounts,
     ) -> Vec<f64> {
-        let Group { spots, outlook, .. } = self.group(0);
-        let zeros = vec![0.0; spots.len()];
-        let Some(outlook) = outlook else { return zeros };
+        let Group { elements, transfer, .. } = self.group(0);
+        let zeros = vec![0.0; elements.len()];
+        let Some(transfer) = transfer else { return zeros };
         let (at_once_lx, lx) = (zeros.clone(), zeros);
         let mut receiver =
-            Expected { context, connection: &self.connection, outlook, at_once_lx, lx };
+            Expected { context, connection: &self.connection, transfer, at_once_lx, lx };
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         receiver.lx
     }
 
-    /// What they get from a photon that is joined, in lx, beyond what was expected of it; `places`
-    /// has the coordinates of its joins.
+    /// What they get from a photon that is connected, in lx, beyond what was expected of it;
+    /// `places` has the coordinates of its connections.
     pub(crate) fn of_connected_lx<S: Spectrum>(
         &self,
         context: &Context<'_, S>,
@@ -59,7 +59,7 @@ impl LightVertexConnections {
             context.draw(&mut Seen::sampler(&sampler, &places), Purpose::Connections, Seen::draw);
         }
         let group = self.group(0);
-        let sums = Mutex::new(vec![Sum::default(); group.spots.len() * group.terms]);
+        let sums = Mutex::new(vec![Sum::default(); group.elements.len() * group.terms]);
         let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, &sums);
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish().rays;
@@ -75,7 +75,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Expected<'_, S> {
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
         let Some(leaving) = leaving else { return };
-        self.outlook.foresee(&leaving, bounces == 0, &mut self.at_once_lx);
+        self.transfer.predict(&leaving, bounces == 0, &mut self.at_once_lx);
         self.lx.iter_mut().zip(&self.at_once_lx).for_each(|(sum, lx)| *sum += lx);
     }
 }

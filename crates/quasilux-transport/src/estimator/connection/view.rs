@@ -1,6 +1,6 @@
-//! A place where a photon landed, as a sensor sees it.
+//! Geometry term and shadow ray between a sensor and a light vertex.
 
-use super::receiver_element::{Place, ReceiverElement};
+use super::receiver_element::{ConnectionPoint, ReceiverElement};
 use crate::spectrum::Spectrum;
 use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
@@ -24,13 +24,13 @@ pub(super) struct View {
 impl View {
     /// How a target sees a landing; `None` where one of them turns its back on the other. `in_cell`
     /// chooses the place in a target that is a cell.
-    pub(super) fn of<S: Spectrum>(
+    pub(super) fn new<S: Spectrum>(
         world: &World<S>,
-        spot: &ReceiverElement,
+        element: &ReceiverElement,
         at: &Interaction,
         in_cell: [f64; 2],
     ) -> Option<Self> {
-        let Place { position, normal, weight } = spot.place(at.position, in_cell)?;
+        let ConnectionPoint { position, normal, weight } = element.place(at.position, in_cell)?;
         let from = world.ray_origin_of_sensor(position, normal);
         let way = at.position - from.position();
         let (cos_d, cos_d_there) = (normal.dot(way), -at.n.dot(way));

@@ -1,5 +1,5 @@
-//! One map that is frozen before the first path, which paths end on, and which some of them
-//! correct.
+//! Control variate for path tracing: paths end on one frozen illumination map, and those that
+//! survive Russian roulette correct it.
 //!
 //! A path may end at every diffuse surface that it comes to. With probability q it goes on instead
 //! and takes along the difference between what it finds and what the map said, weighted by 1 / q:
@@ -14,7 +14,7 @@
 //! ```
 //!
 //! so q should grow in proportion to `w |F - M|`, relative to what the path's start wants to know
-//! ([`crate::path::frozen_map::survival`]). A trial traces paths that hardly end, and notes what
+//! ([`crate::path::frozen_map::survival`]). A trial traces paths that hardly end, and records what
 //! they found beyond each surface ([`crate::path::vertex_record`]). By the two lines above each of
 //! them predicts what it would have cost with any q, and what it would have cost alone, with
 //! nothing in place of M and the albedo in place of q ([`path_record`], [`replay`]). The noise of

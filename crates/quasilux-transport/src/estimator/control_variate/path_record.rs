@@ -1,4 +1,4 @@
-//! What paths that were traced to their ends would have cost, had they ended on the map by chance.
+//! Predicted variance and rays of a recorded path, had it ended on the map by Russian roulette.
 
 use crate::path::frozen_map::survival::{Finding, Survival};
 
@@ -23,7 +23,7 @@ pub(super) struct Step {
     pub(super) alone: f64,
 }
 
-/// How a walk ends by chance.
+/// How a path ends by Russian roulette.
 #[derive(Clone, Copy)]
 pub(super) enum Ending<'s> {
     /// On nothing.
@@ -32,10 +32,10 @@ pub(super) enum Ending<'s> {
     OnMap(&'s Survival),
 }
 
-/// What a walk would have cost on average over all chances.
+/// Expected cost of a path over all outcomes of Russian roulette.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Price {
-    /// What the chances add to the variance.
+    /// Added by Russian roulette.
     pub(super) variance: f64,
     pub(super) flights: f64,
 }
@@ -46,33 +46,33 @@ impl PathRecord {
     pub(super) fn price(&self, ending: Ending<'_>, importance: f64, at_end: f64) -> Price {
         // Those that are left count more and more.
         let mut factor = importance;
-        let chances: Vec<(f64, bool)> = self
+        let survivals: Vec<(f64, bool)> = self
             .steps
             .iter()
             .map(|step| {
                 let Finding { element, weight, light, .. } = step.finding;
                 let on_map = match ending {
                     Ending::OnMap(map) if step.is_on_map => {
-                        map.chance(element, factor * weight, factor * light)
+                        map.survival_probability(element, factor * weight, factor * light)
                     }
                     Ending::OnMap(_) | Ending::Alone => None,
                 };
-                let chance = on_map.unwrap_or(step.alone);
-                factor /= chance;
-                (chance, on_map.is_some())
+                let probability = on_map.unwrap_or(step.alone);
+                factor /= probability;
+                (probability, on_map.is_some())
             })
             .collect();
         let mut price = Price::default();
-        for (Step { finding, missed, flights, .. }, (chance, is_on_map)) in
-            self.steps.iter().zip(chances).rev()
+        for (Step { finding, missed, flights, .. }, (probability, is_on_map)) in
+            self.steps.iter().zip(survivals).rev()
         {
             let (off, at_end) = match is_on_map {
                 true => (importance * (finding.beyond - finding.light), at_end),
                 false => (importance * missed, 0.0),
             };
-            price.variance = (price.variance + off * off * (1.0 - chance)) / chance;
+            price.variance = (price.variance + off * off * (1.0 - probability)) / probability;
             price.flights =
-                chance * (f64::from(*flights) + price.flights) + (1.0 - chance) * at_end;
+                probability * (f64::from(*flights) + price.flights) + (1.0 - probability) * at_end;
         }
         Price { flights: price.flights + f64::from(self.flights), ..price }
     }
@@ -82,9 +82,8 @@ impl PathRecord {
 mod tests {
     use super::*;
 
-    /// A walk of three surfaces, and what it finds with all chances played through: mean, variance
-    /// and rays.
-    fn played(walk: &PathRecord, survival: &Survival, importance: f64) -> [f64; 3] {
+    /// Mean, variance and rays of a record, by all outcomes of Russian roulette.
+    fn played(record: &PathRecord, survival: &Survival, importance: f64) -> [f64; 3] {
         // What it takes along to a surface is the part that counts there, of the light beyond all
         // of them.
         fn on(
@@ -103,17 +102,18 @@ mod tests {
             let Finding { element, weight, light, beyond: own } = step.finding;
             // Light between the last surface and this one is found by all that come here.
             let sum = sum + factor * (beyond - own);
-            let chance = survival.chance(element, factor * weight, factor * light).unwrap();
-            out.push([p * (1.0 - chance), sum + factor * light, flights]);
-            let survivor = factor / chance;
-            let sum = sum + factor * light * (1.0 - 1.0 / chance);
+            let probability =
+                survival.survival_probability(element, factor * weight, factor * light).unwrap();
+            out.push([p * (1.0 - probability), sum + factor * light, flights]);
+            let survivor = factor / probability;
+            let sum = sum + factor * light * (1.0 - 1.0 / probability);
             let flights = flights + f64::from(step.flights);
-            on(rest, own, survivor, survival, out, (p * chance, sum, flights));
+            on(rest, own, survivor, survival, out, (p * probability, sum, flights));
         }
         let mut out = Vec::new();
-        let first = walk.steps[0].finding.beyond;
-        let begin = (1.0, 0.0, f64::from(walk.flights));
-        on(&walk.steps, first, importance, survival, &mut out, begin);
+        let first = record.steps[0].finding.beyond;
+        let begin = (1.0, 0.0, f64::from(record.flights));
+        on(&record.steps, first, importance, survival, &mut out, begin);
         let mean = |f: &dyn Fn(&[f64; 3]) -> f64| -> f64 { out.iter().map(|o| o[0] * f(o)).sum() };
         let value = mean(&|o| o[1]);
         [value, mean(&|o| (o[1] - value) * (o[1] - value)), mean(&|o| o[2])]
@@ -136,26 +136,26 @@ mod tests {
                 alone: 1.0,
             })
             .to_vec();
-        let walk = PathRecord { flights: 1, steps };
-        let survival = Survival::of(walk.steps.iter().map(|step| step.finding));
+        let record = PathRecord { flights: 1, steps };
+        let survival = Survival::new(record.steps.iter().map(|step| step.finding));
         for (sureness, importance) in [(0.5, 0.01), (2.0, 0.02), (1e-9, 1.0), (1e9, 1.0)] {
             let survival = survival.with_sureness(sureness);
-            let price = walk.price(Ending::OnMap(&survival), importance, 0.0);
-            let [mean, variance, flights] = played(&walk, &survival, importance);
+            let price = record.price(Ending::OnMap(&survival), importance, 0.0);
+            let [mean, variance, flights] = played(&record, &survival, importance);
             assert!((mean - importance * 41.0).abs() < 1e-9 * mean, "biased: {mean}");
             assert!((price.variance - variance).abs() <= 1e-9 * variance, "{price:?} {variance}");
             assert!((price.flights - flights).abs() < 1e-9 * flights, "{price:?} {flights}");
         }
-        let certain = walk.price(Ending::Alone, 1.0, 0.0);
+        let certain = record.price(Ending::Alone, 1.0, 0.0);
         assert_eq!(certain, Price { variance: 0.0, flights: 7.0 });
         // Where no map is, paths end with nothing in hand; and on maps they may look for one light
         // more.
-        let mut bare = walk.clone();
+        let mut bare = record.clone();
         bare.steps.iter_mut().for_each(|step| (step.is_on_map, step.alone) = (false, 0.5));
         let on_map = Ending::OnMap(&survival);
         assert_eq!(bare.price(on_map, 1.0, 1.0), bare.price(Ending::Alone, 1.0, 0.0));
         let seldom = Ending::OnMap(&survival.with_sureness(1e-9));
-        let [less, more] = [0.0, 1.0].map(|at_end| walk.price(seldom, 1.0, at_end).flights);
+        let [less, more] = [0.0, 1.0].map(|at_end| record.price(seldom, 1.0, at_end).flights);
         assert!(less < more && more < less + 1.0);
     }
 }

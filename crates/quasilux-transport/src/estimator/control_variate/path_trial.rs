@@ -1,4 +1,5 @@
-//! A pilot of paths that hardly end, which record where they might have ended.
+//! Pilot of path tracing nearly without Russian roulette, which records the vertices where paths
+//! might have ended.
 
 use super::replay::{PathRecords, RayCounts};
 use crate::context::Context;
@@ -11,7 +12,7 @@ use crate::stats::targets::Target;
 /// A trial of paths that go alone, and hardly end.
 pub(crate) struct PathTrial<S> {
     pub(crate) trial: Trial,
-    pub(crate) walks: PathRecords<S>,
+    pub(crate) records: PathRecords<S>,
     /// Whether at every target most replicates whose paths came to surfaces that reflect found
     /// light that bounced: a spread says nothing of what is hardly ever found.
     pub(crate) finds_light: bool,
@@ -27,7 +28,7 @@ impl<S: Spectrum> PathTrial<S> {
             quantum,
         };
         let traced = trace(context, &paths, PathRecords::add).into_iter();
-        let (pieces, walks): (Vec<Piece>, Vec<PathRecords<S>>) =
+        let (pieces, records): (Vec<Piece>, Vec<PathRecords<S>>) =
             traced.map(|traced| (traced.piece, traced.records)).unzip();
         let finds_light = pieces.chunks(REPLICATES.len()).all(|of_target| {
             let sums = of_target.iter().map(|piece| &piece.sums[0]);
@@ -46,7 +47,7 @@ impl<S: Spectrum> PathTrial<S> {
             // It still looks for light that the next surface emits.
             at_end: if context.lights.emitters.is_some() { 1.0 } else { 0.0 },
         };
-        Self { trial, walks: PathRecords::all(walks, rays), finds_light }
+        Self { trial, records: PathRecords::all(records, rays), finds_light }
     }
 }
 

@@ -1,5 +1,5 @@
-//! How many photons a frozen map gets, and how readily paths go on past it: the fewest rays in all,
-//! by what a trial of paths predicts.
+//! Pilot of a frozen map: its number of photons and the survival probability of paths, by the
+//! fewest predicted rays.
 
 use super::PathRecords;
 use super::path_record::Ending;
@@ -68,7 +68,7 @@ struct Growing<S> {
     tally: MapTally<S>,
     lit_cells: Option<LitCells>,
     /// Of photons that count.
-    most_bounces: u32,
+    max_bounces: u32,
     photons: u64,
     counts: PhotonCounts,
 }
@@ -92,11 +92,11 @@ impl<S: Spectrum> MapPilot<S> {
         let pilots = pilots.clamp(min, max).next_power_of_two();
         map.grow(context, pilots, watch);
         let rays_for_photon = (map.counts.rays - before) as f64 / pilots as f64;
-        let trips =
+        let paths =
             records.on(context, &map.layout, &map.tally.read(map.photon_lm(context)), wanted);
-        let noise_share = trips.noise_share();
-        let uses = candidates(&trips).into_iter().flat_map(|survival| {
-            let Outcome { variances, rays } = trips.outcome(Ending::OnMap(&survival), wanted);
+        let noise_share = paths.noise_share();
+        let uses = candidates(&paths).into_iter().flat_map(|survival| {
+            let Outcome { variances, rays } = paths.outcome(Ending::OnMap(&survival), wanted);
             let with_photons = move |doublings| {
                 let photons = pilots << doublings;
                 // More photons take out noise.
@@ -109,7 +109,7 @@ impl<S: Spectrum> MapPilot<S> {
             (0..=(MAX_PHOTONS / pilots).ilog2()).map(with_photons)
         });
         let use_of_it = cheapest(uses, |tried| wanted.rays(alone, &tried.pilot_cost()))?;
-        let misses_light = trips.miss_light(wanted);
+        let misses_light = paths.miss_light(wanted);
         Some(Self { map, use_of_it, misses_light })
     }
 
@@ -153,32 +153,32 @@ impl Use {
 }
 
 /// Survival probabilities from low ones to nearly one.
-fn candidates(trips: &Replay) -> Vec<Survival> {
-    let survival = trips.survival();
-    let usual = trips.usual_loss(&survival);
+fn candidates(paths: &Replay) -> Vec<Survival> {
+    let survival = paths.survival();
+    let usual = paths.usual_loss(&survival);
     let first = if usual > 0.0 { MIN / usual } else { 0.0 };
     let sureness = |step: u32| first * libm::pow(SQRT_2, f64::from(step));
     (0..=STEPS).map(|step| survival.with_sureness(sureness(step))).collect()
 }
 
 impl<S: Spectrum> Growing<S> {
-    fn new(context: &Context<'_, S>, settings: &Settings, most_rays: u64) -> Option<Self> {
+    fn new(context: &Context<'_, S>, settings: &Settings, max_rays: u64) -> Option<Self> {
         let layout = MapLayout::coarsest(&context.world, settings);
         let sides = layout.len() as u64;
-        let most_bounces = bounces_left(context.max_bounces, 0, sides)?;
+        let max_bounces = bounces_left(context.max_bounces, 0, sides)?;
         let mut counts = PhotonCounts::default();
-        let lit_cells = decide(context, settings, most_rays, &mut counts);
+        let lit_cells = decide(context, settings, max_rays, &mut counts);
         let layers = layers(context.max_bounces, context.listed_terms, sides);
-        let lightest = Source::of(lit_cells.as_ref()).usual_weight();
+        let lightest = Source::from_lit_cells(lit_cells.as_ref()).usual_weight();
         let tally = MapTally::new(&layout, lightest, layers);
-        Some(Self { layout, tally, lit_cells, most_bounces, photons: 0, counts })
+        Some(Self { layout, tally, lit_cells, max_bounces, photons: 0, counts })
     }
 
     /// Adds photons up to this one.
     fn grow(&mut self, context: &Context<'_, S>, photons: u64, watch: &mut Watch<'_>) {
-        let Self { layout, tally, lit_cells, most_bounces, .. } = &*self;
-        let source = Source::of(lit_cells.as_ref());
-        let receiver = MapReceiver::up_to(*most_bounces, context.map_dimensions, layout, tally);
+        let Self { layout, tally, lit_cells, max_bounces, .. } = &*self;
+        let source = Source::from_lit_cells(lit_cells.as_ref());
+        let receiver = MapReceiver::up_to(*max_bounces, context.map_dimensions, layout, tally);
         let batch = PhotonBatch::for_plan(source, self.photons..photons);
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         let counts = trace_photons(context, &batch, |_| receiver, watch).unwrap_or_default();

@@ -1,4 +1,5 @@
-//! The paths of a trial, and what they say of a map.
+//! Replay of recorded paths on a map: the variance and rays of a trial with any survival
+//! probability.
 
 use super::path_record::{Ending, PathRecord, Price, Step};
 use crate::context::Context;
@@ -36,14 +37,13 @@ pub(crate) struct RayCounts {
 #[derive(Debug)]
 struct Path<S> {
     target: usize,
-    notes: Vec<VertexRecord<S>>,
+    records: Vec<VertexRecord<S>>,
     flights: u32,
 }
 
 /// The same paths on a map.
 pub(super) struct Replay {
-    /// With what a unit is worth where each starts.
-    trips: Vec<(f64, ReplayedPath)>,
+    paths: Vec<ReplayedPath>,
     rays: RayCounts,
     /// For each that a path takes itself, those that ask for light on its way included.
     rays_for_flight: f64,
@@ -51,7 +51,9 @@ pub(super) struct Replay {
 
 struct ReplayedPath {
     target: usize,
-    walk: PathRecord,
+    /// Of a unit at its start.
+    importance: f64,
+    record: PathRecord,
     /// Variance of the map by the noise of its photons, by what it counts at the start.
     noise: f64,
 }
@@ -72,8 +74,8 @@ impl<S> Default for PathRecords<S> {
 impl<S: Spectrum> PathRecords<S> {
     /// Remembers a path of one of the targets.
     pub(crate) fn add(&mut self, target: usize, path: &mut PathResult<S>) {
-        let notes = std::mem::take(&mut path.notes);
-        self.paths.push(Path { target, notes, flights: path.flights });
+        let records = std::mem::take(&mut path.records);
+        self.paths.push(Path { target, records, flights: path.flights });
     }
 
     /// All of them together.
@@ -83,7 +85,7 @@ impl<S: Spectrum> PathRecords<S> {
 
     /// With no map.
     pub(crate) fn alone(&self, wanted: &ErrorTarget) -> Outcome {
-        self.trips(wanted, |_| None).outcome(Ending::Alone, wanted)
+        self.replay(wanted, |_| None).outcome(Ending::Alone, wanted)
     }
 
     /// On a map.
@@ -94,37 +96,37 @@ impl<S: Spectrum> PathRecords<S> {
         map: &IlluminationMap<'_, S>,
         wanted: &ErrorTarget,
     ) -> Replay {
-        self.trips(wanted, |note| {
-            let weight = note.weight?;
+        self.replay(wanted, |record| {
+            let weight = record.weight?;
             let sides = layout.len() as u64;
-            let most_bounces = bounces_left(context.max_bounces, note.bounces, sides)?;
-            let place = layout.locate(&note.at);
-            let light = (weight * map.illuminance_lx(&place, most_bounces)).luminance();
-            let noise = (weight * map.noise_lx(&place, most_bounces)).luminance();
+            let max_bounces = bounces_left(context.max_bounces, record.bounces, sides)?;
+            let place = layout.locate(&record.at);
+            let light = (weight * map.illuminance_lx(&place, max_bounces)).luminance();
+            let noise = (weight * map.noise_lx(&place, max_bounces)).luminance();
             Some(Reading { element: place.element, light, noise })
         })
     }
 
-    fn trips(
+    fn replay(
         &self,
         wanted: &ErrorTarget,
         read: impl Fn(&VertexRecord<S>) -> Option<Reading> + Sync,
     ) -> Replay {
-        let trip = |path: &Path<S>| (wanted.importance_per_lx(path.target), path.trip(&read));
+        let replayed = |path: &Path<S>| path.replay(wanted.importance_per_lx(path.target), &read);
         let flights: u64 = self.paths.iter().map(|path| u64::from(path.flights)).sum();
         let flights = flights.max(1) as f64;
         let RayCounts { all, at_start, .. } = self.rays;
         // Not all lights that may be asked for are before a start.
         let at_start = at_start.min(all - flights).max(0.0);
         Replay {
-            trips: self.paths.par_iter().map(trip).collect(),
+            paths: self.paths.par_iter().map(replayed).collect(),
             rays: RayCounts { at_start, ..self.rays },
             rays_for_flight: (all - at_start) / flights,
         }
     }
 }
 
-/// What a map says at a note, by what it counts at the start.
+/// What a map says at a record, by what it counts at the start.
 struct Reading {
     element: usize,
     light: f64,
@@ -133,63 +135,69 @@ struct Reading {
 }
 
 impl<S: Spectrum> Path<S> {
-    fn trip(&self, read: impl Fn(&VertexRecord<S>) -> Option<Reading>) -> ReplayedPath {
+    fn replay(
+        &self,
+        importance: f64,
+        read: impl Fn(&VertexRecord<S>) -> Option<Reading>,
+    ) -> ReplayedPath {
         let mut variance = 0.0;
-        let ends = self.notes.iter().skip(1).map(|note| note.flights).chain([self.flights]);
-        let step = |(note, end): (&VertexRecord<S>, u32)| {
-            let read = read(note);
+        let ends = self.records.iter().skip(1).map(|record| record.flights).chain([self.flights]);
+        let step = |(record, end): (&VertexRecord<S>, u32)| {
+            let read = read(record);
             let is_on_map = read.is_some();
             let none = Reading { element: 0, light: 0.0, noise: 0.0 };
             let Reading { element, light, noise } = read.unwrap_or(none);
             variance += noise * noise;
-            let [beyond_alone, beyond] = note.beyond;
-            let [weight, missed, beyond] = [note.weight.unwrap_or_default(), beyond_alone, beyond]
-                .map(|light| light.luminance())
-                // The run counts and reports what is no number.
-                .map(|lx| if lx.is_finite() { lx } else { 0.0 });
+            let [beyond_alone, beyond] = record.beyond;
+            let [weight, missed, beyond] =
+                [record.weight.unwrap_or_default(), beyond_alone, beyond]
+                    .map(|light| light.luminance())
+                    // The run counts and reports what is no number.
+                    .map(|lx| if lx.is_finite() { lx } else { 0.0 });
             let finding = Finding { element, weight, light, beyond };
-            Step { finding, is_on_map, missed, flights: end - note.flights, alone: note.alone }
+            Step { finding, is_on_map, missed, flights: end - record.flights, alone: record.alone }
         };
-        let steps: Vec<Step> = self.notes.iter().zip(ends).map(step).collect();
-        let flights = self.notes.first().map_or(self.flights, |note| note.flights);
-        ReplayedPath { target: self.target, walk: PathRecord { flights, steps }, noise: variance }
+        let steps: Vec<Step> = self.records.iter().zip(ends).map(step).collect();
+        let flights = self.records.first().map_or(self.flights, |record| record.flights);
+        ReplayedPath {
+            target: self.target,
+            importance,
+            record: PathRecord { flights, steps },
+            noise: variance,
+        }
     }
 }
 
 impl ReplayedPath {
     /// Where it might have ended on the map.
     fn findings(&self) -> impl Iterator<Item = Finding> {
-        self.walk.steps.iter().filter(|step| step.is_on_map).map(|step| step.finding)
+        self.record.steps.iter().filter(|step| step.is_on_map).map(|step| step.finding)
     }
 }
 
 impl Replay {
     /// How far off the map is.
     pub(super) fn survival(&self) -> Survival {
-        let trips = self.trips.iter();
-        Survival::of(
-            trips.flat_map(|(importance, trip)| trip.findings().map(|f| f.importance(*importance))),
-        )
+        let paths = self.paths.iter();
+        Survival::new(paths.flat_map(|path| path.findings().map(|f| f.importance(path.importance))))
     }
 
-    /// What ending on the map at their first surface would cost the trips on average.
+    /// What ending on the map at their first surface would cost the paths on average.
     pub(super) fn usual_loss(&self, survival: &Survival) -> f64 {
-        let loss = |(importance, trip): &(f64, ReplayedPath)| {
-            let Finding { element, weight, light, .. } = trip.findings().next()?;
-            Some(survival.loss(element, importance * weight, importance * light))
+        let loss = |path: &ReplayedPath| {
+            let Finding { element, weight, light, .. } = path.findings().next()?;
+            Some(survival.loss(element, path.importance * weight, path.importance * light))
         };
-        let losses: Vec<f64> = self.trips.iter().filter_map(loss).collect();
+        let losses: Vec<f64> = self.paths.iter().filter_map(loss).collect();
         losses.iter().sum::<f64>() / losses.len().max(1) as f64
     }
 
     /// The part of how far it is off that more photons would mend.
     pub(super) fn noise_share(&self) -> f64 {
-        let sums = self.trips.iter().fold([0.0, 0.0], |[noise, off], (importance, trip)| {
-            let squares = trip.findings().map(|f| (f.beyond - f.light) * (f.beyond - f.light));
-            [
-                noise + importance * importance * trip.noise,
-                off + importance * importance * squares.sum::<f64>(),
-            ]
+        let sums = self.paths.iter().fold([0.0, 0.0], |[noise, off], path| {
+            let square = path.importance * path.importance;
+            let squares = path.findings().map(|f| (f.beyond - f.light) * (f.beyond - f.light));
+            [noise + square * path.noise, off + square * squares.sum::<f64>()]
         });
         if sums[1] > 0.0 { (sums[0] / sums[1]).min(MAX_NOISE) } else { 0.0 }
     }
@@ -198,9 +206,9 @@ impl Replay {
     /// for them.
     pub(super) fn miss_light(&self, wanted: &ErrorTarget) -> bool {
         let mut sums = vec![[0.0; 2]; wanted.targets()];
-        for (_, trip) in &self.trips {
-            if let Some(first) = trip.findings().next() {
-                let [on_map, found] = &mut sums[trip.target];
+        for path in &self.paths {
+            if let Some(first) = path.findings().next() {
+                let [on_map, found] = &mut sums[path.target];
                 *on_map += first.light;
                 *found += first.beyond;
             }
@@ -211,12 +219,11 @@ impl Replay {
     /// With these chances.
     pub(super) fn outcome(&self, ending: Ending<'_>, wanted: &ErrorTarget) -> Outcome {
         let at_end = self.rays.at_end / self.rays_for_flight;
-        let price =
-            |(importance, trip): &(f64, ReplayedPath)| trip.walk.price(ending, *importance, at_end);
-        let prices: Vec<Price> = self.trips.par_iter().map(price).collect();
+        let price = |path: &ReplayedPath| path.record.price(ending, path.importance, at_end);
+        let prices: Vec<Price> = self.paths.par_iter().map(price).collect();
         let mut sums = vec![(0.0, 0.0); wanted.targets()];
-        for ((_, trip), price) in self.trips.iter().zip(&prices) {
-            let (sum, count) = &mut sums[trip.target];
+        for (path, price) in self.paths.iter().zip(&prices) {
+            let (sum, count) = &mut sums[path.target];
             *sum += price.variance;
             *count += 1.0;
         }

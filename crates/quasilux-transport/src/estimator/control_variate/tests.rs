@@ -59,7 +59,7 @@ impl Bench<'_> {
             let mut value = |replicate: u32| {
                 let points = self.context.points(replicate, Stream::Paths(number as u64));
                 let rest = match paths {
-                    Paths::Noted => Rest::Noted,
+                    Paths::Noted => Rest::Recorded,
                     Paths::Alone => Rest::Path,
                     Paths::OnMap(map) => Rest::Frozen(map.end(number)),
                 };
@@ -96,7 +96,7 @@ fn assert_predicted(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
     let targets = targets(scene);
     let sample = Sample::new(&targets, &exact(&context, &targets, &mut 0));
-    let PathTrial { trial, walks, finds_light } = PathTrial::new(&context, &sample, quantum);
+    let PathTrial { trial, records, finds_light } = PathTrial::new(&context, &sample, quantum);
     assert!(finds_light);
     let found_lx = |target: usize| sample.exact_lx[target] + trial.moments(target).mean;
     let wanted = ErrorTarget::new(&settings, &sample, (0..targets.len()).map(found_lx).collect());
@@ -111,7 +111,7 @@ fn assert_predicted(what: &str, scene: &Scene, max_bounces: Option<u32>) {
         assert!((0.55..1.8).contains(&ratios[0]), "{what}, {who}: {ratios:?}");
         assert!((0.9..1.1).contains(&ratios[1]), "{what}, {who}: {ratios:?}");
     };
-    let alone = walks.alone(&bench.wanted);
+    let alone = records.alone(&bench.wanted);
     let predicted = (mean(&alone.variances), alone.rays);
     assert_found("alone", predicted, bench.variance_and_rays(Paths::Alone));
 
@@ -120,7 +120,7 @@ fn assert_predicted(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let plain = PilotCost::of_paths(&alone.variances, alone.rays);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);
-    let paths = PathPilot { records: &walks, recorded: &noted, alone: &plain };
+    let paths = PathPilot { records: &records, recorded: &noted, alone: &plain };
     let choice = MapPilot::new(&context, &settings, &paths, &bench.wanted, &mut watch).unwrap();
     assert!(!choice.misses_light);
     let pilot_cost = choice.pilot_cost();
@@ -171,5 +171,5 @@ fn paths_that_know_nothing_of_a_map_go_alone() {
     let map = choice.unwrap().freeze(&context, vec![0.0], &mut watch).map;
     let place =
         map.layout.locate(&context.world.facet_under(DVec3::new(0.0, 5.0, 5.0), DVec3::X).unwrap());
-    assert_eq!(map.end(0).chance(&place, 1.0, 1.0), None);
+    assert_eq!(map.end(0).survival_probability(&place, 1.0, 1.0), None);
 }

@@ -1,11 +1,10 @@
-//! The way from one checkpoint to the next: photons that serve all paths, photons that come with
-//! each, and the paths themselves.
+//! Progress of the path estimator from one checkpoint to the next: photons that all paths share,
+//! connected photons, and the paths themselves.
 //!
 //! Between pieces of each of them the state can be kept. Each knows how far it is, so that a run
 //! that goes on from a state finds what is left.
 
 use super::PathEstimator;
-use crate::estimator::connection::LightVertexConnections;
 use crate::path::end::{GrowingMaps, PathEnd};
 use crate::path::sections::{PathSums, Piece, WorkCounts};
 use crate::path::wave::{PathWave, WAVE};
@@ -13,6 +12,7 @@ use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
@@ -50,33 +50,10 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Traces the paths of the indices up to `samples`, and photons that come with them.
     pub(super) fn gather(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        let light_vertices = self.light_vertices.as_ref();
-        let photons =
-            light_vertices.map_or(0..0, |light_vertices| light_vertices.samples()..samples);
-        for piece in watch
-            .pieces(photons, light_vertices.map_or(1, LightVertexConnections::work_of_an_index))
-        {
-            let Some(light_vertices) = &mut self.light_vertices else { break };
-            let Some(photons) = light_vertices.grow(self.context, piece.end, watch) else {
-                return false;
-            };
-            let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
-            photons.for_each(|photons| self.contribution.photons += photons);
-            if !watch.keep(|out| self.put_all(out)) {
-                return false;
-            }
+        if !self.connect_photons(samples, watch) {
+            return false;
         }
-        let mut indices = self.samples..samples;
-        if self.end.photons(samples).is_some() {
-            // The maps have changed, and what was read from them with them.
-            indices.start = self.first;
-            if self.done == 0 {
-                let replicates = self.replicates as usize;
-                for target in &self.growing {
-                    self.sums[target * replicates..][..replicates].fill(PathSums::default());
-                }
-            }
-        }
+        let indices = self.next_indices(samples);
         let each = (indices.end - indices.start) * u64::from(self.replicates);
         let paths = each * self.growing.len() as u64;
         for round in watch.rounds(self.done..paths, ROUND) {
@@ -87,14 +64,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             };
             let found: Vec<Piece> =
                 (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
-            let mut of_round = WorkCounts::default();
-            for Piece { first, sums, work } in found {
-                for (number, found) in (first..).zip(sums) {
-                    let place = self.place(number);
-                    self.sums[place] += found;
-                }
-                of_round += work;
-            }
+            let of_round = self.add(found);
             let (now, rays) = (of_round.paths, of_round.rays);
             self.contribution.work += of_round;
             self.done = round.end;
@@ -106,5 +76,50 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         }
         (self.samples, self.done) = (samples, 0);
         true
+    }
+
+    /// Traces the photons of light vertex connections up to `samples`.
+    fn connect_photons(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let Some(light_vertices) = &self.light_vertices else { return true };
+        let photons = light_vertices.samples()..samples;
+        for piece in watch.pieces(photons, light_vertices.work_of_an_index()) {
+            let Some(light_vertices) = &mut self.light_vertices else { break };
+            let Some(photons) = light_vertices.grow(self.context, piece.end, watch) else {
+                return false;
+            };
+            let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
+            photons.for_each(|photons| self.contribution.photons += photons);
+            if !watch.keep(|out| self.put_all(out)) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The indices of the paths to trace: all of them where maps have grown, whose values changed.
+    fn next_indices(&mut self, samples: u64) -> Range<u64> {
+        if self.end.photons(samples).is_none() {
+            return self.samples..samples;
+        }
+        if self.done == 0 {
+            let replicates = self.replicates as usize;
+            for target in &self.growing {
+                self.sums[target * replicates..][..replicates].fill(PathSums::default());
+            }
+        }
+        self.first..samples
+    }
+
+    /// Adds the sums of pieces and returns their work.
+    fn add(&mut self, pieces: Vec<Piece>) -> WorkCounts {
+        let mut counts = WorkCounts::default();
+        for Piece { first, sums, work } in pieces {
+            for (number, found) in (first..).zip(sums) {
+                let place = self.place(number);
+                self.sums[place] += found;
+            }
+            counts += work;
+        }
+        counts
     }
 }

@@ -1,5 +1,5 @@
-//! Which targets are known by what their replicates show, and which may get light that paths have
-//! not met.
+//! Whether a target's replicates can tell its error: paths that met no light, or no bright part of
+//! a lobe, cannot.
 
 use super::PathEstimator;
 use crate::path::lobes::LobeSums;

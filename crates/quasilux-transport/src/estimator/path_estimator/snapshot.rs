@@ -1,4 +1,4 @@
-//! What the targets show between two checkpoints, for those who look on.
+//! Snapshots of the path estimator between two checkpoints, for observers.
 //!
 //! The sums of all replicates are taken together, over all paths that they stand for: part of the
 //! paths of a replicate is a part of its sequence from the start, so nothing is left out but the

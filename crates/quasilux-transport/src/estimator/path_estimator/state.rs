@@ -1,4 +1,4 @@
-//! What paths and photons have summed so far, for checkpoints and for parts.
+//! State of the path estimator for checkpoints and parts of a run.
 
 use super::{Costs, PathEstimator};
 use crate::codec::{Reader, StateError, Stored, Writer, digest};

@@ -25,13 +25,13 @@ use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Steered pilot photons, and the most that are not.
+/// Guided pilot photons, and the most that are not.
 const PILOTS: u64 = 1 << 11;
 const MAX_PLAIN: u64 = 1 << 18;
 /// How many a thread takes at once.
 const PIECE: u64 = 1 << 6;
 
-/// How to steer photons that sensors count.
+/// How to guide photons that sensors count.
 pub(crate) fn plan<S: Spectrum>(
     context: &Context<'_, S>,
     scene: &Scene,
@@ -41,13 +41,13 @@ pub(crate) fn plan<S: Spectrum>(
     let mut plan = importance::plan(context, &targets(scene), settings.importance);
     if settings.importance == Switch::Auto && plan.windows.is_some() {
         let trace = |windows, photons| Pilots::trace(context, receivers, windows, photons);
-        let steered = trace(plan.windows.as_ref(), 0..PILOTS);
+        let guided = trace(plan.windows.as_ref(), 0..PILOTS);
         let mut plain = trace(None, 0..PILOTS);
-        let as_many = PILOTS * steered.rays / plain.rays.max(1);
+        let as_many = PILOTS * guided.rays / plain.rays.max(1);
         plain.merge(&trace(None, PILOTS..as_many.min(MAX_PLAIN)));
-        plan.rays += plain.rays + steered.rays;
-        let [plain, steered] = [plain, steered].map(|pilots| pilots.performance().cost_of_error());
-        if plain <= steered {
+        plan.rays += plain.rays + guided.rays;
+        let [plain, guided] = [plain, guided].map(|pilots| pilots.performance().cost_of_error());
+        if plain <= guided {
             plan.windows = None;
         }
     }
@@ -68,7 +68,7 @@ impl Pilots {
         windows: Option<&WeightWindows>,
         photons: Range<u64>,
     ) -> Self {
-        let points = context.points(0, Stream::SteeringPilots);
+        let points = context.points(0, Stream::WindowPilots);
         let lead = Lead::by_chance(Source::Lights, windows);
         let piece = |first: u64| {
             let mut counts = PhotonCounts::default();

@@ -1,4 +1,4 @@
-//! What a run costs whose targets have given variances.
+//! Predicted cost of a run, in rays, whose targets have given variances.
 //!
 //! With variances v of one trial, in units of the error that is wanted squared, a target needs a
 //! number of samples in proportion to its v. Paths of a target that is done cost nothing more, so

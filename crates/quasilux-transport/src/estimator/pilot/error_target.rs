@@ -1,4 +1,4 @@
-//! What is to be known, and how well.
+//! The error that the settings ask for, target by target, and the shortfall of a pilot from it.
 
 use super::cost::{Budget, PilotCost};
 use super::trial::{Sample, Trial};

@@ -1,5 +1,4 @@
-//! Pilots: a few samples at some targets, and the rays that a whole run would take by what they
-//! find.
+//! Pilots: a few samples at some targets, and the rays of a whole run that they predict.
 
 mod cost;
 mod error_target;

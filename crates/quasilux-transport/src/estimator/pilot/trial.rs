@@ -1,10 +1,10 @@
-//! Trials: what a few samples in a few replicates find at some of the targets.
+//! Trials: means and variances of a few samples in a few replicates, at some of the targets.
 
 use crate::context::{Context, Stream};
 use crate::estimator::exact::Exact;
 use crate::path::end::Rest;
 use crate::path::partition::Partition;
-use crate::path::sections::{Piece, Section, trace_and_look};
+use crate::path::sections::{Piece, Section, trace_and_visit};
 use crate::path::trace::PathResult;
 use crate::path::wave::PathWave;
 use crate::spectrum::Spectrum;
@@ -151,13 +151,13 @@ pub(crate) fn trace<S: Spectrum, R: Default + Send>(
             number,
             target: paths.targets[target],
             points: context.points_of_trial(replicate, Stream::Paths(target as u64)),
-            rest: if paths.is_recorded { Rest::Noted } else { Rest::Path },
+            rest: if paths.is_recorded { Rest::Recorded } else { Rest::Path },
             caustics: None,
             partition: paths.partition,
             indices: 0..SAMPLES,
         };
         let mut records = R::default();
-        let piece = trace_and_look(context, &[section], paths.quantum, wave, |path| {
+        let piece = trace_and_visit(context, &[section], paths.quantum, wave, |path| {
             record(&mut records, target, path);
         });
         Traced { piece, records }

@@ -1,8 +1,8 @@
-//! The way of light from an image to a place, unfolded: where it meets each mirror.
+//! Unfolding of the path from an image to a place: the points where it meets each mirror.
 //!
 //! Seen from the place, the last mirror shows the image of the whole chain, and the straight line
 //! to it meets the mirror where the light leaves it; from there the line to the image before meets
-//! the mirror before, and so on to the light. The way exists where each line meets its mirror's
+//! the mirror before, and so on to the light. The path exists where each line meets its mirror's
 //! facets, from the side that the light is on, and nothing stands between one mirror and the next.
 //!
 //! Where mirrors meet in an edge, several chains share an image, and a line through the edge itself
@@ -23,7 +23,7 @@ const HAIRS_INWARD: f64 = 4.0;
 /// Points of two chains that are this many hairs apart are one.
 const HAIRS_APART: f64 = 64.0;
 
-/// Where light of images meets its mirrors: the links of many ways in one list, those of one way
+/// Where light of images meets its mirrors: the links of many ways in one list, those of one path
 /// the mirror nearest to the place first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Links(Vec<Link>);
@@ -39,9 +39,9 @@ struct Link {
     n: DVec3,
 }
 
-/// A way, but for its visibility.
+/// A path, but for its visibility.
 #[derive(Clone, Debug)]
-pub(crate) struct Way<S> {
+pub(crate) struct UnfoldedPath<S> {
     /// Its links.
     links: Range<usize>,
     /// Unit direction in which the light leaves its light.
@@ -63,24 +63,24 @@ impl Links {
         images: &Images,
         image: u32,
         place: DVec3,
-    ) -> Option<Way<S>> {
+    ) -> Option<UnfoldedPath<S>> {
         let first = self.0.len();
-        let way = self.unfold_after(first, world, mirrors, (images, image), place);
-        if way.is_none() {
+        let path = self.push_links(world, mirrors, images, image, place);
+        if path.is_none() {
             self.0.truncate(first);
         }
-        way
+        path
     }
 
-    fn unfold_after<S: Spectrum>(
+    fn push_links<S: Spectrum>(
         &mut self,
-        first: usize,
         world: &World<S>,
         mirrors: &MirrorPlanes,
-        (images, image): (&Images, u32),
+        images: &Images,
+        image: u32,
         place: DVec3,
-    ) -> Option<Way<S>> {
-        let slack_m = world.hair_m();
+    ) -> Option<UnfoldedPath<S>> {
+        let (first, slack_m) = (self.0.len(), world.hair_m());
         let mut reflected = S::white();
         let mut at = place;
         let mut node = &images.nodes[image as usize];
@@ -107,7 +107,7 @@ impl Links {
             node = &images.nodes[node.parent as usize];
         }
         let leaves = (at - node.position).normalize_or_zero();
-        Some(Way { links: first..self.0.len(), leaves, reflected })
+        Some(UnfoldedPath { links: first..self.0.len(), leaves, reflected })
     }
 
     /// The rays that see whether anything stands in a way from `from` over its mirrors to the light
@@ -115,22 +115,27 @@ impl Links {
     pub(crate) fn shadow_rays<S: Spectrum>(
         &self,
         world: &World<S>,
-        way: &Way<S>,
+        path: &UnfoldedPath<S>,
         from: RayOrigin,
         light: DVec3,
         shadow_rays: &mut Vec<RayQuery>,
     ) {
         let mut from = from;
-        for link in &self.0[way.links.clone()] {
+        for link in &self.0[path.links.clone()] {
             shadow_rays.extend(shadow_ray(from, link.inner, link.facet));
-            from = world.vantage_before(link.facet, link.inner, link.n);
+            from = world.ray_origin_on_side(link.facet, link.inner, link.n);
         }
         shadow_rays.extend(shadow_ray(from, light, RayQuery::NONE));
     }
 
     /// Whether two ways are one, point by point.
-    pub(crate) fn are_same<S>(&self, a: &Way<S>, b: &Way<S>, hair_m: f64) -> bool {
-        let [a, b] = [a, b].map(|way| &self.0[way.links.clone()]);
+    pub(crate) fn are_same<S>(
+        &self,
+        a: &UnfoldedPath<S>,
+        b: &UnfoldedPath<S>,
+        hair_m: f64,
+    ) -> bool {
+        let [a, b] = [a, b].map(|path| &self.0[path.links.clone()]);
         let near = |(a, b): (&Link, &Link)| (a.point - b.point).length() <= HAIRS_APART * hair_m;
         a.len() == b.len() && a.iter().zip(b).all(near)
     }

@@ -1,4 +1,4 @@
-//! Cones of directions from one point, that hold what can be seen of a mirror from there.
+//! Cones of directions from one point, which bound the part of space that sees a mirror image.
 
 use glam::DVec3;
 
@@ -44,10 +44,10 @@ impl Cone {
     }
 
     /// The least cosine of its directions with an axis, either way; 0 where some are square to it.
-    pub(crate) fn least_cos_with(&self, axis: DVec3) -> f64 {
+    pub(crate) fn min_cos_with(&self, axis: DVec3) -> f64 {
         let between_rad = libm::acos(self.axis.dot(axis).abs().min(1.0));
-        let most_rad = between_rad + self.half_rad;
-        if most_rad < std::f64::consts::FRAC_PI_2 { libm::cos(most_rad) } else { 0.0 }
+        let max_rad = between_rad + self.half_rad;
+        if max_rad < std::f64::consts::FRAC_PI_2 { libm::cos(max_rad) } else { 0.0 }
     }
 
     pub(crate) fn meets(&self, other: &Self) -> bool {
@@ -80,10 +80,10 @@ mod tests {
         }
         let least = corners.iter().map(|&corner| (corner - apex).normalize().z).fold(1.0, f64::min);
         for axis in [DVec3::Z, DVec3::NEG_Z] {
-            let found = cone.least_cos_with(axis);
+            let found = cone.min_cos_with(axis);
             assert!(found <= least && found > 0.3 * least, "{found}, {least}");
         }
-        assert_eq!(cone.least_cos_with(DVec3::Y), 0.0);
+        assert_eq!(cone.min_cos_with(DVec3::Y), 0.0);
         assert!(!cone.holds(DVec3::NEG_X) && !cone.holds(DVec3::NEG_Z));
         let other = |z: f64| Cone::around(apex, &corners.map(|corner| corner - DVec3::Z * z));
         assert!(cone.meets(&other(0.1)) && !cone.meets(&other(5.0)));

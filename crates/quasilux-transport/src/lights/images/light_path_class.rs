@@ -1,5 +1,5 @@
-//! How a photon came: whether a path that gathers finds its light by itself, sees it in an image,
-//! or neither.
+//! Light path classes in the sense of Heckbert's notation: how a photon came since its light, as
+//! path tracing sees it.
 
 use crate::bsdf::Bsdf;
 use crate::lights::images::SpecularImages;

@@ -1,8 +1,8 @@
-//! Point-like lights in plane mirrors: light that no sampling finds, since nothing runs into a
-//! point.
+//! Mirror images of point-like lights (Allen and Berkley 1979): direct light over plane mirrors,
+//! which neither BSDF nor light sampling finds.
 //!
 //! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
-//! to a place, and `path_class` which photons took such a way and are left out where images are
+//! to a place, and `path_class` which photons took such a path and are left out where images are
 //! counted.
 //!
 //! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
@@ -21,7 +21,7 @@ use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
 use crate::world::{Facet, World};
-use chain::{Links, Way};
+use chain::{Links, UnfoldedPath};
 use planes::MirrorPlanes;
 use quasilux_sampling::choose_weights;
 use tree::Images;
@@ -56,10 +56,10 @@ pub(crate) struct ImageQuery<'q, S> {
     pub(crate) vertex: &'q Vertex<'q, S>,
 }
 
-/// What one image gives to a place unless something stands in the way.
+/// What one image gives to a place unless something stands in the path.
 struct ImageSample<S> {
     image: u32,
-    way: Way<S>,
+    path: UnfoldedPath<S>,
     light: S,
 }
 
@@ -82,7 +82,7 @@ impl SpecularImages {
         depth: Option<u32>,
     ) -> Self {
         let mirrors = MirrorPlanes::new(world);
-        let positions = lights.iter().map(|(position, _)| position);
+        let positions = lights.iter().map(|light| light.position);
         let images = Images::new(&mirrors, positions, depth, world.hair_m());
         Self { mirrors, images }
     }
@@ -144,7 +144,7 @@ impl SpecularImages {
         let mut found = ImageSamples::default();
         for Receiver { who, vertex } in receivers {
             let query = ImageQuery { world, pointlikes, who: *who, vertex };
-            self.find(&query, shadows.most_bounces, Thinning::NONE, &mut found);
+            self.find(&query, shadows.max_bounces, Thinning::NONE, &mut found);
             for light_sample in &found.light_samples {
                 self.ask(&query, light_sample, &found.links, shadows);
             }
@@ -165,7 +165,7 @@ impl SpecularImages {
     ) {
         let others = self.images.nodes.len().saturating_sub(self.images.lights + SURE);
         let stride = others.div_ceil(THINNED).max(1);
-        self.find(query, shadows.most_bounces, Thinning { stride, phase: u }, found);
+        self.find(query, shadows.max_bounces, Thinning { stride, phase: u }, found);
         let u = (u * stride as f64).fract();
         let ImageSamples { links, light_samples } = found;
         if light_samples.len() > ALL_TESTED {
@@ -204,21 +204,21 @@ impl SpecularImages {
             if vertex.cos(toward_m) <= 0.0 || !node.beam.holds(-toward_m) {
                 continue;
             }
-            let Some(way) = links.unfold(world, &self.mirrors, &self.images, image, place) else {
+            let Some(path) = links.unfold(world, &self.mirrors, &self.images, image, place) else {
                 continue;
             };
             let distance_m = toward_m.length();
             let direction = toward_m / distance_m;
-            let intensity_cd = pointlikes.intensity_cd(node.light, way.leaves);
+            let intensity_cd = pointlikes.intensity_cd(node.light, path.leaves);
             let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
             let stands_for = if count < SURE { 1.0 } else { stride as f64 };
-            let light = vertex.weight(direction) * way.reflected * (illuminance_lx * stands_for);
+            let light = vertex.weight(direction) * path.reflected * (illuminance_lx * stands_for);
             let is_known = |other: &ImageSample<S>| {
                 self.images.nodes[other.image as usize].light == node.light
-                    && links.are_same(&other.way, &way, world.hair_m())
+                    && links.are_same(&other.path, &path, world.hair_m())
             };
             if light.luminance() != 0.0 && !light_samples.iter().any(is_known) {
-                light_samples.push(ImageSample { image, way, light });
+                light_samples.push(ImageSample { image, path, light });
             }
         }
     }
@@ -235,7 +235,7 @@ impl SpecularImages {
         let from = vertex.ray_origin(image.position - vertex.position());
         let light_m = self.images.nodes[image.light as usize].position;
         shadows.push_polyline(who, light_sample.light, image.depth, |shadow_rays| {
-            links.shadow_rays(world, &light_sample.way, from, light_m, shadow_rays);
+            links.shadow_rays(world, &light_sample.path, from, light_m, shadow_rays);
         });
     }
 }

@@ -1,4 +1,4 @@
-//! Mirrors as planes: facets that reflect and lie in one plane are one mirror.
+//! Mirror planes: the specular facets of a scene, grouped by the plane that they lie in.
 //!
 //! Every facet is flat, so even a curved mirror is made of planes, of very many. Up to
 //! [`FEW_PLANES`] are taken all; where there are more, only those that hold at least [`MIN_SHARE`]
@@ -42,13 +42,13 @@ pub(crate) struct MirrorPlane {
     offset_m: f64,
     pub(crate) facets: Vec<MirrorFacet>,
     area_m2: f64,
-    reflectance: MostReflected,
+    reflectance: MaxReflectance,
 }
 
 /// The most that is reflected in any channel, at cosines of incidence from k / [`COSINES`] to 1.
 /// Shared by all planes of one material.
 #[derive(Clone)]
-struct MostReflected(Arc<[f64; COSINES + 1]>);
+struct MaxReflectance(Arc<[f64; COSINES + 1]>);
 
 /// A reflecting triangle.
 pub(crate) struct MirrorFacet {
@@ -67,7 +67,7 @@ impl MirrorPlanes {
         for (facet, own) in (0..).zip(&world.facets) {
             let reflectance = of_materials
                 .entry(own.material)
-                .or_insert_with(|| MostReflected::by(world.bsdf_of(own)));
+                .or_insert_with(|| MaxReflectance::by(world.bsdf_of(own)));
             let area_m2 = own.area_m2();
             let Some(reflectance) = reflectance.as_ref().filter(|_| area_m2 > 0.0) else {
                 continue;
@@ -95,8 +95,8 @@ impl MirrorPlanes {
     fn choose(mut planes: Vec<MirrorPlane>, reflecting: usize, facets: usize) -> Self {
         planes.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
         if planes.len() > FEW_PLANES {
-            let least_m2 = MIN_SHARE * planes.iter().map(|plane| plane.area_m2).sum::<f64>();
-            planes.retain(|plane| plane.area_m2 >= least_m2);
+            let min_m2 = MIN_SHARE * planes.iter().map(|plane| plane.area_m2).sum::<f64>();
+            planes.retain(|plane| plane.area_m2 >= min_m2);
         }
         let mut plane_of_facet = Vec::new();
         if !planes.is_empty() {
@@ -119,7 +119,7 @@ impl MirrorPlanes {
     }
 }
 
-impl MostReflected {
+impl MaxReflectance {
     /// By a surface; `None` where it shows no images.
     fn by<S: Spectrum>(bsdf: &Bsdf<S>) -> Option<Self> {
         let mut most = [0.0_f64; COSINES + 1];
@@ -143,8 +143,8 @@ impl MostReflected {
 impl MirrorPlane {
     /// The most that is reflected in any channel of light whose cosine of incidence is this or
     /// larger.
-    pub(crate) fn most_reflected(&self, least_cos: f64) -> f64 {
-        self.reflectance.0[(least_cos.clamp(0.0, 1.0) * COSINES as f64) as usize]
+    pub(crate) fn max_reflected(&self, min_cos: f64) -> f64 {
+        self.reflectance.0[(min_cos.clamp(0.0, 1.0) * COSINES as f64) as usize]
     }
 
     /// Signed height of a point over the plane, in m.

@@ -1,4 +1,4 @@
-//! The images of lights in plane mirrors: a tree, from each light to what its mirrors show of it.
+//! Tree of the mirror images of lights: from each light to its images in chains of mirrors.
 //!
 //! An image in a mirror is a light behind the mirror's plane, and its image in the next mirror is
 //! found in the same way (Allen and Berkley 1979, "Image method for efficiently simulating
@@ -135,8 +135,7 @@ impl Images {
         }
         let seen = beam_on(before, window, mirror, slack_m)?;
         let beam = before.beam.narrower(seen);
-        let reflected =
-            before.reflected * mirror.most_reflected(beam.least_cos_with(mirror.normal));
+        let reflected = before.reflected * mirror.max_reflected(beam.min_cos_with(mirror.normal));
         (reflected >= MIN_REFLECTED).then(|| Image {
             light: before.light,
             parent: parent as u32,

@@ -1,5 +1,4 @@
-//! A frozen illumination map as a control variate: paths end on it, and those that go on correct
-//! it.
+//! Frozen illumination map as a control variate: paths end on it, and those that go on correct it.
 //!
 //! `estimator/control_variate/` decides how many photons it gets, and with what probability paths
 //! go on ([`survival`]).
@@ -8,7 +7,7 @@ pub(crate) mod survival;
 
 use crate::codec::{Stored, Writer};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::map::{IlluminationMap, MapLayout, MapTally, Place};
+use crate::photon::map::{IlluminationMap, MapLayout, MapPoint, MapTally};
 use crate::spectrum::Spectrum;
 use survival::Survival;
 
@@ -24,7 +23,7 @@ pub(crate) struct MapFacts {
     pub(crate) elements: Option<u64>,
     /// Whether photons of maps that grow leave lit places.
     pub(crate) first_shot: bool,
-    /// Whether they are steered.
+    /// Whether they are guided.
     pub(crate) uses_importance: bool,
 }
 
@@ -83,9 +82,14 @@ impl<S: Spectrum> FrozenMap<S> {
 impl<S: Spectrum> FrozenEnd<'_, S> {
     /// With what probability a path goes on from a place where a lux counts `weight` at its start,
     /// and the map has so much `light` by that measure; `None` where nothing is known of that.
-    pub(crate) fn chance(&self, place: &Place, weight: f64, light: f64) -> Option<f64> {
+    pub(crate) fn survival_probability(
+        &self,
+        place: &MapPoint,
+        weight: f64,
+        light: f64,
+    ) -> Option<f64> {
         let [weight, light] = [weight, light].map(|lx| lx * self.importance_per_lx);
-        self.survival.chance(place.element, weight, light)
+        self.survival.survival_probability(place.element, weight, light)
     }
 }
 

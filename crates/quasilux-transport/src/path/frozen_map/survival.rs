@@ -1,4 +1,4 @@
-//! With what probability paths go on where they might end on the map.
+//! Survival probability of paths on a frozen map, by the error of the map that a pilot found.
 
 use crate::codec::Writer;
 
@@ -48,7 +48,7 @@ impl Finding {
 
 impl Survival {
     /// Of a map that paths found this about; none of them goes on for certain yet.
-    pub(crate) fn of(findings: impl Iterator<Item = Finding>) -> Self {
+    pub(crate) fn new(findings: impl Iterator<Item = Finding>) -> Self {
         let mut findings: Vec<Finding> = findings.filter(|finding| finding.weight > 0.0).collect();
         // By element.
         findings.sort_by_key(|finding| finding.element);
@@ -93,7 +93,12 @@ impl Survival {
 
     /// With what probability it goes on; `None` where a lux counts nothing, or neither paths nor
     /// photons found any.
-    pub(crate) fn chance(&self, element: usize, weight: f64, light: f64) -> Option<f64> {
+    pub(crate) fn survival_probability(
+        &self,
+        element: usize,
+        weight: f64,
+        light: f64,
+    ) -> Option<f64> {
         let is_known = weight > 0.0 && self.mean_lx > 0.0;
         let loss = is_known.then(|| self.loss(element, weight, light))?;
         Some((self.sureness * loss).clamp(MIN, 1.0))
@@ -123,13 +128,14 @@ mod tests {
         let finding = |element, beyond| Finding { element, weight: 0.5, light: 10.0, beyond };
         let on = (0..200).map(|_| finding(7, 10.0));
         let off = (0..200).map(|_| finding(3, 20.0));
-        Survival::of(on.chain(off)).with_sureness(0.01)
+        Survival::new(on.chain(off)).with_sureness(0.01)
     }
 
     #[test]
     fn paths_go_on_where_the_map_is_off() {
         let survival = survival();
-        let [right, wrong, unknown] = [7, 3, 5].map(|e| survival.chance(e, 0.5, 10.0).unwrap());
+        let [right, wrong, unknown] =
+            [7, 3, 5].map(|e| survival.survival_probability(e, 0.5, 10.0).unwrap());
         assert!(right < 0.3 * wrong && right < unknown && unknown < wrong);
         // Mean squares: 1 on one, 1/2 in all, which counts as 16 more.
         let by_hand = 0.01 * 10.0 * ((200.0 + 16.0 * 0.5) / 216.0_f64).sqrt();
@@ -139,25 +145,28 @@ mod tests {
     #[test]
     fn no_survivor_counts_too_much() {
         let survival = survival();
-        assert_eq!(survival.chance(3, 1e-9, 0.0), Some(MIN));
-        assert_eq!(survival.chance(3, 1e9, 0.0), Some(1.0));
-        assert_eq!(survival.chance(3, 1.0, f64::NAN), survival.chance(3, 1.0, 0.0));
+        assert_eq!(survival.survival_probability(3, 1e-9, 0.0), Some(MIN));
+        assert_eq!(survival.survival_probability(3, 1e9, 0.0), Some(1.0));
+        assert_eq!(
+            survival.survival_probability(3, 1.0, f64::NAN),
+            survival.survival_probability(3, 1.0, 0.0)
+        );
     }
 
     /// A map that is empty says nothing of how much is lost where paths end on it.
     #[test]
     fn paths_go_on_where_an_empty_map_ends_them() {
         let missed = Finding { element: 2, weight: 0.5, light: 0.0, beyond: 10.0 };
-        let survival = Survival::of([missed; 9].into_iter()).with_sureness(0.05);
+        let survival = Survival::new([missed; 9].into_iter()).with_sureness(0.05);
         // All of it is off: 10 beside a tenth of that.
         assert!((survival.loss(2, 0.5, 0.0) - 10.0).abs() < 1e-12);
-        assert_eq!(survival.chance(2, 0.5, 0.0), Some(0.5));
+        assert_eq!(survival.survival_probability(2, 0.5, 0.0), Some(0.5));
     }
 
     #[test]
     fn nothing_found_is_no_panic() {
-        let survival = Survival::of(std::iter::empty()).with_sureness(1.0);
-        assert_eq!(survival.chance(0, 1.0, 0.0), None);
-        assert_eq!(self::survival().chance(3, 0.0, 0.0), None);
+        let survival = Survival::new(std::iter::empty()).with_sureness(1.0);
+        assert_eq!(survival.survival_probability(0, 1.0, 0.0), None);
+        assert_eq!(self::survival().survival_probability(3, 0.0, 0.0), None);
     }
 }

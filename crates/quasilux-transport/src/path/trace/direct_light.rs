@@ -1,4 +1,5 @@
-//! What a path asks of the lights at its start and at each surface.
+//! Next-event estimation: the samples of direct light that a path asks for at its start and at each
+//! surface.
 
 use super::{Path, PathWork};
 use crate::context::Context;
@@ -20,7 +21,7 @@ impl<S: Spectrum> Path<'_, S> {
         work: &mut PathWork<S>,
     ) {
         let vertex = Vertex::surface(&context.world, at, self.direction, self.beta);
-        work.shadows.most_bounces = context.max_bounces.map_or(u32::MAX, |most| most - bounces);
+        work.shadows.max_bounces = context.max_bounces.map_or(u32::MAX, |most| most - bounces);
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_pointlikes(context, &vertex, work);
         self.sample_direct_images(context, &vertex, work);

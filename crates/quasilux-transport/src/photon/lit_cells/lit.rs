@@ -1,13 +1,14 @@
-//! Where the light of one point-like light lands: a piecewise linear picture of it.
+//! Piecewise linear approximation of the direct light of one point-like light, by adaptive
+//! subdivision of facets.
 //!
 //! A facet that faces the light is cut into cells until its illuminance is linear enough in each:
-//! as far as looks at the corners and the middles of the edges tell, and where the light is so
-//! near, or its beam so narrow, that looks may miss what lies between them. It is a picture to draw
-//! places by, not an estimate: what it has wrong costs variance.
+//! as far as probes at the corners and the middles of the edges tell, and where the light is so
+//! near, or its beam so narrow, that probes may miss what lies between them. It is a picture to
+//! draw places by, not an estimate: what it has wrong costs variance.
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
-use crate::lights::{Incidence, PointLikes};
+use crate::lights::{Incidence, LightCentre, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::world::subdivision::SubTriangle;
 use glam::DVec3;
@@ -15,7 +16,7 @@ use quasilux_scene::Light;
 
 /// Cells are cut where the picture is wrong by more than this share of the flux of all lights.
 const TOLERANCE: f64 = 1.0 / (1 << 10) as f64;
-/// Cells that may get more than this share are cut while they look large from the light.
+/// Cells that may get more than this share are cut while they probe large from the light.
 const NOTABLE: f64 = 1.0 / (1 << 10) as f64;
 /// How large is too large: edge over distance, for lights that shine evenly and for those with
 /// beams.
@@ -30,11 +31,11 @@ const NEIGHBOURS: [usize; 4] = [0, 3, 1, 2];
 /// Looks at corners are this share of the way to the centroid: other surfaces touch there.
 const INWARD: f64 = 1.0 / 1024.0;
 /// The share of its mean intensity that a light is taken to have where its table has less, and that
-/// of what a surface keeps of all light where it keeps less: looks may miss a narrow beam, or where
-/// a surface shines.
+/// of what a surface keeps of all light where it keeps less: probes may miss a narrow beam, or
+/// where a surface shines.
 const EVERYWHERE: f64 = 0.1;
 
-/// A light that looks at a facet.
+/// A light that probes at a facet.
 pub(super) struct Beam<'s, 'a, S> {
     context: &'s Context<'a, S>,
     /// Number among the point-like lights.
@@ -61,9 +62,16 @@ pub(super) struct LitCell {
     pub(super) area_m2: f64,
 }
 
-/// What a look at a place found, in lm/m^2 that go on.
+/// The cells of one facet, and the rays that they took.
+#[derive(Default)]
+pub(super) struct LitFacet {
+    pub(super) cells: Vec<LitCell>,
+    pub(super) rays: u64,
+}
+
+/// What a probe at a place found, in lm/m^2 that go on.
 #[derive(Clone, Copy, Default)]
-struct Look {
+struct Probe {
     seen: f64,
     open: f64,
 }
@@ -85,8 +93,8 @@ struct View<'v, 's, 'a, S> {
 impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
     pub(super) fn all(context: &'s Context<'a, S>) -> Vec<Self> {
         let lights: &PointLikes<'a> = &context.lights.pointlikes;
-        let all_lm = lights.iter().map(|(_, flux_lm)| flux_lm).sum();
-        let beam = |(number, (position, flux_lm))| {
+        let all_lm = lights.iter().map(|light| light.flux_lm).sum();
+        let beam = |(number, LightCentre { position, flux_lm })| {
             let light = lights.get(number).expect("as many as there are");
             let mean_cd = flux_lm / (4.0 * std::f64::consts::PI);
             let largest_cd = match light {
@@ -117,16 +125,15 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         (height_m.abs() > self.context.world.hair_m()).then_some(height_m > 0.0)
     }
 
-    /// Cells of a facet in an order in which most are neighbours, and the number of rays that it
-    /// took.
-    pub(super) fn look_at(&self, facet: u32) -> (Vec<LitCell>, u64) {
-        let Some(front) = self.faces(facet) else { return (Vec::new(), 0) };
+    /// Cuts a facet into cells, most of them neighbours in their order.
+    pub(super) fn lit_cells_of(&self, facet: u32) -> LitFacet {
+        let Some(front) = self.faces(facet) else { return LitFacet::default() };
         let world = &self.context.world;
         let own = &world.facets[facet as usize];
         let n = if front { own.front_normal } else { -own.front_normal };
         let most_kept = world.most_kept_by(own);
         if most_kept <= 0.0 {
-            return (Vec::new(), 0);
+            return LitFacet::default();
         }
         let mut view = View {
             beam: self,
@@ -141,21 +148,21 @@ impl<'s, 'a, S: Spectrum> Beam<'s, 'a, S> {
         };
         let whole = SubTriangle::WHOLE;
         let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let short_looks = corners.map(|corner| view.look(whole, corner));
-        view.cut(whole, short_looks, 0);
-        (view.found, view.rays)
+        let probes = corners.map(|corner| view.probe(whole, corner));
+        view.cut(whole, probes, 0);
+        LitFacet { cells: view.found, rays: view.rays }
     }
 }
 
 impl<S: Spectrum> View<'_, '_, '_, S> {
     /// Keeps a cell or cuts it.
-    fn cut(&mut self, cell: SubTriangle, corners: [Look; 3], depth: u32) {
+    fn cut(&mut self, cell: SubTriangle, corners: [Probe; 3], depth: u32) {
         let middles = [[0.0, 0.5, 0.5], [0.5, 0.0, 0.5], [0.5, 0.5, 0.0]];
-        let middles = middles.map(|middle| self.look(cell, middle));
+        let middles = middles.map(|middle| self.probe(cell, middle));
         let area_m2 = self.area_m2 * cell.area_share();
         if depth < DEEPEST && self.wants_cut(cell, area_m2, &corners, &middles) {
-            let (parts, looks) = (cell.quarters(), SubTriangle::quarter_corners(corners, middles));
-            NEIGHBOURS.into_iter().for_each(|i| self.cut(parts[i], looks[i], depth + 1));
+            let (parts, probes) = (cell.quarters(), SubTriangle::quarter_corners(corners, middles));
+            NEIGHBOURS.into_iter().for_each(|i| self.cut(parts[i], probes[i], depth + 1));
             return;
         }
         self.found.push(LitCell {
@@ -163,8 +170,8 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
             facet: self.facet,
             light: self.beam.number,
             front: self.front,
-            seen: corners.map(|look| look.seen),
-            open: corners.map(|look| look.open),
+            seen: corners.map(|probe| probe.seen),
+            open: corners.map(|probe| probe.open),
             area_m2,
         });
     }
@@ -173,8 +180,8 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         &self,
         cell: SubTriangle,
         area_m2: f64,
-        corners: &[Look; 3],
-        middles: &[Look; 3],
+        corners: &[Probe; 3],
+        middles: &[Probe; 3],
     ) -> bool {
         let misses = |i: usize| {
             let ends = 0.5 * (corners[(i + 1) % 3].seen + corners[(i + 2) % 3].seen);
@@ -184,7 +191,7 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         missed_lm > TOLERANCE * self.beam.all_lm || self.may_hide(cell, area_m2)
     }
 
-    /// Whether much light may land between the looks.
+    /// Whether much light may land between the probes.
     fn may_hide(&self, cell: SubTriangle, area_m2: f64) -> bool {
         let Beam { position, largest_cd, largest_angle, all_lm, .. } = *self.beam;
         let place = |weights| self.beam.context.world.facets[self.facet as usize].point(weights);
@@ -193,17 +200,17 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         let height_m = self.n.dot(to_light);
         // No corner is farther from the centroid than two thirds of the longest edge.
         let nearest_m = (to_light.length() - edge_m * (2.0 / 3.0)).max(height_m);
-        let most_lx = largest_cd * height_m / (nearest_m * nearest_m * nearest_m);
-        edge_m > largest_angle * nearest_m && most_lx * area_m2 * self.most_kept > NOTABLE * all_lm
+        let max_lx = largest_cd * height_m / (nearest_m * nearest_m * nearest_m);
+        edge_m > largest_angle * nearest_m && max_lx * area_m2 * self.most_kept > NOTABLE * all_lm
     }
 
-    fn look(&mut self, cell: SubTriangle, weights: [f64; 3]) -> Look {
+    fn probe(&mut self, cell: SubTriangle, weights: [f64; 3]) -> Probe {
         let weights = cell.point(weights).map(|w| w + (1.0 / 3.0 - w) * INWARD);
         let world = &self.beam.context.world;
         let at = world.interaction_on(self.facet, self.front, weights);
         let from = world.ray_origin(&at);
         let Some(incidence) = Incidence::new(self.beam.light, from.position(), at.n) else {
-            return Look::default();
+            return Probe::default();
         };
         let Incidence { direction, distance_m, illuminance_lx, lx_per_cd } = incidence;
         let open_lx = illuminance_lx + EVERYWHERE * self.beam.mean_cd * lx_per_cd;
@@ -217,6 +224,6 @@ impl<S: Spectrum> View<'_, '_, '_, S> {
         let wo = world.frame(&at).to_local(direction);
         let kept = world.bsdf(&at).albedo(wo, self.front, TransportMode::Importance).luminance();
         let may_keep = kept.max(EVERYWHERE * self.most_kept);
-        Look { seen: seen_lx * kept, open: open_lx * may_keep }
+        Probe { seen: seen_lx * kept, open: open_lx * may_keep }
     }
 }

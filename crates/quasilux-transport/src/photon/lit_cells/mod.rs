@@ -1,4 +1,5 @@
-//! First shot: photons that leave from where the light of point-like lights lands.
+//! Photon emission from directly lit surfaces in place of point-like lights (Voloboy, Dmitriev and
+//! Kopylov 2003): the first shot.
 //!
 //! The direct light of lights without extent needs no sampling: it can be computed anywhere. So the
 //! first flight of their photons is left out, and lit surfaces take the place of the lights, `L* =
@@ -17,7 +18,7 @@
 //!
 //! Lights with an area emit as ever, in proportion to their flux.
 //!
-//! Read on at `lit` for the picture, at `pilot` for when it is used.
+//! Read on at `lit` for the picture, at [`crate::photon::first_shot`] for when it is used.
 
 mod lit;
 #[cfg(test)]
@@ -31,7 +32,7 @@ use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use crate::world::subdivision::SubTriangle;
-use lit::{Beam, LitCell};
+use lit::{Beam, LitCell, LitFacet};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::warp::sample_linear_triangle;
 use quasilux_sampling::{Discrete, Sampler};
@@ -104,41 +105,37 @@ impl LitPlace {
     /// Whether it does.
     pub(crate) fn is_lit<S: Spectrum>(&self, context: &Context<'_, S>) -> bool {
         let Incidence { direction, distance_m, .. } = self.incidence;
-        context.world.is_visible(
-            context.world.ray_origin(&self.at),
-            direction,
-            distance_m,
-            RayQuery::NONE,
-        )
+        let from = context.world.ray_origin(&self.at);
+        context.world.is_visible(from, direction, distance_m, RayQuery::NONE)
     }
 }
 
 impl LitCells {
     /// Looks where the light lands; `None` where no point-like light's goes on, where first looks
     /// alone would take more rays than these, and for more than [`MAX_PAIRS`].
-    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, most_rays: u64) -> Option<Self> {
+    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, max_rays: u64) -> Option<Self> {
         let beams = Beam::all(context);
         let facets = 0..context.world.facets.len() as u32;
         let facing = |beam: &Beam<'_, '_, S>| {
             facets.clone().filter(|&facet| beam.faces(facet).is_some()).count()
         };
         let pairs = beams.iter().map(facing).sum::<usize>();
-        if pairs > MAX_PAIRS || pairs as u64 * LOOKS > most_rays {
+        if pairs > MAX_PAIRS || pairs as u64 * LOOKS > max_rays {
             return None;
         }
         let (mut lit, mut rays) = (Vec::new(), 0);
         for beam in &beams {
-            let short_looks: Vec<(Vec<LitCell>, u64)> =
-                facets.clone().into_par_iter().map(|facet| beam.look_at(facet)).collect();
-            for (cells, of_facet) in short_looks {
-                lit.extend(cells);
-                rays += of_facet;
+            let of_facets: Vec<LitFacet> =
+                facets.clone().into_par_iter().map(|facet| beam.lit_cells_of(facet)).collect();
+            for of_facet in of_facets {
+                lit.extend(of_facet.cells);
+                rays += of_facet.rays;
             }
         }
-        Self::of(&lit, &context.lights, rays)
+        Self::from_picture(&lit, &context.lights, rays)
     }
 
-    fn of(lit: &[LitCell], lights: &Lights<'_>, rays: u64) -> Option<Self> {
+    fn from_picture(lit: &[LitCell], lights: &Lights<'_>, rays: u64) -> Option<Self> {
         let sum_lm = |values: fn(&LitCell) -> [f64; 3]| -> f64 {
             lit.iter().map(|cell| integral_lm(cell.area_m2, values(cell))).sum()
         };

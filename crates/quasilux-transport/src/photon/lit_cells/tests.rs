@@ -11,7 +11,7 @@ use crate::bsdf::TransportMode;
 use crate::context::Stream;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::Settings;
@@ -268,7 +268,7 @@ fn weights_are_nearly_equal() {
 }
 
 /// What landed, in quanta, and what it cost.
-fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
+fn traced(scene: &Scene, order: PhotonOrder, threads: usize) -> (Vec<u64>, PhotonCounts) {
     struct Quanta<'a>(&'a Mutex<Vec<u64>>);
     impl PhotonReceiver<f64> for Quanta<'_> {
         fn flight(&mut self, _flight: &Flight, _weight: f64, _bounces: u32) {}
@@ -284,7 +284,7 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
         stream: Stream::Photons,
         replicates: 0..1,
         indices: 0..10_000,
-        way,
+        order,
         lead: Lead::by_chance(Source::LitCells(&cells), None),
     };
     let landed = Mutex::new(vec![0; 14]);
@@ -298,9 +298,13 @@ fn traced(scene: &Scene, way: Way, threads: usize) -> (Vec<u64>, PhotonCounts) {
 #[test]
 fn all_ways_and_threads_give_the_same_bits() {
     for scene in [spotlight_room(), lamp_near_a_wall()] {
-        let alone = traced(&scene, Way::OneByOne, 1);
-        for (way, threads) in [(Way::Waves, 1), (Way::CoherentWaves, 1), (Way::CoherentWaves, 2)] {
-            assert_eq!(traced(&scene, way, threads), alone, "{way:?}, {threads} threads");
+        let alone = traced(&scene, PhotonOrder::OneByOne, 1);
+        for (order, threads) in [
+            (PhotonOrder::Waves, 1),
+            (PhotonOrder::CoherentWaves, 1),
+            (PhotonOrder::CoherentWaves, 2),
+        ] {
+            assert_eq!(traced(&scene, order, threads), alone, "{order:?}, {threads} threads");
         }
     }
 }

@@ -1,5 +1,4 @@
-//! Many counters of which most may stay zero: memory is taken in blocks, where something is
-//! counted.
+//! Sparse counters: blocks of them are allocated where something is counted.
 //!
 //! A counter has 32 bits that wrap and, once one of its block has wrapped, 32 more that count how
 //! often. So a counter takes four bytes until it is full, and sums are exact and in any order.

@@ -1,4 +1,4 @@
-//! Which element a place belongs to.
+//! Layout of an illumination map: the element and barycentric coordinates of a point.
 
 use crate::codec::Writer;
 use crate::settings::{Reconstruction, Settings};
@@ -28,7 +28,7 @@ pub(crate) struct MapLayout {
 
 /// A place in an element of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
+pub(crate) struct MapPoint {
     /// Number of the element, its side included.
     pub(crate) element: usize,
     /// Barycentric weights within the element.
@@ -130,14 +130,15 @@ impl MapLayout {
     }
 
     /// The element under a place on a facet that keeps illuminance, on the side that was hit.
-    pub(crate) fn locate(&self, at: &Interaction) -> Place {
+    pub(crate) fn locate(&self, at: &Interaction) -> MapPoint {
         let facet = self.facets[at.facet as usize];
         let part = locate_in_grid(at.barycentric, facet.parts);
-        let (leaf, cell) = self.trees.descend(facet.first as usize + part.number, part);
+        let cell = self.trees.descend(facet.first as usize + part.number, part);
+        let leaf = cell.number;
         // Sides that see no light lie together, so that they take no memory.
         let element = if at.front { leaf } else { self.trees.leaves + leaf };
         let area_m2 = facet.area_m2 * (cell.step * cell.step);
-        Place { element, barycentric: cell.weights, area_m2 }
+        MapPoint { element, barycentric: cell.weights, area_m2 }
     }
 
     /// The layout with those leaves split for which `is_split` says so.
@@ -147,17 +148,17 @@ impl MapLayout {
 }
 
 impl Trees {
-    /// The leaf of a tree that holds a place, and where in it.
+    /// Finds a point in the leaves of a tree.
     #[inline]
-    fn descend(&self, tree: usize, mut at: InCell) -> (usize, InCell) {
-        let Some(&root) = self.roots.get(tree) else { return (tree, at) };
+    fn descend(&self, tree: usize, mut at: InCell) -> InCell {
+        let Some(&root) = self.roots.get(tree) else { return InCell { number: tree, ..at } };
         let mut entry = root;
         while entry & SPLIT != 0 {
             let child = locate_in_quarters(at.weights);
             entry = self.lists[(entry & !SPLIT) as usize][child.number];
             at = InCell { step: at.step * child.step, ..child };
         }
-        (entry as usize, at)
+        InCell { number: entry as usize, ..at }
     }
 
     /// Numbers the leaves anew, in the order of trees and of children: neighbours stay together.

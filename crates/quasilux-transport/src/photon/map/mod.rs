@@ -20,7 +20,7 @@ mod refine;
 mod tally;
 
 pub(crate) use layout::{
-    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout, Place,
+    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout, MapPoint,
 };
 pub(crate) use refine::{MAX_NEW_ELEMENTS, refined};
-pub(crate) use tally::{IlluminationMap, MapReceiver, MapTally, QUANTA_PER_PHOTON};
+pub(crate) use tally::{BounceTerm, IlluminationMap, MapReceiver, MapTally, QUANTA_PER_PHOTON};

@@ -1,4 +1,5 @@
-//! Elements split where the light varies within them.
+//! Adaptive refinement of an illumination map: elements are split where the light varies within
+//! them.
 //!
 //! Pilot photons, which are left out of all estimates, are counted in 16 equal parts of each
 //! element. If the illuminance were what the reconstruction can follow, the sum of squared
@@ -9,13 +10,13 @@
 //! photons stay as they are.
 
 use super::blocks::Blocks;
-use super::layout::{MapLayout, Place};
-use super::tally::most_bounces;
+use super::layout::{MapLayout, MapPoint};
+use super::tally::max_bounces;
 use crate::context::{Context, Stream};
 use crate::lights::images::LightPathClass;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::order::Way;
+use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source};
 use crate::settings::{Reconstruction, Settings};
@@ -44,8 +45,8 @@ pub(crate) fn refined<S: Spectrum>(
     watch: &mut Watch<'_>,
     counts: &mut PhotonCounts,
 ) -> MapLayout {
-    let most_bounces = most_bounces(context);
-    if !settings.map_adaptive || most_bounces == 0 {
+    let max_bounces = max_bounces(context);
+    if !settings.map_adaptive || max_bounces == 0 {
         return MapLayout::new(&context.world, settings);
     }
     let mut layout = MapLayout::coarse(&context.world, settings);
@@ -56,7 +57,7 @@ pub(crate) fn refined<S: Spectrum>(
             break;
         }
         let parts = Blocks::new(layout.len() * PARTS);
-        let pilot = Pilot { layout: &layout, parts: &parts, most_bounces };
+        let pilot = Pilot { layout: &layout, parts: &parts, max_bounces };
         *counts += pilot.trace(context, indices.clone(), watch);
         let chosen = chosen(&layout, &parts, affordable as usize);
         if !chosen.is_empty() {
@@ -72,7 +73,7 @@ pub(crate) fn refined<S: Spectrum>(
 struct Pilot<'a> {
     layout: &'a MapLayout,
     parts: &'a Blocks,
-    most_bounces: u32,
+    max_bounces: u32,
 }
 
 impl Pilot<'_> {
@@ -82,12 +83,12 @@ impl Pilot<'_> {
         indices: Range<u64>,
         watch: &mut Watch<'_>,
     ) -> PhotonCounts {
-        let way = Way::CoherentWaves;
+        let order = PhotonOrder::CoherentWaves;
         let batch = PhotonBatch {
             stream: Stream::MapPilots,
             replicates: 0..1,
             indices,
-            way,
+            order,
             lead: Lead::by_chance(Source::Lights, None),
         };
         // Before the first checkpoint the observer stops nothing, so there are always counts.
@@ -99,7 +100,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Pilot<'_> {
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, _weight: S, bounces: u32) {
-        if (1..=self.most_bounces).contains(&bounces) {
+        if (1..=self.max_bounces).contains(&bounces) {
             let place = self.layout.locate(at);
             self.parts.add(PARTS * place.element + part(&place), 1);
         }
@@ -110,7 +111,7 @@ impl<S: Spectrum> PhotonReceiver<S> for Pilot<'_> {
 }
 
 /// The part of its element that holds a place.
-fn part(place: &Place) -> usize {
+fn part(place: &MapPoint) -> usize {
     let outer = locate_in_quarters(place.barycentric);
     4 * outer.number + locate_in_quarters(outer.weights).number
 }
@@ -203,7 +204,7 @@ mod tests {
         let layout = MapLayout::new(&world, &settings);
         let any = layout.locate(&at(&world, &mut Numbers(1)));
         for number in 0..PARTS {
-            assert_eq!(part(&Place { barycentric: centre(number), ..any }), number);
+            assert_eq!(part(&MapPoint { barycentric: centre(number), ..any }), number);
         }
     }
 

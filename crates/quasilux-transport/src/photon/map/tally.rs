@@ -1,7 +1,7 @@
-//! Photons counted by element, and the illuminance that follows from them.
+//! Tally of photons by map element, and the illuminance that follows from it.
 
 use super::blocks::Blocks;
-use super::layout::{MapLayout, Place};
+use super::layout::{MapLayout, MapPoint};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Context;
 use crate::lights::images::LightPathClass;
@@ -40,15 +40,22 @@ pub(crate) struct IlluminationMap<'m, S> {
     lm_per_quantum: f64,
 }
 
+/// Illuminance by photons with one number of bounces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BounceTerm<S> {
+    pub(crate) bounces: u32,
+    pub(crate) illuminance_lx: S,
+}
+
 /// Counts landings of photons that the backward path does not count itself.
 #[derive(Clone, Copy)]
 pub(crate) struct MapReceiver<'a, S> {
     layout: &'a MapLayout,
     tally: &'a MapTally<S>,
     /// Photons with more bounces are left out: their light bounces once more before a sensor.
-    most_bounces: u32,
+    max_bounces: u32,
     /// So are photons that took more coordinates.
-    most_dimensions: u32,
+    max_dimensions: u32,
     /// Whether that which it sees did.
     is_deep: bool,
     /// Moments that the tally refused.
@@ -70,7 +77,7 @@ impl<S: Spectrum> MapTally<S> {
 
     /// Counts a photon with this colour, which bounced so often, once at least; the number of its
     /// moments that were refused, which are not in the sums.
-    pub(crate) fn add(&self, place: &Place, weight: S, bounces: u32) -> u64 {
+    pub(crate) fn add(&self, place: &MapPoint, weight: S, bounces: u32) -> u64 {
         let layer = &self.layers[(bounces as usize).min(self.layers.len()) - 1];
         let sums = layer.get_or_init(|| Blocks::new(self.counters));
         let first = self.first(place);
@@ -113,8 +120,8 @@ impl<S: Spectrum> MapTally<S> {
     }
 
     /// Layers of photons with at most this many bounces.
-    fn layers_up_to(&self, most_bounces: u32) -> Range<usize> {
-        0..self.layers.len().min(most_bounces as usize)
+    fn layers_up_to(&self, max_bounces: u32) -> Range<usize> {
+        0..self.layers.len().min(max_bounces as usize)
     }
 
     /// A counter, summed over layers.
@@ -122,7 +129,7 @@ impl<S: Spectrum> MapTally<S> {
         self.layers[layers].iter().filter_map(OnceLock::get).map(|sums| sums.get(counter)).sum()
     }
 
-    fn first(&self, place: &Place) -> usize {
+    fn first(&self, place: &MapPoint) -> usize {
         place.element * self.reconstruction.moments() * S::CHANNELS
     }
 }
@@ -152,18 +159,21 @@ impl<S> Stored for MapTally<S> {
 impl<S: Spectrum> IlluminationMap<'_, S> {
     /// Illuminance in lx at a place, by photons with so many bounces at most; the last layer counts
     /// whole. Linear ones may be negative in places.
-    pub(crate) fn illuminance_lx(&self, place: &Place, most_bounces: u32) -> S {
-        self.of_layers_lx(place, self.tally.layers_up_to(most_bounces))
+    pub(crate) fn illuminance_lx(&self, place: &MapPoint, max_bounces: u32) -> S {
+        self.of_layers_lx(place, self.tally.layers_up_to(max_bounces))
     }
 
-    /// The parts of it by the number of bounces of the photons, the last of so many and more.
+    /// Its terms by the number of bounces of the photons, the last of as many as layers and more.
     pub(crate) fn terms_lx(
         &self,
-        place: Place,
-        most_bounces: u32,
-    ) -> impl Iterator<Item = (u32, S)> {
-        let layers = self.tally.layers_up_to(most_bounces);
-        layers.map(move |layer| (layer as u32 + 1, self.of_layers_lx(&place, layer..layer + 1)))
+        place: MapPoint,
+        max_bounces: u32,
+    ) -> impl Iterator<Item = BounceTerm<S>> {
+        let layers = self.tally.layers_up_to(max_bounces);
+        layers.map(move |layer| BounceTerm {
+            bounces: layer as u32 + 1,
+            illuminance_lx: self.of_layers_lx(&place, layer..layer + 1),
+        })
     }
 
     /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order
@@ -173,7 +183,7 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
     /// / A`, for linear ones times the root mean square of the kernel at the place: of three `k =
     /// 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre and 3 at corners, for `E[b_i
     /// b_j]` of a uniform place is 1/6 and 1/12.
-    pub(crate) fn noise_lx(&self, place: &Place, most_bounces: u32) -> S {
+    pub(crate) fn noise_lx(&self, place: &MapPoint, max_bounces: u32) -> S {
         let MapTally { reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
         let moments = reconstruction.moments();
@@ -187,14 +197,14 @@ impl<S: Spectrum> IlluminationMap<'_, S> {
         };
         S::from_channels(|channel| {
             let counters = first + moments * channel..first + moments * (channel + 1);
-            let layers = self.tally.layers_up_to(most_bounces);
+            let layers = self.tally.layers_up_to(max_bounces);
             let quanta: u64 = counters.map(|at| self.tally.quanta(layers.clone(), at)).sum();
             (quanta as f64 / QUANTA_PER_PHOTON * kernel).sqrt() * photon_lx
         })
     }
 
     /// Quanta are added before all else: their sum has the bits of one layer for all.
-    fn of_layers_lx(&self, place: &Place, layers: Range<usize>) -> S {
+    fn of_layers_lx(&self, place: &MapPoint, layers: Range<usize>) -> S {
         let MapTally { reconstruction, .. } = self.tally;
         let first = self.tally.first(place);
         let sum = |number: usize| self.tally.quanta(layers.clone(), first + number) as f64;
@@ -220,36 +230,36 @@ impl<'a, S: Spectrum> MapReceiver<'a, S> {
         layout: &'a MapLayout,
         tally: &'a MapTally<S>,
     ) -> Self {
-        Self::up_to(most_bounces(context), context.map_dimensions, layout, tally)
+        Self::up_to(max_bounces(context), context.map_dimensions, layout, tally)
     }
 
     /// Leaves out photons with more bounces than these, and landings after more coordinates.
     pub(crate) fn up_to(
-        most_bounces: u32,
-        most_dimensions: Option<u32>,
+        max_bounces: u32,
+        max_dimensions: Option<u32>,
         layout: &'a MapLayout,
         tally: &'a MapTally<S>,
     ) -> Self {
-        let most_dimensions = most_dimensions.unwrap_or(u32::MAX);
-        Self { layout, tally, most_bounces, most_dimensions, is_deep: false, invalid: 0 }
+        let max_dimensions = max_dimensions.unwrap_or(u32::MAX);
+        Self { layout, tally, max_bounces, max_dimensions, is_deep: false, invalid: 0 }
     }
 }
 
 /// Bounces of the photons whose light may come to a sensor after one more.
-pub(super) fn most_bounces<S>(context: &Context<'_, S>) -> u32 {
+pub(super) fn max_bounces<S>(context: &Context<'_, S>) -> u32 {
     context.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(1))
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
     fn follow(&mut self, sampler: &Sampler<'_>) {
-        self.is_deep = sampler.dimension() > self.most_dimensions;
+        self.is_deep = sampler.dimension() > self.max_dimensions;
     }
 
     fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
 
     fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
         // Light straight from the lights is never read from the map.
-        if !self.is_deep && (1..=self.most_bounces).contains(&bounces) {
+        if !self.is_deep && (1..=self.max_bounces).contains(&bounces) {
             self.invalid += self.tally.add(&self.layout.locate(at), weight, bounces);
         }
     }
@@ -286,7 +296,7 @@ mod tests {
                     std::array::from_fn(|i| [1.0 / 6.0, 2.0 / 3.0][usize::from(i == corner)])
                 };
                 for (barycentric, bounces) in [0, 1, 2].map(gauss).into_iter().zip([1, 3, 7]) {
-                    tally.add(&Place { barycentric, ..place }, function(barycentric), bounces);
+                    tally.add(&MapPoint { barycentric, ..place }, function(barycentric), bounces);
                 }
                 let map = tally.read(place.area_m2 / 3.0);
                 let found = map.illuminance_lx(&place, u32::MAX);
@@ -295,10 +305,11 @@ mod tests {
                     Reconstruction::Linear => function(place.barycentric),
                 };
                 assert!((found - wanted).abs() < 2e-5, "{found}, wanted {wanted}");
-                let terms: Vec<(u32, f64)> = map.terms_lx(place, u32::MAX).collect();
-                assert_eq!([terms[0].0, terms[1].0, terms[2].0], [1, 2, 3]);
-                assert!(terms[1].1 == 0.0 && (terms[0].1 + terms[2].1 - found).abs() < 1e-12);
-                assert_eq!(map.illuminance_lx(&place, 2), terms[0].1);
+                let terms: Vec<_> = map.terms_lx(place, u32::MAX).collect();
+                assert!(terms.iter().map(|term| term.bounces).eq(1..=3));
+                let [a, b, c] = [0, 1, 2].map(|layer: usize| terms[layer].illuminance_lx);
+                assert!(b == 0.0 && (a + c - found).abs() < 1e-12);
+                assert_eq!(map.illuminance_lx(&place, 2), a);
                 assert_eq!(map.terms_lx(place, 1).count(), 1);
             }
         }
@@ -321,7 +332,7 @@ mod tests {
             }
             let found = tally.read(1.0).illuminance_lx(&place, 1);
             assert_eq!(found, 0.0, "{map_reconstruction:?}");
-            let outside = Place { barycentric: [-1e-5, 0.5, 0.5 + 1e-5], ..place };
+            let outside = MapPoint { barycentric: [-1e-5, 0.5, 0.5 + 1e-5], ..place };
             assert_eq!(tally.add(&outside, 1.0, 1), 0);
             let coloured = MapTally::<Rgb>::new(&layout, 1.0, 1);
             assert_eq!(coloured.add(&place, Rgb([1.0, -0.5, f64::NAN]), 1), 2 * moments);
@@ -347,7 +358,7 @@ mod tests {
                 // A number of photons that is itself by chance, 40 on average.
                 for _ in (0..400).filter(|_| numbers.next() < 0.1).collect::<Vec<_>>() {
                     let barycentric = sample_triangle([numbers.next(), numbers.next()]);
-                    tally.add(&Place { barycentric, ..place }, weight, 1);
+                    tally.add(&MapPoint { barycentric, ..place }, weight, 1);
                 }
                 let map = tally.read(place.area_m2);
                 let noise = map.noise_lx(&place, 1);

@@ -3,7 +3,7 @@
 use quasilux_transport::{EstimatorKind, Switch};
 
 /// Alone, beside joined photons, and ending on a map that is corrected.
-pub(crate) const GATHERERS: [(EstimatorKind, Switch); 3] = [
+pub(crate) const PATH_ESTIMATORS: [(EstimatorKind, Switch); 3] = [
     (EstimatorKind::Path, Switch::Auto),
     (EstimatorKind::Bidirectional, Switch::On),
     (EstimatorKind::Bidirectional, Switch::Off),

@@ -6,7 +6,7 @@ use crate::scenes::{diffuse, diffuse_cube, mirror, point_light, room, wall_grid}
 use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
-use quasilux_transport::trial::{Traced, Way, try_photons};
+use quasilux_transport::trial::{PhotonOrder, Traced, try_photons};
 use quasilux_transport::{EstimatorKind, Settings};
 use std::ops::Range;
 
@@ -17,10 +17,10 @@ struct Outcome {
     traced: Traced,
 }
 
-fn outcome(scene: &Scene, settings: &Settings, way: Way, indices: Range<u64>) -> Outcome {
+fn outcome(scene: &Scene, settings: &Settings, order: PhotonOrder, indices: Range<u64>) -> Outcome {
     let mut outcome = None;
     try_photons(scene, settings, None, |trial| {
-        let traced = trial.trace(way, indices);
+        let traced = trial.trace(order, indices);
         outcome = Some(Outcome { traced, counters: trial.counters() });
     });
     outcome.expect("a trial was made")
@@ -58,12 +58,12 @@ fn waves_count_what_single_photons_count() {
         for sequence in sequences {
             for (indices, max_bounces) in [(0..4096, None), (1000..5003, Some(1))] {
                 let settings = settings(sequence, max_bounces);
-                let alone = outcome(scene, &settings, Way::OneByOne, indices.clone());
+                let alone = outcome(scene, &settings, PhotonOrder::OneByOne, indices.clone());
                 assert_eq!(alone.traced.photons, 3 * (indices.end - indices.start));
                 assert!(alone.counters.iter().any(|photons| *photons > 0), "scene {number}");
-                for way in [Way::Waves, Way::CoherentWaves] {
-                    let together = outcome(scene, &settings, way, indices.clone());
-                    assert!(alone == together, "scene {number}, {sequence:?}, {way:?}");
+                for order in [PhotonOrder::Waves, PhotonOrder::CoherentWaves] {
+                    let together = outcome(scene, &settings, order, indices.clone());
+                    assert!(alone == together, "scene {number}, {sequence:?}, {order:?}");
                 }
             }
         }
@@ -75,7 +75,7 @@ fn waves_count_what_single_photons_count() {
 fn other_photons_give_other_counts() {
     let settings = settings(Sequence::Sobol, None);
     for scene in scenes() {
-        let of = |indices| outcome(&scene, &settings, Way::CoherentWaves, indices);
+        let of = |indices| outcome(&scene, &settings, PhotonOrder::CoherentWaves, indices);
         let first = of(0..4096);
         assert!(first != of(0..4097) && first.counters != of(4096..8192).counters);
     }
@@ -87,7 +87,7 @@ fn threads_do_not_change_counts() {
     let settings = settings(Sequence::Sobol, None);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| outcome(&scene, &settings, Way::CoherentWaves, 0..10_000))
+        pool.install(|| outcome(&scene, &settings, PhotonOrder::CoherentWaves, 0..10_000))
     };
     assert_eq!(on(1), on(3));
 }
