@@ -109,8 +109,9 @@ impl<S: Spectrum> Bsdf<S> {
                 Self::Mirror(Mirror { reflectance: S::from_rgb(*reflectance) })
             }
             In::Translucent(sheet) => {
-                let weights_of_paths = [sheet.reflectance, sheet.transmittance].map(S::from_rgb);
-                Self::Translucent(Translucent::new(weights_of_paths[0], weights_of_paths[1]))
+                let [reflected, transmitted] =
+                    [sheet.reflectance, sheet.transmittance].map(S::from_rgb);
+                Self::Translucent(Translucent::new(reflected, transmitted))
             }
             In::Dielectric(scene::Dielectric { eta }) => Self::Dielectric(Dielectric::new(*eta)),
             In::Pane(pane) => Self::Pane(Pane::new(pane)),
@@ -155,20 +156,6 @@ impl<S: Spectrum> Bsdf<S> {
     /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map
     /// can stand on it.
     pub(crate) fn keeps_illuminance(&self) -> bool {
-        match self {
-            Self::Diffuse(_) => true,
-            Self::Mirror(_)
-            | Self::Translucent(_)
-            | Self::Dielectric(_)
-            | Self::Pane(_)
-            | Self::Conductor(_)
-            | Self::Plastic(_)
-            | Self::Measured(_) => false,
-        }
-    }
-
-    /// Whether [`Self::sample_lambertian`] draws its directions.
-    pub(crate) fn is_lambertian(&self) -> bool {
         match self {
             Self::Diffuse(_) => true,
             Self::Mirror(_)

@@ -16,7 +16,7 @@ use crate::photon::batch::{PhotonBatch, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::map::{MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::order::PhotonOrder;
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -396,13 +396,15 @@ impl Stored for Counters {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
-    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
+    fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         for counter in self.receivers.passed(flight) {
             self.invalid += self.counters.count(counter, weight.luminance(), bounces);
         }
     }
 
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         if let Some(counter) = self.receivers.landed_on(at) {
             self.invalid += self.counters.count(counter, weight.luminance(), bounces);
         }

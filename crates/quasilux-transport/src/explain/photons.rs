@@ -6,7 +6,7 @@ use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
 use crate::estimator::photon_estimator::{self, Receivers};
 use crate::importance::WeightWindows;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -88,13 +88,15 @@ impl Found<'_> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for Found<'_> {
-    fn flight(&mut self, flight: &Flight, weight: S, _bounces: u32) {
+    fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, .. } = photon;
         for counter in self.receivers.passed(flight) {
             self.count(counter, weight.luminance());
         }
     }
 
-    fn landing(&mut self, at: &Interaction, weight: S, _bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, .. } = photon;
         if let Some(counter) = self.receivers.landed_on(at) {
             self.count(counter, weight.luminance());
         }

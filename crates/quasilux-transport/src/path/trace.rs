@@ -10,23 +10,22 @@
 //! are: the map is a control variate, its elements cause no bias, and no light is lost with those
 //! that end.
 //!
-//! Read on at `direct_light` for next-event estimation.
+//! Read on at `direct_light` for next-event estimation, at `map_end` for ends on maps.
 
 mod direct_light;
+mod map_end;
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::lights::images::ImageSamples;
 use crate::path::contribution::PathContribution;
-use crate::path::end::{MapEnd, Rest};
-use crate::path::frozen_map::{FrozenEnd, bounces_left};
+use crate::path::end::Rest;
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
 use crate::path::start::{Measurement, Start};
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
-use crate::photon::map::{IlluminationMap, MapPoint};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
@@ -41,11 +40,6 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Bounces after which a path goes on for certain; after later ones by survival.
 const CERTAIN_BOUNCES: u32 = 2;
-
-/// Those that record where they might have ended go on for certain while so much is left, and up to
-/// so many records.
-const MIN_RECORDED_GAIN: f64 = 1.0 / 32.0;
-const MAX_RECORDS: usize = 32;
 
 /// A path that is over.
 pub(crate) struct PathResult<S> {
@@ -261,30 +255,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
     }
 
-    /// Ends it on a map, where there is one that it may end on here; or records that it might have.
-    fn end_on_map(
-        &mut self,
-        context: &Context<'_, S>,
-        bounces: u32,
-        at: &Interaction,
-        albedo: f64,
-    ) -> Option<Onward> {
-        let bsdf = context.world.bsdf(at);
-        match self.rest {
-            Rest::Map(end) if bsdf.keeps_illuminance() => self.end_on(end, context, bounces, at),
-            Rest::Frozen(end) if bsdf.keeps_illuminance() => {
-                self.end_on_frozen(end, context, bounces, at)
-            }
-            Rest::Recorded
-                if self.gain.left() > MIN_RECORDED_GAIN && self.records.len() < MAX_RECORDS =>
-            {
-                self.record_vertex(context, bounces, at, albedo);
-                Some(Onward { emitted: 1.0, everything: 1.0 })
-            }
-            Rest::Path | Rest::Recorded | Rest::Map(_) | Rest::Frozen(_) => None,
-        }
-    }
-
     /// Draws the direction in which it goes on; whether there is one.
     fn scatter(
         &mut self,
@@ -341,91 +311,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.found.endless = true;
     }
 
-    /// Notes that it might have ended here.
-    fn record_vertex(
-        &mut self,
-        context: &Context<'_, S>,
-        bounces: u32,
-        at: &Interaction,
-        albedo: f64,
-    ) {
-        let keeps_illuminance = context.world.bsdf(at).keeps_illuminance();
-        self.records.push(VertexRecord {
-            at: *at,
-            weight: keeps_illuminance.then(|| self.weight(context, at)),
-            alone: if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo.min(1.0) },
-            bounces,
-            flights: self.flights,
-            before: None,
-            beyond: [S::black(); 2],
-        });
-    }
-
     /// What a lux at a diffuse surface that it meets counts at its start.
     fn weight(&self, context: &Context<'_, S>, at: &Interaction) -> S {
         Vertex::surface(&context.world, at, self.direction, self.beta).weight(at.n)
-    }
-
-    /// Ends it on the light that a map keeps here, where it may.
-    fn end_on(
-        &mut self,
-        end: &MapEnd<'_, S>,
-        context: &Context<'_, S>,
-        bounces: u32,
-        at: &Interaction,
-    ) -> Option<Onward> {
-        if context.max_bounces.is_some() && bounces > 0 {
-            // The light on the map has more bounces than are left.
-            return None;
-        }
-        let (place, weight) = (end.layout.locate(at), self.weight(context, at));
-        self.found.indirect += weight * end.map.illuminance_lx(&place, u32::MAX);
-        self.take_terms(&end.map, &place, (bounces, u32::MAX), weight);
-        // The direction to a light that the next surface emits is part of the direct light here, so
-        // it counts in every path.
-        Some(Onward { emitted: 1.0, everything: 0.0 })
-    }
-
-    /// The same on a map that is corrected: those that go on take the difference to it along. Where
-    /// nothing is known of the map, there is none.
-    fn end_on_frozen(
-        &mut self,
-        end: &FrozenEnd<'_, S>,
-        context: &Context<'_, S>,
-        bounces: u32,
-        at: &Interaction,
-    ) -> Option<Onward> {
-        let max_bounces = bounces_left(context.max_bounces, bounces, end.layout.len() as u64)?;
-        let weight = self.weight(context, at);
-        let place = end.layout.locate(at);
-        let lx = end.map.illuminance_lx(&place, max_bounces);
-        let survival =
-            end.survival_probability(&place, weight.luminance(), (weight * lx).luminance())?;
-        let correction = Purpose::Correction { surface: bounces + 1 };
-        let everything = context.draw(&mut self.sampler, correction, |sampler| {
-            russian_roulette_factor(survival, sampler)
-        });
-        let weight = weight * (1.0 - everything);
-        self.found.indirect += weight * lx;
-        self.take_terms(&end.map, &place, (bounces, max_bounces), weight);
-        Some(Onward { emitted: 1.0, everything })
-    }
-
-    /// Adds the terms of what a map says of the light at a surface that it came to after `bounces`,
-    /// of photons with so many bounces at most.
-    fn take_terms(
-        &mut self,
-        map: &IlluminationMap<'_, S>,
-        place: &MapPoint,
-        (bounces, max_bounces): (u32, u32),
-        weight: S,
-    ) {
-        if !self.found.terms.is_empty() {
-            for term in map.terms_lx(*place, max_bounces) {
-                let bounces = bounces + 1 + term.bounces;
-                self.found.add_to_term(bounces, weight * term.illuminance_lx);
-            }
-        }
     }
 
     /// The parts of the light at its first surface that it is to find beside photons.

@@ -10,12 +10,11 @@
 use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::lit_cells::LitCells;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::{Performance, WeightSums};
-use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
 
@@ -72,11 +71,10 @@ fn work<S: Spectrum>(
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for FirstWeights {
-    fn flight(&mut self, _flight: &Flight, weight: S, bounces: u32) {
+    fn flight(&mut self, _flight: &Flight, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         if bounces == 1 {
             self.0.add(weight.luminance());
         }
     }
-
-    fn landing(&mut self, _at: &Interaction, _weight: S, _bounces: u32) {}
 }

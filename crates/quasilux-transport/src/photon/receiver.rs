@@ -6,46 +6,35 @@ use crate::world::flight::Flight;
 use glam::DVec3;
 use quasilux_sampling::Sampler;
 
-/// What sees photons on their way.
+/// A photon as receivers see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeenPhoton<S> {
+    /// Its colour, of luminance one or near it.
+    pub(crate) weight: S,
+    /// Reflections behind it.
+    pub(crate) bounces: u32,
+    /// How it came, if over specular surfaces alone from a light that no path runs into.
+    pub(crate) specular_class: Option<LightPathClass>,
+}
+
+/// Sensors, maps and connections that see photons on their way.
 pub(crate) trait PhotonReceiver<S> {
     /// Whether photons end where [`LightPathClass::Found`] begins: nobody looks at them further.
     const SPECULAR_ONLY: bool = false;
 
-    /// All that it sees from here on is of the photon whose coordinates come from there.
+    /// Announces the photon with this sampler, until the next call.
     fn follow(&mut self, sampler: &Sampler<'_>) {
         let _ = sampler;
     }
 
-    /// A photon flies freely from `from` along `direction` for `length_m`, perhaps endlessly, after
-    /// `bounces` reflections; `weight` is its colour, of luminance one or near it.
-    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32);
-
-    /// A photon lands on a surface that keeps illuminance.
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32);
-
-    /// The flight of a photon that came by specular surfaces alone from a light that nothing runs
-    /// into; a flight like others unless somebody sees such light in another way.
-    fn specular_flight(
-        &mut self,
-        flight: &Flight,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        let _ = path_class;
-        self.flight(flight, weight, bounces);
+    /// A photon flies freely, perhaps endlessly.
+    fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
+        let _ = (flight, photon);
     }
 
-    /// The landing of such a photon.
-    fn specular_landing(
-        &mut self,
-        at: &Interaction,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        let _ = path_class;
-        self.landing(at, weight, bounces);
+    /// A photon lands on a surface that keeps illuminance.
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let _ = (at, photon);
     }
 
     /// Nothing more is to come.
@@ -87,39 +76,15 @@ impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
         }
     }
 
-    fn flight(&mut self, flight: &Flight, weight: S, bounces: u32) {
+    fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
         if let Some(receiver) = self {
-            receiver.flight(flight, weight, bounces);
+            receiver.flight(flight, photon);
         }
     }
 
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
         if let Some(receiver) = self {
-            receiver.landing(at, weight, bounces);
-        }
-    }
-
-    fn specular_flight(
-        &mut self,
-        flight: &Flight,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        if let Some(receiver) = self {
-            receiver.specular_flight(flight, weight, bounces, path_class);
-        }
-    }
-
-    fn specular_landing(
-        &mut self,
-        at: &Interaction,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        if let Some(receiver) = self {
-            receiver.specular_landing(at, weight, bounces, path_class);
+            receiver.landing(at, photon);
         }
     }
 

@@ -4,7 +4,7 @@ use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
 use crate::stats::watch::Watch;
@@ -39,11 +39,13 @@ fn floor(reflectance: f64) -> Scene {
 struct Guard;
 
 impl PhotonReceiver<f64> for Guard {
-    fn flight(&mut self, _flight: &Flight, weight: f64, _bounces: u32) {
+    fn flight(&mut self, _flight: &Flight, photon: &SeenPhoton<f64>) {
+        let &SeenPhoton { weight, .. } = photon;
         assert!(weight >= 0.0 && weight.is_finite());
     }
 
-    fn landing(&mut self, _at: &Interaction, weight: f64, _bounces: u32) {
+    fn landing(&mut self, _at: &Interaction, photon: &SeenPhoton<f64>) {
+        let &SeenPhoton { weight, .. } = photon;
         assert!(weight >= 0.0 && weight.is_finite());
     }
 }

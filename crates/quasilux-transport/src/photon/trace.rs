@@ -17,7 +17,7 @@ use crate::lights::images::LightPathClass;
 use crate::lights::{Chosen, Emission, Emitted};
 use crate::photon::counts::{PhotonCounts, QUANTA_PER_PHOTON};
 use crate::photon::lit_cells::{Drawn, LitCells, LitPlace};
-use crate::photon::receiver::{Arrival, PhotonReceiver};
+use crate::photon::receiver::{Arrival, PhotonReceiver, SeenPhoton};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
@@ -214,16 +214,12 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let length_m = found.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from, direction, length_m };
         let landing = found.filter(|at| context.world.bsdf(at).keeps_illuminance());
-        if self.path_class == LightPathClass::Found || bounces == 0 {
-            receiver.flight(&flight, self.weight, bounces);
-            if let Some(at) = landing {
-                receiver.landing(at, self.weight, bounces);
-            }
-        } else {
-            receiver.specular_flight(&flight, self.weight, bounces, self.path_class);
-            if let Some(at) = landing {
-                receiver.specular_landing(at, self.weight, bounces, self.path_class);
-            }
+        let is_specular = self.path_class != LightPathClass::Found && bounces > 0;
+        let specular_class = is_specular.then_some(self.path_class);
+        let photon = SeenPhoton { weight: self.weight, bounces, specular_class };
+        receiver.flight(&flight, &photon);
+        if let Some(at) = landing {
+            receiver.landing(at, &photon);
         }
     }
 
@@ -312,11 +308,11 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         let ScatteringPoint { at, wo, guide } = *point;
         let (world, bsdf) = (&context.world, context.world.bsdf(at));
         let (next, share) = context.draw(&mut self.sampler, bounce, |sampler| match guide {
-            Some(guide) if bsdf.is_lambertian() => {
+            Some(guide) => {
                 let guided = guide.sample([sampler.remapped_1d(), sampler.next_1d()]);
                 Some((bsdf.sample_lambertian(guided.u)?, share / guided.density))
             }
-            _ => Some((bsdf.sample(wo, at.front, TransportMode::Importance, sampler)?, share)),
+            None => Some((bsdf.sample(wo, at.front, TransportMode::Importance, sampler)?, share)),
         })?;
         self.weight = self.weight * next.weight * share;
         if self.weight.luminance() == 0.0 {

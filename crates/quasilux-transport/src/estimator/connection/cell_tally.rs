@@ -9,12 +9,11 @@ use crate::context::{Context, Stream};
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::watch::Watch;
 use crate::world::Interaction;
-use crate::world::flight::Flight;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -144,9 +143,8 @@ struct CellReceiver<'a, S> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for CellReceiver<'_, S> {
-    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
-
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         let slot = (bounces as usize).min(self.slots - 1);

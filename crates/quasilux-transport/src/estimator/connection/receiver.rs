@@ -9,11 +9,10 @@ use super::receiver_element::ReceiverElement;
 use super::view::View;
 use crate::context::Context;
 use crate::importance::Density;
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
-use crate::world::flight::Flight;
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::{PointSet, Sampler};
 use std::f64::consts::PI;
@@ -200,9 +199,8 @@ impl<S: Spectrum> PhotonReceiver<S> for ConnectionReceiver<'_, S> {
         self.photon = Some(Seen::draw(&mut Seen::sampler(sampler, &self.points)));
     }
 
-    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
-
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         let leaving = ExitantFlux::new(self.context, self.plan, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.landings =

@@ -8,13 +8,12 @@ use super::lock;
 use super::receiver::{ConnectionReceiver, Group, Seen};
 use crate::context::Context;
 use crate::photon::counts::PhotonCounts;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::trace_photon;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Sum;
 use crate::world::Interaction;
-use crate::world::flight::Flight;
 use quasilux_sampling::{PointSet, Sampler};
 use std::sync::Mutex;
 
@@ -70,9 +69,8 @@ impl LightVertexConnections {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for Expected<'_, S> {
-    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
-
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         let leaving = ExitantFlux::new(self.context, self.connection, at, weight, bounces);
         let Some(leaving) = leaving else { return };
         self.transfer.predict(&leaving, bounces == 0, &mut self.at_once_lx);

@@ -12,7 +12,7 @@ use super::Receivers;
 use crate::context::{Context, Stream};
 use crate::importance::{self, Plan, WeightWindows};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
@@ -136,12 +136,14 @@ impl CounterWeights<'_> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for CounterWeights<'_> {
-    fn flight(&mut self, flight: &Flight, weight: S, _bounces: u32) {
+    fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, .. } = photon;
         let receivers = self.receivers;
         self.add(receivers.passed(flight), weight.luminance());
     }
 
-    fn landing(&mut self, at: &Interaction, weight: S, _bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, .. } = photon;
         let receivers = self.receivers;
         self.add(receivers.landed_on(at).into_iter(), weight.luminance());
     }

@@ -4,7 +4,7 @@
 use super::{CellReceiver, Receivers};
 use crate::lights::images::LightPathClass;
 use crate::photon::map::{MapLayout, MapTally, QUANTA_PER_PHOTON};
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
 use crate::world::Interaction;
@@ -56,18 +56,9 @@ impl<S> CausticReceiver<'_, S> {
 impl<S: Spectrum> PhotonReceiver<S> for CausticReceiver<'_, S> {
     const SPECULAR_ONLY: bool = true;
 
-    fn flight(&mut self, _: &Flight, _: S, _: u32) {}
-
-    fn landing(&mut self, _: &Interaction, _: S, _: u32) {}
-
-    fn specular_flight(
-        &mut self,
-        flight: &Flight,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        if path_class != LightPathClass::Caustic {
+    fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, specular_class } = photon;
+        if specular_class != Some(LightPathClass::Caustic) {
             return;
         }
         let receivers = self.receivers;
@@ -84,14 +75,9 @@ impl<S: Spectrum> PhotonReceiver<S> for CausticReceiver<'_, S> {
         }
     }
 
-    fn specular_landing(
-        &mut self,
-        at: &Interaction,
-        weight: S,
-        bounces: u32,
-        path_class: LightPathClass,
-    ) {
-        if path_class == LightPathClass::Caustic {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, specular_class } = photon;
+        if specular_class == Some(LightPathClass::Caustic) {
             self.invalid += self.tally.map.add(&self.layout.locate(at), weight, bounces);
         }
     }

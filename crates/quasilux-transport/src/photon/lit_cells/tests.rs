@@ -12,11 +12,10 @@ use crate::context::Stream;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::settings::Settings;
 use crate::stats::watch::Watch;
-use crate::world::flight::Flight;
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use quasilux_scene::light::{AreaLight, PointLight};
@@ -124,20 +123,18 @@ fn room_with_glass() -> Scene {
 /// Flux on each of the seven surfaces after one, two and three bounces, over that of the lights; in
 /// `total` of all later ones together.
 struct Landed {
-    weights_of_paths: [[f64; MAX_BOUNCES]; 7],
+    by_wall: [[f64; MAX_BOUNCES]; 7],
     total: f64,
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for Landed {
-    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
-
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, .. } = photon;
         if bounces > 0 {
             self.total += weight.luminance();
         }
         if (1..=MAX_BOUNCES as u32).contains(&bounces) {
-            self.weights_of_paths[at.facet as usize / 2][bounces as usize - 1] +=
-                weight.luminance();
+            self.by_wall[at.facet as usize / 2][bounces as usize - 1] += weight.luminance();
         }
     }
 }
@@ -155,13 +152,13 @@ fn landed<S: Spectrum>(
     };
     let lead = Lead::by_chance(source, None);
     let points = context.points(replicate, stream);
-    let mut landed = Landed { weights_of_paths: [[0.0; MAX_BOUNCES]; 7], total: 0.0 };
+    let mut landed = Landed { by_wall: [[0.0; MAX_BOUNCES]; 7], total: 0.0 };
     for index in 0..photons {
         let sampler = Sampler::new(&points, index);
         trace_photon(context, lead, sampler, &mut landed, &mut PhotonCounts::default());
     }
     let each = 1.0 / photons as f64;
-    landed.weights_of_paths = landed.weights_of_paths.map(|row| row.map(|share| share * each));
+    landed.by_wall = landed.by_wall.map(|row| row.map(|share| share * each));
     landed.total *= each;
     landed
 }
@@ -188,7 +185,7 @@ fn assert_kinds_agree<S: Spectrum>(name: &str, scene: &Scene) {
         for bounce in 0..MAX_BOUNCES {
             let of = |rows: &[Landed]| {
                 let values: Vec<f64> =
-                    rows.iter().map(|row| row.weights_of_paths[surface][bounce]).collect();
+                    rows.iter().map(|row| row.by_wall[surface][bounce]).collect();
                 moments(&values)
             };
             let ([a, a_squared], [b, b_squared]) = (of(&plain), of(&first_shot));
@@ -230,8 +227,8 @@ fn the_cube_has_its_indirect_flux() {
     let settings = Settings::default();
     let context = Context::<f64>::new(&scene, &settings);
     let cells = LitCells::new(&context, u64::MAX).unwrap();
-    let Landed { weights_of_paths, total } = landed(&context, Source::LitCells(&cells), 0, 1 << 17);
-    let first: f64 = weights_of_paths.iter().map(|row| row[0]).sum();
+    let Landed { by_wall, total } = landed(&context, Source::LitCells(&cells), 0, 1 << 17);
+    let first: f64 = by_wall.iter().map(|row| row[0]).sum();
     assert!((first / rho - 1.0).abs() < 1e-3, "{first}");
     assert!((total * (1.0 - rho) / rho - 1.0).abs() < 0.007, "{total}");
 }
@@ -271,8 +268,8 @@ fn weights_are_nearly_equal() {
 fn traced(scene: &Scene, order: PhotonOrder, threads: usize) -> (Vec<u64>, PhotonCounts) {
     struct Quanta<'a>(&'a Mutex<Vec<u64>>);
     impl PhotonReceiver<f64> for Quanta<'_> {
-        fn flight(&mut self, _flight: &Flight, _weight: f64, _bounces: u32) {}
-        fn landing(&mut self, at: &Interaction, weight: f64, bounces: u32) {
+        fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<f64>) {
+            let &SeenPhoton { weight, bounces, .. } = photon;
             assert!(bounces > 0 || at.facet >= 8, "no secondary photon is direct light");
             self.0.lock().unwrap()[at.facet as usize] += (weight * 1e9) as u64;
         }

@@ -13,17 +13,15 @@ use super::blocks::Blocks;
 use super::layout::{MapLayout, MapPoint};
 use super::tally::max_bounces;
 use crate::context::{Context, Stream};
-use crate::lights::images::LightPathClass;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
-use crate::photon::receiver::PhotonReceiver;
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source};
 use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use crate::world::Interaction;
-use crate::world::flight::Flight;
 use crate::world::subdivision::{SubTriangle, locate_in_quarters};
 use std::ops::Range;
 
@@ -97,17 +95,14 @@ impl Pilot<'_> {
 }
 
 impl<S: Spectrum> PhotonReceiver<S> for Pilot<'_> {
-    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
-
-    fn landing(&mut self, at: &Interaction, _weight: S, bounces: u32) {
-        if (1..=self.max_bounces).contains(&bounces) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { bounces, specular_class, .. } = photon;
+        // As on the map.
+        if specular_class.is_none() && (1..=self.max_bounces).contains(&bounces) {
             let place = self.layout.locate(at);
             self.parts.add(PARTS * place.element + part(&place), 1);
         }
     }
-
-    /// The map leaves it out, too.
-    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: LightPathClass) {}
 }
 
 /// The part of its element that holds a place.

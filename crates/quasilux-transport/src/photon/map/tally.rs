@@ -4,13 +4,11 @@ use super::blocks::Blocks;
 use super::layout::{MapLayout, MapPoint};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Context;
-use crate::lights::images::LightPathClass;
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
+use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::settings::Reconstruction;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
 use crate::world::Interaction;
-use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -255,17 +253,15 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
         self.is_deep = sampler.dimension() > self.max_dimensions;
     }
 
-    fn flight(&mut self, _flight: &Flight, _weight: S, _bounces: u32) {}
-
-    fn landing(&mut self, at: &Interaction, weight: S, bounces: u32) {
-        // Light straight from the lights is never read from the map.
-        if !self.is_deep && (1..=self.max_bounces).contains(&bounces) {
+    fn landing(&mut self, at: &Interaction, photon: &SeenPhoton<S>) {
+        let &SeenPhoton { weight, bounces, specular_class } = photon;
+        // Light straight from the lights is never read from the map; paths count light that images
+        // show, and caustics are added beside the map.
+        let is_counted = !self.is_deep && specular_class.is_none();
+        if is_counted && (1..=self.max_bounces).contains(&bounces) {
             self.invalid += self.tally.add(&self.layout.locate(at), weight, bounces);
         }
     }
-
-    /// Paths count light that images show, and what none shows is added beside the map.
-    fn specular_landing(&mut self, _: &Interaction, _: S, _: u32, _: LightPathClass) {}
 
     fn finish(self) -> ReceiverCounts {
         ReceiverCounts { rays: 0, invalid: self.invalid }
