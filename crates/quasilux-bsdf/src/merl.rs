@@ -170,13 +170,13 @@ impl Measured<'_> {
     /// The nodes around a pair along each axis, with their weights (Rusinkiewicz 1998).
     fn axes(&self, wi: DVec3, wo: DVec3) -> [[WeightedNode; 2]; 3] {
         let half = (wi + wo).normalize_or(DVec3::Z);
-        let Angles { theta_rad: half_rad, phi_rad: turn_rad } = Angles::of(half);
+        let Angles { theta_rad: half_rad, phi_rad: turn_rad } = Angles::from_direction(half);
         let (sin_turn, cos_turn) = libm::sincos(turn_rad);
         let (sin_half, cos_half) = libm::sincos(half_rad);
         let [x, y] = [cos_turn * wi.x + sin_turn * wi.y, cos_turn * wi.y - sin_turn * wi.x];
         let difference =
             DVec3::new(cos_half * x - sin_half * wi.z, y, sin_half * x + cos_half * wi.z);
-        let Angles { theta_rad: difference_rad, phi_rad } = Angles::of(difference);
+        let Angles { theta_rad: difference_rad, phi_rad } = Angles::from_direction(difference);
         let [halves, differences, azimuths] = self.counts;
         let half_place = (half_rad / FRAC_PI_2).min(1.0).sqrt() * halves as f64;
         let difference_place = difference_rad / FRAC_PI_2 * differences as f64;

@@ -14,7 +14,7 @@ const LAMBERTIAN: &[u8] = b"IESNA:LM-63-2002\n[TEST] example\n[MANUFAC] none\nTI
 fn main() -> Result<(), Box<dyn Error>> {
     let name = std::env::args().nth(1).unwrap_or_default();
     let bytes = if name.is_empty() { LAMBERTIAN.to_vec() } else { std::fs::read(&name)? };
-    let format = Format::of_file(&name, &bytes).ok_or("no format that this crate reads")?;
+    let format = Format::from_file(&name, &bytes).ok_or("no format that this crate reads")?;
     // An error shows itself as `line:column: found ...; expected ...`.
     let file = format.read(&bytes).map_err(|error| format!("{name}:{error}"))?;
 

@@ -5,7 +5,7 @@ use crate::{Grid, Symmetry};
 use quasilux_text::{Number, ParseError, Position};
 
 /// No file means more; sums of intensities stay far from overflow.
-const LARGEST_INTENSITY_CD: f64 = 1e18;
+const MAX_INTENSITY_CD: f64 = 1e18;
 
 /// Planes at 0 and 360 may differ by this part of the greatest intensity without a warning.
 const CLOSING_TOLERANCE: f64 = 1e-3;
@@ -21,7 +21,7 @@ pub(crate) fn intensity_cd(
         warnings.push(WarningKind::NegativeCandela, written.at, written.value, expected);
     }
     let intensity_cd = written.value.max(0.0) * factor;
-    if intensity_cd > LARGEST_INTENSITY_CD {
+    if intensity_cd > MAX_INTENSITY_CD {
         let found = format!("an intensity of {intensity_cd:e} cd");
         return Err(ParseError::new(written.at, found, "no more than 1e18 cd"));
     }

@@ -30,7 +30,7 @@ pub struct Keyword {
 
 /// The luminous opening as the file gives it, in metres. The *signs* carry the shape (a negative
 /// width is a diameter, and so on;
-/// [`LuminousShape::of_opening`](crate::LuminousShape::of_opening)): they are kept.
+/// [`LuminousShape::from_opening`](crate::LuminousShape::from_opening)): they are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LuminousOpening {
     /// Across the C90-C270 plane, along the local y axis.

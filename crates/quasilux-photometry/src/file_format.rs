@@ -31,7 +31,7 @@ impl Format {
     /// The format that the content shows: a line `TILT=` or an identifying line makes it LM-63, an
     /// opening angle bracket TM-33, numbers in lines 3 to 7 EULUMDAT: there, a later line that
     /// begins as `TILT=` does is a name. `None` where there is no such mark.
-    pub fn of_content(bytes: &[u8]) -> Option<Self> {
+    pub fn from_content(bytes: &[u8]) -> Option<Self> {
         let start = &bytes[..bytes.len().min(MAX_SEARCHED)];
         let text = decode(start, &mut Warnings::default());
         let lines: Vec<&str> = lines(&text).collect();
@@ -59,7 +59,7 @@ impl Format {
     }
 
     /// The format that a file's name promises: `.ies`, `.ldt` or `.xml`, in letters of any case.
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub fn from_name(name: &str) -> Option<Self> {
         let (_, extension) = name.rsplit_once('.')?;
         [("ies", Self::Lm63), ("ldt", Self::Eulumdat), ("xml", Self::Tm33)]
             .into_iter()
@@ -68,13 +68,13 @@ impl Format {
     }
 
     /// The format of a file: what its content shows, or else what its name promises.
-    pub fn of_file(name: &str, bytes: &[u8]) -> Option<Self> {
-        Self::of_content(bytes).or_else(|| Self::of_name(name))
+    pub fn from_file(name: &str, bytes: &[u8]) -> Option<Self> {
+        Self::from_content(bytes).or_else(|| Self::from_name(name))
     }
 
     /// What the name of a file of this format promises, where that is another format.
     pub fn misnamed(self, name: &str) -> Option<Self> {
-        Self::of_name(name).filter(|promised| *promised != self)
+        Self::from_name(name).filter(|promised| *promised != self)
     }
 
     /// `LM-63`, `EULUMDAT` or `TM-33`.
@@ -140,7 +140,7 @@ mod tests {
             (" \n\n", None),
             ("", None),
         ] {
-            assert_eq!(Format::of_content(content.as_bytes()), format, "{content:?}");
+            assert_eq!(Format::from_content(content.as_bytes()), format, "{content:?}");
         }
     }
 
@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn names_tell_it_by_their_extension() {
-        assert_eq!(Format::of_name("a.b.IES"), Some(Format::Lm63));
-        assert_eq!(Format::of_name("a.Ldt"), Some(Format::Eulumdat));
-        assert_eq!(Format::of_name("ies"), None);
+        assert_eq!(Format::from_name("a.b.IES"), Some(Format::Lm63));
+        assert_eq!(Format::from_name("a.Ldt"), Some(Format::Eulumdat));
+        assert_eq!(Format::from_name("ies"), None);
     }
 }

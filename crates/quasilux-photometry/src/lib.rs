@@ -29,6 +29,7 @@
 pub mod analysis;
 mod angles;
 pub mod candela;
+mod count;
 mod facts;
 mod file_format;
 pub mod formats;
@@ -63,7 +64,7 @@ pub use tilt::{TiltFactor, TiltSupport};
 pub use tm33::read_tm33;
 pub use warning::{Warning, WarningKind};
 pub use web::{Web, WebAngles};
-pub use write::{Encoded, Note};
+pub use write::{Encoded, EncodingNote};
 
 /// Tests the example of the README.
 #[cfg(doctest)]

@@ -92,7 +92,7 @@ impl Tilt {
 
 /// Piecewise linear in ascending `x`, constant outside.
 fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
-    let above = x.partition_point(|&knot| knot <= at);
+    let above = x.partition_point(|&node| node <= at);
     match (above.checked_sub(1), x.get(above)) {
         (None, _) => y[0],
         (Some(below), None) => y[below],

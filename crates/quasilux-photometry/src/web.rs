@@ -72,7 +72,8 @@ impl Web {
 
     /// The web's own angles of a direction of the luminaire frame, of any length.
     pub fn angles(self, direction: DVec3) -> WebAngles {
-        let Angles { theta_rad, phi_rad } = Angles::of(self.table_from_luminaire(direction));
+        let Angles { theta_rad, phi_rad } =
+            Angles::from_direction(self.table_from_luminaire(direction));
         let latitude_rad = theta_rad - FRAC_PI_2;
         let (horizontal_rad, vertical_rad) = match self.0 {
             // Of a tiny negative azimuth the sum is a whole turn.

@@ -105,7 +105,7 @@ impl Measured<'_> {
         let (sin, cos) = libm::sincos(self.header.specular_rad[sigma]);
         // The specular direction is at (-sin, 0, cos); phi = 0 leads from it towards the normal.
         let about = DVec3::new(cos * wo.x + sin * wo.z, wo.y, cos * wo.z - sin * wo.x);
-        let Angles { theta_rad: theta, phi_rad: phi } = Angles::of(about);
+        let Angles { theta_rad: theta, phi_rad: phi } = Angles::from_direction(about);
         if theta > theta_rad[theta_rad.len() - 1] + 1e-9 {
             return 0.0;
         }

@@ -94,7 +94,7 @@ pub struct Analysis {
 
 impl LuminaireAngles {
     /// The angles of a direction of any length; accurate at nadir and zenith.
-    pub fn of(direction: DVec3) -> Self {
+    pub fn from_direction(direction: DVec3) -> Self {
         let WebAngles { horizontal_rad, vertical_rad } = WEB_C.angles(direction);
         Self { c_rad: horizontal_rad, gamma_rad: vertical_rad }
     }
@@ -107,8 +107,8 @@ impl LuminaireAngles {
 
 impl Analysis {
     /// The figures of a luminaire.
-    pub fn of(photometry: &Photometry) -> Self {
-        let zones = ZonalFlux::of(photometry);
+    pub fn new(photometry: &Photometry) -> Self {
+        let zones = ZonalFlux::new(photometry);
         let facts = photometry.facts();
         let flux_lm = photometry.flux_lm();
         let light_output_ratio = facts.lamps_flux_lm().map(|lamps_lm| flux_lm / lamps_lm);
@@ -118,7 +118,7 @@ impl Analysis {
             flux_lm,
             downward_flux_lm: zones.below_lm(FRAC_PI_2),
             maximum: maximum(photometry),
-            planes: Plane::PRINCIPAL.map(|plane| PlaneAnalysis::of(photometry, plane)),
+            planes: Plane::PRINCIPAL.map(|plane| PlaneAnalysis::new(photometry, plane)),
             light_output_ratio,
             efficacy_lm_w: is_powered.then(|| flux_lm / facts.input_watts),
             flux_code: FluxCode::new(&zones, light_output_ratio),
@@ -129,8 +129,8 @@ impl Analysis {
 }
 
 impl PlaneAnalysis {
-    fn of(photometry: &Photometry, plane: Plane) -> Self {
-        let curve = PlaneCurve::of(photometry, plane);
+    fn new(photometry: &Photometry, plane: Plane) -> Self {
+        let curve = PlaneCurve::new(photometry, plane);
         let maximum_cd = curve.maximum_cd();
         let centre_cd = photometry.intensity_cd(DVec3::NEG_Z);
         Self {
@@ -144,12 +144,14 @@ impl PlaneAnalysis {
     }
 }
 
-/// A bilinear function has its maximum at a knot.
+/// A bilinear function has its maximum at a node.
 fn maximum(photometry: &Photometry) -> Option<MaximumIntensity> {
     let peak = photometry.table().maximum();
     (peak.value > 0.0).then(|| MaximumIntensity {
         intensity_cd: peak.value,
-        angles: LuminaireAngles::of(photometry.web().luminaire_from_table(peak.angles.direction())),
+        angles: LuminaireAngles::from_direction(
+            photometry.web().luminaire_from_table(peak.angles.direction()),
+        ),
     })
 }
 
@@ -175,12 +177,12 @@ mod tests {
         for (c_deg, gamma_deg) in [(0.0, 30.0), (90.0, 90.0), (200.0, 150.0), (359.0, 1e-9)] {
             let radians = |degrees: f64| degrees / 180.0 * PI;
             let angles = LuminaireAngles { c_rad: radians(c_deg), gamma_rad: radians(gamma_deg) };
-            let back = LuminaireAngles::of(angles.direction());
+            let back = LuminaireAngles::from_direction(angles.direction());
             assert!((back.c_rad - angles.c_rad).abs() < 1e-14, "{c_deg} {gamma_deg}");
             assert!((back.gamma_rad - angles.gamma_rad).abs() < 1e-15, "{c_deg} {gamma_deg}");
         }
-        let south = LuminaireAngles::of(DVec3::NEG_Z);
+        let south = LuminaireAngles::from_direction(DVec3::NEG_Z);
         assert_eq!((south.c_rad, south.gamma_rad), (0.0, 0.0));
-        assert!(LuminaireAngles::of(DVec3::new(1.0, -1e-300, 0.0)).c_rad < TAU);
+        assert!(LuminaireAngles::from_direction(DVec3::new(1.0, -1e-300, 0.0)).c_rad < TAU);
     }
 }

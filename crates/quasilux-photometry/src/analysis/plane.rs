@@ -43,7 +43,7 @@ impl Plane {
 
 impl PlaneCurve {
     /// The curve of a luminaire in a plane.
-    pub fn of(photometry: &Photometry, plane: Plane) -> Self {
+    pub fn new(photometry: &Photometry, plane: Plane) -> Self {
         let mut points = half_plane(photometry, plane.c_rad + PI);
         points.reverse();
         for point in &mut points {
@@ -88,13 +88,13 @@ fn half_plane(photometry: &Photometry, c_rad: f64) -> Vec<PlanePoint> {
 fn along_meridian(photometry: &Photometry, phi_rad: f64) -> Vec<PlanePoint> {
     let table = photometry.table();
     let dark = |gamma_rad| PlanePoint { gamma_rad, intensity_cd: 0.0 };
-    let knots = table.theta_rad();
-    let (first, last) = (knots[0], knots[knots.len() - 1]);
-    let mut points = Vec::with_capacity(knots.len() + 4);
+    let nodes = table.theta_rad();
+    let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
+    let mut points = Vec::with_capacity(nodes.len() + 4);
     if first > 0.0 {
         points.extend([dark(0.0), dark(first)]);
     }
-    points.extend(knots.iter().map(|&gamma_rad| PlanePoint {
+    points.extend(nodes.iter().map(|&gamma_rad| PlanePoint {
         gamma_rad,
         intensity_cd: table.value_at(Angles { theta_rad: gamma_rad, phi_rad }),
     }));

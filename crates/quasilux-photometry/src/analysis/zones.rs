@@ -25,7 +25,7 @@ enum Kind<'a> {
 
 impl<'a> ZonalFlux<'a> {
     /// The zonal fluxes of a luminaire.
-    pub fn of(photometry: &'a Photometry) -> Self {
+    pub fn new(photometry: &'a Photometry) -> Self {
         match photometry.facts().photometric_type {
             PhotometricType::A | PhotometricType::C => Self(Kind::Exact(photometry)),
             PhotometricType::B => Self::by_rings(photometry),
@@ -84,14 +84,14 @@ mod tests {
     use crate::read_ies;
 
     /// The numerical form against the exact one, on a table without symmetry and with a kink at
-    /// each knot.
+    /// each node.
     #[test]
     fn rings_agree_with_the_closed_form() {
         let file = b"IESNA:LM-63-2002\n[TEST] rings\nTILT=NONE\n1 -1 1 5 4 1 2 0 0 0\n1 1 10\n\
             0 20 60 110 180\n0 70 200 360\n\
             100 80 50 10 20\n100 20 90 0 20\n100 60 10 40 20\n100 80 50 10 20\n";
         let photometry = read_ies(file).expect("a file").photometry;
-        let (exact, rings) = (ZonalFlux::of(&photometry), ZonalFlux::by_rings(&photometry));
+        let (exact, rings) = (ZonalFlux::new(&photometry), ZonalFlux::by_rings(&photometry));
         for i in 0..=100 {
             let gamma_rad = PI * f64::from(i) / 100.0;
             let difference_lm = exact.below_lm(gamma_rad) - rings.below_lm(gamma_rad);

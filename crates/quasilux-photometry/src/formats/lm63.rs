@@ -65,7 +65,7 @@
 //! | [`Semicolon`] | counts as a blank | `4:2: found a semicolon; expected blanks or a comma between numbers (and 1 more)` |
 //! | [`RecordStart`] | line ends inside the numbers have no meaning | `3:22: found "1"; expected the ballast factor to begin on a new line` |
 //! | [`CountWithPoint`] | the integer that it is | `3:8: found 2; expected the number of vertical angles without a decimal point` |
-//! | [`OpeningOfOtherEdition`] | read by that edition's table ([`LuminousShape::of_opening`]) | `3:8: found a luminous width, length and height of -1, 0, 0 m; expected signs that stand for a shape in the file's edition (read as a disk, as in LM-63-1995)` |
+//! | [`OpeningOfOtherEdition`] | read by that edition's table ([`LuminousShape::from_opening`]) | `3:8: found a luminous width, length and height of -1, 0, 0 m; expected signs that stand for a shape in the file's edition (read as a disk, as in LM-63-1995)` |
 //! | [`UnknownOpening`] | a point | `3:8: found a luminous width, length and height of 0, -1, 0 m; expected signs that stand for a shape in the file's edition (read as a point)` |
 //! | [`NegativeLumens`] | absolute photometry | `3:3: found -2; expected -1 for absolute photometry (read as such)` |
 //! | [`ZeroBallastLampFactor`] | counts as 1 | `4:3: found 0; expected 1 in the field behind the ballast factor (read as 1)` |
@@ -94,7 +94,7 @@
 //! [`Semicolon`]: crate::WarningKind::Semicolon
 //! [`RecordStart`]: crate::WarningKind::RecordStart
 //! [`CountWithPoint`]: crate::WarningKind::CountWithPoint
-//! [`LuminousShape::of_opening`]: crate::LuminousShape::of_opening
+//! [`LuminousShape::from_opening`]: crate::LuminousShape::from_opening
 //! [`OpeningOfOtherEdition`]: crate::WarningKind::OpeningOfOtherEdition
 //! [`UnknownOpening`]: crate::WarningKind::UnknownOpening
 //! [`NegativeLumens`]: crate::WarningKind::NegativeLumens

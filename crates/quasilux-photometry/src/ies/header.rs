@@ -40,12 +40,12 @@ pub(super) fn read_header<'t>(
         warnings.push(WarningKind::LeadingBlankLine, at, "an empty line", "the identifying line");
     }
 
-    let (standard, is_identifying) = if first < tilt_line {
+    let Edition { standard, is_identified } = if first < tilt_line {
         identify(lines[first], first + 1, warnings)
     } else {
-        (IesStandard::Lm63Of1986, false)
+        Edition::UNIDENTIFIED
     };
-    let labels = first + usize::from(is_identifying)..tilt_line;
+    let labels = first + usize::from(is_identified)..tilt_line;
     let keywords = read_keywords(&lines[..labels.end], labels.start, standard, warnings);
 
     let value = tilt_value(lines[tilt_line]).unwrap_or_default();
@@ -85,8 +85,20 @@ fn is_word(value: &str) -> bool {
     value.eq_ignore_ascii_case("NONE") || value.eq_ignore_ascii_case("INCLUDE")
 }
 
-/// The edition, and whether the line identifies one at all: LM-63-1986 had no such line.
-fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard, bool) {
+/// The edition of a file.
+struct Edition {
+    standard: IesStandard,
+    /// Whether the first line identifies it.
+    is_identified: bool,
+}
+
+impl Edition {
+    /// LM-63-1986 had no identifying line.
+    const UNIDENTIFIED: Self = Self { standard: IesStandard::Lm63Of1986, is_identified: false };
+}
+
+/// The edition that a line identifies.
+fn identify(line: &str, number: usize, warnings: &mut Warnings) -> Edition {
     let compact: String =
         line.chars().filter(|c| !c.is_whitespace()).map(|c| c.to_ascii_uppercase()).collect();
     let year = compact.split_once("LM-63-").map(|(_, year)| year);
@@ -100,9 +112,9 @@ fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard,
             let at = Position { line: number, column: 1 };
             let expected = "an edition between IESNA91 and IES:LM-63-2019 (read as LM-63-2002)";
             warnings.push(WarningKind::UnknownStandard, at, quoted(line), expected);
-            return (IesStandard::Lm63Of2002, true);
+            return Edition { standard: IesStandard::Lm63Of2002, is_identified: true };
         }
-        _ => return (IesStandard::Lm63Of1986, false),
+        _ => return Edition::UNIDENTIFIED,
     };
     if line.trim_end() != spelling {
         let at = Position { line: number, column: 1 };
@@ -110,7 +122,7 @@ fn identify(line: &str, number: usize, warnings: &mut Warnings) -> (IesStandard,
             if spelling.is_empty() { "no identifying line in LM-63-1986" } else { spelling };
         warnings.push(WarningKind::IdentifyingLine, at, quoted(line), expected);
     }
-    (standard, true)
+    Edition { standard, is_identified: true }
 }
 
 fn read_keywords(
@@ -154,7 +166,7 @@ mod tests {
     fn editions_are_known_by_their_number() {
         let edition = |line| {
             let mut warnings = Warnings::default();
-            let (standard, _) = identify(line, 1, &mut warnings);
+            let standard = identify(line, 1, &mut warnings).standard;
             (standard, warnings.into_vec().first().map(|warning| warning.kind()))
         };
         assert_eq!(edition("IESNA91"), (IesStandard::Lm63Of1991, None));

@@ -39,6 +39,7 @@ mod write;
 
 use crate::angles::gamma_rad;
 use crate::candela::check_closing;
+use crate::count::Count;
 use crate::photometry::FLUX_TOLERANCE;
 use crate::shape::check_signs;
 use crate::warning::{WarningKind, Warnings};
@@ -50,8 +51,8 @@ use candela::Planes;
 use header::{Header, TiltLine, read_header};
 pub(crate) use hv::HvAngles;
 use numbers::Numbers;
-pub(crate) use planes::c_rad;
-use quasilux_text::{Number, ParseError, Position, decode, lines, quoted};
+pub(crate) use planes::{CPlanes, c_planes};
+use quasilux_text::{Number, ParseError, Position, Token, decode, lines, quoted};
 pub use tilt::{ReadTilt, read_tilt};
 pub use write::write_ies;
 
@@ -86,6 +87,15 @@ struct Counts {
     opening_at: Position,
 }
 
+/// Record 2.
+struct Factors {
+    ballast_factor: f64,
+    ballast_lamp_field: f64,
+    input_watts: f64,
+    /// Candela of one written candela.
+    candela_factor: f64,
+}
+
 fn read_numbers(
     header: Header<'_>,
     numbers: &mut Numbers<'_>,
@@ -99,32 +109,9 @@ fn read_numbers(
     let counts = read_counts(numbers, warnings)?;
     let standard = Standard::Lm63(header.standard);
     check_signs(standard, &counts.opening, counts.opening_at, warnings);
-    numbers.start_record("the ballast factor", warnings);
-    let ballast = numbers.next("the ballast factor", warnings)?;
-    let reserved = numbers.next("the ballast-lamp photometric factor", warnings)?;
-    let input_watts = numbers.next("the input watts", warnings)?.value;
-    let factor = positive(&counts.multiplier, "a candela multiplier above 0")?
-        * positive(&ballast, "a ballast factor above 0 (1 if unknown)")?
-        * ballast_lamp_factor(&reserved, header.standard, warnings)?;
-
-    numbers.start_record("the vertical angles", warnings);
-    let vertical = numbers.list(counts.verticals, "vertical angle", warnings)?;
-    numbers.start_record("the horizontal angles", warnings);
-    let horizontal = numbers.list(counts.horizontals, "horizontal angle", warnings)?;
-    let planes = Planes { verticals: counts.verticals, horizontals: counts.horizontals, factor };
-    let grid = match counts.photometric_type {
-        PhotometricType::C => {
-            let theta_rad = gamma_rad(&vertical, warnings)?;
-            let (phi_rad, symmetry) = c_rad(&horizontal, warnings)?;
-            Grid { theta_rad, phi_rad, symmetry, values: planes.read(numbers, warnings)? }
-        }
-        a_or_b => {
-            let angles = HvAngles::check(a_or_b, &horizontal, &vertical, warnings)?;
-            angles.grid(counts.horizontals, &planes.read(numbers, warnings)?)
-        }
-    };
-    check_closing(&grid, horizontal[horizontal.len() - 1].at, warnings);
-    if let Some((text, at)) = numbers.rest(warnings)
+    let factors = read_factors(&counts, header.standard, numbers, warnings)?;
+    let grid = read_grid(&counts, factors.candela_factor, numbers, warnings)?;
+    if let Some(Token { text, at }) = numbers.after_last(warnings)
         && !text.trim_matches(['[', ']']).eq_ignore_ascii_case("END")
     {
         warnings.push(WarningKind::TrailingText, at, quoted(text), "the end of the file");
@@ -144,10 +131,10 @@ fn read_numbers(
         tilt,
         lamp_count: counts.lamp_count,
         lumens_per_lamp: (lumens.value >= 0.0).then_some(lumens.value),
-        ballast_factor: ballast.value,
-        ballast_lamp_field: reserved.value,
-        input_watts,
-        candela_factor: factor,
+        ballast_factor: factors.ballast_factor,
+        ballast_lamp_field: factors.ballast_lamp_field,
+        input_watts: factors.input_watts,
+        candela_factor: factors.candela_factor,
         opening: counts.opening,
         light_output_ratio: None,
         measurement_tilt_rad: 0.0,
@@ -157,29 +144,80 @@ fn read_numbers(
     Ok(Photometry::new(table, facts))
 }
 
+fn read_factors(
+    counts: &Counts,
+    standard: IesStandard,
+    numbers: &mut Numbers<'_>,
+    warnings: &mut Warnings,
+) -> Result<Factors, ParseError> {
+    numbers.start_record("the ballast factor", warnings);
+    let ballast = numbers.next("the ballast factor", warnings)?;
+    let reserved = numbers.next("the ballast-lamp photometric factor", warnings)?;
+    let input_watts = numbers.next("the input watts", warnings)?.value;
+    let candela_factor = positive(&counts.multiplier, "a candela multiplier above 0")?
+        * positive(&ballast, "a ballast factor above 0 (1 if unknown)")?
+        * ballast_lamp_factor(&reserved, standard, warnings)?;
+    Ok(Factors {
+        ballast_factor: ballast.value,
+        ballast_lamp_field: reserved.value,
+        input_watts,
+        candela_factor,
+    })
+}
+
+/// Records 3 and on.
+fn read_grid(
+    counts: &Counts,
+    factor: f64,
+    numbers: &mut Numbers<'_>,
+    warnings: &mut Warnings,
+) -> Result<Grid, ParseError> {
+    numbers.start_record("the vertical angles", warnings);
+    let vertical = numbers.list(counts.verticals, "vertical angle", warnings)?;
+    numbers.start_record("the horizontal angles", warnings);
+    let horizontal = numbers.list(counts.horizontals, "horizontal angle", warnings)?;
+    let planes = Planes { verticals: counts.verticals, horizontals: counts.horizontals, factor };
+    let grid = match counts.photometric_type {
+        PhotometricType::C => {
+            let theta_rad = gamma_rad(&vertical, warnings)?;
+            let CPlanes { phi_rad, symmetry } = c_planes(&horizontal, warnings)?;
+            Grid { theta_rad, phi_rad, symmetry, values: planes.read(numbers, warnings)? }
+        }
+        a_or_b => {
+            let angles = HvAngles::check(a_or_b, &horizontal, &vertical, warnings)?;
+            angles.grid(counts.horizontals, &planes.read(numbers, warnings)?)
+        }
+    };
+    check_closing(&grid, horizontal[horizontal.len() - 1].at, warnings);
+    Ok(grid)
+}
+
 fn read_counts(numbers: &mut Numbers<'_>, warnings: &mut Warnings) -> Result<Counts, ParseError> {
     numbers.start_record("the number of lamps", warnings);
     let lamp_count = numbers.next("the number of lamps", warnings)?.value;
     let lumens_per_lamp = numbers.next("the lumens per lamp", warnings)?;
     let multiplier = numbers.next("the candela multiplier", warnings)?;
-    let (verticals, vertical_at) = numbers.count("the number of vertical angles", 2, warnings)?;
-    let (horizontals, at) = numbers.count("the number of horizontal angles", 1, warnings)?;
-    let (type_number, type_at) = numbers.count("the photometric type", 1, warnings)?;
-    let (units, units_at) = numbers.count("the units type", 1, warnings)?;
-    let metres_per_unit = match units {
+    let Count { value: verticals, at: vertical_at } =
+        numbers.count("the number of vertical angles", 2, warnings)?;
+    let Count { value: horizontals, at } =
+        numbers.count("the number of horizontal angles", 1, warnings)?;
+    let type_number = numbers.count("the photometric type", 1, warnings)?;
+    let units = numbers.count("the units type", 1, warnings)?;
+    let metres_per_unit = match units.value {
         1 => METRES_PER_FOOT,
         2 => 1.0,
         _ => {
-            return Err(ParseError::new(units_at, units, "a units type of 1 (feet) or 2 (metres)"));
+            let expected = "a units type of 1 (feet) or 2 (metres)";
+            return Err(ParseError::new(units.at, units.value, expected));
         }
     };
-    let photometric_type = match type_number {
+    let photometric_type = match type_number.value {
         1 => PhotometricType::C,
         2 => PhotometricType::B,
         3 => PhotometricType::A,
         _ => {
             let expected = "a photometric type of 1 (C), 2 (B) or 3 (A)";
-            return Err(ParseError::new(type_at, type_number, expected));
+            return Err(ParseError::new(type_number.at, type_number.value, expected));
         }
     };
     numbers.check_room(verticals, vertical_at, "vertical angles")?;

@@ -1,5 +1,6 @@
 //! The numbers behind the header: a stream of tokens with their places.
 
+use crate::count::Count;
 use crate::warning::{WarningKind, Warnings};
 use quasilux_text::{Number, ParseError, Position, Token, check_room, number_list, quoted};
 
@@ -44,9 +45,10 @@ impl<'t> Numbers<'t> {
         what: &str,
         least: usize,
         warnings: &mut Warnings,
-    ) -> Result<(usize, Position), ParseError> {
+    ) -> Result<Count, ParseError> {
         let written = self.written(what, warnings)?;
-        Ok((written.count(written.number(what)?, what, least, warnings)?, written.at))
+        let value = written.count(written.number(what)?, what, least, warnings)?;
+        Ok(Count { value, at: written.at })
     }
 
     /// `count` numbers in a row, none of them above what the rest of the file has room for.
@@ -85,9 +87,8 @@ impl<'t> Numbers<'t> {
     }
 
     /// The next token of any kind, for what stands behind the last number.
-    pub(super) fn rest(&mut self, warnings: &mut Warnings) -> Option<(&'t str, Position)> {
-        let token = self.token(warnings)?;
-        Some((token.text, token.at))
+    pub(super) fn after_last(&mut self, warnings: &mut Warnings) -> Option<Token<'t>> {
+        self.token(warnings)
     }
 
     fn written(&mut self, what: &str, warnings: &mut Warnings) -> Result<Token<'t>, ParseError> {

@@ -12,11 +12,12 @@
 use super::numbers::Numbers;
 use crate::Tilt;
 use crate::angles::{check_ascending, radians, snapped};
+use crate::count::Count;
 use crate::warning::{Warning, WarningKind, Warnings};
-use quasilux_text::{ParseError, Position, decode, lines, quoted};
+use quasilux_text::{ParseError, Position, Token, decode, lines, quoted};
 
 /// A lamp does not get brighter than this by lying down; a greater number is no factor.
-const LARGEST_FACTOR: f64 = 100.0;
+const MAX_FACTOR: f64 = 100.0;
 
 /// A tilt file that was read, with what was odd about it.
 #[derive(Clone, Debug)]
@@ -40,7 +41,7 @@ pub fn read_tilt(bytes: &[u8]) -> Result<ReadTilt, ParseError> {
     let lines: Vec<&str> = lines(&text).collect();
     let mut numbers = Numbers::new(&lines, 0);
     let tilt = read_factors(&mut numbers, &mut warnings)?;
-    if let Some((text, at)) = numbers.rest(&mut warnings) {
+    if let Some(Token { text, at }) = numbers.after_last(&mut warnings) {
         warnings.push(WarningKind::TrailingText, at, quoted(text), "the end of the file");
     }
     Ok(ReadTilt { tilt, warnings: warnings.into_vec() })
@@ -51,12 +52,13 @@ pub(super) fn read_factors(
     numbers: &mut Numbers<'_>,
     warnings: &mut Warnings,
 ) -> Result<Tilt, ParseError> {
-    let (lamp_geometry, at) = numbers.count("the lamp-to-luminaire geometry", 1, warnings)?;
+    let Count { value: lamp_geometry, at } =
+        numbers.count("the lamp-to-luminaire geometry", 1, warnings)?;
     if lamp_geometry > 3 {
         let expected = "a lamp-to-luminaire geometry of 1, 2 or 3";
         return Err(ParseError::new(at, lamp_geometry, expected));
     }
-    let (pairs, _) = numbers.count("the number of tilt angles", 1, warnings)?;
+    let pairs = numbers.count("the number of tilt angles", 1, warnings)?.value;
     let angles = numbers.list(pairs, "tilt angle", warnings)?;
     let factors = numbers.list(pairs, "tilt factor", warnings)?;
 
@@ -72,7 +74,7 @@ pub(super) fn read_factors(
             ));
         }
     }
-    if let Some(factor) = factors.iter().find(|f| !(0.0..=LARGEST_FACTOR).contains(&f.value)) {
+    if let Some(factor) = factors.iter().find(|f| !(0.0..=MAX_FACTOR).contains(&f.value)) {
         return Err(ParseError::new(factor.at, factor.value, "a tilt factor between 0 and 100"));
     }
     if first != 0.0 || !matches!(last, 90.0 | 180.0) {

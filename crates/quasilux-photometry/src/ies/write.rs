@@ -2,7 +2,7 @@
 
 use crate::angles::snapped;
 use crate::shape::opening_in;
-use crate::write::{Encoded, Half, Note, Writer, aligned, before, degrees, number};
+use crate::write::{Encoded, EncodingNote, Half, Writer, aligned, before, degrees, number};
 use crate::{
     IesStandard, Keyword, LuminaireFacts, PhotometricType, Photometry, Standard, Symmetry, Tilt,
 };
@@ -42,8 +42,8 @@ const NO_FACT: &str = "(not given)";
 pub fn write_ies(photometry: &Photometry, edition: IesStandard) -> Encoded {
     let mut writer = Writer::default();
     let facts = photometry.facts();
-    let web = Angles::of(photometry, &mut writer);
-    let factors = Factors::of(facts, edition);
+    let web = Angles::new(photometry, &mut writer);
+    let factors = Factors::new(facts, edition);
     // Without the two characters that end a line, which the limit of 2002 counts.
     let (text_limit, limit) =
         if edition >= IesStandard::Lm63Of2002 { (254, 254) } else { (80, 132) };
@@ -81,7 +81,7 @@ struct Angles {
 }
 
 impl Angles {
-    fn of(photometry: &Photometry, writer: &mut Writer) -> Self {
+    fn new(photometry: &Photometry, writer: &mut Writer) -> Self {
         let own = photometry.table().grid();
         let has_symmetry = matches!(
             own.symmetry,
@@ -124,7 +124,7 @@ struct Factors {
 }
 
 impl Factors {
-    fn of(facts: &LuminaireFacts, edition: IesStandard) -> Self {
+    fn new(facts: &LuminaireFacts, edition: IesStandard) -> Self {
         let positive = |x: f64| if x > 0.0 && x.is_finite() { x } else { 1.0 };
         let source = match facts.standard {
             Standard::Lm63(source) => Some(source),
@@ -190,7 +190,7 @@ fn write_header(facts: &LuminaireFacts, edition: IesStandard, limit: usize, writ
     for name in required {
         if facts.keyword(name).is_none() {
             writer.line(&format!("[{name}] {NO_FACT}"));
-            writer.note(Note::KeywordAdded(name));
+            writer.note(EncodingNote::KeywordAdded(name));
         }
     }
 }
@@ -201,7 +201,7 @@ fn write_keyword(keyword: &Keyword, edition: IesStandard, limit: usize, writer: 
     let is_bare = is_label && edition == IesStandard::Lm63Of1986;
     let mut name = keyword.name.as_str();
     if is_label && !is_bare {
-        writer.note(Note::LabelAsOther);
+        writer.note(EncodingNote::LabelAsOther);
         name = "OTHER";
     }
     for line in lines {
@@ -214,7 +214,7 @@ fn write_keyword(keyword: &Keyword, edition: IesStandard, limit: usize, writer: 
             if tail.is_empty() {
                 break;
             }
-            writer.note(Note::TextContinued);
+            writer.note(EncodingNote::TextContinued);
             rest = tail;
         }
     }
@@ -235,7 +235,7 @@ fn write_tilt(tilt: &Tilt, edition: IesStandard, limit: usize, writer: &mut Writ
         Tilt::None => writer.line("TILT=NONE"),
         Tilt::File(name) => {
             if edition >= IesStandard::Lm63Of2019 {
-                writer.note(Note::TiltFile);
+                writer.note(EncodingNote::TiltFile);
             }
             writer.line(&format!("TILT={}", name.replace(char::is_control, " ").trim()));
         }
@@ -252,11 +252,11 @@ fn write_tilt(tilt: &Tilt, edition: IesStandard, limit: usize, writer: &mut Writ
 fn write_table(web: &Angles, factors: &Factors, limit: usize, writer: &mut Writer) {
     let (first, last) = (web.vertical_deg[0], web.vertical_deg[web.vertical_deg.len() - 1]);
     if web.type_number == "1" && !(matches!(first, 0.0 | 90.0) && matches!(last, 90.0 | 180.0)) {
-        writer.note(Note::PolarRange);
+        writer.note(EncodingNote::PolarRange);
     }
     for angles in [&web.vertical_deg, &web.horizontal_deg] {
         if angles.iter().any(|&angle| snapped(angle, 90.0) != angle) {
-            writer.note(Note::AngleNearAxis);
+            writer.note(EncodingNote::AngleNearAxis);
         }
         write_numbers(angles.iter().map(|&angle| number(angle)), limit, writer);
     }

@@ -1,5 +1,6 @@
 //! One field a line: texts, counts and numbers with their places.
 
+use crate::count::Count;
 use crate::warning::{WarningKind, Warnings};
 use quasilux_text::{Number, ParseError, Position, Token, check_room, number_list};
 
@@ -15,14 +16,14 @@ impl<'t> Fields<'t> {
     }
 
     /// The next line, trimmed.
-    pub(super) fn text(&mut self, what: &str) -> Result<(&'t str, Position), ParseError> {
+    pub(super) fn text(&mut self, what: &str) -> Result<Token<'t>, ParseError> {
         let Some(line) = self.lines.get(self.next) else {
             return Err(ParseError::new(self.end(), "the end of the file", what));
         };
         self.next += 1;
         let blanks = line.chars().take_while(|c| c.is_whitespace()).count();
         let column = if blanks == line.chars().count() { 1 } else { blanks + 1 };
-        Ok((line.trim(), Position { line: self.next, column }))
+        Ok(Token { text: line.trim(), at: Position { line: self.next, column } })
     }
 
     /// The next line as a finite number.
@@ -31,8 +32,7 @@ impl<'t> Fields<'t> {
         what: &str,
         warnings: &mut Warnings,
     ) -> Result<Number, ParseError> {
-        let (text, at) = self.text(what)?;
-        Token { text, at }.number_with_comma(what, warnings)
+        self.text(what)?.number_with_comma(what, warnings)
     }
 
     /// The next line as a number, where an empty one counts as zero.
@@ -42,7 +42,7 @@ impl<'t> Fields<'t> {
         warnings: &mut Warnings,
     ) -> Result<Number, ParseError> {
         if self.lines.get(self.next).is_some_and(|line| line.trim().is_empty()) {
-            let (_, at) = self.text(what)?;
+            let at = self.text(what)?.at;
             warnings.push(WarningKind::EmptyNumber, at, "an empty line", what);
             return Ok(Number { value: 0.0, at });
         }
@@ -55,11 +55,10 @@ impl<'t> Fields<'t> {
         what: &str,
         least: usize,
         warnings: &mut Warnings,
-    ) -> Result<(usize, Position), ParseError> {
-        let (text, at) = self.text(what)?;
-        let written = Token { text, at };
+    ) -> Result<Count, ParseError> {
+        let written = self.text(what)?;
         let number = written.number_with_comma(what, warnings)?;
-        Ok((written.count(number, what, least, warnings)?, at))
+        Ok(Count { value: written.count(number, what, least, warnings)?, at: written.at })
     }
 
     /// The next `count` lines as numbers.
@@ -83,7 +82,7 @@ impl<'t> Fields<'t> {
     }
 
     /// The first line with text on it among those that are left.
-    pub(super) fn rest(&mut self) -> Option<(&'t str, Position)> {
+    pub(super) fn after_last(&mut self) -> Option<Token<'t>> {
         let is_text = |line: &&str| !line.trim_matches([' ', '\t', '\u{1A}', '\0']).is_empty();
         self.next += self.lines[self.next..].iter().position(is_text)?;
         self.text("").ok()

@@ -1,10 +1,11 @@
 //! The fields before the angles: the luminaire, its dimensions, its lamps.
 
 use super::fields::Fields;
+use crate::count::Count;
 use crate::shape::check_signs;
 use crate::warning::{WarningKind, Warnings};
 use crate::{EulumdatFacts, Keyword, LuminousOpening, Standard};
-use quasilux_text::{Number, ParseError, Position};
+use quasilux_text::{Number, ParseError, Position, Token};
 
 /// Metres in a millimetre.
 pub(super) const METRES_PER_MM: f64 = 1e-3;
@@ -18,17 +19,7 @@ const DIRECT_RATIOS: usize = 10;
 /// Fields 1 to 27.
 pub(super) struct Header {
     pub(super) keywords: Vec<Keyword>,
-    /// `Isym`, 0 to 4.
-    pub(super) symmetry: usize,
-    /// `Mc`, and the place of `Isym`.
-    pub(super) planes: usize,
-    pub(super) symmetry_at: Position,
-    /// `Dc`, in degrees; 0 for planes at unequal distances.
-    pub(super) plane_distance: Number,
-    /// `Ng`.
-    pub(super) angles: usize,
-    /// `Dg`, in degrees; 0 for angles at unequal distances.
-    pub(super) angle_distance: Number,
+    pub(super) layout: Layout,
     pub(super) opening: LuminousOpening,
     /// Of the luminaire's flux and its lamps', where the file gives it.
     pub(super) light_output_ratio: Option<f64>,
@@ -37,6 +28,21 @@ pub(super) struct Header {
     pub(super) lamps: LampSet,
     /// The rest.
     pub(super) eulumdat: EulumdatFacts,
+}
+
+/// Fields 3 to 7: the grid of intensities.
+pub(super) struct Layout {
+    /// `Isym`, 0 to 4.
+    pub(super) symmetry: usize,
+    pub(super) symmetry_at: Position,
+    /// `Mc`.
+    pub(super) planes: usize,
+    /// `Dc`, in degrees; 0 for planes at unequal distances.
+    pub(super) plane_distance: Number,
+    /// `Ng`.
+    pub(super) angles: usize,
+    /// `Dg`, in degrees; 0 for angles at unequal distances.
+    pub(super) angle_distance: Number,
 }
 
 /// The set of lamps that is taken.
@@ -57,18 +63,9 @@ pub(super) fn read_header(
     let mut keywords = Vec::new();
     keep(fields, "MANUFAC", "the company (field 1)", &mut keywords)?;
     let mut eulumdat = EulumdatFacts::default();
-    fields.text("the type indicator Ityp (field 2)")?.0.clone_into(&mut eulumdat.type_indicator);
-    let (symmetry, symmetry_at) = fields.count("the symmetry Isym (field 3)", 0, warnings)?;
-    if symmetry > 4 {
-        let expected = "a symmetry Isym between 0 and 4 (field 3)";
-        return Err(ParseError::new(symmetry_at, symmetry, expected));
-    }
-    let (planes, planes_at) = fields.count("the number of C-planes Mc (field 4)", 1, warnings)?;
-    let plane_distance = fields.number_or_zero("the distance Dc (field 5)", warnings)?;
-    let (angles, angles_at) = fields.count("the number of angles Ng (field 6)", 2, warnings)?;
-    let angle_distance = fields.number_or_zero("the distance Dg (field 7)", warnings)?;
-    fields.check_room(planes, planes_at, "planes")?;
-    fields.check_room(angles, angles_at, "angles")?;
+    let type_indicator = fields.text("the type indicator Ityp (field 2)")?.text;
+    type_indicator.clone_into(&mut eulumdat.type_indicator);
+    let layout = read_layout(fields, warnings)?;
     for (name, what) in [
         ("TEST", "the measurement report (field 8)"),
         ("LUMINAIRE", "the luminaire's name (field 9)"),
@@ -96,18 +93,35 @@ pub(super) fn read_header(
     }
     Ok(Header {
         keywords,
-        symmetry,
-        planes,
-        symmetry_at,
-        plane_distance,
-        angles,
-        angle_distance,
+        layout,
         opening,
         light_output_ratio,
         conversion_factor,
         measurement_tilt_deg: tilt.value,
         lamps,
         eulumdat,
+    })
+}
+
+fn read_layout(fields: &mut Fields<'_>, warnings: &mut Warnings) -> Result<Layout, ParseError> {
+    let symmetry = fields.count("the symmetry Isym (field 3)", 0, warnings)?;
+    if symmetry.value > 4 {
+        let expected = "a symmetry Isym between 0 and 4 (field 3)";
+        return Err(ParseError::new(symmetry.at, symmetry.value, expected));
+    }
+    let planes = fields.count("the number of C-planes Mc (field 4)", 1, warnings)?;
+    let plane_distance = fields.number_or_zero("the distance Dc (field 5)", warnings)?;
+    let angles = fields.count("the number of angles Ng (field 6)", 2, warnings)?;
+    let angle_distance = fields.number_or_zero("the distance Dg (field 7)", warnings)?;
+    fields.check_room(planes.value, planes.at, "planes")?;
+    fields.check_room(angles.value, angles.at, "angles")?;
+    Ok(Layout {
+        symmetry: symmetry.value,
+        symmetry_at: symmetry.at,
+        planes: planes.value,
+        plane_distance,
+        angles: angles.value,
+        angle_distance,
     })
 }
 
@@ -118,9 +132,9 @@ fn keep(
     what: &str,
     keywords: &mut Vec<Keyword>,
 ) -> Result<(), ParseError> {
-    let (value, at) = fields.text(what)?;
-    if !value.is_empty() {
-        let value = value.to_owned();
+    let Token { text, at } = fields.text(what)?;
+    if !text.is_empty() {
+        let value = text.to_owned();
         keywords.push(Keyword { name: name.to_owned(), value, line: at.line });
     }
     Ok(())
@@ -202,7 +216,8 @@ fn read_lamp_sets(
     eulumdat: &mut EulumdatFacts,
     warnings: &mut Warnings,
 ) -> Result<LampSet, ParseError> {
-    let (sets, at) = fields.count("the number of lamp sets (field 26)", 1, warnings)?;
+    let Count { value: sets, at } =
+        fields.count("the number of lamp sets (field 26)", 1, warnings)?;
     fields.check_room(sets.saturating_mul(LINES_PER_LAMP_SET), at, "lamp sets")?;
     if sets > 1 {
         let expected = "one set of lamps (the first one is taken)";
@@ -226,7 +241,7 @@ fn read_lamp_sets(
     for _ in 1..sets {
         let mut set: [String; LINES_PER_LAMP_SET] = Default::default();
         for (text, letter) in set.iter_mut().zip('a'..='f') {
-            fields.text(&format!("field 26{letter} of a lamp set"))?.0.clone_into(text);
+            fields.text(&format!("field 26{letter} of a lamp set"))?.text.clone_into(text);
         }
         eulumdat.further_lamp_sets.push(set);
     }

@@ -57,7 +57,7 @@ use crate::{
 use fields::Fields;
 use header::{Header, LampSet, read_header};
 use planes::{check_distance, stored_planes};
-use quasilux_text::{ParseError, Position, decode, lines, quoted};
+use quasilux_text::{ParseError, Position, Token, decode, lines, quoted};
 pub use write::write_ldt;
 
 /// Lumens that the written intensities refer to.
@@ -75,7 +75,7 @@ pub fn read_ldt(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let mut fields = Fields::new(&lines);
     let header = read_header(&mut fields, &mut warnings)?;
     let table = read_table(&header, &mut fields, &mut warnings)?;
-    if let Some((text, at)) = fields.rest() {
+    if let Some(Token { text, at }) = fields.after_last() {
         warnings.push(WarningKind::TrailingText, at, quoted(text), "the end of the file");
     }
     check_flux(&table, &header, &mut warnings);
@@ -89,14 +89,16 @@ fn read_table(
     fields: &mut Fields<'_>,
     warnings: &mut Warnings,
 ) -> Result<SphericalTable, ParseError> {
-    let planes = fields.list(header.planes, "an angle C in degrees (field 28)", warnings)?;
-    let angles = fields.list(header.angles, "an angle gamma in degrees (field 29)", warnings)?;
-    check_distance(&header.plane_distance, &planes, "planes", warnings);
-    check_distance(&header.angle_distance, &angles, "angles", warnings);
+    let planes = fields.list(header.layout.planes, "an angle C in degrees (field 28)", warnings)?;
+    let angles =
+        fields.list(header.layout.angles, "an angle gamma in degrees (field 29)", warnings)?;
+    check_distance(&header.layout.plane_distance, &planes, "planes", warnings);
+    check_distance(&header.layout.angle_distance, &angles, "angles", warnings);
     let theta_rad = gamma_rad(&angles, warnings)?;
-    let stored = stored_planes(header.symmetry, header.symmetry_at, &planes, warnings)?;
+    let stored =
+        stored_planes(header.layout.symmetry, header.layout.symmetry_at, &planes, warnings)?;
     let (rows, columns) = (theta_rad.len(), stored.phi_rad.len());
-    fields.check_room(rows.saturating_mul(columns), header.symmetry_at, "intensities")?;
+    fields.check_room(rows.saturating_mul(columns), header.layout.symmetry_at, "intensities")?;
 
     let factor = candela_factor(header);
     let mut values = vec![0.0; rows * columns];
@@ -112,7 +114,7 @@ fn read_table(
         symmetry: stored.symmetry,
         values,
     })
-    .map_err(|error| ParseError::new(header.symmetry_at, error, "a photometric table"))
+    .map_err(|error| ParseError::new(header.layout.symmetry_at, error, "a photometric table"))
 }
 
 /// Candela of one written cd/klm.

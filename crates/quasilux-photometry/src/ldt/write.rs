@@ -5,7 +5,7 @@ use super::header::METRES_PER_MM;
 use super::ratios::direct_ratios;
 use crate::angles::snapped;
 use crate::shape::opening_in;
-use crate::write::{Encoded, Half, Note, Writer, aligned, before, degrees, number};
+use crate::write::{Encoded, EncodingNote, Half, Writer, aligned, before, degrees, number};
 use crate::{Grid, LuminaireFacts, Photometry, SphericalTable, Standard, Symmetry, Tilt};
 use glam::DVec3;
 
@@ -43,12 +43,12 @@ pub fn write_ldt(photometry: &Photometry) -> Encoded {
     let grid = aligned(photometry, Half::Front, &mut writer);
     // A grid made of a table's own values makes a table.
     let table = SphericalTable::new(grid.clone()).unwrap_or_else(|_| photometry.table().clone());
-    let scale = Scale::of(facts, &table);
+    let scale = Scale::new(facts, &table);
     note_losses(facts, &mut writer);
 
     text(facts, "MANUFAC", "the company (field 1)", 78, &mut writer);
     writer.line(type_indicator(facts, &grid));
-    let planes = Planes::of(&grid, &table, &mut writer);
+    let planes = Planes::new(&grid, &table, &mut writer);
     let gamma: Vec<f64> = grid.theta_rad.iter().map(|&theta| degrees(theta)).collect();
     note_near_axis(&gamma, &mut writer);
     writer.line(planes.isym);
@@ -86,7 +86,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(facts: &LuminaireFacts, table: &SphericalTable) -> Self {
+    fn new(facts: &LuminaireFacts, table: &SphericalTable) -> Self {
         let positive = |x: f64| (x > 0.0 && x <= 1e18).then_some(x);
         if let Some(own) = &facts.eulumdat
             && let (Some(conversion_factor), Some(flux_lm)) =
@@ -116,7 +116,7 @@ struct Planes {
 }
 
 impl Planes {
-    fn of(grid: &Grid, table: &SphericalTable, writer: &mut Writer) -> Self {
+    fn new(grid: &Grid, table: &SphericalTable, writer: &mut Writer) -> Self {
         let columns = grid.phi_rad.len();
         let isym = match grid.symmetry {
             Symmetry::Rotational => "1",
@@ -151,10 +151,10 @@ fn distance(angles: &[f64]) -> f64 {
 
 fn note_losses(facts: &LuminaireFacts, writer: &mut Writer) {
     if facts.tilt != Tilt::None {
-        writer.note(Note::TiltLeftOut);
+        writer.note(EncodingNote::TiltLeftOut);
     }
     if facts.ballast_factor != 1.0 && facts.standard != Standard::Eulumdat {
-        writer.note(Note::BallastFactorIncluded);
+        writer.note(EncodingNote::BallastFactorIncluded);
     }
     let is_first = |index: usize, name: &str| {
         facts.keywords.iter().position(|keyword| keyword.name == name) == Some(index)
@@ -164,13 +164,13 @@ fn note_losses(facts: &LuminaireFacts, writer: &mut Writer) {
     });
     match left_out.count() {
         0 => {}
-        count => writer.note(Note::KeywordsLeftOut(count)),
+        count => writer.note(EncodingNote::KeywordsLeftOut(count)),
     }
 }
 
 fn note_near_axis(angles_deg: &[f64], writer: &mut Writer) {
     if angles_deg.iter().any(|&angle| snapped(angle, 90.0) != angle) {
-        writer.note(Note::AngleNearAxis);
+        writer.note(EncodingNote::AngleNearAxis);
     }
 }
 
@@ -190,7 +190,7 @@ fn write_text(text: &str, field: &'static str, length: usize, writer: &mut Write
     let text = text.trim();
     match text.char_indices().nth(length) {
         Some((end, _)) => {
-            writer.note(Note::TextCut { field, length });
+            writer.note(EncodingNote::TextCut { field, length });
             writer.line(text[..end].trim_end());
         }
         None => writer.line(text),
@@ -217,7 +217,7 @@ fn write_dimensions(facts: &LuminaireFacts, writer: &mut Writer) {
     let is_round = opening.width_m < 0.0 && opening.length_m == opening.width_m;
     let is_curved = [opening.width_m, opening.length_m, opening.height_m].iter().any(|&x| x < 0.0);
     if is_curved && !(is_round && opening.height_m >= 0.0) {
-        writer.note(Note::OpeningAsBox);
+        writer.note(EncodingNote::OpeningAsBox);
     }
     let width_m = if is_round { 0.0 } else { width_m };
     let (housing_m, heights_m) = match &facts.eulumdat {

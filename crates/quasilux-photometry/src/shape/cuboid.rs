@@ -1,7 +1,7 @@
 //! Boxes, and with fewer extents rectangles, lines and points.
 //!
-//! The silhouette of a box is that of its three faces turned to the asker, each with its area times
-//! a direction cosine: a face is chosen by these, then a point uniform on it.
+//! The silhouette of a box is that of its three faces turned to the observer, each with its area
+//! times a direction cosine: a face is chosen by these, then a point uniform on it.
 
 use super::SurfacePoint;
 use glam::DVec3;

@@ -1,9 +1,9 @@
 //! Cylinders of elliptical section with both ends, and flat ellipses; the axis is z here.
 //!
-//! The silhouette has two parts: the end that is turned to the asker, an ellipse, and the side, as
-//! wide as the section seen across. Dividing x and y by the semi-axes makes the section a circle;
-//! this keeps ratios of areas in silhouettes. On a circle, places uniform across its width are
-//! uniform over the silhouette.
+//! The silhouette has two parts: the end that is turned to the observer, an ellipse, and the side,
+//! as wide as the section seen across. Dividing x and y by the semi-axes makes the section a
+//! circle; this keeps ratios of areas in silhouettes. On a circle, places uniform across its width
+//! are uniform over the silhouette.
 
 use super::SurfacePoint;
 use glam::{DVec2, DVec3};
@@ -69,7 +69,7 @@ impl Parts {
     }
 }
 
-/// Where on the circle the side is turned to the asker most.
+/// Where on the circle the side is turned to the observer most.
 fn facing(half_m: DVec3, toward: DVec3) -> DVec2 {
     (toward.truncate() / half_m.truncate()).normalize_or(DVec2::X)
 }

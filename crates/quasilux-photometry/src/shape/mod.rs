@@ -25,10 +25,10 @@
 
 mod cuboid;
 mod cylinder;
+mod edition_table;
 mod ellipsoid;
-mod signs;
 
-pub(crate) use signs::{check_signs, opening_in};
+pub(crate) use edition_table::{check_signs, opening_in};
 
 use crate::{LuminaireFacts, LuminousOpening, Standard};
 use glam::DVec3;
@@ -70,15 +70,15 @@ pub enum Axis {
 pub struct SurfacePoint {
     /// In the luminaire frame, in m.
     pub position_m: DVec3,
-    /// Outward unit normal in the luminaire frame; toward the asker on flat shapes, zero on lines
-    /// and points.
+    /// Outward unit normal in the luminaire frame; toward the observer on flat shapes, zero on
+    /// lines and points.
     pub normal: DVec3,
 }
 
 impl LuminaireFacts {
     /// The shape of the luminous opening, by the signs of its dimensions.
     pub fn shape(&self) -> LuminousShape {
-        LuminousShape::of_opening(self.standard, &self.opening)
+        LuminousShape::from_opening(self.standard, &self.opening)
     }
 }
 
@@ -132,8 +132,8 @@ impl LuminousShape {
     ///
     /// EULUMDAT has rectangles and disks (width 0), with luminous heights by side, of which the
     /// largest counts; its reader gives them the signs of 2002.
-    pub fn of_opening(standard: Standard, opening: &LuminousOpening) -> Self {
-        signs::shape(standard, opening).shape
+    pub fn from_opening(standard: Standard, opening: &LuminousOpening) -> Self {
+        edition_table::shape(standard, opening).shape
     }
 
     /// The kind of shape.

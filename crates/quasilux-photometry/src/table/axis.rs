@@ -1,66 +1,66 @@
-//! One axis of a grid: ascending knots, and the cell that holds a coordinate.
+//! One axis of a grid: ascending nodes, and the cell that holds a coordinate.
 
-/// Strictly ascending knots, at least two.
+/// Strictly ascending nodes, at least two.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
-    knots: Vec<f64>,
+    nodes: Vec<f64>,
     /// Cells per radian of an evenly spaced axis.
     cells_per_rad: Option<f64>,
 }
 
 /// A cell of an axis, and a place in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
-    /// The cell between knots `cell` and `cell + 1`.
+pub(super) struct CellPosition {
+    /// The cell between nodes `cell` and `cell + 1`.
     pub(super) cell: usize,
-    /// 0 at the first knot of the cell, 1 at the second.
+    /// 0 at the first node of the cell, 1 at the second.
     pub(super) fraction: f64,
 }
 
 impl Axis {
-    pub(super) fn new(knots: Vec<f64>) -> Self {
-        let cells = (knots.len() - 1) as f64;
-        let (first, last) = (knots[0], knots[knots.len() - 1]);
+    pub(super) fn new(nodes: Vec<f64>) -> Self {
+        let cells = (nodes.len() - 1) as f64;
+        let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
         let step = (last - first) / cells;
-        let even = knots
+        let even = nodes
             .iter()
             .enumerate()
-            .all(|(index, &knot)| (knot - (first + step * index as f64)).abs() < 1e-6 * step);
-        Self { knots, cells_per_rad: even.then_some(step.recip()) }
+            .all(|(index, &node)| (node - (first + step * index as f64)).abs() < 1e-6 * step);
+        Self { nodes, cells_per_rad: even.then_some(step.recip()) }
     }
 
-    pub(super) fn knots(&self) -> &[f64] {
-        &self.knots
+    pub(super) fn nodes(&self) -> &[f64] {
+        &self.nodes
     }
 
     pub(super) fn first(&self) -> f64 {
-        self.knots[0]
+        self.nodes[0]
     }
 
     pub(super) fn last(&self) -> f64 {
-        self.knots[self.knots.len() - 1]
+        self.nodes[self.nodes.len() - 1]
     }
 
     /// The place of `x`, clamped to the axis.
-    pub(super) fn place(&self, x: f64) -> Place {
+    pub(super) fn place(&self, x: f64) -> CellPosition {
         let x = x.clamp(self.first(), self.last());
-        let last_cell = self.knots.len() - 2;
+        let last_cell = self.nodes.len() - 2;
         let cell = match self.cells_per_rad {
             // The guess can be one cell off by rounding only.
             Some(cells_per_rad) => {
                 let guess = (((x - self.first()) * cells_per_rad) as usize).min(last_cell);
-                if x < self.knots[guess] {
+                if x < self.nodes[guess] {
                     guess - 1
-                } else if guess < last_cell && x >= self.knots[guess + 1] {
+                } else if guess < last_cell && x >= self.nodes[guess + 1] {
                     guess + 1
                 } else {
                     guess
                 }
             }
-            None => (self.knots.partition_point(|&knot| knot <= x) - 1).min(last_cell),
+            None => (self.nodes.partition_point(|&node| node <= x) - 1).min(last_cell),
         };
-        let (start, end) = (self.knots[cell], self.knots[cell + 1]);
-        Place { cell, fraction: (x - start) / (end - start) }
+        let (start, end) = (self.nodes[cell], self.nodes[cell + 1]);
+        CellPosition { cell, fraction: (x - start) / (end - start) }
     }
 }
 
@@ -70,12 +70,12 @@ mod tests {
 
     #[test]
     fn even_and_uneven_axes_agree_on_the_cell() {
-        let knots: Vec<f64> = (0..=1800).map(|i| f64::from(i) / 1800.0 * 3.1).collect();
-        let even = Axis::new(knots.clone());
+        let nodes: Vec<f64> = (0..=1800).map(|i| f64::from(i) / 1800.0 * 3.1).collect();
+        let even = Axis::new(nodes.clone());
         assert!(even.cells_per_rad.is_some());
-        let uneven = Axis { knots: knots.clone(), cells_per_rad: None };
-        for &knot in &knots {
-            for x in [knot.next_down(), knot, knot.next_up()] {
+        let uneven = Axis { nodes: nodes.clone(), cells_per_rad: None };
+        for &node in &nodes {
+            for x in [node.next_down(), node, node.next_up()] {
                 assert_eq!(even.place(x), uneven.place(x), "at {x}");
             }
         }
@@ -84,8 +84,8 @@ mod tests {
     #[test]
     fn outside_is_clamped() {
         let axis = Axis::new(vec![0.0, 1.0, 3.0]);
-        assert_eq!(axis.place(-1.0), Place { cell: 0, fraction: 0.0 });
-        assert_eq!(axis.place(9.0), Place { cell: 1, fraction: 1.0 });
-        assert_eq!(axis.place(2.0), Place { cell: 1, fraction: 0.5 });
+        assert_eq!(axis.place(-1.0), CellPosition { cell: 0, fraction: 0.0 });
+        assert_eq!(axis.place(9.0), CellPosition { cell: 1, fraction: 1.0 });
+        assert_eq!(axis.place(2.0), CellPosition { cell: 1, fraction: 0.5 });
     }
 }

@@ -5,23 +5,23 @@
 //! outside the azimuths of a sector, it is zero. The integral over solid angle and the inverse
 //! transform are exact: see [`SphericalTable::sample`].
 
+mod angle_lookup;
 mod axis;
 mod band;
-mod dial;
-mod fold;
+mod grid;
 mod linear;
+mod measured_grid;
 #[cfg(test)]
 mod per_cell;
 mod sample;
-mod unfold;
 
-use axis::{Axis, Place};
+use angle_lookup::AngleLookup;
+use axis::{Axis, CellPosition};
 use band::Band;
-use dial::Dial;
 use glam::DVec3;
+pub use grid::{Grid, Symmetry, TableError};
 pub use sample::DirectionSample;
 use std::f64::consts::TAU;
-pub use unfold::{Grid, Symmetry, TableError};
 
 /// A bilinear function on a spherical grid, with its exact integral and inverse transform.
 ///
@@ -34,13 +34,13 @@ pub struct SphericalTable {
     /// Offsets from `phi_start_rad`, from 0 to a full turn or to the end of a sector.
     phi: Axis,
     phi_start_rad: f64,
-    theta_dial: Dial,
-    phi_dial: Dial,
+    theta_lookup: AngleLookup,
+    phi_lookup: AngleLookup,
     /// Cosine and sine of `phi_start_rad`.
     phi_start: [f64; 2],
     /// Row by row, one row for each polar angle.
     values: Vec<f64>,
-    /// The integral of each row over the azimuth, up to each knot.
+    /// The integral of each row over the azimuth, up to each node.
     row_integrals: Vec<f64>,
     bands: Vec<Band>,
     /// The integral over solid angle of all bands before each one, and of all of them.
@@ -67,7 +67,7 @@ pub struct Angles {
 
 impl Angles {
     /// The angles of a direction of any length; accurate at both poles.
-    pub fn of(direction: DVec3) -> Self {
+    pub fn from_direction(direction: DVec3) -> Self {
         let horizontal = (direction.x * direction.x + direction.y * direction.y).sqrt();
         Self {
             theta_rad: libm::atan2(horizontal, direction.z),
@@ -91,23 +91,23 @@ impl SphericalTable {
     /// azimuths that do not fit the symmetry, or values that are not finite.
     pub fn new(grid: Grid) -> Result<Self, TableError> {
         let symmetry = grid.symmetry;
-        let full = grid.unfold()?;
+        let full = grid.without_symmetry()?;
         let (theta, phi) = (Axis::new(full.theta_rad), Axis::new(full.phi_rad));
-        let columns = phi.knots().len();
+        let columns = phi.nodes().len();
 
         let mut row_integrals = Vec::with_capacity(full.values.len());
         for row in full.values.chunks_exact(columns) {
             let mut sum = 0.0;
             row_integrals.push(sum);
-            for (pair, knots) in row.windows(2).zip(phi.knots().windows(2)) {
-                sum += 0.5 * (pair[0] + pair[1]) * (knots[1] - knots[0]);
+            for (pair, nodes) in row.windows(2).zip(phi.nodes().windows(2)) {
+                sum += 0.5 * (pair[0] + pair[1]) * (nodes[1] - nodes[0]);
                 row_integrals.push(sum);
             }
         }
 
         let row_total = |row: usize| row_integrals[row * columns + columns - 1];
         let bands: Vec<Band> = theta
-            .knots()
+            .nodes()
             .windows(2)
             .enumerate()
             .map(|(row, ends)| Band::new(ends[0], ends[1], row_total(row), row_total(row + 1)))
@@ -119,8 +119,8 @@ impl SphericalTable {
 
         Ok(Self {
             symmetry,
-            theta_dial: Dial::new(&theta),
-            phi_dial: Dial::new(&phi),
+            theta_lookup: AngleLookup::new(&theta),
+            phi_lookup: AngleLookup::new(&phi),
             phi_start: [libm::cos(full.phi_start_rad), libm::sin(full.phi_start_rad)],
             theta,
             phi,
@@ -134,16 +134,16 @@ impl SphericalTable {
 
     /// The value towards a unit direction; the azimuth of the poles is 0.
     ///
-    /// The same as [`Self::value_at`] of [`Angles::of`] but for the rounding of the angles, which
-    /// is no larger here, and sooner found.
+    /// The same as [`Self::value_at`] of [`Angles::from_direction`] but for the rounding of the
+    /// angles, which is no larger here, and sooner found.
     pub fn value(&self, direction: DVec3) -> f64 {
         let DVec3 { x, y, z } = direction;
         let horizontal = (x * x + y * y).sqrt();
-        let Some(row) = self.theta_dial.place(z, horizontal, 1.0) else { return 0.0 };
+        let Some(row) = self.theta_lookup.place(z, horizontal, 1.0) else { return 0.0 };
         let (x, y, horizontal) =
             if horizontal > 0.0 { (x, y, horizontal) } else { (1.0, 0.0, 1.0) };
         let [cos, sin] = self.phi_start;
-        let column = self.phi_dial.place(cos * x + sin * y, cos * y - sin * x, horizontal);
+        let column = self.phi_lookup.place(cos * x + sin * y, cos * y - sin * x, horizontal);
         column.map_or(0.0, |column| self.value_in(row, column))
     }
 
@@ -173,18 +173,18 @@ impl SphericalTable {
             + band.integral() * band.fraction_below(theta_rad).clamp(0.0, 1.0)
     }
 
-    /// The greatest value: a bilinear function has it at a knot. Of several the first in the order
+    /// The greatest value: a bilinear function has it at a node. Of several the first in the order
     /// of the polar angle, then of the azimuth from the first plane on.
     pub fn maximum(&self) -> Maximum {
-        let columns = self.phi.knots().len();
+        let columns = self.phi.nodes().len();
         let mut max_index = 0;
         for (index, value) in self.values.iter().enumerate() {
             if *value > self.values[max_index] {
                 max_index = index;
             }
         }
-        let theta_rad = self.theta.knots()[max_index / columns];
-        let phi_rad = self.phi_start_rad + self.phi.knots()[max_index % columns];
+        let theta_rad = self.theta.nodes()[max_index / columns];
+        let phi_rad = self.phi_start_rad + self.phi.nodes()[max_index % columns];
         Maximum { value: self.values[max_index], angles: Angles { theta_rad, phi_rad } }
     }
 
@@ -195,22 +195,22 @@ impl SphericalTable {
 
     /// The polar angles of the grid, ascending.
     pub fn theta_rad(&self) -> &[f64] {
-        self.theta.knots()
+        self.theta.nodes()
     }
 
     /// The azimuths of the unfolded grid, ascending over one full turn or over the sector.
     pub fn phi_rad(&self) -> impl Iterator<Item = f64> {
-        self.phi.knots().iter().map(|offset| self.phi_start_rad + offset)
+        self.phi.nodes().iter().map(|offset| self.phi_start_rad + offset)
     }
 
-    fn value_in(&self, row: Place, column: Place) -> f64 {
+    fn value_in(&self, row: CellPosition, column: CellPosition) -> f64 {
         let (at_start, at_end) = self.cell_edges(row, column.cell);
         lerp(at_start, at_end, column.fraction)
     }
 
     /// The values at both azimuths of a cell, at a place between two parallels.
-    fn cell_edges(&self, row: Place, column: usize) -> (f64, f64) {
-        let columns = self.phi.knots().len();
+    fn cell_edges(&self, row: CellPosition, column: usize) -> (f64, f64) {
+        let columns = self.phi.nodes().len();
         let above = row.cell * columns + column;
         let below = above + columns;
         (
@@ -219,7 +219,7 @@ impl SphericalTable {
         )
     }
 
-    /// The azimuth as an offset from the first knot, in [0, one turn].
+    /// The azimuth as an offset from the first node, in [0, one turn].
     fn phi_offset(&self, phi_rad: f64) -> f64 {
         let offset = phi_rad - self.phi_start_rad;
         if (0.0..=TAU).contains(&offset) {

@@ -14,13 +14,13 @@ struct Cell {
 }
 
 impl Cell {
-    fn of(table: &SphericalTable, row: usize, column: usize) -> Self {
-        let columns = table.phi.knots().len();
+    fn new(table: &SphericalTable, row: usize, column: usize) -> Self {
+        let columns = table.phi.nodes().len();
         let value = |row: usize, column: usize| table.values[row * columns + column];
         let sum = |row| value(row, column) + value(row, column + 1);
         Self {
-            theta: [table.theta.knots()[row], table.theta.knots()[row + 1]],
-            phi: [table.phi.knots()[column], table.phi.knots()[column + 1]],
+            theta: [table.theta.nodes()[row], table.theta.nodes()[row + 1]],
+            phi: [table.phi.nodes()[column], table.phi.nodes()[column + 1]],
             sums: [sum(row), sum(row + 1)],
         }
     }
@@ -59,7 +59,7 @@ mod tests {
 
     /// The cells of a band.
     fn cells(table: &SphericalTable, row: usize) -> impl Iterator<Item = Cell> {
-        (0..table.phi.knots().len() - 1).map(move |column| Cell::of(table, row, column))
+        (0..table.phi.nodes().len() - 1).map(move |column| Cell::new(table, row, column))
     }
 
     #[test]

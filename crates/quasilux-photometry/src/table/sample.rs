@@ -7,7 +7,7 @@
 
 use super::band::inside;
 use super::linear::{linear_fraction, linear_quantile};
-use super::{Angles, Place, SphericalTable, lerp};
+use super::{Angles, CellPosition, SphericalTable, lerp};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -52,7 +52,7 @@ impl SphericalTable {
     ///
     /// A direction outside the polar range, or outside the sector, is first moved to its border.
     pub fn invert(&self, direction: DVec3) -> [f64; 2] {
-        let angles = Angles::of(direction);
+        let angles = Angles::from_direction(direction);
         let theta_rad = angles.theta_rad.clamp(self.theta.first(), self.theta.last());
         let row = self.theta.place(theta_rad);
         let below = self.integral_below(theta_rad);
@@ -68,22 +68,22 @@ impl SphericalTable {
         band.theta_at(renormalised.clamp(0.0, 1.0))
     }
 
-    fn sample_phi_offset(&self, row: Place, u: f64) -> f64 {
-        let cells = self.phi.knots().len() - 1;
-        let below = |knot| self.row_integral(row, knot);
+    fn sample_phi_offset(&self, row: CellPosition, u: f64) -> f64 {
+        let cells = self.phi.nodes().len() - 1;
+        let below = |node| self.row_integral(row, node);
         if below(cells) <= 0.0 {
             return inside(u * self.phi.last(), 0.0, self.phi.last());
         }
         let target = u * below(cells);
         let cell = step(cells, target, below);
-        let (start, end) = (self.phi.knots()[cell], self.phi.knots()[cell + 1]);
+        let (start, end) = (self.phi.nodes()[cell], self.phi.nodes()[cell + 1]);
         let renormalised = (target - below(cell)) / (below(cell + 1) - below(cell));
         let (at_start, at_end) = self.cell_edges(row, cell);
         let t = linear_quantile(at_start, at_end, renormalised.clamp(0.0, 1.0));
         inside(lerp(start, end, t), start, end)
     }
 
-    fn invert_phi_offset(&self, row: Place, offset: f64) -> f64 {
+    fn invert_phi_offset(&self, row: CellPosition, offset: f64) -> f64 {
         let last = self.phi.last();
         // Beyond a sector, the border that is nearer around the azimuth.
         let offset = match offset - last {
@@ -91,21 +91,21 @@ impl SphericalTable {
             beyond if beyond < TAU - offset => last,
             _ => 0.0,
         };
-        let total = self.row_integral(row, self.phi.knots().len() - 1);
+        let total = self.row_integral(row, self.phi.nodes().len() - 1);
         if total <= 0.0 {
             return offset / last;
         }
-        let Place { cell, fraction } = self.phi.place(offset);
+        let CellPosition { cell, fraction } = self.phi.place(offset);
         let (at_start, at_end) = self.cell_edges(row, cell);
         let (below, above) = (self.row_integral(row, cell), self.row_integral(row, cell + 1));
         let inside_cell = (above - below) * linear_fraction(at_start, at_end, fraction);
         ((below + inside_cell) / total).min(1.0)
     }
 
-    /// Integral over the azimuth up to a knot, at a place between two parallels.
-    fn row_integral(&self, row: Place, knot: usize) -> f64 {
-        let columns = self.phi.knots().len();
-        let above = row.cell * columns + knot;
+    /// Integral over the azimuth up to a node, at a place between two parallels.
+    fn row_integral(&self, row: CellPosition, node: usize) -> f64 {
+        let columns = self.phi.nodes().len();
+        let above = row.cell * columns + node;
         lerp(self.row_integrals[above], self.row_integrals[above + columns], row.fraction)
     }
 }

@@ -29,6 +29,14 @@ pub(super) struct Emitter {
     pub(super) table: SphericalTable,
 }
 
+/// A flux that a file states.
+pub(super) struct StatedFlux {
+    pub(super) flux_lm: f64,
+    pub(super) at: Position,
+    /// The noun of the quantity, for messages.
+    pub(super) what: &'static str,
+}
+
 impl Emitter {
     /// `None` for an emitter without luminous intensities.
     pub(super) fn read(
@@ -46,14 +54,7 @@ impl Emitter {
             return Err(ParseError::new(own.text_at, quoted(own.text()), expected));
         }
         require(element, &["Quantity", "Description"], warnings);
-        let quantity = match optional_count(element, "Quantity", warnings)? {
-            Some(0) => {
-                let expected = "at least one lamp (read as one)";
-                warnings.push(WarningKind::ZeroLampCount, element.at, "a Quantity of 0", expected);
-                1.0
-            }
-            quantity => quantity.unwrap_or(1) as f64,
-        };
+        let quantity = quantity(element, warnings)?;
         let rated = optional_number(element, &["RatedLumens"], warnings)?;
         let input_watts = optional_number(element, &["InputWattage", "InputWatts"], warnings)?;
         let is_absolute = optional_boolean(data, "AbsolutePhotometry")?
@@ -70,16 +71,12 @@ impl Emitter {
         let grid = grid::read(data, photometric_type, candela_factor, warnings)?;
         let table = SphericalTable::new(grid.clone())
             .map_err(|error| ParseError::new(data.at, error, "a photometric table"))?;
-        let stated = element.child("LuminousData").unwrap_or(element);
         let emitter = Self {
             at: element.at,
             quantity,
             rated_lm: rated.filter(|rated| !is_absolute && rated.value > 0.0).map(|r| r.value),
             rated_at: rated.map_or(element.at, |rated| rated.at),
-            measured: match optional_number(stated, &["LuminousFlux"], warnings)? {
-                None => optional_number(element, &["LuminousFlux", "MeasuredLumens"], warnings)?,
-                flux => flux,
-            },
+            measured: measured_flux(element, warnings)?,
             ballast_factor,
             input_watts: input_watts.map_or(0.0, |watts| watts.value),
             candela_factor,
@@ -91,10 +88,11 @@ impl Emitter {
         Ok(Some(emitter))
     }
 
-    /// The flux that the file gives the emitter, where, and what it is.
-    pub(super) fn stated_flux(&self) -> Option<(f64, Position, &'static str)> {
+    /// The flux that the file gives the emitter.
+    pub(super) fn stated_flux(&self) -> Option<StatedFlux> {
         if let Some(measured) = self.measured.filter(|measured| measured.value > 0.0) {
-            return Some((measured.value, measured.at, "the flux that the file states"));
+            let what = "the flux that the file states";
+            return Some(StatedFlux { flux_lm: measured.value, at: measured.at, what });
         }
         let lamps_lm = self.rated_lm? * self.ballast_factor;
         let what = if self.table.integral() < lamps_lm {
@@ -102,7 +100,31 @@ impl Emitter {
         } else {
             "the lamps' flux: check Multiplier and RatedLumens"
         };
-        Some((lamps_lm, self.rated_at, what))
+        Some(StatedFlux { flux_lm: lamps_lm, at: self.rated_at, what })
+    }
+}
+
+/// The number of lamps.
+fn quantity(element: &Element<'_>, warnings: &mut Warnings) -> Result<f64, ParseError> {
+    match optional_count(element, "Quantity", warnings)? {
+        Some(0) => {
+            let expected = "at least one lamp (read as one)";
+            warnings.push(WarningKind::ZeroLampCount, element.at, "a Quantity of 0", expected);
+            Ok(1.0)
+        }
+        quantity => Ok(quantity.unwrap_or(1) as f64),
+    }
+}
+
+/// The luminaire's flux in lumen, beside the intensities or in the emitter.
+fn measured_flux(
+    element: &Element<'_>,
+    warnings: &mut Warnings,
+) -> Result<Option<Number>, ParseError> {
+    let data = element.child("LuminousData").unwrap_or(element);
+    match optional_number(data, &["LuminousFlux"], warnings)? {
+        None => optional_number(element, &["LuminousFlux", "MeasuredLumens"], warnings),
+        flux => Ok(flux),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::fields::{named, note_foreign, number, optional_count, word};
 use crate::angles::gamma_rad;
 use crate::candela::{check_closing, intensity_cd};
-use crate::ies::{HvAngles, c_rad};
+use crate::ies::{CPlanes, HvAngles, c_planes};
 use crate::warning::{WarningKind, Warnings};
 use crate::{Grid, PhotometricType, Symmetry};
 use quasilux_text::xml::Element;
@@ -57,7 +57,7 @@ pub(super) fn read(
     let grid = match photometric_type {
         PhotometricType::C => {
             let theta_rad = gamma_rad(&vertical, warnings)?;
-            let (phi_rad, symmetry) = c_rad(&horizontal, warnings)?;
+            let CPlanes { phi_rad, symmetry } = c_planes(&horizontal, warnings)?;
             check_symmetry(data, symmetry, &horizontal, warnings)?;
             Grid { theta_rad, phi_rad, symmetry, values }
         }

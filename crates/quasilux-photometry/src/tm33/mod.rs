@@ -13,9 +13,10 @@ mod sum;
 use crate::photometry::FLUX_TOLERANCE;
 use crate::warning::{WarningKind, Warnings};
 use crate::{
-    Keyword, LuminaireFacts, Parsed, Photometry, SphericalTable, Standard, Tilt, Tm33Edition,
+    Keyword, LuminaireFacts, Parsed, PhotometricType, Photometry, SphericalTable, Standard, Tilt,
+    Tm33Edition,
 };
-use emitter::Emitter;
+use emitter::{Emitter, StatedFlux};
 use fields::{is_empty_or_missing, require};
 use quasilux_text::xml::{self, Element};
 use quasilux_text::{ParseError, quoted};
@@ -40,27 +41,7 @@ pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
     }
     let photometric_type = emitter::photometric_type(&root, &mut warnings)?;
 
-    let mut emitters = Vec::new();
-    let mut dark = None;
-    for element in root.all("Emitter") {
-        match Emitter::read(element, photometric_type, &mut warnings)? {
-            Some(emitter) => emitters.push(emitter),
-            None => dark = dark.or(Some(element)),
-        }
-    }
-    if emitters.is_empty() {
-        return Err(no_light(&root, dark));
-    }
-    if let Some(dark) = dark {
-        let found = "an emitter without luminous intensities";
-        let expected = "LuminousData in each emitter (this one is left out)";
-        warnings.push(WarningKind::EmitterWithoutLight, dark.at, found, expected);
-    }
-    if let [_, second, ..] = &emitters[..] {
-        let found = format_args!("{} emitters", emitters.len()).to_string();
-        let expected = "one emitter (their intensities are added, as if from one place)";
-        warnings.push(WarningKind::SeveralEmitters, second.at, found, expected);
-    }
+    let emitters = read_emitters(&root, photometric_type, &mut warnings)?;
     let opening = opening::read(&root, &mut warnings)?;
     let table = sum::sum(&emitters)?;
     if table.integral() <= 0.0 {
@@ -85,6 +66,36 @@ pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
     };
     let photometry = Photometry::new(table, facts);
     Ok(Parsed { photometry, warnings: warnings.into_vec() })
+}
+
+/// The emitters with luminous intensities, at least one.
+fn read_emitters(
+    root: &Element<'_>,
+    photometric_type: PhotometricType,
+    warnings: &mut Warnings,
+) -> Result<Vec<Emitter>, ParseError> {
+    let mut emitters = Vec::new();
+    let mut dark = None;
+    for element in root.all("Emitter") {
+        match Emitter::read(element, photometric_type, warnings)? {
+            Some(emitter) => emitters.push(emitter),
+            None => dark = dark.or(Some(element)),
+        }
+    }
+    if emitters.is_empty() {
+        return Err(no_light(root, dark));
+    }
+    if let Some(dark) = dark {
+        let found = "an emitter without luminous intensities";
+        let expected = "LuminousData in each emitter (this one is left out)";
+        warnings.push(WarningKind::EmitterWithoutLight, dark.at, found, expected);
+    }
+    if let [_, second, ..] = &emitters[..] {
+        let found = format_args!("{} emitters", emitters.len()).to_string();
+        let expected = "one emitter (their intensities are added, as if from one place)";
+        warnings.push(WarningKind::SeveralEmitters, second.at, found, expected);
+    }
+    Ok(emitters)
 }
 
 /// The text. XML may start with a byte order mark, be UTF-16, or name its encoding.
@@ -173,7 +184,7 @@ fn keywords(header: Option<&Element<'_>>, emitters: &[Emitter]) -> Vec<Keyword> 
 /// Compares an emitter's flux with the one that its element states.
 fn check_flux(table: &SphericalTable, emitter: &Emitter, warnings: &mut Warnings) {
     let flux_lm = table.integral();
-    let Some((stated_lm, at, what)) = emitter.stated_flux() else {
+    let Some(StatedFlux { flux_lm: stated_lm, at, what }) = emitter.stated_flux() else {
         return;
     };
     if flux_lm > 0.0 && (flux_lm / stated_lm - 1.0).abs() > FLUX_TOLERANCE {

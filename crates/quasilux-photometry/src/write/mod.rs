@@ -15,13 +15,13 @@ pub struct Encoded {
     /// The file. Lines end with carriage return and line feed, as both formats ask for.
     pub text: String,
     /// What was changed, left out or added on the way.
-    pub notes: Vec<Note>,
+    pub notes: Vec<EncodingNote>,
 }
 
 /// What a writer changed, left out or added, because the format asks for it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Note {
+pub enum EncodingNote {
     /// The table has poles of its own, or is a sector of type C. It was resampled to the whole
     /// sphere in type C, on the coarsest of three grids that keeps the flux to 0.1 %. Beams
     /// narrower than the steps of the finest fall between them, or fill them: compare the fluxes.
@@ -79,7 +79,7 @@ pub enum Note {
     NotAscii,
 }
 
-impl fmt::Display for Note {
+impl fmt::Display for EncodingNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Resampled {
@@ -141,7 +141,7 @@ impl fmt::Display for Note {
 #[derive(Debug, Default)]
 pub(crate) struct Writer {
     text: String,
-    notes: Vec<Note>,
+    notes: Vec<EncodingNote>,
 }
 
 impl Writer {
@@ -152,7 +152,7 @@ impl Writer {
     }
 
     /// Keeps a note, each one once.
-    pub(crate) fn note(&mut self, note: Note) {
+    pub(crate) fn note(&mut self, note: EncodingNote) {
         if !self.notes.contains(&note) {
             self.notes.push(note);
         }
@@ -160,7 +160,7 @@ impl Writer {
 
     pub(crate) fn finish(mut self) -> Encoded {
         if !self.text.is_ascii() {
-            self.note(Note::NotAscii);
+            self.note(EncodingNote::NotAscii);
         }
         Encoded { text: self.text, notes: self.notes }
     }

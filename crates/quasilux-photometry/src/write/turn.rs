@@ -1,7 +1,7 @@
 //! Grids in the orientations that files have: first plane at C0, mirrored halves on the side that
 //! the format stores.
 
-use super::{Note, Writer};
+use super::{EncodingNote, Writer};
 use crate::{Angles, Grid, PhotometricType, Photometry, SphericalTable, Symmetry};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -61,7 +61,7 @@ pub(crate) fn aligned(photometry: &Photometry, half: Half, writer: &mut Writer) 
             }
         },
         Symmetry::Quadrant | Symmetry::Bilateral => {
-            writer.note(Note::Unfolded);
+            writer.note(EncodingNote::Unfolded);
             closed(photometry.table().unfolded_grid(), writer)
         }
         Symmetry::Sector => resampled(photometry, writer),
@@ -94,7 +94,7 @@ fn resampled(photometry: &Photometry, writer: &mut Writer) -> Grid {
         taken = with_flux(steps);
     }
     let ([planes, angles], grid, written_flux_lm) = taken;
-    writer.note(Note::Resampled {
+    writer.note(EncodingNote::Resampled {
         photometric_type: photometry.facts().photometric_type,
         plane_step_deg: 360.0 / planes as f64,
         angle_step_deg: 180.0 / angles as f64,
@@ -144,7 +144,7 @@ fn with_plane_at_zero(mut grid: Grid, writer: &mut Writer) -> Grid {
     if grid.phi_rad.iter().any(|phi| phi.abs() < TOLERANCE_RAD) {
         return grid;
     }
-    writer.note(Note::FirstPlaneAdded);
+    writer.note(EncodingNote::FirstPlaneAdded);
     let columns = grid.phi_rad.len();
     let place = grid.phi_rad.partition_point(|&phi| phi < 0.0);
     let (before, after) = (grid.phi_rad[place - 1], grid.phi_rad[place]);
@@ -183,7 +183,7 @@ fn close_with_first(grid: &mut Grid, writer: &mut Writer) {
         row[last] = row[0];
     }
     if difference_cd > 0.0 {
-        writer.note(Note::ClosingPlaneDropped { difference_cd });
+        writer.note(EncodingNote::ClosingPlaneDropped { difference_cd });
     }
 }
 
@@ -207,7 +207,7 @@ fn closed(grid: Grid, writer: &mut Writer) -> Grid {
         if meets { row[split] } else { (1.0 - t) * row[split - 1] + t * row[split] }
     };
     if !meets {
-        writer.note(Note::FirstPlaneAdded);
+        writer.note(EncodingNote::FirstPlaneAdded);
     }
     let mut phi_rad = vec![0.0];
     phi_rad.extend(order.iter().map(|&column| match azimuths[column] {
@@ -224,7 +224,7 @@ fn closed(grid: Grid, writer: &mut Writer) -> Grid {
         values.push(at_zero(row));
     }
     if difference_cd > 0.0 {
-        writer.note(Note::ClosingPlaneDropped { difference_cd });
+        writer.note(EncodingNote::ClosingPlaneDropped { difference_cd });
     }
     Grid { theta_rad: grid.theta_rad, phi_rad, symmetry: Symmetry::None, values }
 }

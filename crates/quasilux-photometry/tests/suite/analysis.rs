@@ -47,7 +47,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
 
 #[test]
 fn an_isotropic_source_is_wide_and_even() {
-    let analysis = Analysis::of(&luminaire(&[0.0, 180.0], &[0.0], |_, _| 50.0));
+    let analysis = Analysis::new(&luminaire(&[0.0, 180.0], &[0.0], |_, _| 50.0));
     assert_near(analysis.flux_lm, 200.0 * PI, 1e-10, "flux");
     assert_near(analysis.downward_flux_lm, 100.0 * PI, 1e-10, "downward");
     let code = analysis.flux_code;
@@ -79,7 +79,7 @@ fn powers_of_the_cosine_have_their_angles_and_codes() {
     let h = step / 180.0 * PI;
     for n in [1.0, 2.0, 6.0, 30.0] {
         let lamp = luminaire(&steps(step, 90.0), &[0.0], |g, _| 1000.0 * libm::pow(cosine(g), n));
-        let analysis = Analysis::of(&lamp);
+        let analysis = Analysis::new(&lamp);
         let tolerance = n * h * h;
         assert_near(analysis.flux_lm, 2000.0 * PI / (n + 1.0), 1000.0 * tolerance, "flux");
         for (share, cosine) in analysis.flux_code.lower.iter().zip([0.75, 0.5, 0.25]) {
@@ -98,10 +98,10 @@ fn powers_of_the_cosine_have_their_angles_and_codes() {
 /// The Lambertian code is 44 75 94 100, its angles are 120 and 168.52 degrees.
 #[test]
 fn a_lambertian_source_is_as_the_books_say() {
-    let analysis = Analysis::of(&luminaire(&steps(2.5, 90.0), &[0.0], |g, _| 318.0 * cosine(g)));
+    let analysis = Analysis::new(&luminaire(&steps(2.5, 90.0), &[0.0], |g, _| 318.0 * cosine(g)));
     let code = analysis.flux_code.percent().map(f64::round);
     assert_eq!(code, [44.0, 75.0, 94.0, 100.0, 100.0]);
-    assert_near(degrees(analysis.planes[0].beam), 120.0, 1e-9, "60 degrees is a knot");
+    assert_near(degrees(analysis.planes[0].beam), 120.0, 1e-9, "60 degrees is a node");
     assert_near(degrees(analysis.planes[1].field), 168.52, 0.01, "field");
 }
 
@@ -116,8 +116,11 @@ fn a_batwing_has_the_angle_of_its_outer_flanks() {
             _ => 0.0,
         }
     };
-    let analysis =
-        Analysis::of(&luminaire(&[0.0, 50.0, 70.0, 90.0], &[0.0, 90.0, 180.0, 270.0, 360.0], wing));
+    let analysis = Analysis::new(&luminaire(
+        &[0.0, 50.0, 70.0, 90.0],
+        &[0.0, 90.0, 180.0, 270.0, 360.0],
+        wing,
+    ));
     let [along, across] = analysis.planes;
     assert_near(degrees(along.beam), 120.0, 1e-12, "from -60 to 60");
     assert_near(degrees(along.centre_beam), 132.0, 1e-12, "20 of 100 cd at 66 degrees");
@@ -132,7 +135,7 @@ fn a_batwing_has_the_angle_of_its_outer_flanks() {
 #[test]
 fn a_needle_is_found_where_it_is() {
     let needle = |gamma: f64, c: f64| if gamma == 40.0 && c == 120.0 { 1e6 } else { 0.0 };
-    let analysis = Analysis::of(&luminaire(&steps(1.0, 90.0), &steps(5.0, 360.0), needle));
+    let analysis = Analysis::new(&luminaire(&steps(1.0, 90.0), &steps(5.0, 360.0), needle));
     let maximum = analysis.maximum.expect("light");
     assert_eq!(maximum.intensity_cd, 1e6);
     assert_near(maximum.angles.c_rad, 120.0 / 180.0 * PI, 1e-15, "C");
@@ -146,7 +149,7 @@ fn a_needle_is_found_where_it_is() {
 
 #[test]
 fn a_dark_luminaire_has_no_angles() {
-    let analysis = Analysis::of(&luminaire(&[0.0, 90.0], &[0.0], |_, _| 0.0));
+    let analysis = Analysis::new(&luminaire(&[0.0, 90.0], &[0.0], |_, _| 0.0));
     assert_eq!((analysis.maximum, analysis.planes[0].beam), (None, None));
     assert_eq!(analysis.flux_code.percent(), [0.0; 5]);
 }
@@ -155,7 +158,7 @@ fn a_dark_luminaire_has_no_angles() {
 fn an_uplight_shines_about_zenith() {
     let up = |gamma: f64, _: f64| 100.0 * cosine(180.0 - gamma);
     let angles: Vec<f64> = steps(2.5, 90.0).into_iter().map(|x| x + 90.0).collect();
-    let analysis = Analysis::of(&luminaire(&angles, &[0.0], up));
+    let analysis = Analysis::new(&luminaire(&angles, &[0.0], up));
     let beam = analysis.planes[0].beam.expect("a beam");
     assert_near(beam.start_rad, 2.0 / 3.0 * PI, 1e-12, "start");
     assert_near(beam.end_rad, 4.0 / 3.0 * PI, 1e-12, "end");
@@ -175,7 +178,7 @@ fn webs_with_other_poles_are_analysed_in_the_luminaire_frame() {
              -90 0 90\n-90 0 90\n{}",
             "100 100 100\n".repeat(3)
         );
-        Analysis::of(&read_ies(file.as_bytes()).expect("a file").photometry)
+        Analysis::new(&read_ies(file.as_bytes()).expect("a file").photometry)
     };
     let down = half_sphere(2);
     assert_near(down.flux_lm, 200.0 * PI, 1e-10, "flux");
@@ -205,7 +208,7 @@ fn curves_pass_through_the_intensities() {
         200.0 - gamma + if c == 100.0 { gamma } else { 0.0 }
     });
     for plane in Plane::PRINCIPAL {
-        let curve = PlaneCurve::of(&lamp, plane);
+        let curve = PlaneCurve::new(&lamp, plane);
         let points = curve.points();
         assert!(points.windows(2).all(|pair| pair[0].gamma_rad <= pair[1].gamma_rad));
         assert_eq!([points[0].gamma_rad, points[points.len() - 1].gamma_rad], [-PI, PI]);
@@ -234,7 +237,7 @@ fn published_files_divide_their_flux_as_they_sample_it() {
             continue;
         };
         let (photometry, name) = (read.photometry, name(file));
-        let zones = ZonalFlux::of(&photometry);
+        let zones = ZonalFlux::new(&photometry);
         let flux_lm = photometry.flux_lm();
         assert_near(zones.total_lm(), flux_lm, 1e-12 * flux_lm, &name);
         // Cones are no parallels of type B: they cut its cells of coordinates in both directions.

@@ -126,14 +126,14 @@ fn borders_of_a_sector_belong_to_it() {
     }
 }
 
-/// Values without arc tangents against those with them, at random directions and right at knots,
+/// Values without arc tangents against those with them, at random directions and right at nodes,
 /// but for the ends, where rounding decides: 1e-13 of the greatest value is ten times what rounding
 /// makes of the steepest table.
 #[test]
 fn directions_have_the_values_of_their_angles() {
     let mut generator = Generator(11);
     for (name, table) in hard_tables() {
-        let inner = |knots: &[f64]| knots[1..knots.len() - 1].to_vec();
+        let inner = |nodes: &[f64]| nodes[1..nodes.len() - 1].to_vec();
         let phi_rad = inner(&table.phi_rad().collect::<Vec<f64>>());
         let mut angles: Vec<Angles> = inner(table.theta_rad())
             .iter()
@@ -147,7 +147,7 @@ fn directions_have_the_values_of_their_angles() {
         }
         let largest_off = 1e-13 * table.maximum().value;
         for direction in angles.into_iter().map(Angles::direction) {
-            let off = table.value(direction) - table.value_at(Angles::of(direction));
+            let off = table.value(direction) - table.value_at(Angles::from_direction(direction));
             assert!(off.abs() < largest_off, "{name}, {direction}: off by {off}");
         }
     }

@@ -4,7 +4,7 @@ use quasilux_photometry::read_ies;
 use std::path::{Path, PathBuf};
 
 /// A file that is refused.
-struct Refusal {
+struct RefusedFile {
     file: &'static str,
     /// The line of the error.
     line: usize,
@@ -15,10 +15,10 @@ struct Refusal {
     breaks: &'static str,
 }
 
-const REFUSED: [Refusal; 1] = [
+const REFUSED: [RefusedFile; 1] = [
     // All 47 vertical angles are 25, the only horizontal angle is 205, and of the 47 candela values
     // 28 are 0: angles of several planes got mixed when the file was written.
-    Refusal {
+    RefusedFile {
         file: "gldf-lampsets.ies",
         line: 13,
         message: "25 after 25",

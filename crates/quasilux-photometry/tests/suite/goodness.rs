@@ -160,7 +160,7 @@ fn counts(
     let mut observed = vec![0; integrals.len()];
     for index in 0..samples {
         let u = [points.coordinate(index, 0), points.coordinate(index, 1)];
-        observed[boxes.place(Angles::of(sampled.sample(u).unwrap().direction))] += 1;
+        observed[boxes.place(Angles::from_direction(sampled.sample(u).unwrap().direction))] += 1;
     }
     let expected = integrals.iter().map(|integral| integral / total * samples as f64);
     observed
@@ -173,7 +173,7 @@ fn counts(
 /// Boxes with borders at quantiles, so that there are samples in each, also of a needle. What is
 /// expected in them comes from quadrature, wherever the borders are.
 fn boxes(table: &SphericalTable) -> Boxes {
-    let angles = |u| Angles::of(table.sample(u).unwrap().direction);
+    let angles = |u| Angles::from_direction(table.sample(u).unwrap().direction);
     let quantiles = |boxes: usize| (1..boxes).map(move |i| i as f64 / boxes as f64);
     let thetas = quantiles(THETA_BOXES).map(|u| angles([u, 0.5]).theta_rad);
     let ends = [table.theta_rad()[0], table.theta_rad()[table.theta_rad().len() - 1]];

@@ -21,7 +21,7 @@ const PROFILES: [[f64; 3]; 4] =
     [[1.0, 1.0, 1.0], [0.0, 1.0, 0.5], [3.0, 0.0, 1.0], [1e-6, 1e6, 1.0]];
 const WIDTHS_RAD: [f64; 4] = [2e-9, 1e-6, 1.745e-3, 0.5];
 
-/// A linear profile between knots over the distance from a pole, and its integral.
+/// A linear profile between nodes over the distance from a pole, and its integral.
 struct Profile {
     knots_rad: [f64; 3],
     values: [f64; 3],
@@ -72,7 +72,7 @@ impl Profile {
     fn north(&self) -> SphericalTable {
         let degrees = self.knots_rad.map(|x| x / PI * 180.0);
         table(&degrees, &[0.0], Symmetry::Rotational, |t, _| {
-            self.values[degrees.iter().position(|&knot| knot == t).unwrap()]
+            self.values[degrees.iter().position(|&node| node == t).unwrap()]
         })
     }
 
@@ -81,7 +81,7 @@ impl Profile {
         let degrees = self.knots_rad.map(|x| 180.0 - x / PI * 180.0);
         let ascending = [degrees[2], degrees[1], degrees[0]];
         table(&ascending, &[0.0], Symmetry::Rotational, |t, _| {
-            self.values[degrees.iter().position(|&knot| knot == t).unwrap()]
+            self.values[degrees.iter().position(|&node| node == t).unwrap()]
         })
     }
 }

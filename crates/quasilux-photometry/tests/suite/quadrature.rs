@@ -21,7 +21,7 @@ pub(crate) struct Boxes {
 
 impl Boxes {
     /// The integral over solid angle of the table's value over each box, row by row: five Gauss
-    /// nodes in theta between neighbouring knots and borders; in phi, where the value is linear,
+    /// nodes in theta between neighbouring nodes and borders; in phi, where the value is linear,
     /// midpoints.
     pub(crate) fn integrals(&self, table: &SphericalTable) -> Vec<f64> {
         let azimuths: Vec<f64> = table.phi_rad().map(|phi| phi.rem_euclid(TAU)).collect();
@@ -58,9 +58,9 @@ impl Boxes {
     }
 }
 
-/// Pieces between `ends` and the knots inside.
-fn panels(ends: &[f64], knots: &[f64]) -> Vec<[f64; 2]> {
-    let inside = knots.iter().copied().filter(|k| *k > ends[0] + 1e-12 && *k < ends[1] - 1e-12);
+/// Pieces between `ends` and the nodes inside.
+fn panels(ends: &[f64], nodes: &[f64]) -> Vec<[f64; 2]> {
+    let inside = nodes.iter().copied().filter(|k| *k > ends[0] + 1e-12 && *k < ends[1] - 1e-12);
     let mut edges: Vec<f64> = inside.chain([ends[0], ends[1]]).collect();
     edges.sort_by(f64::total_cmp);
     edges.windows(2).map(|pair| [pair[0], pair[1]]).collect()

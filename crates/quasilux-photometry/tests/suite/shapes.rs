@@ -9,7 +9,7 @@ use quasilux_photometry::{
 
 fn shape(edition: IesStandard, [width_m, length_m, height_m]: [f64; 3]) -> LuminousShape {
     let opening = LuminousOpening { width_m, length_m, height_m };
-    LuminousShape::of_opening(Standard::Lm63(edition), &opening)
+    LuminousShape::from_opening(Standard::Lm63(edition), &opening)
 }
 
 /// Width, length and height; what 1986, 1995 and 2002 make of them; extents along x, y, z in 2002.

@@ -3,9 +3,9 @@
 use crate::corpus::{name, published_files_of};
 use glam::DVec3;
 use quasilux_photometry::{
-    Angles, Encoded, Grid, IesStandard, Keyword, LuminaireFacts, LuminousOpening, Note, Parsed,
-    PhotometricType, Photometry, SphericalTable, Standard, Symmetry, Tilt, WarningKind, read_ies,
-    read_ldt, write_ies, write_ldt,
+    Angles, Encoded, EncodingNote, Grid, IesStandard, Keyword, LuminaireFacts, LuminousOpening,
+    Parsed, PhotometricType, Photometry, SphericalTable, Standard, Symmetry, Tilt, WarningKind,
+    read_ies, read_ldt, write_ies, write_ldt,
 };
 use std::f64::consts::PI;
 
@@ -131,7 +131,7 @@ fn published_files_survive_lm63() {
 
             let (before, after) = (photometry.facts(), read.photometry.facts());
             if before.standard != Standard::Eulumdat {
-                let continued = written.notes.contains(&Note::TextContinued);
+                let continued = written.notes.contains(&EncodingNote::TextContinued);
                 let (mut a, mut b) = (without_edition(before), without_edition(after));
                 if continued {
                     (a.keywords, b.keywords) = Default::default();
@@ -158,7 +158,8 @@ fn published_files_survive_eulumdat() {
             assert_resampled(&written, photometry, &read);
             continue;
         }
-        let dropped = |note: &Note| matches!(note, Note::ClosingPlaneDropped { .. });
+        let dropped =
+            |note: &EncodingNote| matches!(note, EncodingNote::ClosingPlaneDropped { .. });
         if !written.notes.iter().any(dropped) {
             assert!(difference(photometry.table(), read.photometry.table()) < 3e-13, "{name}");
         }
@@ -174,7 +175,7 @@ fn published_files_survive_eulumdat() {
         let again = write_ldt(&read.photometry);
         assert!(again.text == written.text, "{name}: written twice, two files");
 
-        let cut = written.notes.iter().any(|note| matches!(note, Note::TextCut { .. }));
+        let cut = written.notes.iter().any(|note| matches!(note, EncodingNote::TextCut { .. }));
         if photometry.facts().standard == Standard::Eulumdat && !cut {
             let (mut a, b) = (photometry.facts().clone(), read.photometry.facts());
             if a.light_output_ratio.is_none() {
@@ -260,7 +261,7 @@ fn each_symmetry_survives_in_both_formats() {
         let error = difference(photometry.table(), read.photometry.table());
         assert!(error < 1e-15, "{planes_deg:?}: {error:e}");
         let added = planes_deg == [90.0, 100.0, 270.0] || planes_deg[0] == 10.0;
-        assert_eq!(written.notes.contains(&Note::FirstPlaneAdded), added, "{planes_deg:?}");
+        assert_eq!(written.notes.contains(&EncodingNote::FirstPlaneAdded), added, "{planes_deg:?}");
     }
 }
 
@@ -274,7 +275,7 @@ fn what_no_format_holds_is_noted() {
     ]
     .map(|(written, read)| (written.notes.clone(), read(&written)))
     {
-        assert!(notes.contains(&Note::Unfolded), "{notes:?}");
+        assert!(notes.contains(&EncodingNote::Unfolded), "{notes:?}");
         assert!(difference(tilted.table(), read.photometry.table()) < 1e-14);
     }
 
@@ -290,7 +291,7 @@ fn what_no_format_holds_is_noted() {
     let read = ies(&write_ies(&jump, IesStandard::Lm63Of2002));
     assert_eq!(read.photometry.table().grid(), jump.table().grid());
     let notes = write_ldt(&jump).notes;
-    assert!(notes.contains(&Note::ClosingPlaneDropped { difference_cd: 1.5 }), "{notes:?}");
+    assert!(notes.contains(&EncodingNote::ClosingPlaneDropped { difference_cd: 1.5 }), "{notes:?}");
 }
 
 #[test]
@@ -331,9 +332,11 @@ fn a_beam_lost_in_resampling_is_told() {
     assert_resampled(&written, &beam, &ldt(&written));
 }
 
-fn resampled_fluxes_lm(note: &Note) -> Option<[f64; 2]> {
+fn resampled_fluxes_lm(note: &EncodingNote) -> Option<[f64; 2]> {
     match *note {
-        Note::Resampled { flux_lm, written_flux_lm, .. } => Some([flux_lm, written_flux_lm]),
+        EncodingNote::Resampled { flux_lm, written_flux_lm, .. } => {
+            Some([flux_lm, written_flux_lm])
+        }
         _ => None,
     }
 }
@@ -402,9 +405,9 @@ fn header_facts_are_written_by_edition() {
         assert!(written.text.lines().any(|line| line == field), "{edition:?}:\n{}", written.text);
         // The numbers that the file gave, not those that they were turned into.
         assert!(written.text.contains("123.4 77.7\r\n"), "{}", written.text);
-        let required = Note::KeywordAdded("TESTLAB");
+        let required = EncodingNote::KeywordAdded("TESTLAB");
         assert_eq!(written.notes.contains(&required), edition >= IesStandard::Lm63Of2002);
-        let labelled = written.notes.contains(&Note::LabelAsOther);
+        let labelled = written.notes.contains(&EncodingNote::LabelAsOther);
         assert_eq!(labelled, edition > IesStandard::Lm63Of1986);
     }
 }
@@ -422,16 +425,16 @@ fn long_texts_are_continued_or_cut() {
     let photometry = Photometry::new(table, facts);
     let written = write_ies(&photometry, IesStandard::Lm63Of1995);
     check_lines(&written, 132);
-    assert!(written.notes.contains(&Note::TextContinued));
+    assert!(written.notes.contains(&EncodingNote::TextContinued));
     let read = ies(&written);
     let value = read.photometry.facts().keyword("MANUFAC").unwrap().replace('\n', " ");
     assert_eq!(value, long.trim());
 
     let written = write_ldt(&photometry);
     check_lines(&written, 78);
-    let cut = Note::TextCut { field: "the company (field 1)", length: 78 };
+    let cut = EncodingNote::TextCut { field: "the company (field 1)", length: 78 };
     assert!(written.notes.contains(&cut), "{:?}", written.notes);
-    assert!(written.notes.contains(&Note::KeywordsLeftOut(1)), "{:?}", written.notes);
+    assert!(written.notes.contains(&EncodingNote::KeywordsLeftOut(1)), "{:?}", written.notes);
     assert!(written.notes.iter().all(|note| !note.to_string().is_empty()));
 }
 

@@ -15,7 +15,7 @@ pub(super) fn read(
 ) -> Result<Photometry, LoadError> {
     let bytes = read_file(project, name, files)?;
     let file = name.value.as_str();
-    let format = Format::of_file(file, &bytes).unwrap_or(Format::Lm63);
+    let format = Format::from_file(file, &bytes).unwrap_or(Format::Lm63);
     if let Some(promised) = format.misnamed(file) {
         let message = format!(
             "found a file in the format {}; expected {}, as the name says (read as what it is)",

@@ -38,7 +38,7 @@ pub(super) fn drawing(input: &Input, luminaire: &Luminaire, diagram: DiagramName
 }
 
 fn curve(photometry: &Photometry, plane: Plane, stroke: Stroke) -> IntensityCurve {
-    let curve = PlaneCurve::of(photometry, plane);
+    let curve = PlaneCurve::new(photometry, plane);
     let point = |point: &quasilux_photometry::analysis::PlanePoint| {
         [words::degrees(point.gamma_rad), point.intensity_cd]
     };

@@ -36,14 +36,14 @@ impl Input {
 }
 
 fn luminaire(name: &str, bytes: &[u8]) -> Result<Luminaire, Failure> {
-    let Some(format) = Format::of_file(name, bytes) else {
+    let Some(format) = Format::from_file(name, bytes) else {
         let message = "found no line TILT= and no numbers in lines 3 to 7; expected a luminaire \
                        file, LM-63, EULUMDAT or TM-33";
         return Err(Failure::at(name, [1, 1], message.to_owned()));
     };
     let read = format.read(bytes).map_err(|error| Failure::of(name, &error))?;
     Ok(Luminaire {
-        analysis: Analysis::of(&read.photometry),
+        analysis: Analysis::new(&read.photometry),
         photometry: read.photometry,
         warnings: read.warnings,
         misnamed: format.misnamed(name),

@@ -44,7 +44,7 @@ impl Outputs {
 
 fn conversion(path: &Path, files: &[PathBuf]) -> Result<Conversion, CliError> {
     let refuse = |what: String| Err(CliError::new(format!("--convert {}: {what}", path.display())));
-    let format = match Format::of_name(&path.to_string_lossy()) {
+    let format = match Format::from_name(&path.to_string_lossy()) {
         Some(format @ (Format::Lm63 | Format::Eulumdat)) => format,
         _ => return refuse("expected a name that ends in .ies or .ldt".to_owned()),
     };

@@ -9,7 +9,7 @@
 //! The angle that a place stands for is within 3e-16 rad of the true one; with arc tangents it is
 //! within 3e-16 up to half a turn and 1e-15 up to a whole one, whose last digits are worth more.
 
-use super::axis::{Axis, Place};
+use super::axis::{Axis, CellPosition};
 
 /// Marks are at most this far apart, for [`small_arc_sine`].
 const WIDEST_RAD: f64 = 1.0 / 16.0;
@@ -19,9 +19,9 @@ const BUCKETS_PER_MARK: usize = 8;
 /// Directions that are off the axis by rounding only are on it.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// The knots of an axis, and marks between those that are far apart.
+/// The nodes of an axis, and marks between those that are far apart.
 #[derive(Clone, Debug)]
-pub(super) struct Dial {
+pub(super) struct AngleLookup {
     marks: Vec<Mark>,
     /// For each bucket of pseudo-angles, the last mark that comes before it.
     guide: Vec<u32>,
@@ -35,17 +35,17 @@ pub(super) struct Dial {
 struct Mark {
     cos: f64,
     sin: f64,
-    /// From the cell's first knot to the mark.
+    /// From the cell's first node to the mark.
     offset_rad: f64,
     cells_per_rad: f64,
     cell: u32,
 }
 
-impl Dial {
-    /// The dial of an axis within [0, one turn].
+impl AngleLookup {
+    /// The lookup of an axis within [0, one turn].
     pub(super) fn new(axis: &Axis) -> Self {
-        let mut marks = Vec::with_capacity(axis.knots().len());
-        for (cell, ends) in axis.knots().windows(2).enumerate() {
+        let mut marks = Vec::with_capacity(axis.nodes().len());
+        for (cell, ends) in axis.nodes().windows(2).enumerate() {
             let width_rad = ends[1] - ends[0];
             // Of the narrowest cells the reciprocal overflows.
             let cells_per_rad = width_rad.recip().min(f64::MAX);
@@ -60,22 +60,22 @@ impl Dial {
         let buckets = BUCKETS_PER_MARK * marks.len();
         let buckets_per_unit = buckets as f64 / (ends[1] - ends[0]).max(SLACK);
         let guide = Vec::with_capacity(buckets);
-        let mut dial = Self { marks, guide, ends, buckets_per_unit };
+        let mut lookup = Self { marks, guide, ends, buckets_per_unit };
         let mut mark = 0;
         for bucket in 0..buckets {
-            let is_before = |mark: &Mark| dial.bucket(pseudo_angle(mark.cos, mark.sin)) < bucket;
-            while dial.marks.get(mark + 1).is_some_and(is_before) {
+            let is_before = |mark: &Mark| lookup.bucket(pseudo_angle(mark.cos, mark.sin)) < bucket;
+            while lookup.marks.get(mark + 1).is_some_and(is_before) {
                 mark += 1;
             }
-            dial.guide.push(mark as u32);
+            lookup.guide.push(mark as u32);
         }
-        dial
+        lookup
     }
 
     /// The place of the direction whose cosine and sine are `x / length` and `y / length`; `None`
     /// off the axis.
     #[inline]
-    pub(super) fn place(&self, x: f64, y: f64, length: f64) -> Option<Place> {
+    pub(super) fn place(&self, x: f64, y: f64, length: f64) -> Option<CellPosition> {
         let axis = self.ends[0] - SLACK..=self.ends[1] + SLACK;
         let mut pseudo_angle = pseudo_angle(x, y);
         if !axis.contains(&pseudo_angle) {
@@ -93,7 +93,7 @@ impl Dial {
         let mark = &self.marks[number];
         let angle_rad = mark.offset_rad + small_arc_sine(mark.cross(x, y) / length);
         let fraction = (angle_rad * mark.cells_per_rad).clamp(0.0, 1.0);
-        Some(Place { cell: mark.cell as usize, fraction })
+        Some(CellPosition { cell: mark.cell as usize, fraction })
     }
 
     #[inline]
@@ -144,7 +144,7 @@ mod tests {
         (0..=cells).map(part).collect()
     }
 
-    /// Against the arc tangent; places are compared as angles, so that a knot may belong to either
+    /// Against the arc tangent; places are compared as angles, so that a node may belong to either
     /// of its cells. Both roundings of an angle up to one turn together are below 2e-15.
     #[test]
     fn places_are_those_of_the_arc_tangent() {
@@ -157,20 +157,20 @@ mod tests {
             even(0.0, 1.5 * PI, 3),
             vec![0.0, 1e-300, 1e-12, 0.5, 0.5000000001, 3.0],
         ];
-        for knots in axes {
-            let axis = Axis::new(knots);
-            let dial = Dial::new(&axis);
-            let angle = |place: Place| {
-                let ends = [0, 1].map(|end| axis.knots()[place.cell + end]);
+        for nodes in axes {
+            let axis = Axis::new(nodes);
+            let lookup = AngleLookup::new(&axis);
+            let angle = |place: CellPosition| {
+                let ends = [0, 1].map(|end| axis.nodes()[place.cell + end]);
                 ends[0] + (ends[1] - ends[0]) * place.fraction
             };
-            let near_knots = axis.knots().iter().flat_map(|&k| [k.next_down(), k, k.next_up()]);
-            for probe in even(0.0, TAU, 7919).into_iter().chain(near_knots) {
+            let near_nodes = axis.nodes().iter().flat_map(|&k| [k.next_down(), k, k.next_up()]);
+            for probe in even(0.0, TAU, 7919).into_iter().chain(near_nodes) {
                 let (y, x) = libm::sincos(probe);
                 let seen = libm::atan2(y, x);
                 let seen = if seen < 0.0 { seen + TAU } else { seen };
                 let apart = |end: f64| (seen - end).abs().min(TAU - (seen - end).abs());
-                match dial.place(x, y, 1.0) {
+                match lookup.place(x, y, 1.0) {
                     Some(place) => {
                         let off = (angle(place) - seen).abs();
                         assert!(off < 2e-15 || (TAU - off) < 2e-15, "{probe}: off by {off}");
@@ -188,17 +188,17 @@ mod tests {
 
     #[test]
     fn ends_are_on_the_axis() {
-        let dial = Dial::new(&Axis::new(vec![0.0, PI / 2.0]));
-        assert_eq!(dial.place(1.0, 0.0, 1.0), Some(Place { cell: 0, fraction: 0.0 }));
-        assert_eq!(dial.place(0.0, 1.0, 1.0), Some(Place { cell: 0, fraction: 1.0 }));
-        let by_rounding = Some(Place { cell: 0, fraction: 0.0 });
-        assert_eq!(dial.place(1.0, -1e-16, 1.0), by_rounding);
-        assert_eq!(dial.place(1.0, -1e-12, 1.0), None);
-        assert_eq!(dial.place(-1e-16, 1.0, 1.0), Some(Place { cell: 0, fraction: 1.0 }));
-        assert_eq!(dial.place(-1e-12, 1.0, 1.0), None);
-        assert_eq!(dial.place(f64::NAN, 1.0, 1.0), None);
-        assert_eq!(dial.place(0.0, 0.0, 0.0), None);
-        assert_eq!(dial.place(1.0, -0.0, 1.0), dial.place(1.0, 0.0, 1.0));
+        let lookup = AngleLookup::new(&Axis::new(vec![0.0, PI / 2.0]));
+        assert_eq!(lookup.place(1.0, 0.0, 1.0), Some(CellPosition { cell: 0, fraction: 0.0 }));
+        assert_eq!(lookup.place(0.0, 1.0, 1.0), Some(CellPosition { cell: 0, fraction: 1.0 }));
+        let by_rounding = Some(CellPosition { cell: 0, fraction: 0.0 });
+        assert_eq!(lookup.place(1.0, -1e-16, 1.0), by_rounding);
+        assert_eq!(lookup.place(1.0, -1e-12, 1.0), None);
+        assert_eq!(lookup.place(-1e-16, 1.0, 1.0), Some(CellPosition { cell: 0, fraction: 1.0 }));
+        assert_eq!(lookup.place(-1e-12, 1.0, 1.0), None);
+        assert_eq!(lookup.place(f64::NAN, 1.0, 1.0), None);
+        assert_eq!(lookup.place(0.0, 0.0, 0.0), None);
+        assert_eq!(lookup.place(1.0, -0.0, 1.0), lookup.place(1.0, 0.0, 1.0));
     }
 
     #[test]

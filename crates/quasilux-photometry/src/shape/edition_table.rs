@@ -11,7 +11,7 @@ use std::cmp::Ordering::{Equal as Zero, Greater as Plus, Less as Minus};
 const MIN_M: f64 = 1e-6;
 
 /// A shape, and which table gave it.
-pub(super) struct Found {
+pub(super) struct ShapeByEdition {
     pub(super) shape: LuminousShape,
     table: Option<Table>,
 }
@@ -25,12 +25,14 @@ enum Table {
 }
 
 /// The shape by the file's own table, else by the latest other one that has it, else a point.
-pub(super) fn shape(standard: Standard, opening: &LuminousOpening) -> Found {
-    let own = Table::of(standard);
-    let by = |table: Table| table.shape(opening).map(|shape| Found { shape, table: Some(table) });
+pub(super) fn shape(standard: Standard, opening: &LuminousOpening) -> ShapeByEdition {
+    let own = Table::from_standard(standard);
+    let by = |table: Table| {
+        table.shape(opening).map(|shape| ShapeByEdition { shape, table: Some(table) })
+    };
     by(own)
         .or_else(|| [Table::Of2002, Table::Of1995, Table::Of1986].into_iter().find_map(by))
-        .unwrap_or(Found { shape: LuminousShape::POINT, table: None })
+        .unwrap_or(ShapeByEdition { shape: LuminousShape::POINT, table: None })
 }
 
 /// The dimensions by which a file of the format `to` gives the shape of `opening`: by its own
@@ -40,7 +42,7 @@ pub(crate) fn opening_in(
     from: Standard,
     opening: &LuminousOpening,
 ) -> LuminousOpening {
-    let wanted = LuminousShape::of_opening(from, opening);
+    let wanted = LuminousShape::from_opening(from, opening);
     let size_m = wanted.size_m();
     let signed = |index: i32, axis: u32, size_m: f64| {
         // Plus, minus and zero, in turn.
@@ -53,7 +55,8 @@ pub(crate) fn opening_in(
     });
     let candidates = || std::iter::once(*opening).chain(patterns.clone());
     let gives = |candidate: &LuminousOpening| shape(to, candidate).shape == wanted;
-    let is_own = |candidate: &LuminousOpening| shape(to, candidate).table == Some(Table::of(to));
+    let is_own =
+        |candidate: &LuminousOpening| shape(to, candidate).table == Some(Table::from_standard(to));
     if wanted.is_point() {
         return *opening;
     }
@@ -68,7 +71,7 @@ pub(crate) fn check_signs(
     at: Position,
     warnings: &mut Warnings,
 ) {
-    let Found { shape, table } = shape(standard, opening);
+    let ShapeByEdition { shape, table } = shape(standard, opening);
     let LuminousOpening { width_m, length_m, height_m } = opening;
     let found =
         format_args!("a luminous width, length and height of {width_m}, {length_m}, {height_m} m")
@@ -79,7 +82,7 @@ pub(crate) fn check_signs(
             let expected = format_args!("{own} (read as a point)").to_string();
             warnings.push(WarningKind::UnknownOpening, at, found, expected);
         }
-        Some(table) if table != Table::of(standard) => {
+        Some(table) if table != Table::from_standard(standard) => {
             let expected = format_args!("{own} (read as a {}, as in LM-63-{table})", shape.name());
             warnings.push(WarningKind::OpeningOfOtherEdition, at, found, expected.to_string());
         }
@@ -88,7 +91,7 @@ pub(crate) fn check_signs(
 }
 
 impl Table {
-    fn of(standard: Standard) -> Self {
+    fn from_standard(standard: Standard) -> Self {
         match standard {
             Standard::Lm63(IesStandard::Lm63Of1986 | IesStandard::Lm63Of1991) => Self::Of1986,
             Standard::Lm63(IesStandard::Lm63Of1995) => Self::Of1995,
@@ -102,13 +105,13 @@ impl Table {
         let sign = |size_m: f64| {
             if size_m.abs() < MIN_M { Zero } else { size_m.partial_cmp(&0.0).unwrap_or(Zero) }
         };
-        let signs = [width_m, length_m, height_m].map(sign);
+        let pattern = [width_m, length_m, height_m].map(sign);
         let of = |solid, size: [f64; 3]| Some(LuminousShape::new(solid, DVec3::from_array(size)));
         let vertical = Solid::Cylinder(Axis::Z);
-        if signs.iter().all(|sign| *sign != Minus) {
+        if pattern.iter().all(|sign| *sign != Minus) {
             return of(Solid::Cuboid, [l, w, h]);
         }
-        match (self, signs) {
+        match (self, pattern) {
             (Self::Of1986, [Minus, Plus, Plus]) => of(Solid::Ellipsoid, [l, w, h]),
             (Self::Of1986, [Minus, Plus, Zero]) => of(vertical, [l, w, 0.0]),
             (Self::Of1986 | Self::Of1995, [Minus, Zero, Zero | Plus]) => of(vertical, [w, w, h]),

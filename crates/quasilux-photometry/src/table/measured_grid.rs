@@ -1,4 +1,4 @@
-//! Back from the table that closes around the azimuth to the grid as it was measured.
+//! The grid as it was measured, from the table that closes around the azimuth.
 
 use super::{Grid, SphericalTable, Symmetry};
 
@@ -8,7 +8,7 @@ impl SphericalTable {
     /// Values are those of the grid that the table was made of, bit for bit; an azimuth may differ
     /// from it by the rounding of one subtraction and one addition.
     pub fn grid(&self) -> Grid {
-        let closed = self.phi.knots().len();
+        let closed = self.phi.nodes().len();
         let columns = match self.symmetry {
             Symmetry::Rotational => 1,
             Symmetry::Quadrant => (closed - 1) / 4 + 1,
@@ -26,14 +26,14 @@ impl SphericalTable {
             Symmetry::Sector => Symmetry::Sector,
             _ => Symmetry::None,
         };
-        self.columns(self.phi.knots().len(), unfolded)
+        self.columns(self.phi.nodes().len(), unfolded)
     }
 
     fn columns(&self, columns: usize, symmetry: Symmetry) -> Grid {
-        let rows = self.values.chunks_exact(self.phi.knots().len());
+        let rows = self.values.chunks_exact(self.phi.nodes().len());
         Grid {
-            theta_rad: self.theta.knots().to_vec(),
-            phi_rad: self.phi.knots()[..columns]
+            theta_rad: self.theta.nodes().to_vec(),
+            phi_rad: self.phi.nodes()[..columns]
                 .iter()
                 .map(|offset| self.phi_start_rad + offset)
                 .collect(),

@@ -1,4 +1,4 @@
-//! From a grid as measured to one without symmetries.
+//! A grid of spherical angles as measured, and the grid without symmetry that it stands for.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -6,10 +6,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 const ANGLE_TOLERANCE_RAD: f64 = 1e-9;
 
 /// Greater values would overflow in sums and products.
-const LARGEST_VALUE: f64 = 1e100;
+const MAX_VALUE: f64 = 1e100;
 
 /// Smaller values count as zero: their products would lose digits to underflow.
-const SMALLEST_VALUE: f64 = 1e-100;
+const MIN_VALUE: f64 = 1e-100;
 
 /// What the azimuths of a grid cover, and how the rest follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ pub enum TableError {
     Value(usize),
 }
 
-/// A grid with its symmetry unfolded: azimuths as offsets from the first one, from 0 to a full turn
+/// A grid without symmetry: azimuths as offsets from the first one, from 0 to a full turn
 /// or to the end of a sector.
 pub(super) struct FullGrid {
     pub(super) theta_rad: Vec<f64>,
@@ -85,22 +85,36 @@ pub(super) struct FullGrid {
     pub(super) values: Vec<f64>,
 }
 
+/// A column of a grid without symmetry.
+#[derive(Clone, Copy)]
+struct Column {
+    /// From the first azimuth.
+    offset_rad: f64,
+    /// The measured column with the same values.
+    measured: usize,
+}
+
 impl Grid {
-    pub(super) fn unfold(self) -> Result<FullGrid, TableError> {
+    pub(super) fn without_symmetry(self) -> Result<FullGrid, TableError> {
         self.check()?;
         let columns = self.phi_rad.len();
         let start = self.phi_rad[0];
         // Which column of the measured grid stands at each offset of the full one.
-        let measured: Vec<(f64, usize)> =
-            self.phi_rad.iter().enumerate().map(|(column, phi)| (phi - start, column)).collect();
+        let measured: Vec<Column> = self
+            .phi_rad
+            .iter()
+            .enumerate()
+            .map(|(measured, phi)| Column { offset_rad: phi - start, measured })
+            .collect();
+        let end = Column { offset_rad: TAU, measured: 0 };
         let full = match self.symmetry {
-            Symmetry::Rotational => vec![(0.0, 0), (TAU, 0)],
+            Symmetry::Rotational => vec![Column { offset_rad: 0.0, measured: 0 }, end],
             Symmetry::Quadrant => mirrored(&mirrored(&measured, FRAC_PI_2), PI),
             Symmetry::Bilateral => mirrored(&measured, PI),
             Symmetry::None => closed(measured, columns - 1),
             Symmetry::Open => {
                 let mut open = measured;
-                open.push((TAU, 0));
+                open.push(end);
                 open
             }
             Symmetry::Sector => measured,
@@ -108,13 +122,13 @@ impl Grid {
         let values = self
             .values
             .chunks_exact(columns)
-            .flat_map(|row| full.iter().map(|&(_, column)| row[column]))
-            .map(|value| if value < SMALLEST_VALUE { 0.0 } else { value })
+            .flat_map(|row| full.iter().map(|column| row[column.measured]))
+            .map(|value| if value < MIN_VALUE { 0.0 } else { value })
             .collect();
         Ok(FullGrid {
             theta_rad: self.theta_rad,
             phi_start_rad: start,
-            phi_rad: full.iter().map(|&(offset, _)| offset).collect(),
+            phi_rad: full.iter().map(|column| column.offset_rad).collect(),
             values,
         })
     }
@@ -149,7 +163,7 @@ impl Grid {
         if self.values.len() != expected {
             return Err(TableError::ValueCount { expected, found: self.values.len() });
         }
-        match self.values.iter().position(|value| !(0.0..=LARGEST_VALUE).contains(value)) {
+        match self.values.iter().position(|value| !(0.0..=MAX_VALUE).contains(value)) {
             Some(index) => Err(TableError::Value(index)),
             None => Ok(()),
         }
@@ -164,15 +178,20 @@ fn first_not_ascending(angles: &[f64], min: f64, max: f64) -> Option<usize> {
     angles.windows(2).position(outside).map(|index| index + 1)
 }
 
-/// Columns from offset 0 to `end`, followed by their mirror images from `end` to `2 end`.
-fn mirrored(columns: &[(f64, usize)], end: f64) -> Vec<(f64, usize)> {
-    let (last, before) = (columns[columns.len() - 1].1, &columns[..columns.len() - 1]);
-    let images = before.iter().rev().map(|&(offset, column)| (2.0 * end - offset, column));
-    before.iter().copied().chain([(end, last)]).chain(images).collect()
+/// Columns from offset 0 to `end_rad`, followed by their mirror images from `end_rad` to `2
+/// end_rad`.
+fn mirrored(columns: &[Column], end_rad: f64) -> Vec<Column> {
+    let (last, before) = (columns[columns.len() - 1], &columns[..columns.len() - 1]);
+    let images = before
+        .iter()
+        .rev()
+        .map(|column| Column { offset_rad: 2.0 * end_rad - column.offset_rad, ..*column });
+    let last = Column { offset_rad: end_rad, ..last };
+    before.iter().copied().chain([last]).chain(images).collect()
 }
 
 /// The same columns with the last one at exactly one turn.
-fn closed(mut columns: Vec<(f64, usize)>, last: usize) -> Vec<(f64, usize)> {
-    columns[last].0 = TAU;
+fn closed(mut columns: Vec<Column>, last: usize) -> Vec<Column> {
+    columns[last].offset_rad = TAU;
     columns
 }
