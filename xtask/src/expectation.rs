@@ -64,7 +64,8 @@ impl Expectation {
             let distance = (value - self.value).abs();
             if distance.is_nan() || distance > allowed {
                 return Err(format!(
-                    "{}: {value} +- {half_width} is {distance:.4} away from {}, allowed {allowed:.4}",
+                    "{}: {value} +- {half_width} is {distance:.4} away from {}, allowed \
+                     {allowed:.4}",
                     self.label(),
                     self.value
                 ));

@@ -68,10 +68,14 @@ fn project() -> String {
     let normals = DIRECTIONS.map(|direction| unit(direction).map(|x| -x));
     let list = |points: [Point; 3]| points.map(|point| format!("    {point:?},\n")).concat();
     format!(
-        "# An eighth of a diffuse sphere between three mirrors.\n# Written by `cargo xtask octant`.\n\n\
-         [scene]\ngeometry = [\"octant.obj\"]\n\n[materials.sphere]\nreflectance = {REFLECTANCE}\n\n\
-         [materials.mirror]\nkind = \"mirror\"\nreflectance = 1.0\n\n[[lights]]\nkind = \"point\"\n\
-         position = {:?}\nintensity_cd = {INTENSITY_CD}\n\n[[sensors]]\nname = \"sphere\"\nkind = \"points\"\n\
+        "# An eighth of a diffuse sphere between three mirrors.\n# Written by `cargo xtask \
+         octant`.\n\n\
+         [scene]\ngeometry = [\"octant.obj\"]\n\n[materials.sphere]\nreflectance = \
+         {REFLECTANCE}\n\n\
+         [materials.mirror]\nkind = \"mirror\"\nreflectance = 1.0\n\n[[lights]]\nkind = \
+         \"point\"\n\
+         position = {:?}\nintensity_cd = {INTENSITY_CD}\n\n[[sensors]]\nname = \"sphere\"\nkind = \
+         \"points\"\n\
          points = [\n{}]\nnormals = [\n{}]\n\n[simulation]\nrel_tol = 0.001\n",
         [SOURCE_M; 3],
         list(sensors),
@@ -81,8 +85,9 @@ fn project() -> String {
 
 fn case() -> String {
     let mut text = "# Written by `cargo xtask octant`.\nname = \"mirror octant\"\n\
-                    source = \"Voloboy, Dmitriev, Kopylov (2003), table 3; closed form: eight images, and 8 I a / (1 - a) indirect\"\n\
-                    project = \"../scenes/octant.toml\"\nestimators = [\"path\", \"bidirectional\"]\n"
+        source = \"Voloboy, Dmitriev, Kopylov (2003), table 3; closed form: eight images, and 8 I \
+        a / (1 - a) indirect\"\n\
+        project = \"../scenes/octant.toml\"\nestimators = [\"path\", \"bidirectional\"]\n"
         .to_owned();
     for (point, direction) in DIRECTIONS.into_iter().enumerate() {
         let at = unit(direction).map(|x| x * SENSOR_RADIUS_M);
@@ -90,7 +95,8 @@ fn case() -> String {
         let indirect_lx = 8.0 * INTENSITY_CD * REFLECTANCE / (1.0 - REFLECTANCE);
         write!(
             text,
-            "\n[[expect]]\nsensor = \"sphere\"\nfigure = \"illuminance_lx\"\npoint = {point}\nvalue = {:.3}\n\
+            "\n[[expect]]\nsensor = \"sphere\"\nfigure = \"illuminance_lx\"\npoint = \
+             {point}\nvalue = {:.3}\n\
              tolerance_rel = 0.003\nwhy = \"light of eight images + 8 I a / (1 - a)\"\n",
             direct_lx + indirect_lx
         )

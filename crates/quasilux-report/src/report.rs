@@ -316,9 +316,8 @@ mod tests {
         assert_eq!(broken.sensors[0].points[0].illuminance_lx, Figure::default());
         assert_eq!(
             broken.warnings,
-            [
-                "sensor \"desk\": no finite value for average, minimum, maximum, uniformity, 1 of 2 points"
-            ]
+            ["sensor \"desk\": no finite value for average, minimum, maximum, uniformity, 1 of \
+                 2 points"]
         );
     }
 

@@ -19,6 +19,7 @@ mod emission;
 mod error_plot;
 mod first_shot;
 mod flights;
+mod markdown;
 mod neumann;
 mod octant;
 mod outcome;
@@ -118,7 +119,8 @@ impl Experiment {
     /// pool.
     #[must_use]
     pub fn run(&self, options: &Options) -> Outcome {
-        (self.run)(options)
+        let outcome = (self.run)(options);
+        Outcome { markdown: markdown::filled(&outcome.markdown), ..outcome }
     }
 
     /// The first of the options given that changes nothing here, as it is spelt on the command

@@ -260,7 +260,8 @@ fn seen_over_box(at: Point) -> [Point; 4] {
 
 fn point_light() -> Project {
     Project {
-        what: "CIE 171:2006, case 5.2: a point light with a cosine distribution above a black floor",
+        what: "CIE 171:2006, case 5.2: a point light with a cosine distribution above a black \
+            floor",
         geometry: vec!["cie171_room.obj"],
         materials: faces(|_| 0.0),
         light: luminaire_table("cie171_cosine.ies", ABOVE_FLOOR, DOWN),

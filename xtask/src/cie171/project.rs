@@ -95,7 +95,8 @@ impl Sensor {
     fn text(&self) -> String {
         match self {
             Self::Points { name, places, normal } => format!(
-                "\n[[sensors]]\nname = \"{name}\"\nkind = \"points\"\npoints = [\n{}]\nnormals = [\n{}]\n",
+                "\n[[sensors]]\nname = \"{name}\"\nkind = \"points\"\npoints = [\n{}]\nnormals = \
+                 [\n{}]\n",
                 places
                     .iter()
                     .map(|at| format!("    {:?},\n", before(*at, *normal)))
@@ -103,7 +104,8 @@ impl Sensor {
                 format!("    {normal:?},\n").repeat(places.len()),
             ),
             Self::Means { name, origin, u, v, counts, normal } => format!(
-                "\n[[sensors]]\nname = \"{name}\"\nkind = \"grid\"\norigin = {origin:?}\nu = {u:?}\nv = {v:?}\n\
+                "\n[[sensors]]\nname = \"{name}\"\nkind = \"grid\"\norigin = {origin:?}\nu = \
+                 {u:?}\nv = {v:?}\n\
                  counts = {counts:?}\nnormal = {normal:?}\nquantity = \"mean\"\n",
                 origin = before(*origin, *normal),
             ),
@@ -131,7 +133,8 @@ impl Expectation {
         let direct = self.direct_lm.map_or_else(String::new, |lm| format!("direct_lm = {lm}\n"));
         let point = self.point.map_or_else(String::new, |point| format!("point = {point}\n"));
         format!(
-            "\n[[expect]]\n{sensor}\nfigure = \"{}\"\n{direct}{point}value = {}\ntolerance_rel = {TOLERANCE}\nwhy = \"{}\"\n",
+            "\n[[expect]]\n{sensor}\nfigure = \"{}\"\n{direct}{point}value = {}\ntolerance_rel = \
+             {TOLERANCE}\nwhy = \"{}\"\n",
             self.figure,
             six_digits(self.value),
             self.why

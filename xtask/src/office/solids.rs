@@ -60,7 +60,8 @@ impl Wavefront {
     /// A file that refers to a material file.
     pub(crate) fn new(material_file: &str) -> Self {
         let text = format!(
-            "# An office, in metres, z up; written by `cargo xtask office`\nmtllib {material_file}\n"
+            "# An office, in metres, z up; written by `cargo xtask office`\nmtllib \
+             {material_file}\n"
         );
         Self { text, vertices: 0 }
     }

@@ -50,8 +50,9 @@ mod tests {
         report.run.convergence.samples = Some(1 << 18);
         report.run.convergence.rays = Some(750_617_284);
         report.run.seconds = 10.0;
-        let wanted = "half-widths shrink like N^-0.50, as with random points (--explain says why); the \
-                      tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all and 96 MiB";
+        let wanted = "half-widths shrink like N^-0.50, as with random points (--explain says why); \
+            the tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all and 96 \
+            MiB";
         assert_eq!(convergence(&report).unwrap(), wanted);
         report.run.earlier_rays = report.run.rays / 2;
         assert!(convergence(&report).unwrap().ends_with(" rays, about 80 s in all and 96 MiB"));

@@ -84,8 +84,9 @@ fn sampled(explanation: &Explanation) -> String {
         _ => "the mean",
     };
     format!(
-        "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, half of them \
-         {} or fewer, nine of ten {} and all {}; what it finds deviates by {} % of {whole}.",
+        "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, \
+         half of them {} or fewer, nine of ten {} and all {}; what it finds deviates by {} % of \
+         {whole}.",
         count(*rays),
         brief(dimensions.mean(), 3),
         dimensions.quantile(0.5),
@@ -176,8 +177,8 @@ fn worth(gain: &Gain) -> String {
     let help = if *factor < NO_GAIN { "does not help" } else { "helps" };
     format!(
         "The sequence {help}: at {} samples the error of pseudo-random points is {factor:.1} ± \
-         {standard_error:.1} times as large, which is worth {} times the samples; the error falls like \
-         N^-{exponent:.2}.",
+         {standard_error:.1} times as large, which is worth {} times the samples; the error falls \
+         like N^-{exponent:.2}.",
         count(*samples),
         brief(factor * factor, 2),
     )
@@ -231,7 +232,8 @@ mod tests {
         let text = explanation(&example(), Style::Plain);
         for words in [
             "1 024 paths from each of 8 points",
-            "5 coordinates on average, half of them 4 or fewer, nine of ten 6 and all 6; what it finds",
+            "5 coordinates on average, half of them 4 or fewer, nine of ten 6 and all 6; what it \
+             finds",
             "0 to 1        direction from the sensor",
             "2 and on      place on an area light, at surface 1",
             " 70.0 ± 1.0 %",
@@ -251,7 +253,8 @@ mod tests {
         for words in [
             "1 024 paths beside photons from each of 8 points",
             "1 024 photons counted by cells that 8 points see",
-            "a path would deviate by 80 % of the mean, its 64 counted photons by 10 %; the sequence divides these by 3.0, 3.0.",
+            "a path would deviate by 80 % of the mean, its 64 counted photons by 10 %; the \
+             sequence divides these by 3.0, 3.0.",
             "what it finds deviates by 80 % of all the light there",
         ] {
             assert!(text.contains(words), "no {words} in\n{text}");

@@ -30,7 +30,7 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, CliErr
     let [csv, text] =
         [&outcome.csv, &outcome.markdown].map(|text| digest::sha256_hex(text.as_bytes()));
     let tables = format!(
-        "{}\n<!-- SHA-256 of {name}.csv: {csv}, of the text before: {text} -->\n",
+        "{}\n<!-- SHA-256 of {name}.csv:\n{csv},\nof the text before:\n{text} -->\n",
         outcome.markdown
     );
     results::write_atomic(&file("md"), tables.as_bytes())?;

@@ -72,15 +72,16 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
     vec![
         Claim::new(
             format!(
-                "Photons take {pairs:.2} coordinates by inverse transform and {trials:.2} by rejection"
+                "Photons take {pairs:.2} coordinates by inverse transform and {trials:.2} by \
+                 rejection"
             ),
             [trials, pairs],
             trials > pairs,
         ),
         Claim::new(
             format!(
-                "With Sobol' points rejection has {} times the error of inverse transform at N = {photons}, more than 1 \
-                 ({TESTED})",
+                "With Sobol' points rejection has {} times the error of inverse transform at N = \
+                 {photons}, more than 1 ({TESTED})",
                 cost.text()
             ),
             [cost.ratio, cost.t()],
@@ -88,7 +89,8 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
         ),
         Claim::new(
             format!(
-                "With random points it has {} times that error, which is within a tenth of 1 (two one-sided tests; {TESTED})",
+                "With random points it has {} times that error, which is within a tenth of 1 (two \
+                 one-sided tests; {TESTED})",
                 apart.text()
             ),
             [apart.ratio, apart.t()],
@@ -96,8 +98,8 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
         ),
         Claim::new(
             format!(
-                "By inverse transform Sobol' points divide the error of random ones by {} at N = {photons}, more than 1 \
-                 ({TESTED})",
+                "By inverse transform Sobol' points divide the error of random ones by {} at N = \
+                 {photons}, more than 1 ({TESTED})",
                 gain.text()
             ),
             [gain.ratio, gain.t()],

@@ -34,9 +34,10 @@ pub(super) fn markdown(
 ) -> String {
     let mut text = format!(
         "# Directions of measured surfaces\n\n\
-         A closed box lit by a point, its walls of one table: 145 by 145 Klems patches with a glossy lobe, {:.0} % \
-         reflected along the normal. The error of the illuminance of a cell (16 on each wall), root mean square over \
-         cells and {replicates} randomisations, over the mean.\n\n|",
+         A closed box lit by a point, its walls of one table: 145 by 145 Klems patches with a \
+         glossy lobe, {:.0} % reflected along the normal. The error of the illuminance of a cell \
+         (16 on each wall), root mean square over cells and {replicates} randomisations, over the \
+         mean.\n\n|",
         100.0 * glossy.albedo(),
     );
     for Setup { method, flights } in setups {

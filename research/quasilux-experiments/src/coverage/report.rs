@@ -15,8 +15,8 @@ const NARROW: f64 = 0.7;
 /// One line a count.
 pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
     let mut text =
-        "scene,sequence,moment,figure,runs,covered,coverage,covered_if_30_percent_narrower,p_value,passed,\
-         intervals_by_samples\n"
+        "scene,sequence,moment,figure,runs,covered,coverage,covered_if_30_percent_narrower,\
+         p_value,passed,intervals_by_samples\n"
             .to_owned();
     for (number, count) in counts.iter().enumerate() {
         writeln!(
@@ -43,9 +43,12 @@ pub(super) fn csv(counts: &[Count], verdict: &Verdict) -> String {
 pub(super) fn markdown(counts: &[Count], verdict: &Verdict, seeds: u32) -> String {
     let mut text = format!(
         "# Coverage of the intervals\n\n\
-         How often 95 % intervals from 16 replicates cover the truth, in % (and how many do), over {seeds} seeds: at the\n\
-         first checkpoint, after a fixed number of samples, and where the run stops by itself. Of points, the lowest and\n\
-         the highest coverage. Rows of all scenes have one point, the average and the minimum of each together.\n\n"
+         How often 95 % intervals from 16 replicates cover the truth, in % (and how many do), over \
+         {seeds} seeds: at the\n\
+         first checkpoint, after a fixed number of samples, and where the run stops by itself. Of \
+         points, the lowest and\n\
+         the highest coverage. Rows of all scenes have one point, the average and the minimum of \
+         each together.\n\n"
     );
     text.push_str(&header());
     let scenes = scenes::all();
@@ -138,7 +141,8 @@ fn percent(share: f64) -> String {
 fn judgement(counts: &[Count], verdict: &Verdict) -> String {
     let narrow = Verdict::of(counts, NARROW).failed();
     let mut text = format!(
-        "\nOf {} counts {} fail the binomial test of a coverage from 93.5 to 96.5 % (all together at 1 %, Sidak).\n\
+        "\nOf {} counts {} fail the binomial test of a coverage from 93.5 to 96.5 % (all together \
+         at 1 %, Sidak).\n\
          Were the intervals 30 % narrower, {narrow} would.\n",
         counts.len(),
         verdict.failed(),
@@ -150,7 +154,8 @@ fn judgement(counts: &[Count], verdict: &Verdict) -> String {
     if let Some(worst) = runs.max_by(|a, b| a.commonest_end().total_cmp(&b.commonest_end())) {
         writeln!(
             text,
-            "Runs stop at several looks: at most {} % of those of a scene at the same one ({}, {}), which tests\n\
+            "Runs stop at several looks: at most {} % of those of a scene at the same one ({}, \
+             {}), which tests\n\
              stopping if it is 90 % or less: {}.",
             percent(worst.commonest_end()),
             worst.scene,

@@ -58,8 +58,8 @@ pub(super) fn truth(truth: &Truth) -> Claim {
     let difference = largest(differences);
     Claim::new(
         format!(
-            "The solution by collocation agrees with one by radiosity and one by a spectral method to {difference:.3} cd/m2 at \
-             all six places, which is within {AGREEMENT_CD_M2} cd/m2"
+            "The solution by collocation agrees with one by radiosity and one by a spectral method \
+             to {difference:.3} cd/m2 at all six places, which is within {AGREEMENT_CD_M2} cd/m2"
         ),
         [difference],
         difference < AGREEMENT_CD_M2,
@@ -90,8 +90,9 @@ fn won(duel: &Duel, currency: Currency, tests: usize) -> Claim {
     let won = duel.won(each_of(tests));
     Claim::new(
         format!(
-            "At equal {}, {} beats {} at {won} of {} costs, from the first on: its error is {low:.2} to {high:.2} times \
-             smaller{compared}; t = {least_t:.1} or more (significance {} % for all {tests} comparisons of columns together)",
+            "At equal {}, {} beats {} at {won} of {} costs, from the first on: its error is \
+             {low:.2} to {high:.2} times smaller{compared}; t = {least_t:.1} or more (significance \
+             {} % for all {tests} comparisons of columns together)",
             currency.name(),
             better.name(),
             worse.name(),
@@ -119,9 +120,9 @@ pub(super) fn floors(floors: &[Floor], replicates: u32) -> Claim {
     let critical = critical.unwrap_or(f64::INFINITY);
     Claim::new(
         format!(
-            "The floor moves with the elements: with legs of {} m it is at {} % for quasi and {} % for quasi2, each below the \
-             one before by {least:.1} standard errors of the square or more ({critical:.1} are significant: all together at \
-             {} %)",
+            "The floor moves with the elements: with legs of {} m it is at {} % for quasi and {} % \
+             for quasi2, each below the one before by {least:.1} standard errors of the square or \
+             more ({critical:.1} are significant: all together at {} %)",
             elements.join(", "),
             list(&|floor| floor.photons.bias.norm()),
             list(&|floor| floor.map.bias.norm()),
@@ -143,8 +144,8 @@ pub(super) fn own_is_below(own: &Curve, below: f64) -> Claim {
     let highest = (mean + t * (spread / (n * (n - 1.0))).sqrt()).sqrt();
     Claim::new(
         format!(
-            "Our own form goes through the floor: with {} paths from each place its error is {:.4} %, at most {:.4} % at {} %, \
-             and below {} %",
+            "Our own form goes through the floor: with {} paths from each place its error is {:.4} \
+             %, at most {:.4} % at {} %, and below {} %",
             end.paths,
             100.0 * mean.sqrt(),
             100.0 * highest,
@@ -166,8 +167,8 @@ pub(super) fn places(own: &Curve, truth: &Truth, known_cd_m2: f64) -> Claim {
     let widest = largest(all.iter().map(|place| place.half_width_cd_m2));
     Claim::new(
         format!(
-            "The intervals of our own form, {} % for all six together and {widest:.2} cd/m2 or less to each side, where {known_cd_m2} are allowed, hold {held} \
-             of the 6 luminances",
+            "The intervals of our own form, {} % for all six together and {widest:.2} cd/m2 or \
+             less to each side, where {known_cd_m2} are allowed, hold {held} of the 6 luminances",
             100.0 * CONFIDENCE,
         ),
         [widest],

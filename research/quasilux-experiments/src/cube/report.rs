@@ -13,8 +13,8 @@ use crate::claim::Claim;
 use quasilux_report::number::exact;
 use std::fmt::Write;
 
-const COLUMNS: &str = "quantity,unit,column,form,points,randomization,element_m,place,replicates,n,paths_per_place,\
-                       rays_per_replicate,seconds_per_replicate,value,half_width,truth,paper";
+const COLUMNS: &str = "quantity,unit,column,form,points,randomization,element_m,place,replicates,\
+    n,paths_per_place,rays_per_replicate,seconds_per_replicate,value,half_width,truth,paper";
 
 /// A measured thing; what does not belong to it stays empty.
 #[derive(Default)]

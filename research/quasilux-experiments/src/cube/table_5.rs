@@ -35,13 +35,18 @@ pub(super) fn markdown(findings: &Findings) -> String {
 
 fn beside_the_paper(findings: &Findings) -> String {
     let mut text = "\n## Errors (table 5)\n\n\
-         All ten rows of the paper, one run each on a machine of 2003, in brackets; before them ours, of all columns at the time at\n\
-         which our pseudo errs as much as the paper's in this row. Where it never does, or a column has not begun at that time,\n\
-         there are the paper's figures alone. Errors in %, and ratios of them as in the paper; what it heads quasi2 over pseudo2\n\
-         are the figures of pseudo over quasi2. The paper's pseudo is a single run, so that rows may be aligned a little too early or late;\n\
-         the first stands out, and of its ratios all that have pseudo in them.\n\n\
-         | s | pseudo | pseudo2 | quasi | quasi2 | own | pseudo/quasi | pseudo2/quasi2 | pseudo/quasi2 |\n\
-         |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
+        All ten rows of the paper, one run each on a machine of 2003, in brackets; before them \
+        ours, of all columns at the time at\n\
+        which our pseudo errs as much as the paper's in this row. Where it never does, or a column \
+        has not begun at that time,\n\
+        there are the paper's figures alone. Errors in %, and ratios of them as in the paper; what \
+        it heads quasi2 over pseudo2\n\
+        are the figures of pseudo over quasi2. The paper's pseudo is a single run, so that rows \
+        may be aligned a little too early or late;\n\
+        the first stands out, and of its ratios all that have pseudo in them.\n\n\
+        | s | pseudo | pseudo2 | quasi | quasi2 | own | pseudo/quasi | pseudo2/quasi2 | \
+        pseudo/quasi2 |\n\
+        |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for (printed, own) in rows(findings) {
         let beside = |value: Option<String>, printed: String| match value {
@@ -88,8 +93,10 @@ fn at_equal_time(findings: &Findings) -> String {
         .collect();
     let mut text = format!(
         "\n### Ratios at equal time\n\n\
-         From where all columns have begun to where the first of them ends. Two columns that read maps in the same way have the same\n\
-         floor, and are told apart by how far they spread about their means. What is tested has its 95 % interval, by the jackknife\n\
+         From where all columns have begun to where the first of them ends. Two columns that read \
+         maps in the same way have the same\n\
+         floor, and are told apart by how far they spread about their means. What is tested has \
+         its 95 % interval, by the jackknife\n\
          over {} randomisations.\n\n| s |{header}\n|---:|{}\n",
         findings.replicates,
         "---:|".repeat(header.matches(" |").count()),
@@ -118,11 +125,16 @@ fn single_runs(findings: &Findings) -> String {
         .map(|(a, b)| 100.0 * libm::hypot(a.end().scatter(), b.end().scatter()));
     let mut text = format!(
         "\n### Halton's points as they are\n\n\
-         The paper's points are not randomised: here is one run of them, its error in % over the 150 places, beside the root mean\n\
-         squares of pseudo and of rotated Halton points with as many photons (and paths). The plain points' photons are cut after {} reflections, for\n\
-         those of the lowest indices are near 0 in all high coordinates, and would never be absorbed. In brackets, how many of the {} pseudo runs\n\
-         err less. The ratio of two single runs at the last N scatters by {:.1} % (photons) and {:.1} % (with paths), one standard deviation.\n\n\
-         | N | pseudo | quasi | plain Halton | pseudo/plain | pseudo2 | quasi2 | plain Halton | pseudo2/plain |\n\
+         The paper's points are not randomised: here is one run of them, its error in % over the \
+         150 places, beside the root mean\n\
+         squares of pseudo and of rotated Halton points with as many photons (and paths). The \
+         plain points' photons are cut after {} reflections, for\n\
+         those of the lowest indices are near 0 in all high coordinates, and would never be \
+         absorbed. In brackets, how many of the {} pseudo runs\n\
+         err less. The ratio of two single runs at the last N scatters by {:.1} % (photons) and \
+         {:.1} % (with paths), one standard deviation.\n\n\
+         | N | pseudo | quasi | plain Halton | pseudo/plain | pseudo2 | quasi2 | plain Halton | \
+         pseudo2/plain |\n\
          |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         Points::PlainHalton.max_bounces().unwrap_or(0),
         findings.replicates,

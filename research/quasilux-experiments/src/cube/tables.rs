@@ -14,16 +14,24 @@ use std::fmt::Write;
 pub(super) fn heading(findings: &Findings) -> String {
     format!(
         "# The diffuse cube\n\n\
-         A closed cube of 10 m, reflectance 2/3, an isotropic point light of 50 000 cd in the middle. Errors are the L2 norm\n\
-         over 5 x 5 places on each of the six walls, over that of the truth; of {replicates} randomisations the root mean square.\n\
-         Pseudo (random points) and quasi (Halton's): photons counted on a map of right triangles with legs of {ELEMENT_M} m.\n\
-         Pseudo2 and quasi2: paths that end on such a map, {PHOTONS_PER_PATH} photons for each path from a place.\n\
+         A closed cube of 10 m, reflectance 2/3, an isotropic point light of 50 000 cd in the \
+         middle. Errors are the L2 norm\n\
+         over 5 x 5 places on each of the six walls, over that of the truth; of {replicates} \
+         randomisations the root mean square.\n\
+         Pseudo (random points) and quasi (Halton's): photons counted on a map of right triangles \
+         with legs of {ELEMENT_M} m.\n\
+         Pseudo2 and quasi2: paths that end on such a map, {PHOTONS_PER_PATH} photons for each \
+         path from a place.\n\
          Own: paths that correct the map they end on, scrambled Sobol' points.\n\n\
-         Places on an edge or in a corner belong to two or three walls, and are read once for each: a path starts {inset:.0}\n\
-         micrometres inside its wall's edge, and a map is read in the own wall's element there. A place where elements meet is\n\
+         Places on an edge or in a corner belong to two or three walls, and are read once for \
+         each: a path starts {inset:.0}\n\
+         micrometres inside its wall's edge, and a map is read in the own wall's element there. A \
+         place where elements meet is\n\
          read in one of them.\n\n\
-         Seconds are wall clock for all randomisations together over their number: what one takes on this machine when they\n\
-         share the start. Columns are timed in short runs, in turn; medians say what a ray of each takes, and what they are\n\
+         Seconds are wall clock for all randomisations together over their number: what one takes \
+         on this machine when they\n\
+         share the start. Columns are timed in short runs, in turn; medians say what a ray of each \
+         takes, and what they are\n\
          off by chance is in no interval. Paths that end on\n\
          a map that grows are traced anew at each power of two, which counts, too.\n",
         replicates = findings.replicates,
@@ -35,9 +43,12 @@ pub(super) fn heading(findings: &Findings) -> String {
 pub(super) fn table_4(findings: &Findings) -> String {
     let mut text = format!(
         "\n## Luminances (table 4)\n\n\
-         In cd/m2 at places in units of half a side: as the paper prints them; by two solves made before, radiosity and spectral;\n\
-         by collocation here, at the very edge; and by our own form with {} paths, its intervals for all six together at 99 %.\n\
-         The paper's values agree to its last digit, but for the third, where it prints 686.6 and all solves have 686.7.\n\n\
+         In cd/m2 at places in units of half a side: as the paper prints them; by two solves made \
+         before, radiosity and spectral;\n\
+         by collocation here, at the very edge; and by our own form with {} paths, its intervals \
+         for all six together at 99 %.\n\
+         The paper's values agree to its last digit, but for the third, where it prints 686.6 and \
+         all solves have 686.7.\n\n\
          | place | paper | radiosity, spectral | collocation | own |\n|---|---:|---:|---:|---:|\n",
         findings.deep.end().paths,
     );
@@ -72,10 +83,13 @@ fn common_look(findings: &Findings, curve: &Curve) -> u64 {
 /// Errors at one N, and slopes up to it, for all sequences.
 pub(super) fn convergence(findings: &Findings) -> String {
     let mut text = "\n## Sequences\n\n\
-         All of a form at one N: photons of a replicate, for our own form paths from a place. Seconds are of short runs of all\n\
-         rows in turn. Slopes against N are of the error, its floor included, and of the spread about the mean, which has none; of\n\
-         all N up to this one, and of our own form up to its last.\n\n\
-         | form | points | randomisation | N | paths a place | s | error in % | slope | of the spread |\n|---|---|---|---:|---:|---:|---:|---:|---:|\n"
+        All of a form at one N: photons of a replicate, for our own form paths from a place. \
+        Seconds are of short runs of all\n\
+        rows in turn. Slopes against N are of the error, its floor included, and of the spread \
+        about the mean, which has none; of\n\
+        all N up to this one, and of our own form up to its last.\n\n\
+        | form | points | randomisation | N | paths a place | s | error in % | slope | of the \
+        spread |\n|---|---|---|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for curve in by_form(findings) {
         let n = common_look(findings, curve);
@@ -117,10 +131,12 @@ fn by_form(findings: &Findings) -> Vec<&Curve> {
 /// Floors by the size of elements, and what they say about the paper's.
 pub(super) fn floors(findings: &Findings) -> String {
     let mut text = "\n## The floor\n\n\
-         With Halton points: the error of one replicate at the last N, and what would be left of it after very many, with its\n\
-         standard error.\n\n\
-         | legs in m | quasi: N | error in % | floor in % | quasi2: N | error in % | floor in % | ratio of floors |\n\
-         |---:|---:|---:|---:|---:|---:|---:|---:|\n"
+        With Halton points: the error of one replicate at the last N, and what would be left of it \
+        after very many, with its\n\
+        standard error.\n\n\
+        | legs in m | quasi: N | error in % | floor in % | quasi2: N | error in % | floor in % | \
+        ratio of floors |\n\
+        |---:|---:|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for floor in &findings.floors {
         let cells = |end: &End| {
@@ -152,11 +168,15 @@ fn of_paper(findings: &Findings) -> String {
     let map = law(|floor| &floor.map, quasi2);
     let finest = findings.floors.last().map_or(f64::NAN, |floor| floor.element_m);
     format!(
-        "\nThe floors grow with the legs' power {:.2} for quasi and {:.2} for quasi2. Carried on below our finest legs of \
-         {finest} m, these\nlaws reach the paper's last errors, {quasi:.2} % and {quasi2:.2} %, at {:.2} m and {:.2} m. One map has one size: the two do not quite\n\
-         agree, as laws that are carried on and single runs may not. The paper's floor is consistent with the bias of a map of such \
-         elements,\nwhich is not proven. Its ratio of the two is {:.2}. At an edge half of the directions lead right onto the next wall, in a \
-         corner\nthree quarters: with the reflectance 2/3 quasi2 keeps a third and a half of the map's error there.\n",
+        "\nThe floors grow with the legs' power {:.2} for quasi and {:.2} for quasi2. Carried on \
+         below our finest legs of {finest} m, these\nlaws reach the paper's last errors, \
+         {quasi:.2} % and {quasi2:.2} %, at {:.2} m and {:.2} m. One map has one size: the two do \
+         not quite\n\
+         agree, as laws that are carried on and single runs may not. The paper's floor is \
+         consistent with the bias of a map of such elements,\nwhich is not proven. Its ratio of \
+         the two is {:.2}. At an edge half of the directions lead right onto the next wall, in a \
+         corner\nthree quarters: with the reflectance 2/3 quasi2 keeps a third and a half of the \
+         map's error there.\n",
         photons[0],
         map[0],
         photons[1],

@@ -69,7 +69,8 @@ impl Cube {
         let claim = |what: &str, got: f64, expected: f64, allowed: f64| {
             Claim::new(
                 format!(
-                    "{what}: {got:.3} coordinates, {expected} expected (within {allowed:.3}, four standard errors)"
+                    "{what}: {got:.3} coordinates, {expected} expected (within {allowed:.3}, four \
+                     standard errors)"
                 ),
                 [got, allowed],
                 (got - expected).abs() <= allowed,
@@ -77,7 +78,8 @@ impl Cube {
         };
         vec![
             claim(
-                "Photons of the cube in this experiment's own walk, before the event that absorbs them",
+                "Photons of the cube in this experiment's own walk, before the event that absorbs \
+                 them",
                 self.uncounted,
                 6.0,
                 error(2.0),

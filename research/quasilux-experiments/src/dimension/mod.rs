@@ -88,8 +88,8 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
         let cost = cost(setups, setup);
         claims.push(Claim::new(
             format!(
-                "With Sobol' points the setup \"{}\" has {} times the error of the one with all features at N = {photons}, more \
-                 than 1 ({tested})",
+                "With Sobol' points the setup \"{}\" has {} times the error of the one with all \
+                 features at N = {photons}, more than 1 ({tested})",
                 setup.name,
                 cost.text(),
             ),
@@ -101,8 +101,8 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
     let ratios = || costs.iter().map(|cost| cost.ratio);
     claims.push(Claim::new(
         format!(
-            "With random points no setup has another error: {:.2} to {:.2} times that of all features, each within a tenth of \
-             1 (two one-sided tests; {tested})",
+            "With random points no setup has another error: {:.2} to {:.2} times that of all \
+             features, each within a tenth of 1 (two one-sided tests; {tested})",
             smallest(ratios()),
             largest(ratios()),
         ),
@@ -112,7 +112,8 @@ fn claims(setups: &[Setup]) -> Vec<Claim> {
     let gain = random[0].flights.last().over(sobol[0].flights.last());
     claims.push(Claim::new(
         format!(
-            "With all features Sobol' points divide the error of random ones by {} at N = {photons}, more than 1 ({tested})",
+            "With all features Sobol' points divide the error of random ones by {} at N = \
+             {photons}, more than 1 ({tested})",
             gain.text(),
         ),
         [gain.ratio, gain.t()],

@@ -34,17 +34,21 @@ pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
 /// Both tables, and what is claimed.
 pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &[Claim]) -> String {
     let mut text = "# What superposition and inverse transform save\n\n\
-                    Coordinates a photon or path in the diffuse cube (the paper has 6 and 2), counted by the sampler that hands them\n\
-                    out: in the program, or in the walk of this experiment where features can be turned off.\n\n\
-                    | what | coordinates |\n|---|---:|\n"
+        Coordinates a photon or path in the diffuse cube (the paper has 6 and 2), counted by the \
+        sampler that hands them\n\
+        out: in the program, or in the walk of this experiment where features can be turned \
+        off.\n\n\
+        | what | coordinates |\n|---|---:|\n"
         .to_owned();
     for (name, coordinates) in named(cube) {
         writeln!(text, "| {name} | {coordinates:.3} |").expect("strings grow");
     }
     write!(
         text,
-        "\nA cube of the same reflectance with four batwing luminaires below its ceiling: coordinates a photon, and the error of the\n\
-         illuminance of a cell (16 on each wall), root mean square over cells and {replicates} randomisations, over the mean. Sharing is superposition: a choice leaves its\n\
+        "\nA cube of the same reflectance with four batwing luminaires below its ceiling: \
+         coordinates a photon, and the error of the\n\
+         illuminance of a cell (16 on each wall), root mean square over cells and {replicates} \
+         randomisations, over the mean. Sharing is superposition: a choice leaves its\n\
          coordinate to what hangs on it.\n\n| setup | coordinates |"
     )
     .expect("strings grow");
@@ -73,8 +77,10 @@ pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &
 fn savings(setups: &[Setup]) -> String {
     let photons = setups[0].flights.last().photons;
     let mut text = format!(
-        "\nWhat each setup costs beside all features, its coordinates and how many times the error it has at N = {photons}, with\n\
-         95 % intervals:\n\n| setup | coordinates more | Sobol', error times | random, error times |\n|---|---:|---:|---:|\n"
+        "\nWhat each setup costs beside all features, its coordinates and how many times the error \
+         it has at N = {photons}, with\n\
+         95 % intervals:\n\n| setup | coordinates more | Sobol', error times | random, error times \
+         |\n|---|---:|---:|---:|\n"
     );
     let half = setups.len() / 2;
     let (sobol, random) = setups.split_at(half);

@@ -8,8 +8,9 @@ use crate::significance::each_of;
 use quasilux_report::number::{count, exact};
 use std::fmt::Write;
 
-const COLUMNS: &str = "room,sequence,first_shot,samples,replicates,rms_error_of_photons,rms_error_of_whole,\
-    rays_per_replicate,seconds_per_replicate,slope,mean_of_photons_lx,mean_lx,photon_dimension\n";
+const COLUMNS: &str = "room,sequence,first_shot,samples,replicates,rms_error_of_photons,\
+    rms_error_of_whole,rays_per_replicate,seconds_per_replicate,slope,mean_of_photons_lx,mean_lx,\
+    photon_dimension\n";
 
 /// One line for each room, kind of points, switch and number of samples.
 pub(super) fn csv(trials: &[Trial]) -> String {
@@ -45,13 +46,14 @@ pub(super) fn markdown(trials: &[Trial], claims: &[Claim]) -> String {
     let replicates = trials[0].last()[0].estimates.sensors[0].replicate_lx.len();
     let mut text = format!(
         "# Direct light taken out of the integral (first shot)\n\n\
-         Illuminance at nine points of two rooms, from paths that end on an illumination map: with photons \
-         from the lights (off), and from where their light lands (on). Errors are root mean squares over \
-         points and {replicates} replicates, over the mean; they are those of chance, for the bias of the map \
-         is the same. They are of light of two bounces and more, which is all that photons bring: paths find \
-         the rest by themselves, and first shot does nothing for it. N is photons, and paths for each \
-         point; slopes are fitted from N = {FIT_FROM} on. Those of random points are steeper than -1/2, for part of the error \
-         is the noise of elements that few paths read, which falls with photons and paths alike.\n"
+         Illuminance at nine points of two rooms, from paths that end on an illumination map: with \
+         photons from the lights (off), and from where their light lands (on). Errors are root \
+         mean squares over points and {replicates} replicates, over the mean; they are those of \
+         chance, for the bias of the map is the same. They are of light of two bounces and more, \
+         which is all that photons bring: paths find the rest by themselves, and first shot does \
+         nothing for it. N is photons, and paths for each point; slopes are fitted from N = \
+         {FIT_FROM} on. Those of random points are steeper than -1/2, for part of the error is the \
+         noise of elements that few paths read, which falls with photons and paths alike.\n"
     );
     for pair in trials.chunks(2) {
         writeln!(text, "\n## {}: {}\n", capitalised(pair[0].room), pair[0].why)
@@ -108,9 +110,10 @@ fn table(trials: &[Trial]) -> String {
 
 fn gains(trials: &[Trial]) -> String {
     let mut text = "\n## What first shot gains when N is largest (95 % intervals)\n\n\
-                    Of what photons bring, and of the whole.\n\n\
-                    | room | points | error divided by | efficiency by rays | efficiency by time | whole: error divided by | whole: efficiency by time |\n\
-                    |---|---|---:|---:|---:|---:|---:|\n"
+        Of what photons bring, and of the whole.\n\n\
+        | room | points | error divided by | efficiency by rays | efficiency by time | whole: \
+        error divided by | whole: efficiency by time |\n\
+        |---|---|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for trial in trials {
         writeln!(
@@ -127,7 +130,8 @@ fn gains(trials: &[Trial]) -> String {
         .expect("strings grow");
     }
     text.push_str(
-        "\nEfficiency is one over squared error times cost. Intervals are of the errors: what a ray takes is the median of short\n\
+        "\nEfficiency is one over squared error times cost. Intervals are of the errors: what a \
+         ray takes is the median of short\n\
          runs in turn, and how far that is off by chance is not in them.\n",
     );
     text
@@ -178,9 +182,9 @@ fn agrees(trial: &Trial, trials: usize) -> Claim {
     let Agreement { worst, allowed, relative } = trial.agreement(trials);
     Claim::new(
         format!(
-            "{}, {}: with and without it the same light is found, at nine points within {:.3} % of each other ({:.0} % allowed), {worst:.2} \
-             standard errors at the worst where {allowed:.2} are allowed (significance 1 % for all points of all \
-             rooms together)",
+            "{}, {}: with and without it the same light is found, at nine points within {:.3} % of \
+             each other ({:.0} % allowed), {worst:.2} standard errors at the worst where \
+             {allowed:.2} are allowed (significance 1 % for all points of all rooms together)",
             capitalised(trial.room),
             trial.sequence.name(),
             100.0 * relative,
@@ -196,8 +200,8 @@ fn gains_by(trial: &Trial, what: &str, gain: fn(&Trial) -> Contrast, trials: usi
     let tests = COMPARISONS * trials;
     Claim::new(
         format!(
-            "{}, {}: first shot {what} by {} after {} samples, by more than 1 (significance 1 % for all {tests} \
-             comparisons together)",
+            "{}, {}: first shot {what} by {} after {} samples, by more than 1 (significance 1 % \
+             for all {tests} comparisons together)",
             capitalised(trial.room),
             trial.sequence.name(),
             gain.text(),

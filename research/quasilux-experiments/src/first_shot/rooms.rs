@@ -13,8 +13,9 @@ const SIZE_M: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 /// Of all surfaces.
 const REFLECTANCE: f64 = 0.5;
 /// A beam of 10 degrees straight down, and a faint glow from there to the horizon, in candela.
-const SPOTLIGHT: &str = "IESNA:LM-63-2002\n[TEST] Spotlight of quasilux experiment first-shot\nTILT=NONE\n\
-                         1 -1 1 6 1 1 2 0 0 0\n1 1 1\n0 4 6 30 90 180\n0\n9000 8000 300 40 0 0\n";
+const SPOTLIGHT: &str = "IESNA:LM-63-2002\n[TEST] Spotlight of quasilux experiment \
+    first-shot\nTILT=NONE\n\
+    1 -1 1 6 1 1 2 0 0 0\n1 1 1\n0 4 6 30 90 180\n0\n9000 8000 300 40 0 0\n";
 
 /// A room, and what makes it hard.
 pub(super) struct Room {

@@ -60,13 +60,14 @@ pub(super) fn markdown(terms: &Terms, pictures: &[Picture], claims: &[Claim]) ->
     let [width, height] = pictures[0].resolution;
     let mut text = format!(
         "# Terms of the Neumann series (table 1)\n\n\
-         The room is {}: the paper's is not published. `neumann-terms.png` shows it with the light of up to n \
-         = 0, 1, 2 and 4 bounces, as in the paper's table, and all of it, {width} x {height} pixels each under \
-         one exposure. The light of no bounce is that of the lamp itself.\n\n\
+         The room is {}: the paper's is not published. `neumann-terms.png` shows it with the light \
+         of up to n = 0, 1, 2 and 4 bounces, as in the paper's table, and all of it, {width} x \
+         {height} pixels each under one exposure. The light of no bounce is that of the lamp \
+         itself.\n\n\
          ## What each term adds\n\n\
-         On all surfaces the flux of the photons that land, {} in each of {} runs; on {}, of {:.2} m2, the \
-         mean illuminance by paths, {} for each cell in each of {} replicates, and by {} photons in each; 95 % \
-         intervals.\n\n",
+         On all surfaces the flux of the photons that land, {} in each of {} runs; on {}, of {:.2} \
+         m2, the mean illuminance by paths, {} for each cell in each of {} replicates, and by {} \
+         photons in each; 95 % intervals.\n\n",
         room::description(),
         count(terms.photons),
         terms.landing_lm[0].len(),
@@ -111,7 +112,8 @@ fn by_term(terms: &Terms) -> String {
 
 fn by_cut(terms: &Terms, pictures: &[Picture]) -> String {
     let mut text = "\n## What the terms sum to\n\n\
-                    | light | plane, lx | sum of the terms, lx | mean luminance of the picture, cd/m2 |\n|---|---:|---:|---:|\n"
+        | light | plane, lx | sum of the terms, lx | mean luminance of the picture, cd/m2 \
+        |\n|---|---:|---:|---:|\n"
         .to_owned();
     for ((cut, values), picture) in terms.cut_lx.iter().zip(pictures) {
         writeln!(
@@ -157,8 +159,8 @@ fn rises(terms: &Terms, pictures: &[Picture]) -> Claim {
         .collect();
     Claim::new(
         format!(
-            "With n = 0, 1, 2, 4 and without end the plane gets {} lx: more each time (significance 1 % for \
-             all together), and so does each pixel on average",
+            "With n = 0, 1, 2, 4 and without end the plane gets {} lx: more each time \
+             (significance 1 % for all together), and so does each pixel on average",
             values.join(", ")
         ),
         pictures.iter().map(|picture| picture.mean_cd_m2.value).chain([least, allowed]),
@@ -178,9 +180,9 @@ fn sums(terms: &Terms) -> Claim {
     let converged = apart.last().map_or(f64::NAN, |distance| distance.relative);
     Claim::new(
         format!(
-            "The terms of one run sum to what others find that are cut there or not at all, {worst:.2} \
-             standard errors apart at the worst where {allowed:.2} are allowed (significance 1 % for all \
-             together); all of them to {:.3} % of the converged value",
+            "The terms of one run sum to what others find that are cut there or not at all, \
+             {worst:.2} standard errors apart at the worst where {allowed:.2} are allowed \
+             (significance 1 % for all together); all of them to {:.3} % of the converged value",
             100.0 * converged,
         ),
         [worst, allowed, converged],
@@ -208,10 +210,11 @@ fn falls(terms: &Terms, known: f64) -> Claim {
     let allowed = Distance::allowed(pairs.count(), runs);
     Claim::new(
         format!(
-            "From {SETTLED} bounces on the flux that lands falls geometrically: each term is {low:.4} to \
-             {high:.4} of the one before, all known to {:.2} % (95 %), which is within {:.0} %, and what two of them differ \
-             by is {worst:.1} standard errors or less beyond the {} % granted, where {allowed:.2} are allowed \
-             (significance 1 % for all pairs together)",
+            "From {SETTLED} bounces on the flux that lands falls geometrically: each term is \
+             {low:.4} to {high:.4} of the one before, all known to {:.2} % (95 %), which is within \
+             {:.0} %, and what two of them differ by is {worst:.1} standard errors or less beyond \
+             the {} % granted, where {allowed:.2} are allowed (significance 1 % for all pairs \
+             together)",
             100.0 * noise,
             100.0 * known,
             100.0 * GEOMETRIC,
@@ -230,8 +233,9 @@ fn agree(terms: &Terms) -> Claim {
     let relative = largest(apart.iter().map(|distance| distance.relative));
     Claim::new(
         format!(
-            "Paths and photons agree about the flux of each term, to {:.2} % of it, {worst:.2} standard errors \
-             apart at the worst where {allowed:.2} are allowed (significance 1 % for all together)",
+            "Paths and photons agree about the flux of each term, to {:.2} % of it, {worst:.2} \
+             standard errors apart at the worst where {allowed:.2} are allowed (significance 1 % \
+             for all together)",
             100.0 * relative,
         ),
         [worst, allowed, relative],

@@ -62,7 +62,8 @@ pub(super) const fn resolution() -> [u32; 2] {
 /// The room in words.
 pub(super) fn description() -> String {
     format!(
-        "a furnished room of {} m x {} m x {} m, lit by one lamp that shines down on the table, with a red wall",
+        "a furnished room of {} m x {} m x {} m, lit by one lamp that shines down on the table, \
+         with a red wall",
         SIZE_M.x, SIZE_M.y, SIZE_M.z
     )
 }

@@ -56,8 +56,8 @@ pub(super) fn direct(ladder: &Ladder) -> Claim {
     let found_lx = mean_interval(&ladder.on_mesh(0, Part::Direct, middle)).value;
     Claim::new(
         format!(
-            "The light and its seven images give {found_lx:.4} lx in the middle, {:.4} by the closed form, and \
-             at all places of all meshes what it says, to {worst:.0e}",
+            "The light and its seven images give {found_lx:.4} lx in the middle, {:.4} by the \
+             closed form, and at all places of all meshes what it says, to {worst:.0e}",
             direct_in_the_middle_lx()
         ),
         [worst, found_lx],
@@ -71,8 +71,8 @@ fn hit(ladder: &Ladder, part: Part, paper_lx: f64) -> Claim {
     let error = value / paper_lx - 1.0;
     Claim::new(
         format!(
-            "The {} illuminance in the middle of the sphere is {value:.3} ± {half_width:.3} lx (95 %); the \
-             paper's {paper_lx} lx lies inside, {:.4} % from it, which is within {} %",
+            "The {} illuminance in the middle of the sphere is {value:.3} ± {half_width:.3} lx \
+             (95 %); the paper's {paper_lx} lx lies inside, {:.4} % from it, which is within {} %",
             part.name(),
             100.0 * error.abs(),
             100.0 * NEAR,
@@ -92,8 +92,8 @@ fn left(ladder: &Ladder) -> Claim {
     let moved = mean_interval(&ladder.moved(Part::Total, middle)).value;
     Claim::new(
         format!(
-            "The third mesh moves the limit of the first two by {moved:.3} lx, so that less than {:.4} % of \
-             the total is left of the mesh, below {} %",
+            "The third mesh moves the limit of the first two by {moved:.3} lx, so that less than \
+             {:.4} % of the total is left of the mesh, below {} %",
             100.0 * left,
             100.0 * LEFT,
         ),
@@ -109,8 +109,9 @@ pub(super) fn order(ladder: &Ladder) -> Claim {
     let half_width = half_width.unwrap_or(f64::NAN);
     Claim::new(
         format!(
-            "The mesh's error falls with the power {value:.3} ± {half_width:.3} (95 %) of the facets' size; \
-             expected is 2 in the limit, and {GRANTED} are granted, for the coarsest mesh is far from it"
+            "The mesh's error falls with the power {value:.3} ± {half_width:.3} (95 %) of the \
+             facets' size; expected is 2 in the limit, and {GRANTED} are granted, for the coarsest \
+             mesh is far from it"
         ),
         [value, half_width],
         (value - 2.0).abs() <= GRANTED + half_width && half_width < GRANTED,
@@ -137,9 +138,9 @@ pub(super) fn uniform(ladder: &Ladder, known: f64) -> Claim {
     let widest = largest(found.iter().map(share));
     Claim::new(
         format!(
-            "The indirect illuminance is the same over the sphere: {low:.3} to {high:.3} lx at {places} \
-             places, known to {:.3} % at the worst (95 %), which is within {:.1} %; none lies off {:.3} lx \
-             (significance 1 % for all together)",
+            "The indirect illuminance is the same over the sphere: {low:.3} to {high:.3} lx at \
+             {places} places, known to {:.3} % at the worst (95 %), which is within {:.1} %; none \
+             lies off {:.3} lx (significance 1 % for all together)",
             100.0 * widest,
             100.0 * known,
             indirect_lx(),
@@ -179,10 +180,11 @@ fn element(ladder: &Ladder, photons: [&Curve; 2]) -> Claim {
     let [pseudo, quasi] = photons.map(|curve| 100.0 * curve.last().bias());
     Claim::new(
         format!(
-            "By the closed form of the images and the indirect light on this mesh, what the element gets is \
-             {:.4} % off the value in the middle of the sphere; the means over the randomisations with the most \
-             photons, pseudo-random and Halton's, are {pseudo:.4} and {quasi:.4} % off, which is no further \
-             from it than by chance (significance 1 % for both together)",
+            "By the closed form of the images and the indirect light on this mesh, what the \
+             element gets is {:.4} % off the value in the middle of the sphere; the means over the \
+             randomisations with the most photons, pseudo-random and Halton's, are {pseudo:.4} and \
+             {quasi:.4} % off, which is no further from it than by chance (significance 1 % for \
+             both together)",
             100.0 * (expected_lx / TOTAL_LX - 1.0),
         ),
         [pseudo, quasi, expected_lx],
@@ -210,8 +212,9 @@ fn better(pseudo: &Curve, quasi: &Curve) -> Claim {
     let single = last.lx.iter().map(|lx| 100.0 * (lx / TOTAL_LX - 1.0).abs());
     Claim::new(
         format!(
-            "From {} to {} photons Halton's points, Owen-scrambled, divide the error by {}, by more than 1 \
-             (significance 1 % for this and the next together); single runs of the most photons err by {:.4} to {:.2} %, as chance has it",
+            "From {} to {} photons Halton's points, Owen-scrambled, divide the error by {}, by \
+             more than 1 (significance 1 % for this and the next together); single runs of the \
+             most photons err by {:.4} to {:.2} %, as chance has it",
             count(pseudo.stops[0].samples),
             count(last.samples),
             gain.text(),
@@ -241,10 +244,10 @@ fn through(quasi: &Curve, ours: &Curve) -> Claim {
     let efficiency = gain.efficiency(photons.seconds / last.seconds);
     Claim::new(
         format!(
-            "Our estimator errs by {:.4} % after {} paths and photons, {:.1} times less than Halton's photons \
-             after {} of them; its efficiency, one over squared error times time, is {} times theirs, \
-             by more than 1 (significance 1 % for this and the last together; what the clock is off is not in the \
-             interval), and it has all places at once",
+            "Our estimator errs by {:.4} % after {} paths and photons, {:.1} times less than \
+             Halton's photons after {} of them; its efficiency, one over squared error times time, \
+             is {} times theirs, by more than 1 (significance 1 % for this and the last together; \
+             what the clock is off is not in the interval), and it has all places at once",
             100.0 * last.error(),
             count(last.samples),
             gain.ratio,

@@ -15,8 +15,9 @@ use quasilux_report::number::{count, exact};
 use quasilux_transport::Interval;
 use std::fmt::Write;
 
-const COLUMNS: &str = "kind,method,part,place,facets_along_edge,samples,randomisations,seconds,value_lx,\
-    half_width_lx,reference_lx,relative_error,relative_bias,left_lx,exponent,gain_of_points,gain_of_points_t\n";
+const COLUMNS: &str = "kind,method,part,place,facets_along_edge,samples,randomisations,seconds,\
+    value_lx,half_width_lx,reference_lx,relative_error,relative_bias,left_lx,exponent,\
+    gain_of_points,gain_of_points_t\n";
 
 /// One line for each value on each mesh and on the sphere, the order, each point of each curve, and
 /// what the paper prints.
@@ -144,10 +145,11 @@ pub(super) fn markdown(findings: &Findings, claims: &[Claim]) -> String {
     let randomisations = findings.curves[0].last().lx.len();
     let mut text = format!(
         "# The mirror octant (table 3)\n\n\
-         One eighth of a diffuse unit sphere between three mirrors. The paper does not give its light. Ours is \
-         a reconstruction: reflectance {REFLECTANCE}, one isotropic point of {INTENSITY_CD} cd at {LIGHT_M} m \
-         along each axis. Its eight images give {:.3} lx at the place in the middle of the sphere, and {:.3} \
-         lx are reflected there and everywhere else; the paper prints {TOTAL_LX} lx and {INDIRECT_LX} lx.\n\n\
+         One eighth of a diffuse unit sphere between three mirrors. The paper does not give its \
+         light. Ours is a reconstruction: reflectance {REFLECTANCE}, one isotropic point of \
+         {INTENSITY_CD} cd at {LIGHT_M} m along each axis. Its eight images give {:.3} lx at the \
+         place in the middle of the sphere, and {:.3} lx are reflected there and everywhere else; \
+         the paper prints {TOTAL_LX} lx and {INDIRECT_LX} lx.\n\n\
          ## The values\n\n\
          Bidirectional, {} paths for each place and as many photons in each of {randomisations} \
          randomisations, on meshes of n facets along an edge, and the limit on the sphere; 95 % \
@@ -205,15 +207,16 @@ fn errors(findings: &Findings, randomisations: usize) -> String {
     let mut text = format!(
         "\n## The errors\n\n\
          Of the total at the place in the middle, over {TOTAL_LX} lx: the root mean square over \
-         {randomisations} randomisations (Halton's points Owen-scrambled, where the cube's are rotated), and one run \
-         of Halton's points as they are. Photons are counted by \
-         an element of a map, a triangle of {:.3} m2 around the place on the mesh of {} facets along an edge. \
-         N is photons, and for our estimator paths and photons on each of the two finest meshes, whose limit \
-         is taken; seconds are those of one randomisation on this machine, ours for {} places; randomisations share their start, which \
-         plain Halton points, a single run, bear alone. Slopes are \
-         those of the spread, which no element bends; in the last line, what element and mesh leave when N is \
-         largest, with the noise of the mean. The last column has how many times smaller the error of scrambled \
-         Halton points is than that of pseudo-random ones, with 95 % intervals.\n\n",
+         {randomisations} randomisations (Halton's points Owen-scrambled, where the cube's are \
+         rotated), and one run of Halton's points as they are. Photons are counted by an element \
+         of a map, a triangle of {:.3} m2 around the place on the mesh of {} facets along an edge. \
+         N is photons, and for our estimator paths and photons on each of the two finest meshes, \
+         whose limit is taken; seconds are those of one randomisation on this machine, ours for {} \
+         places; randomisations share their start, which plain Halton points, a single run, bear \
+         alone. Slopes are those of the spread, which no element bends; in the last line, what \
+         element and mesh leave when N is largest, with the noise of the mean. The last column has \
+         how many times smaller the error of scrambled Halton points is than that of pseudo-random \
+         ones, with 95 % intervals.\n\n",
         finest.element().iter().map(|facet| facet.area_m2).sum::<f64>(),
         finest.n,
         finest.places.len(),
@@ -262,9 +265,10 @@ pub(super) fn gain_at(findings: &Findings, n: u64) -> Option<Contrast> {
 }
 
 fn printed() -> String {
-    let mut text = "The paper's single runs, on a machine of 2003, and the ratio of their errors as it prints it:\n\n\
-                    | s | pseudo, lx | quasi, lx | pseudo | quasi | pseudo over quasi |\n\
-                    |---:|---:|---:|---:|---:|---:|\n"
+    let mut text = "The paper's single runs, on a machine of 2003, and the ratio of their errors \
+        as it prints it:\n\n\
+        | s | pseudo, lx | quasi, lx | pseudo | quasi | pseudo over quasi |\n\
+        |---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for line in &TABLE {
         writeln!(

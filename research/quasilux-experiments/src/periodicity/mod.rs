@@ -102,8 +102,8 @@ fn claims(inverse: &Inverse, widths: &[Width]) -> Vec<Claim> {
     vec![
         Claim::new(
             format!(
-                "The radical inverses of i and i + n b^k differ by less than b^-k: {} pairs of indices in bases 2, 3, 5, 7, 10 \
-                 and 11, the largest difference {:.6} b^-k",
+                "The radical inverses of i and i + n b^k differ by less than b^-k: {} pairs of \
+                 indices in bases 2, 3, 5, 7, 10 and 11, the largest difference {:.6} b^-k",
                 inverse.pairs, inverse.largest
             ),
             [inverse.largest],
@@ -111,14 +111,16 @@ fn claims(inverse: &Inverse, widths: &[Width]) -> Vec<Claim> {
         ),
         Claim::new(
             format!(
-                "No group is wider than the bound that its shared digits promise: the widest takes {most:.6} of it"
+                "No group is wider than the bound that its shared digits promise: the widest takes \
+                 {most:.6} of it"
             ),
             [most],
             !widths.is_empty() && most < 1.0,
         ),
         Claim::new(
             format!(
-                "Groups are narrower than runs of consecutive indices at every size: {gain:.1} times with {groups} groups"
+                "Groups are narrower than runs of consecutive indices at every size: {gain:.1} \
+                 times with {groups} groups"
             ),
             widths.iter().flat_map(|width| [width.mean, width.consecutive]),
             narrower,

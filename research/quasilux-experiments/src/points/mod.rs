@@ -124,16 +124,17 @@ fn claims(seen: &[Seen], empty: &[usize]) -> Vec<Claim> {
     let expected = cells * libm::pow(1.0 - 1.0 / cells, cells);
     vec![
         Claim::new(
-            "Sobol' points, scrambled after Owen or not, put one point into each cell of all seven divisions into \
-                   64 rectangles of sides 2^-a"
+            "Sobol' points, scrambled after Owen or not, put one point into each cell of all seven \
+             divisions into 64 rectangles of sides 2^-a"
                 .to_owned(),
             [],
             nets.clone().count() == 2 && nets.clone().all(|seen| all_even(&seen)),
         ),
         Claim::new(
             format!(
-                "Random points leave {mean:.2} of 64 cells empty (mean of {} sets, standard error {error:.2}), where \
-                 64 (1 - 1/64)^64 = {expected:.2} are expected (within {allowed:.1} standard errors: wrong once in 16 000)",
+                "Random points leave {mean:.2} of 64 cells empty (mean of {} sets, standard error \
+                 {error:.2}), where 64 (1 - 1/64)^64 = {expected:.2} are expected (within \
+                 {allowed:.1} standard errors: wrong once in 16 000)",
                 empty.len()
             ),
             [mean, error, allowed],

@@ -21,9 +21,12 @@ pub(super) fn csv(sets: &[Set], seen: &[Seen]) -> String {
 pub(super) fn markdown(seen: &[Seen], claims: &[Claim]) -> String {
     let mut text = format!(
         "# 64 points on 8 x 8 cells\n\n\
-         The first {COUNT} points of each sequence in its first two dimensions. Even divisions: of the {} ways to divide the\n\
-         square into 64 rectangles whose sides are powers of two, those with one point in each. The star discrepancy is exact.\n\n\
-         | points | empty cells | most in a cell | even divisions | star discrepancy |\n|---|---:|---:|---:|---:|\n",
+         The first {COUNT} points of each sequence in its first two dimensions. Even divisions: of \
+         the {} ways to divide the\n\
+         square into 64 rectangles whose sides are powers of two, those with one point in each. \
+         The star discrepancy is exact.\n\n\
+         | points | empty cells | most in a cell | even divisions | star discrepancy \
+         |\n|---|---:|---:|---:|---:|\n",
         LOG_CELLS + 1
     );
     for Seen { name, empty, most, star_discrepancy, even_divisions } in seen {

@@ -51,7 +51,8 @@ pub(super) fn claims(curves: &[Curve]) -> Vec<Claim> {
         ),
         Claim::new(
             format!(
-                "With random points it divides it by {}, which is within a tenth of 1 (two one-sided tests; {TESTED})",
+                "With random points it divides it by {}, which is within a tenth of 1 (two \
+                 one-sided tests; {TESTED})",
                 random.text()
             ),
             [random.ratio, random.t()],

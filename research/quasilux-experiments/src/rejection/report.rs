@@ -53,8 +53,10 @@ pub(super) fn markdown(
     let mut text = format!(
         "# Inverse transform against rejection\n\n\
          A batwing luminaire of {:.0} lm lights {}, {:.0} lx on average.\n\
-         The error of a cell's illuminance, root mean square over cells and {REPLICATES} randomisations, over that\n\
-         average. Rejection accepts {:.1} % of its trials. Slopes are fitted from N = {FIT_FROM} on.\n\n",
+         The error of a cell's illuminance, root mean square over cells and {REPLICATES} \
+         randomisations, over that\n\
+         average. Rejection accepts {:.1} % of its trials. Slopes are fitted from N = {FIT_FROM} \
+         on.\n\n",
         luminaire.photometry.flux_lm(),
         floor.description(),
         floor.mean_lx,
@@ -98,9 +100,12 @@ fn table(curves: &[Curve]) -> String {
 /// What points and methods gain, with intervals.
 fn gains(curves: &[Curve]) -> String {
     let mut text = format!(
-        "\nHow many times smaller errors are, with 95 % intervals by Student's t over the {REPLICATES} randomisations, which all\n\
-         columns have in common: by Sobol' points instead of random ones, and by inverse transform instead of rejection.\n\n\
-         | N | Sobol', rejection | Sobol', inverse transform | inverse transform, random | inverse transform, Sobol' |\n\
+        "\nHow many times smaller errors are, with 95 % intervals by Student's t over the \
+         {REPLICATES} randomisations, which all\n\
+         columns have in common: by Sobol' points instead of random ones, and by inverse transform \
+         instead of rejection.\n\n\
+         | N | Sobol', rejection | Sobol', inverse transform | inverse transform, random | inverse \
+         transform, Sobol' |\n\
          |---:|---:|---:|---:|---:|\n"
     );
     let [rejection_random, inverse_random, rejection_sobol, inverse_sobol] = curves else {
