@@ -2,8 +2,7 @@
 
 /// Its version.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// What it was made of: the first 16 digits of a digest of all sources and of the versions of all
-/// dependencies.
+/// The first 16 digits of the fingerprint of all code that decides results (`build/fingerprint/`).
 pub(crate) const BUILD: &str = env!("QUASILUX_BUILD");
 
 /// Refuses another version, and another build of the same.
@@ -13,8 +12,8 @@ pub(crate) fn expect(version: &str, build: &str) -> Result<(), String> {
     }
     if build != BUILD {
         return Err(format!(
-            "was made by another build of version {VERSION}, {build}, and this is {BUILD}: what is computed may \
-             differ"
+            "was made by another build of version {VERSION}, {build}, and this is {BUILD}: what is \
+             computed may differ"
         ));
     }
     Ok(())

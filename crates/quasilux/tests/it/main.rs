@@ -3,10 +3,13 @@
 mod area;
 mod bad_input;
 mod bsdf;
+#[path = "../../build/fingerprint/mod.rs"]
+mod build_fingerprint;
 mod cameras;
 mod direct;
 mod experiment;
 mod explain;
+mod fingerprint;
 mod kept;
 mod limits;
 #[cfg(target_os = "linux")]
