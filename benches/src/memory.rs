@@ -3,7 +3,7 @@
 //! Memory for ten million triangles: a closed room over a rough ground, read from a Wavefront file
 //! that is made on the spot, with an illumination map of as many elements. Each line is a process
 //! of its own, and the figures are its peaks (`VmHWM` of Linux): after loading, and in all; and
-//! what was foretold for data alone.
+//! the memory predicted for data alone.
 
 use glam::DVec3;
 use quasilux_benches::meshes::Numbers;
@@ -39,7 +39,7 @@ fn main() {
         "loaded, GiB",
         "peak, GiB",
         "B / triangle",
-        "foretold, GiB"
+        "predicted, GiB"
     );
     for arguments in RUNS {
         let program = std::env::current_exe().expect("this program has a path");
@@ -60,7 +60,7 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
         map_reconstruction: named(&Reconstruction::NAMES, reconstruction),
         ..Settings::default()
     };
-    let foretold = MemoryNeed::of(&scene, &settings).total_bytes(settings.max_samples) as f64;
+    let predicted = MemoryNeed::of(&scene, &settings).total_bytes(settings.max_samples) as f64;
     let estimates = simulate(&scene, &settings, &mut ());
     let peak = peak_bytes();
     println!(
@@ -69,7 +69,7 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
         loaded / GIB,
         peak / GIB,
         peak / TRIANGLES,
-        foretold / GIB
+        predicted / GIB
     );
 }
 

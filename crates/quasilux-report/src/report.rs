@@ -139,7 +139,7 @@ pub struct Run {
     pub tolerance_reached: bool,
     /// What surveys and pilots decided before the first sample.
     pub decisions: Decisions,
-    /// How half-widths shrank, and what that foretells.
+    /// How half-widths shrank, and the cost that this predicts.
     pub convergence: Convergence,
     /// Numbers of coordinates that photons and paths used.
     pub dimensions: Dimensions,

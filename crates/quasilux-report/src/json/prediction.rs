@@ -1,4 +1,4 @@
-//! What a run foretold of itself, in the result document.
+//! The predictions of a run about itself, in the result document.
 
 use crate::Run;
 use quasilux_transport::Convergence;
@@ -7,7 +7,7 @@ use serde::Serialize;
 /// The object `prediction` of `run`: `slope`, the measured exponent of N in half-widths; the
 /// `samples`, `rays`, `seconds` and `bytes` of memory at which the tolerance should be reached, or
 /// was, whatever limit came first, the whole program on so many threads; `half_width_ratio`,
-/// half-widths over what had been foretold for them two checkpoints before, a geometric mean over
+/// half-widths over what had been predicted for them two checkpoints before, a geometric mean over
 /// the run.
 #[derive(Serialize)]
 pub(super) struct PredictionEntry {
@@ -41,7 +41,7 @@ mod tests {
     use serde_json::Value;
 
     #[test]
-    fn time_is_foretold_at_the_pace_of_the_run() {
+    fn time_is_predicted_at_the_pace_of_the_run() {
         let mut report = example::office();
         let prediction = |report: &crate::Report| -> Value {
             let document: Value = serde_json::from_str(&json(report)).expect("valid JSON");
