@@ -28,57 +28,69 @@ struct Table {
     errors: Vec<(u64, f64)>,
 }
 
+/// The measurements that the words of the command line ask for.
+struct Request {
+    scenes: Vec<&'static str>,
+    estimators: Vec<EstimatorKind>,
+    settings: Settings,
+}
+
+impl Request {
+    fn new(words: &[String]) -> Self {
+        let given = |name: &str| words.iter().any(|word| word == name);
+        let number = |key: &str| words.iter().find_map(|word| word.strip_prefix(key));
+        let switch = |key: &str| {
+            let mut names = Switch::NAMES.iter();
+            let named = names.find(|(name, _)| given(&format!("{key}={name}")));
+            named.map_or(Switch::Auto, |named| named.1)
+        };
+        let mut estimators: Vec<EstimatorKind> = EstimatorKind::NAMES
+            .iter()
+            .filter(|(name, _)| given(name))
+            .map(|named| named.1)
+            .collect();
+        if estimators.is_empty() {
+            estimators = vec![EstimatorKind::Path, EstimatorKind::Bidirectional];
+        }
+        let names = ["cube", "office", "spotlights", "wall"];
+        let all = !names.iter().any(|name| given(name));
+        let log_samples = number("2^").and_then(|word| word.parse().ok()).unwrap_or(12_u32);
+        let settings = Settings {
+            sequence: if given("random") { Sequence::Independent } else { Sequence::Sobol },
+            max_bounces: number("bounces=").and_then(|word| word.parse().ok()),
+            map_element_m: number("element=").and_then(|word| word.parse().ok()),
+            first_shot: switch("first_shot"),
+            connections: switch("connections"),
+            rel_tol: 0.0,
+            max_samples: Some(1 << log_samples),
+            ..Settings::default()
+        };
+        let scenes = names.into_iter().filter(|name| all || given(name)).collect();
+        Self { scenes, estimators, settings }
+    }
+}
+
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let given = |name: &str| words.iter().any(|word| word == name);
-    let limit = words.iter().find_map(|word| word.strip_prefix("2^")?.parse().ok()).unwrap_or(12);
-    let max_bounces = words.iter().find_map(|word| word.strip_prefix("bounces=")?.parse().ok());
-    let map_element_m = words.iter().find_map(|word| word.strip_prefix("element=")?.parse().ok());
-    let switch = |key: &str| {
-        let mut names = Switch::NAMES.iter();
-        let named = names.find(|(name, _)| given(&format!("{key}={name}")));
-        named.map_or(Switch::Auto, |named| named.1)
-    };
-    let (first_shot, connections) = (switch("first_shot"), switch("connections"));
-    let sequence = if given("random") { Sequence::Independent } else { Sequence::Sobol };
-    let chosen: Vec<EstimatorKind> =
-        EstimatorKind::NAMES.iter().filter(|(name, _)| given(name)).map(|named| named.1).collect();
-    let estimators = if chosen.is_empty() {
-        vec![EstimatorKind::Path, EstimatorKind::Bidirectional]
-    } else {
-        chosen
-    };
-    let names = ["cube", "office", "spotlights", "wall"];
-    let all = !names.iter().any(|name| given(name));
-    for name in names.into_iter().filter(|name| all || given(name)) {
+    let request = Request::new(&words);
+    for name in request.scenes {
         let scene = scene(name);
-        for &estimator in &estimators {
+        for &estimator in &request.estimators {
+            let mut settings = Settings { estimator, ..request.settings.clone() };
             println!(
                 "{name}, {}, {}, first shot {}, connections {}",
                 estimator.name(),
-                sequence.name(),
-                first_shot.name(),
-                connections.name()
+                settings.sequence.name(),
+                settings.first_shot.name(),
+                settings.connections.name()
             );
             println!(
                 "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
                 "indices", "rays", "seconds", "one, %", "mean, %", "slope", "efficiency"
             );
-            let settings = Settings {
-                estimator,
-                sequence,
-                max_bounces,
-                map_element_m,
-                first_shot,
-                connections: if estimator == EstimatorKind::Bidirectional {
-                    connections
-                } else {
-                    Switch::Auto
-                },
-                rel_tol: 0.0,
-                max_samples: Some(1 << limit),
-                ..Settings::default()
-            };
+            if estimator != EstimatorKind::Bidirectional {
+                settings.connections = Switch::Auto;
+            }
             let mut table = Table { start: all_processors_seconds(), errors: Vec::new() };
             let _ = simulate(&scene, &settings, &mut table);
         }

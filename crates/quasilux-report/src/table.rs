@@ -43,8 +43,9 @@ pub fn table(report: &Report, style: Style) -> String {
         text = format!("{text}{gap}{}", cameras(report, style));
     }
     let faint = style.paint(Emphasis::Faint, &format!("{}; ", run_facts(report)));
-    let (emphasis, verdict) = verdict(report);
-    writeln!(text, "\n{faint}{}", style.paint(emphasis, &verdict)).expect("strings grow");
+    let verdict = Verdict::new(report);
+    let verdict = style.paint(verdict.emphasis, &verdict.text);
+    writeln!(text, "\n{faint}{verdict}").expect("strings grow");
     if let Some(line) = convergence::convergence(report) {
         writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
     }
@@ -200,21 +201,32 @@ fn tolerance(settings: &Settings) -> String {
     }
 }
 
-fn verdict(report: &Report) -> (Emphasis, String) {
-    let settings = &report.run.settings;
-    let wanted = tolerance(settings);
-    let at = match settings.tolerance_on {
-        ToleranceOn::Points => "at every point",
-        ToleranceOn::Summary => "by every average",
-    };
-    if report.sensors.is_empty() && report.run.tolerance_reached {
-        (Emphasis::Good, "every picture has all its paths".into())
-    } else if !settings.has_tolerance() {
-        (Emphasis::Faint, "no tolerance was asked for".into())
-    } else if report.run.tolerance_reached {
-        (Emphasis::Good, format!("tolerance of {wanted} reached {at}"))
-    } else {
-        (Emphasis::Caution, format!("tolerance of {wanted} not reached"))
+/// Whether the run reached its tolerance, in words.
+struct Verdict {
+    emphasis: Emphasis,
+    text: String,
+}
+
+impl Verdict {
+    fn new(report: &Report) -> Self {
+        let settings = &report.run.settings;
+        let wanted = tolerance(settings);
+        let at = match settings.tolerance_on {
+            ToleranceOn::Points => "at every point",
+            ToleranceOn::Summary => "by every average",
+        };
+        let is_reached = report.run.tolerance_reached;
+        if report.sensors.is_empty() && is_reached {
+            Self { emphasis: Emphasis::Good, text: "every picture has all its paths".into() }
+        } else if !settings.has_tolerance() {
+            Self { emphasis: Emphasis::Faint, text: "no tolerance was asked for".into() }
+        } else if is_reached {
+            let text = format!("tolerance of {wanted} reached {at}");
+            Self { emphasis: Emphasis::Good, text }
+        } else {
+            let text = format!("tolerance of {wanted} not reached");
+            Self { emphasis: Emphasis::Caution, text }
+        }
     }
 }
 

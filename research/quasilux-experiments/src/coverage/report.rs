@@ -55,7 +55,7 @@ pub(super) fn markdown(counts: &[Count], verdict: &Verdict, seeds: u32) -> Strin
     for moment in Moment::ALL {
         for scene in scenes.iter().map(|known| known.name).chain([ALL]) {
             let cells =
-                SEQUENCES.iter().flat_map(|(sequence, _)| row(counts, (scene, moment, *sequence)));
+                SEQUENCES.iter().flat_map(|(sequence, _)| row(counts, scene, moment, *sequence));
             let cells: Vec<String> = cells.collect();
             writeln!(text, "| {scene} | {} | {} |", moment.name(), cells.join(" | "))
                 .expect("strings grow");
@@ -108,7 +108,7 @@ fn header() -> String {
     format!("| scene | moment |{columns}\n|---|---|{}\n", "---:|".repeat(3 * SEQUENCES.len()))
 }
 
-fn row(counts: &[Count], (scene, moment, sequence): (&str, Moment, Sequence)) -> [String; 3] {
+fn row(counts: &[Count], scene: &str, moment: Moment, sequence: Sequence) -> [String; 3] {
     let own = || {
         counts.iter().filter(move |count| {
             count.scene == scene && count.moment == moment && count.sequence == sequence

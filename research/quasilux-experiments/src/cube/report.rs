@@ -146,7 +146,7 @@ fn at_equal_time(findings: &Findings) -> Vec<Line> {
         let of = |column: &Column| line("relative error at equal time", *column, row);
         lines.extend(Column::ALL.iter().filter_map(of));
     }
-    for (printed, own) in table_5::rows(findings) {
+    for table_5::Aligned { printed, own } in table_5::rows(findings) {
         for column in Column::OF_PAPER {
             let paper = printed.errors_percent[column as usize];
             lines.push(Line {

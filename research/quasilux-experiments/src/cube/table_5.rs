@@ -16,12 +16,18 @@ pub(super) fn duels(table: &Table) -> Vec<Duel> {
     pairs.map(|[worse, better]| table.duel(worse, better)).collect()
 }
 
+/// A row of the paper, and ours at the same error of pseudo-random points, where there is one.
+pub(super) struct Aligned {
+    pub(super) printed: paper::Row,
+    pub(super) own: Option<Row>,
+}
+
 /// The paper's rows, each with ours where pseudo errs as much, if it does.
-pub(super) fn rows(findings: &Findings) -> impl Iterator<Item = (paper::Row, Option<Row>)> {
+pub(super) fn rows(findings: &Findings) -> impl Iterator<Item = Aligned> {
     paper::rows().into_iter().map(|printed| {
         let error = printed.errors_percent[Column::Pseudo as usize] / 100.0;
         let own = Table::at_error_of_pseudo(&findings.columns, error);
-        (printed, own)
+        Aligned { printed, own }
     })
 }
 
@@ -48,7 +54,7 @@ fn beside_the_paper(findings: &Findings) -> String {
         pseudo/quasi2 |\n\
         |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n"
         .to_owned();
-    for (printed, own) in rows(findings) {
+    for Aligned { printed, own } in rows(findings) {
         let beside = |value: Option<String>, printed: String| match value {
             Some(value) => format!("{value} ({printed})"),
             None => format!("({printed})"),

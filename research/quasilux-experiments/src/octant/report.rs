@@ -27,10 +27,9 @@ pub(super) fn csv(findings: &Findings) -> String {
     for place in 0..ladder.octants[0].places.len() {
         for part in Part::ALL {
             for level in 0..LEVELS {
-                let n = ladder.octants[level].n;
-                value_line(&mut text, findings, (part, place), Some((level, n)));
+                value_line(&mut text, findings, &Value { part, place, level: Some(level) });
             }
-            value_line(&mut text, findings, (part, place), None);
+            value_line(&mut text, findings, &Value { part, place, level: None });
         }
     }
     let order = ladder.order(Part::Indirect);
@@ -63,19 +62,21 @@ pub(super) fn csv(findings: &Findings) -> String {
     text
 }
 
-/// A value on a mesh, or on the sphere where there is none.
-fn value_line(
-    text: &mut String,
-    findings: &Findings,
-    (part, place): (Part, usize),
-    mesh: Option<(usize, u32)>,
-) {
+/// A value on the mesh of a level, or on the sphere without one.
+struct Value {
+    part: Part,
+    place: usize,
+    level: Option<usize>,
+}
+
+fn value_line(text: &mut String, findings: &Findings, value: &Value) {
     let ladder = &findings.ladder;
+    let Value { part, place, level: mesh } = *value;
     let (kind, values) = match mesh {
-        Some((level, _)) => ("mesh", ladder.on_mesh(level, part, place)),
+        Some(level) => ("mesh", ladder.on_mesh(level, part, place)),
         None => ("sphere", ladder.on_sphere(part, place)),
     };
-    let level = mesh.map_or(LEVELS - 1, |(level, _)| level);
+    let level = mesh.unwrap_or(LEVELS - 1);
     let found = mean_interval(&values);
     let reference = reference_lx(part, ladder.octants[level].places[place], mesh.is_none());
     let error = reference.map(|lx| exact((found.value / lx - 1.0).abs())).unwrap_or_default();
@@ -85,7 +86,7 @@ fn value_line(
         "{kind},bidirectional,{},{},{},{},{},,{},{},{},{error},,{left},,,",
         part.name(),
         place_name(findings, place),
-        mesh.map(|(_, n)| n.to_string()).unwrap_or_default(),
+        mesh.map(|level| ladder.octants[level].n.to_string()).unwrap_or_default(),
         ladder.courses[level].last().samples,
         values.len(),
         exact(found.value),
