@@ -11,8 +11,8 @@ const NO_GAIN: f64 = 1.1;
 /// Powers of the step below this are nearer to jumps than to slopes.
 const JUMPS: f64 = 1.5;
 
-/// A table of the blocks, and sentences on what quasi-random points are worth here; the same of
-/// photons beside paths.
+/// A table of the blocks, and sentences on the gain of quasi-random points; the same of photons
+/// beside paths.
 #[must_use]
 pub fn explanation(explanation: &Explanation, style: Style) -> String {
     let mut text = part(explanation, style);
@@ -115,7 +115,7 @@ fn uses(block: &Block) -> String {
     }
 }
 
-/// In plain words: how the blocks act, what the sequence is worth, and what stands in its way.
+/// In plain words: how the blocks act, the gain of the sequence, and the obstacles to it.
 fn sentences(explanation: &Explanation) -> Vec<String> {
     let Some(interacting) = explanation.interacting_blocks else {
         return vec!["Nothing varies: every sample finds the same.".to_owned()];
@@ -128,7 +128,7 @@ fn sentences(explanation: &Explanation) -> Vec<String> {
         vec![format!("{} blocks act together on average; {most}.", brief(interacting, 3))];
     let total = |block: &Block| block.total.map_or(0.0, |share| share.value);
     let largest = explanation.blocks.iter().max_by(|a, b| total(a).total_cmp(&total(b)));
-    sentences.extend(explanation.gain.as_ref().map(worth));
+    sentences.extend(explanation.gain.as_ref().map(gain_text));
     sentences.extend(largest.map(|block| {
         let [start, end] = match block.smoothness {
             Some(power) if power < JUMPS => ["What stands in the way of more are jumps", ""],
@@ -172,13 +172,13 @@ fn together(explanation: &Explanation) -> String {
     text + "."
 }
 
-fn worth(gain: &Gain) -> String {
+fn gain_text(gain: &Gain) -> String {
     let Gain { samples, factor, standard_error, exponent, .. } = gain;
     let help = if *factor < NO_GAIN { "does not help" } else { "helps" };
     format!(
         "The sequence {help}: at {} samples the error of pseudo-random points is {factor:.1} ± \
-         {standard_error:.1} times as large, which is worth {} times the samples; the error falls \
-         like N^-{exponent:.2}.",
+         {standard_error:.1} times as large, so that they would need {} times the samples; the \
+         error falls like N^-{exponent:.2}.",
         count(*samples),
         brief(factor * factor, 2),
     )
@@ -237,7 +237,7 @@ mod tests {
             "0 to 1        direction from the sensor",
             "2 and on      place on an area light, at surface 1",
             " 70.0 ± 1.0 %",
-            "3.0 ± 0.3 times as large, which is worth 9 times the samples",
+            "3.0 ± 0.3 times as large, so that they would need 9 times the samples",
             "jumps: 70 % of the variance hang on \"direction from the sensor\".",
         ] {
             assert!(text.contains(words), "no {words} in\n{text}");
