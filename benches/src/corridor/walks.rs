@@ -1,6 +1,6 @@
 //! The yardstick: light walks connected to every sensor, as plain as can be.
 //!
-//! Scalar numbers, pseudo-random points, no weight windows, nothing that is shared with the simulator:
+//! Scalar numbers, pseudo-random points, no weight windows, no code shared with the simulator:
 //! the corridor and its niche are two boxes, and a walk is a few divisions. Walks keep what
 //! absorption leaves and end by roulette; from each place where one lands, all sensors get their
 //! light in closed form, and what hides the niche is one rectangle. The sensors are the middles of
