@@ -33,7 +33,7 @@ cargo xtask test clippy    lints, warnings denied
 cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
-cargo xtask test package   the crates that others may take can be packed
+cargo xtask test package   the crates to publish build from their packages
 cargo xtask test examples  every example runs and gives the numbers it promises
 cargo xtask test deep      all tests, in variants that take long and find smaller errors
 cargo xtask arrows CRATE   imports between the modules of a crate that no order allows

@@ -93,23 +93,13 @@ fn check_fuzz_targets() -> Result<(), Failure> {
     cargo(&["clippy", MANIFEST, "--no-default-features", "--", "-D", "warnings"], &[])
 }
 
-/// Crates that are built from what was packed: it takes 30 s of processor time, and the others,
-/// which stand on these, would take as long again.
-const VERIFIED: [&str; 5] =
-    ["quasilux-sampling", "quasilux-text", "quasilux-photometry", "quasilux-bsdf", "quasilux-bvh"];
-
-/// Packs the crates that may be published, without the registry, and builds [`VERIFIED`] from it.
+/// Packs the crates that may be published and builds each from its package, without the registry,
+/// the command line among them: what `cargo install` would do.
 fn package_crates() -> Result<(), Failure> {
     let packages = xtask::packages::of_workspace(&workspace_root())?;
-    let names: Vec<&str> = packages.iter().map(|package| package.name.as_str()).collect();
-    let pack = |names: &[&str], more: &[&str]| {
-        let mut arguments = vec!["package", "--quiet", "--offline", "--allow-dirty"];
-        arguments.extend(more);
-        arguments.extend(names.iter().flat_map(|name| ["--package", name]));
-        cargo(&arguments, &[])
-    };
-    pack(&names, &["--no-verify"])?;
-    pack(&VERIFIED, &[])
+    let mut arguments = vec!["package", "--quiet", "--offline", "--allow-dirty"];
+    arguments.extend(packages.iter().flat_map(|package| ["--package", &package.name]));
+    cargo(&arguments, &[])
 }
 
 /// Runs cargo in the workspace with further environment variables.

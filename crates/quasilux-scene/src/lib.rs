@@ -35,3 +35,8 @@ pub use project::SimulationSection;
 pub use rgb::Rgb;
 pub use scene::{Material, Scene};
 pub use sensor::{Grid, Quantity, Sensor, SensorPoint, SensorShape};
+
+/// Tests the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -59,3 +59,8 @@ pub use stats::estimates::{
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
+
+/// Tests the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

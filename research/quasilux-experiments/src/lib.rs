@@ -137,3 +137,8 @@ impl Experiment {
         given.into_iter().find(unheeded).map(|(option, _)| option)
     }
 }
+
+/// Tests the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
