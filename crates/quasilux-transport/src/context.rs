@@ -19,7 +19,7 @@ pub enum Step {
     Emission,
     /// From rays to places on facets.
     Traversal,
-    /// PhotonEstimator flights and landings.
+    /// Counting flights and landings.
     Tally,
     /// Survival and the next direction.
     Scattering,
@@ -66,9 +66,9 @@ pub(crate) enum Stream {
     MapPilots,
     /// Photons that show whether to begin where light lands.
     FirstShotPilots,
-    /// Photons that show whether guiding pays where they are counted.
+    /// Pilot photons that confirm weight windows where sensors count photons.
     WindowPilots,
-    /// Photons that look for what paths cannot find.
+    /// Photons of caustics that paths cannot sample.
     CausticPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
     Survey(u64),
@@ -166,8 +166,8 @@ impl<'a, S: Spectrum> Context<'a, S> {
         }
     }
 
-    /// The same of a few points of a trial: those of a set with a fixed number of points are no
-    /// sample of it.
+    /// The point set of a trial: a Halton sequence where the run has a fixed number of points,
+    /// since a few of these are no sample of the set.
     pub(crate) fn points_of_trial(&self, replicate: u32, stream: Stream) -> PointSet {
         let Settings { sequence, randomization, seed, .. } = *self.settings;
         let sequence = if sequence.points().is_some() { Sequence::Halton } else { sequence };

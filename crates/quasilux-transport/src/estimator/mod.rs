@@ -37,8 +37,8 @@ pub(crate) trait Estimator {
     /// does what is left.
     fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
 
-    /// Before the first sample: traces the indices of a part of a run of so many `samples`, and
-    /// what serves all of them; `false` when the observer stopped it.
+    /// Before the first sample: traces the indices of a part of a run of `samples`, and
+    /// the photons that all parts share; `false` when the observer stopped it.
     #[must_use]
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool;
 
@@ -54,13 +54,13 @@ pub(crate) trait Estimator {
     /// Adds that.
     fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 
-    /// Takes it that all indices before `samples` were added.
+    /// Declares the sums complete up to `samples`.
     fn complete_at(&mut self, samples: u64);
 
     /// What is known now. Settings, intervals and warnings are filled in by the caller.
     fn estimates(&self) -> Estimates;
 
-    /// Leaves it at that for the targets that are `done`, and samples the others alone from now on;
+    /// Stops sampling converged targets;
     /// `false` where samples are for all targets.
     fn freeze_converged(&mut self, _done: &[bool]) -> bool {
         false

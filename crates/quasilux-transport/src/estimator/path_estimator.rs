@@ -282,7 +282,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         .collect()
     }
 
-    /// Contributions that were refused, with those of photons.
+    /// Number of refused contributions, photons included.
     fn invalid_contributions(&self, of_photons: u64) -> u64 {
         self.invalid_points
             + of_photons

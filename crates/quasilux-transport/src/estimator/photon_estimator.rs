@@ -49,7 +49,7 @@ pub(crate) struct PhotonEstimator<'a, S> {
     /// One row of counters a replicate.
     counters: Vec<Counters>,
     samples: u64,
-    /// Without those of the plan.
+    /// Without pilots.
     photons: PhotonCounts,
 }
 
@@ -124,7 +124,7 @@ impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
         trace_photons_with_snapshots(self.context, &batch, receiver, look, watch)
     }
 
-    /// What the sensors show after so many photons of all replicates together.
+    /// Estimates after `photons` of all replicates together.
     fn snapshot(&self, photons: u64) -> Snapshot {
         let photon_lm = self.context.lights.flux_lm / photons as f64;
         let value_lx = |&(counter, area_m2): &(u32, f64)| {

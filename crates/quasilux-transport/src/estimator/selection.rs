@@ -21,13 +21,14 @@ use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use quasilux_sampling::Sequence;
 
-/// Runs of fewer rays are not worth a survey, which takes about as many.
+/// Shorter runs, in rays, do without a survey, which takes about as many.
 const TRYING_TO_JOIN: f64 = (1 << 20) as f64;
 /// In a run, the variance of paths falls to about this part of what it is in the trial, beyond what
 /// more of them bring: quasi-random points. Random ones bring nothing.
 const LATER: f64 = 0.5;
 
-/// What was decided, and what it took. Without connected photons and map, paths go alone.
+/// The selected estimator, and the cost of the selection. Without connected photons and map, paths
+/// go alone.
 pub(crate) struct Decision<S> {
     pub(crate) light_vertices: Option<LightVertexConnections>,
     /// With its photons.
@@ -126,7 +127,7 @@ impl<S: Spectrum> Tried<S> {
         PilotCost::of_paths(&self.plain.variances, self.plain.rays)
     }
 
-    /// Of a run that keeps a promise.
+    /// Rays of a whole run of this cost.
     fn rays(&self, pilot_cost: &PilotCost<'_>) -> f64 {
         self.wanted.rays(&self.plain(), pilot_cost)
     }
@@ -143,7 +144,7 @@ impl<S: Spectrum> Tried<S> {
         MapPilot::new(context, settings, &paths, &self.wanted, watch)
     }
 
-    /// So many rays over those of paths like these.
+    /// Ratio of `rays` to the rays of the recorded paths.
     fn part(&self, rays: f64) -> f64 {
         let of_recorded = self.rays(&self.recorded());
         if of_recorded > 0.0 { rays / of_recorded } else { 1.0 }

@@ -2,15 +2,15 @@
 //!
 //! With s the first landings, T the steps between cells (mean over the rays from a cell, absorption
 //! left out) and a the albedo, the flux that lands is `phi = s + T^t a phi`. A photon that lands
-//! after a bounce is read by the sensors: its worth to sensor i is the share `a p / (A E)` of that
-//! sensor's illuminance E, where p is the share of the sensor's view that the cell of area A fills.
-//! The sum over the sensors, r, makes the *relative* errors of all sensors count alike, and photons
-//! that leave a cell are worth `d = T (r + a d)`: forward-weighted importance (J. C. Wagner, D. E.
-//! Peplow, S. W. Mosher, "FW-CADIS method for global and regional variance reduction of Monte Carlo
-//! radiation transport calculations", Nuclear Science and Engineering 176(1), 2014; M. A. Cooper,
-//! E. W. Larsen, "Automated weight windows for global Monte Carlo particle transport calculations",
-//! Nuclear Science and Engineering 137(1), 2001). Deviation: both systems are solved on one sampled
-//! matrix instead of by a deterministic code.
+//! after a bounce is read by the sensors: its importance to sensor i is the share `a p / (A E)` of
+//! that sensor's illuminance E, where p is the share of the sensor's view that the cell of area A
+//! fills. The sum over the sensors, r, makes the *relative* errors of all sensors count alike, and
+//! photons that leave a cell have importance `d = T (r + a d)`: forward-weighted importance (J. C.
+//! Wagner, D. E. Peplow, S. W. Mosher, "FW-CADIS method for global and regional variance reduction
+//! of Monte Carlo radiation transport calculations", Nuclear Science and Engineering 176(1), 2014;
+//! M. A. Cooper, E. W. Larsen, "Automated weight windows for global Monte Carlo particle transport
+//! calculations", Nuclear Science and Engineering 137(1), 2001). Deviation: both systems are solved
+//! on one sampled matrix instead of by a deterministic code.
 
 use crate::importance::survey::{Survey, Surveyed, Transition};
 
@@ -19,13 +19,13 @@ const MAX_SWEEPS: usize = 64;
 /// Largest relative change of an entry in the last sweep.
 const SETTLED: f64 = 0.05;
 
-/// Light and worth by surveyed cell.
+/// Flux and importance by surveyed cell.
 pub(crate) struct FluxAndImportance {
     /// Flux that lands, as a share of what all lights emit.
     pub(crate) landing: Vec<f64>,
-    /// What a photon of weight one is worth that has landed after a bounce, before its next.
+    /// Importance of a photon of weight one that has landed after a bounce, before its next.
     pub(crate) landed_importance: Vec<f64>,
-    /// What a photon of weight one is worth that leaves.
+    /// Importance of a photon of weight one that leaves.
     pub(crate) leaving_importance: Vec<f64>,
     /// Illuminance at each surveyed sensor, in lx.
     pub(crate) sensors_lx: Vec<f64>,
@@ -107,7 +107,8 @@ fn sensors_lx(survey: &Survey, areas_m2: &[f64], landing: &[f64], flux_lm: f64) 
     survey.sensors.iter().map(sensor_lx).collect()
 }
 
-/// What a landing is worth by being read, summed over the sensors that get any light so.
+/// Importance of a landing by sensors that see it directly, summed over the sensors with such
+/// light.
 fn read_importance(
     survey: &Survey,
     areas_m2: &[f64],

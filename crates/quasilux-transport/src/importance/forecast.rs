@@ -22,7 +22,7 @@ pub(crate) struct Forecast {
     pub(crate) places: Arc<[Vec<Interaction>]>,
     /// Illuminance at each surveyed sensor after reflections, in lx.
     indirect_lx: Vec<f64>,
-    /// Each surveyed sensor stands for so many that follow each other.
+    /// Number of consecutive sensors that each surveyed one stands for.
     step: usize,
 }
 
@@ -88,7 +88,7 @@ fn lit_per_m2(survey: &Survey, solution: &FluxAndImportance, areas_m2: &[f64]) -
     lit
 }
 
-/// What a cell gets from those that it sees, if so much lands on a square metre of each.
+/// Density of flux that a cell gets from the cells it sees, given the density that lands on each.
 fn seen_from(survey: &Survey, cell: usize, lit_per_m2: impl Fn(usize) -> f64) -> f64 {
     let steps = survey.known[cell].steps();
     let from = steps.map(|step| {

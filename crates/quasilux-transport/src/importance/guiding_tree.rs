@@ -3,28 +3,28 @@
 //!
 //! From a lit wall to the far end of a corridor lead few directions, and whole photons that take
 //! them carry far more than the end is due. A photon's direction is made from a point of the unit
-//! square; a density over the square, learnt from the survey's rays and what they were worth where
-//! they landed, makes such points more frequent, and weights as much less (importance sampling of
-//! the directions, as in J. Vorba et al., "On-line learning of parametric mixture models for light
+//! square; a density over the square, learnt from the survey's rays and their importance where they
+//! landed, makes such points more frequent, and weights as much less (importance sampling of the
+//! directions, as in J. Vorba et al., "On-line learning of parametric mixture models for light
 //! transport simulation", ACM Trans. Graph. 33(4), 2014). The square is halved again and again
-//! where much worth is, in the manner of T. Mueller, M. Gross and J. Novak, "Practical path guiding
-//! for efficient light-transport simulation", Comput. Graph. Forum 36(4), 2017, and the density is
-//! constant in what is not halved: the end of a corridor fills less than a thousandth of what its
-//! walls see, at a grazing angle.
+//! where much importance is, in the manner of T. Mueller, M. Gross and J. Novak, "Practical path
+//! guiding for efficient light-transport simulation", Comput. Graph. Forum 36(4), 2017, and the
+//! density is constant in what is not halved: the end of a corridor fills less than a thousandth of
+//! what its walls see, at a grazing angle.
 
 use crate::codec::Writer;
 use std::collections::VecDeque;
 
-/// A region is halved if more than one part in so many of all worth is in it,
+/// A region is halved if it holds more than one part in this number of all importance,
 const PARTS: f64 = 128.0;
-/// and if so many rays tell how the halves differ.
+/// and at least this number of rays.
 const MIN_RAYS: usize = 8;
 /// Halvings, half of them along each edge.
 const MAX_HALVINGS: u32 = 24;
 /// No guide halves more regions.
 pub(crate) const MAX_NODES: usize = 128;
 const _: () = assert!(MAX_NODES <= 1 << u8::BITS, "nodes are numbered in a byte");
-/// In so many parts shares of points are told.
+/// Denominator of shares of points.
 const WHOLE: f64 = 65_536.0;
 /// Share of the points that are left even, so that no weight grows more than its inverse.
 const EVEN: f64 = 0.3;
@@ -89,7 +89,7 @@ impl GuidingSample {
 }
 
 impl GuidingTree {
-    /// By rays and what they were worth.
+    /// By rays and their importance.
     pub(crate) fn new(mut samples: Vec<GuidingSample>) -> Self {
         samples.sort_unstable_by_key(|sample| sample.digits);
         let mut sums = vec![0.0];
@@ -219,7 +219,7 @@ fn spread(digits: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// Rays around three places, few of them worth much.
+    /// Rays around three places, few of them of much importance.
     fn guide() -> GuidingTree {
         let mut samples = Vec::new();
         for i in 0..40 {
@@ -254,7 +254,7 @@ mod tests {
     }
 
     /// Samples cover the whole square: the mean reciprocal of their density is its area. They are
-    /// much denser where worth is.
+    /// much denser where importance is.
     #[test]
     fn much_goes_where_worth_is() {
         let guide = guide();

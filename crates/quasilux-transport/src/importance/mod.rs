@@ -3,7 +3,7 @@
 //!
 //! In a long corridor lit from one end photons die out, and the far end is found by hardly any. A
 //! coarse [`survey`] of the scene says, by linear algebra ([`flux_and_importance`]), how much light
-//! there is and what it is worth to the sensors; [`weight_windows`] then say how many photons
+//! there is and its importance to the sensors; [`weight_windows`] then say how many photons
 //! should follow each that lands, and [`guiding_tree`] in which directions. The survey has pilot
 //! rays of its own, their number is fixed and their coordinates serve nothing else: whatever it
 //! says, the estimate has the same mean. It also predicts what guiding saves; where that is little,

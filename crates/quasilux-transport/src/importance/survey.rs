@@ -49,7 +49,7 @@ pub(crate) struct Survey {
     pub(crate) number_of_cell: Vec<u32>,
     pub(crate) known: Vec<SurveyCell>,
     pub(crate) sensors: Vec<Surveyed>,
-    /// Every so many targets one was surveyed.
+    /// Stride of the surveyed sensors in all targets.
     pub(crate) sensor_step: usize,
     /// Share of the photons that land first in each known cell.
     pub(crate) first_landings: Vec<f64>,
@@ -191,7 +191,7 @@ impl<S: Spectrum> FarConnections<'_, '_, '_, S> {
 }
 
 impl Survey {
-    /// Looks around from all lights and from some of the targets; `None` where there is nothing.
+    /// Traces rays from all lights and from some of the targets; `None` where there is nothing.
     pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Option<Self> {
         let cells = Cells::new(&context.world)?;
         let mut survey = Self {
@@ -215,7 +215,7 @@ impl Survey {
         Regions::new(self.cells.clone(), self.number_of_cell.clone())
     }
 
-    /// Looks closer.
+    /// Adds rays to each cell.
     pub(crate) fn refine<S: Spectrum>(&mut self, context: &Context<'_, S>) {
         self.explore(context, MORE_CELL_RAYS);
     }
@@ -227,7 +227,7 @@ impl Survey {
     /// From a place with normal n the share of the light that goes to one with n' in a cell of area
     /// A is `p = cos cos' A / (pi d^2)`, if nothing stands between. Where such a cell is chosen
     /// with probability q, what a ray or a connection finds there counts `p / (p + q)` (balance
-    /// heuristic, Veach and Guibas 1995): worths that were wrong leave the light that goes
+    /// heuristic, Veach and Guibas 1995): wrong importances leave the light that goes
     /// elsewhere to the rays.
     pub(crate) fn connect<S: Spectrum>(
         &mut self,

@@ -5,9 +5,9 @@
 //! photons on average, a the albedo: splitting where m is above one, roulette and absorption in one
 //! decision where it is below (T. E. Booth and J. S. Hendricks, "Importance estimation in forward
 //! Monte Carlo calculations", Nuclear Technology/Fusion 5(1), 1984). W is in inverse proportion to
-//! what a photon that leaves is worth, in the mean square over its next step, so that rays times
-//! variance are least; a photon at its light is worth as much as the mean of those that leave where
-//! it lands.
+//! the importance of a photon that leaves, in the mean square over its next step, so that rays
+//! times variance are least; a photon at its light has the mean importance of those that leave
+//! where it lands.
 
 use crate::codec::Writer;
 use crate::importance::cells::Regions;
@@ -26,14 +26,14 @@ pub(crate) const MAX_CHILDREN: f64 = 16.0;
 const LIGHTEST: f64 = 1.0 / (1 << 16) as f64;
 const HEAVIEST: f64 = 8.0;
 
-/// What the survey says of the place that a photon has landed on.
+/// Weight windows and guides by surveyed cell.
 pub(crate) struct WeightWindows {
     regions: Arc<Regions>,
     /// By number of the cell.
     windows: Vec<Window>,
 }
 
-/// What the survey says of one cell.
+/// Weight window of one cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     /// Weight with which photons leave, on average over their directions.
@@ -43,7 +43,7 @@ pub(crate) struct Window {
 }
 
 impl WeightWindows {
-    /// By worth.
+    /// In inverse proportion to importance.
     pub(crate) fn new(
         survey: &Survey,
         regions: Arc<Regions>,
@@ -167,7 +167,7 @@ fn importance_windows(survey: &Survey, solution: &FluxAndImportance) -> Vec<Wind
     windows.map(|(weight, guide)| Window { weight, guide }).collect()
 }
 
-/// Directions from each known cell by what its rays, and those of the cells around it, were worth.
+/// Directions from each known cell by the importance of its rays and of its neighbours' rays.
 fn guides(survey: &Survey, solution: &FluxAndImportance) -> Vec<GuidingTree> {
     let hints = |cell: &SurveyCell| -> Vec<GuidingSample> {
         let hint = |step: Transition| {
@@ -185,8 +185,8 @@ fn guides(survey: &Survey, solution: &FluxAndImportance) -> Vec<GuidingTree> {
     survey.known.par_iter().map(guide).collect()
 }
 
-/// Mean squares of what photons that leave each known cell by its guide are worth where they land:
-/// over even rays, worth^2 / density.
+/// Mean squares of the importance, where they land, of photons that leave each known cell by its
+/// guide: over even rays, importance^2 / density.
 fn next_squares<'g>(
     survey: &Survey,
     solution: &FluxAndImportance,
@@ -203,7 +203,7 @@ fn next_squares<'g>(
 }
 
 /// The weight with which photons leave each known cell: in inverse proportion to the root mean
-/// square of what they are worth next, which makes rays times variance least. Mean squares are
+/// square of their next importance, which makes rays times variance least. Mean squares are
 /// those of the cells around.
 fn importance_weights(
     survey: &Survey,

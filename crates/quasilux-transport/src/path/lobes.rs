@@ -111,7 +111,7 @@ impl LobeSums {
     }
 }
 
-/// What readers of the results are told of so many sensor points.
+/// Warning about this number of sensor points.
 pub(crate) fn warning(points: usize) -> Option<String> {
     (points > 0).then(|| {
         format!(

@@ -372,7 +372,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 }
 
-/// What goes on counts so many times: 0, or more than once for those that do not.
+/// Russian roulette: the factor on the weight, 0 or the reciprocal of the survival probability.
 pub(crate) fn russian_roulette_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
     if sampler.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
 }

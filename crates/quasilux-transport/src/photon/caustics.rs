@@ -121,7 +121,7 @@ impl<S: Spectrum> CausticMap<S> {
         self.photons_per_path
     }
 
-    /// Photons of each replicate when so many paths are served.
+    /// Photons of each replicate for a number of paths.
     pub(crate) fn photons_for(&self, paths: u64) -> u64 {
         paths.saturating_mul(self.photons_per_path)
     }
@@ -171,7 +171,7 @@ impl<S: Spectrum> CausticMap<S> {
         Ok(())
     }
 
-    /// Counts no more for targets that end with so many paths; the maps go on.
+    /// Freezes targets at their numbers of paths; the maps go on.
     pub(crate) fn freeze_converged(&mut self, ends: &[Option<u64>]) {
         self.ends = ends.iter().map(|end| end.map(|paths| self.photons_for(paths))).collect();
     }

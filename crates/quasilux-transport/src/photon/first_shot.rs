@@ -1,11 +1,11 @@
 //! Choice of the photons' source by pilots: lights, or the cells that they light directly.
 //!
-//! What counts are photons that leave the first surface. With weights w the variance is that of `N
-//! s` equal ones, `s = (sum w)^2 / (N sum w^2)` (Kish 1965), of N photons: w is 0 where the photon
-//! was absorbed, lost or in the shadow. So rays / (N s) is the work for one good photon, counted in
-//! rays, whose number and order say nothing of how evenly photons lie. Those from lit places lie
-//! more evenly, and few of their weights are far from the others, next to the lights where it
-//! matters to few: see [`EVENNESS`].
+//! The measure is the work for photons that leave the first surface. With weights w the variance is
+//! that of `N s` equal ones, `s = (sum w)^2 / (N sum w^2)` (Kish 1965), of N photons: w is 0 where
+//! the photon was absorbed, lost or in the shadow. So rays / (N s) is the work for one good photon,
+//! counted in rays, whose number and order say nothing of how evenly photons lie. Those from lit
+//! places lie more evenly, and few of their weights are far from the others, next to the lights
+//! where it matters to few: see [`EVENNESS`].
 
 use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;

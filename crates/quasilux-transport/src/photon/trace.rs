@@ -53,8 +53,7 @@ pub(crate) enum Source<'s> {
 pub(crate) struct Lead<'s> {
     pub(crate) source: Source<'s>,
     pub(crate) windows: Option<&'s WeightWindows>,
-    /// Where nothing guides them, photons go on for certain with what absorption leaves, if that is
-    /// so much of what the first of them carry.
+    /// Without weight windows, photons survive for certain down to this weight.
     pub(crate) certain_weight: f64,
 }
 

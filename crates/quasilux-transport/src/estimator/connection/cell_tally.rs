@@ -77,7 +77,7 @@ impl CellTally {
         trace_photons(context, &batch, receiver, watch)
     }
 
-    /// Takes it that the sums are those of so many photons in each replicate.
+    /// Declares the sums complete up to this number of photons in each replicate.
     pub(super) fn freeze_converged(&mut self, photons: u64) {
         let means_of = |sums: &Mutex<Vec<Sum>>| self.means_of(&lock(sums), photons.max(1) as f64);
         self.means_lm_sr = self.sums.iter().map(means_of).collect();

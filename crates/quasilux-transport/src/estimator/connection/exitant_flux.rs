@@ -9,13 +9,13 @@ use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use glam::DVec3;
 
-/// What a photon sends on from where it landed.
+/// Intensities that leave a surface where a photon landed.
 pub(super) struct ExitantFlux {
     /// To the side that it came from, and to the other.
     pub(super) sides: [Side; 2],
 }
 
-/// What leaves to one side.
+/// Intensity to one side.
 #[derive(Clone, Copy)]
 pub(super) struct Side {
     /// The same in all directions, but for the cosine.
@@ -31,8 +31,8 @@ pub(super) struct CellFlux {
 }
 
 impl ExitantFlux {
-    /// What a photon of this weight sends on after so many bounces, on a surface that keeps
-    /// illuminance; `None` where no more are wanted.
+    /// Exitant flux of a photon of this weight after `bounces` on a surface that keeps illuminance;
+    /// `None` where no more are wanted.
     pub(super) fn new<S: Spectrum>(
         context: &Context<'_, S>,
         connection: &ConnectionPlan,

@@ -21,7 +21,7 @@ use std::sync::Mutex;
 
 /// Targets that the same photons are connected to; others have photons of their own.
 const GROUP: usize = 256;
-/// A photon that is connected takes as long as so many others, about.
+/// Cost of a connected photon, in photons that are not connected.
 const JOINING: u64 = 4;
 
 /// Sums that grow with a run.
@@ -33,7 +33,7 @@ pub(crate) struct LightVertexConnections {
     /// Terms of the Neumann series that are told apart.
     terms: usize,
     pub(super) quantum: Quantum,
-    /// By group of targets and replicate; those of target t of a group from `t * terms` on.
+    /// By group of targets and replicate; sums of target t of a group begin at `t * terms`.
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
     coarse: Option<(Vec<CellTransfer>, CellTally)>,
@@ -95,7 +95,7 @@ impl LightVertexConnections {
         }
     }
 
-    /// The same from its beginning, for one replicate of those of all `targets` with these numbers.
+    /// The same plan without samples, in one replicate of the targets with these `numbers`.
     pub(crate) fn with_targets<S: Spectrum>(
         self,
         context: &Context<'_, S>,
@@ -126,13 +126,13 @@ impl LightVertexConnections {
         self.samples
     }
 
-    /// Takes it that the photons of all indices before this one are with others.
+    /// Starts at this index: photons of earlier ones are summed elsewhere.
     pub(crate) fn go_to(&mut self, index: u64) {
         self.samples = index;
         self.count();
     }
 
-    /// Takes it that all sums are those of as many photons as belong to the indices so far.
+    /// Declares the cell sums complete up to the photons of the indices so far.
     fn count(&mut self) {
         if let Some((_, coarse)) = &mut self.coarse {
             coarse.freeze_converged(self.samples * self.connection.cell_photons);
@@ -199,7 +199,7 @@ impl LightVertexConnections {
         }
     }
 
-    /// Connections no more photons to targets that have an end.
+    /// Stops connecting photons to targets that have an end.
     pub(crate) fn freeze_converged(&mut self, ends: &[Option<u64>]) {
         self.ends.copy_from_slice(ends);
         // Photons that are counted go on to serve the others.
@@ -223,7 +223,7 @@ impl LightVertexConnections {
         self.fine_lx(replicate, target) + self.cells_lx(replicate, target, None)
     }
 
-    /// By photons that are connected, beyond what was foreseen of them.
+    /// By connected photons, less the prediction.
     pub(super) fn fine_lx(&self, replicate: usize, target: usize) -> f64 {
         // Quanta first, so that listing terms changes no bit.
         let mut sum = Sum::default();

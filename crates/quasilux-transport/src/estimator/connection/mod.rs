@@ -22,14 +22,14 @@
 //! the compensation of clamped photons by T. Kollig and A. Keller, "Illumination in the presence of
 //! weak singularities", Monte Carlo and Quasi-Monte Carlo Methods 2004, Springer 2006. Where
 //! photons need guiding, paths hardly ever find the light, and w = 0. The densities are
-//! interpolated, so that shares are continuous: each jump in what is summed costs quasi-random
+//! interpolated, so that shares are continuous: each jump of the integrand costs quasi-random
 //! points some of their advantage.
 //!
-//! ConnectionPlan is dear: a photon flies a few rays and asks for one to each sensor. Most photons
-//! are therefore only counted, by the survey's cells around where they land (`coarse`), and give
-//! each sensor what it is expected to see of these cells, which was found out before (`transfer`)
-//! and is interpolated, so that it has no jumps. Few are connected, and tell how much more or less
-//! than that they give. With A and B independent photons,
+//! Connections are expensive: a photon flies a few rays and needs a shadow ray to each sensor. Most
+//! photons are therefore only counted, by the survey's cells around where they land (`coarse`), and
+//! give each sensor what it is expected to see of these cells, which was found out before
+//! (`transfer`) and is interpolated, so that it has no jumps. Few are connected, and tell how much
+//! more or less than that they give. With A and B independent photons,
 //!
 //! ```text
 //! light by photons = mean over many A of expected(A) + mean over few B of (given by B - expected(B))
@@ -65,8 +65,8 @@ use crate::world::Interaction;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Photons that are guided by nothing go on for certain as long as absorption leaves so much of
-/// them, and by chance later: smooth sums are what quasi-random points are good at.
+/// Without weight windows, photons survive for certain down to this weight, and by Russian roulette
+/// below: quasi-random points are efficient on smooth integrands.
 const CERTAIN_WEIGHT: f64 = 0.1;
 
 /// How photons are connected to sensors.
@@ -77,8 +77,8 @@ pub(crate) struct ConnectionPlan {
     windows: Option<WeightWindows>,
     /// Photons for each path, that are only counted by the cell they land in.
     cell_photons: u64,
-    /// What deviates from the foreseen by less than this part of what a sensor gets in all is left
-    /// to chance.
+    /// Deviations from the prediction below this part of a sensor's illuminance undergo Russian
+    /// roulette.
     small: f64,
     /// Some places in each cell of the survey.
     places: Arc<[Vec<Interaction>]>,

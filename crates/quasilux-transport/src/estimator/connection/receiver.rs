@@ -50,7 +50,7 @@ pub(super) struct Group<'a> {
     pub(super) quantum: Quantum,
 }
 
-/// Connections the photons of one wave to all targets of a group.
+/// Connects the photons of one wave to all targets of a group.
 pub(super) struct ConnectionReceiver<'a, S> {
     context: &'a Context<'a, S>,
     plan: &'a ConnectionPlan,
@@ -63,7 +63,7 @@ pub(super) struct ConnectionReceiver<'a, S> {
     photon: Option<Seen>,
     /// How close photons are to be expected where it landed, by side.
     landings: [Density; 2],
-    /// What each target is taken to get in any case.
+    /// Predicted illuminance of each target by this landing.
     predicted_lx: Vec<f64>,
     shadow_rays: Vec<RayQuery>,
     light_samples: Vec<LightSample>,
@@ -79,7 +79,7 @@ pub(super) struct Seen {
     u_roulette: f64,
 }
 
-/// What a target gets if nothing stands in the way, beside what it is taken to get in any case.
+/// Unshadowed light of one connection, and its prediction.
 struct LightSample {
     /// Number of the sum.
     sum: usize,
@@ -123,7 +123,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         }
     }
 
-    /// Asks for what a photon that leaves a place gives to one target beyond what is foreseen.
+    /// Queues the shadow rays of a landing to one target, for the deviation from the prediction.
     fn ask(&mut self, number: usize, at: &Interaction, leaving: &ExitantFlux, bounces: u32) {
         let Some(Seen { in_cell, u_roulette }) = self.photon else { return };
         let (predicted_lx, element) = (self.predicted_lx[number], &self.group.elements[number]);

@@ -13,10 +13,10 @@ use glam::DVec3;
 use quasilux_scene::Grid;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// Photons are connected by their own view of a cell up to so many of its edges beside it.
+/// Photons sample a cell by their own view up to this number of its edges beside it.
 const BESIDE: f64 = 1.0;
-/// Closer to the centre than so many radii nothing is said about what a photon gives at most: their
-/// own view of a cell is for closer photons alone.
+/// Nearer to the centre than this number of radii a contribution has no bound: only closer photons
+/// sample a cell by their own view.
 const CLOSE: f64 = 4.0;
 
 /// A target, as photons see it.

@@ -41,8 +41,8 @@ pub(super) struct Price {
 }
 
 impl PathRecord {
-    /// For a start where a unit is worth so much; what ends on the map takes so many rays more, as
-    /// far as those are flights.
+    /// Variance and rays for a start with this `importance` of a unit; an end on the map takes
+    /// `at_end` flights more.
     pub(super) fn price(&self, ending: Ending<'_>, importance: f64, at_end: f64) -> Price {
         // Those that are left count more and more.
         let mut factor = importance;

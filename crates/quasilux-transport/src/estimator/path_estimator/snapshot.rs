@@ -54,7 +54,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         snapshot(self.scene, (0..self.targets.len()).map(value_lx))
     }
 
-    /// What a target shows after so many paths of all replicates together.
+    /// Estimate at a target after `paths` of all replicates together.
     pub(super) fn moment(&self, target: usize, paths: u64) -> Moment {
         let replicates = self.replicates as usize;
         let own = &self.sums[target * replicates..][..replicates];

@@ -103,7 +103,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             .try_for_each(|light_vertices| light_vertices.merge_from(from))
     }
 
-    /// Takes it that the sums are those of all indices before this one.
+    /// Declares the sums complete up to `samples`.
     pub(super) fn complete(&mut self, samples: u64) {
         self.samples = samples;
         if let Some(light_vertices) = &mut self.light_vertices {

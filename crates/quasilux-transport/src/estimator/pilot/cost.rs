@@ -41,7 +41,7 @@ pub(crate) struct Budget {
     averaged: f64,
 }
 
-/// What a way to estimate promises, by a trial.
+/// Variances and rays that a trial predicts for an estimator.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PilotCost<'v> {
     /// Of each target.
@@ -109,7 +109,8 @@ impl Budget {
 }
 
 impl Cost {
-    /// With so many rays for one trial of paths from all targets, and of the photons beside them.
+    /// Variance times rays, of which a trial takes `of_paths` for paths and `of_photons` for
+    /// photons.
     fn rays(self, variances: &[f64], of_paths: f64, of_photons: f64) -> f64 {
         let mean = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
         let of_last = match self {

@@ -4,13 +4,13 @@ use super::cost::{Budget, PilotCost};
 use super::trial::{Sample, Trial};
 use crate::settings::{Settings, ToleranceOn};
 
-/// A shortfall of so many times the variance of means may be by chance.
+/// A shortfall up to this multiple of the variance of means is not significant.
 pub(crate) const BY_CHANCE: f64 = 4.0;
 
-/// Paths do not find the light where others find so many times as much.
+/// Paths miss light where other estimators find this many times as much.
 pub(crate) const MUCH_MORE: f64 = 2.0;
 
-/// What is to be known, and how well.
+/// The quantities asked for and their tolerated errors.
 pub(crate) struct ErrorTarget {
     budget: Budget,
     settings: Settings,
@@ -80,7 +80,7 @@ impl ErrorTarget {
         if count > 0.0 { (sum / count - BY_CHANCE * noise).max(0.0) } else { 0.0 }
     }
 
-    /// What a promise costs, see [`Budget::effort`].
+    /// Cost of an estimator, see [`Budget::effort`].
     pub(crate) fn effort(&self, pilot_cost: &PilotCost<'_>) -> f64 {
         self.budget.effort(pilot_cost)
     }

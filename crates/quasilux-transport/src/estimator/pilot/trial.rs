@@ -22,9 +22,9 @@ const TARGETS: usize = 64;
 
 /// The targets that are looked at.
 pub(crate) struct Sample {
-    /// Of which there are so many.
+    /// Number of all targets.
     pub(crate) all: usize,
-    /// Every so many of all.
+    /// Stride of the sample in all targets.
     pub(crate) step: usize,
     pub(crate) targets: Vec<Target>,
     pub(crate) exact_lx: Vec<f64>,

@@ -28,9 +28,9 @@ use tree::Images;
 
 pub(crate) use light_path_class::LightPathClass;
 
-/// So many images at a vertex are all tested; of more one is chosen.
+/// Up to this number of images at a vertex are all tested; of more one is chosen.
 const ALL_TESTED: usize = 8;
-/// So many images, those of least depth, are considered at each vertex, and at most so many of the
+/// Numbers of images considered at each vertex: the first by depth, and at most this many of the
 /// others, evenly spaced: far images are many and give little.
 const SURE: usize = 64;
 const THINNED: usize = 64;

@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// So many planes are taken without a look at their areas.
+/// Up to this number of planes are taken whatever their areas.
 const FEW_PLANES: usize = 64;
 /// Share of the mirrors' area that a plane among many has at least.
 const MIN_SHARE: f64 = 0.01;

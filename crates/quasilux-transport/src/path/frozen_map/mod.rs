@@ -11,12 +11,12 @@ use crate::photon::map::{IlluminationMap, MapLayout, MapPoint, MapTally};
 use crate::spectrum::Spectrum;
 use survival::Survival;
 
-/// With so many wanted bounces or fewer, and no more sides of elements, the map keeps light apart
-/// by its bounces, so that paths may end on it anywhere; else only at the first surface.
+/// Up to these numbers of bounces and of sides of elements, the map keeps light apart by its
+/// bounces, so that paths may end on it anywhere; else only at the first surface.
 const MAX_LAYERS: u32 = 16;
 const MAX_LAYERED_SIDES: u64 = 1 << 21;
 
-/// What is to know of what the paths end on.
+/// Facts about the map that paths end on, for reports.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MapFacts {
     /// Sides of elements; `None` without a map.
@@ -27,7 +27,7 @@ pub(crate) struct MapFacts {
     pub(crate) uses_importance: bool,
 }
 
-/// A map with what is known of how good it is.
+/// A map with an estimate of its error.
 pub(crate) struct FrozenMap<S> {
     pub(crate) layout: MapLayout,
     pub(crate) tally: MapTally<S>,
@@ -93,8 +93,8 @@ impl<S: Spectrum> FrozenEnd<'_, S> {
     }
 }
 
-/// Layers of a map with so many sides of elements that tell apart what is to be told apart; the
-/// last counts all that bounced more often.
+/// Number of layers that the limit on bounces and the listed terms ask for, of a map with `sides`;
+/// the last counts all that bounced more often.
 pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32, sides: u64) -> u32 {
     match max_bounces {
         Some(most) if is_layered(most, sides) => most.saturating_sub(1).max(1),
@@ -102,8 +102,8 @@ pub(crate) fn layers(max_bounces: Option<u32>, listed_terms: u32, sides: u64) ->
     }
 }
 
-/// Most bounces of light on a map with so many sides of elements that may come to a start by a
-/// surface that was met after `bounces`; `None` where paths do not end on it.
+/// Largest number of bounces of light, on a map with `sides`, that may come to a start by a surface
+/// that was met after `bounces`; `None` where paths do not end on it.
 pub(crate) fn bounces_left(max_bounces: Option<u32>, bounces: u32, sides: u64) -> Option<u32> {
     let Some(most) = max_bounces else { return Some(u32::MAX) };
     let left = most.saturating_sub(bounces + 1);

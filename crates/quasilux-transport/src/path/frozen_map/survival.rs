@@ -4,14 +4,13 @@ use crate::codec::Writer;
 
 /// Paths go on with this probability at least, so that no survivor counts too much.
 pub(crate) const MIN: f64 = 1.0 / 64.0;
-/// Where the map has less than this part of the mean, it is taken as if it had so much: it may have
-/// missed something.
+/// Lower bound on the map's light, in parts of the mean: it may have missed something.
 const DIM: f64 = 0.1;
 /// What is known of all elements counts in each as much as this many paths of its own, of usual
 /// light.
 const PRIOR: f64 = 16.0;
 
-/// How far a map is off, and what is made of that.
+/// Errors of a map by element, and the survival probability that follows.
 #[derive(Clone, Debug)]
 pub(crate) struct Survival {
     /// Probability for each unit of what would be lost.
@@ -38,7 +37,7 @@ pub(crate) struct Finding {
 }
 
 impl Finding {
-    /// For a start where a unit counts so much.
+    /// Scaled by the importance of a unit at the start.
     pub(crate) fn importance(self, importance: f64) -> Self {
         let [weight, light, beyond] =
             [self.weight, self.light, self.beyond].map(|x| x * importance);
@@ -47,7 +46,7 @@ impl Finding {
 }
 
 impl Survival {
-    /// Of a map that paths found this about; none of them goes on for certain yet.
+    /// From the findings of paths on a map, with a sureness of zero.
     pub(crate) fn new(findings: impl Iterator<Item = Finding>) -> Self {
         let mut findings: Vec<Finding> = findings.filter(|finding| finding.weight > 0.0).collect();
         // By element.

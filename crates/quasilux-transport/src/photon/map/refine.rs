@@ -116,7 +116,7 @@ fn centre(part: usize) -> [f64; 3] {
     SubTriangle::WHOLE.quarters()[part / 4].quarters()[part % 4].point([1.0 / 3.0; 3])
 }
 
-/// Leaves worth splitting, in their order.
+/// Leaves to split, in their order.
 fn chosen(layout: &MapLayout, parts: &Blocks, affordable: usize) -> Vec<usize> {
     let leaves = layout.leaves();
     let misfit = Misfit::new(layout.reconstruction());

@@ -14,7 +14,7 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// Photons are counted in so many quanta each: 2^44 photons fit a counter.
+/// Quanta of a photon: 2^44 photons fit a counter.
 pub(crate) const QUANTA_PER_PHOTON: f64 = (1 << 20) as f64;
 
 /// The photons counted by each element, writable by all threads, in layers by the number of their
@@ -61,7 +61,7 @@ pub(crate) struct MapReceiver<'a, S> {
 }
 
 impl<S: Spectrum> MapTally<S> {
-    /// For photons that weigh `lightest` or more, a power of two, in so many layers, one at least.
+    /// For photons that weigh `lightest` or more, a power of two, in one or more `layers`.
     pub(crate) fn new(layout: &MapLayout, lightest: f64, layers: u32) -> Self {
         let reconstruction = layout.reconstruction();
         Self {
@@ -73,8 +73,8 @@ impl<S: Spectrum> MapTally<S> {
         }
     }
 
-    /// Counts a photon with this colour, which bounced so often, once at least; the number of its
-    /// moments that were refused, which are not in the sums.
+    /// Counts a photon of one bounce or more, and returns the number of its moments that were
+    /// refused.
     pub(crate) fn add(&self, place: &MapPoint, weight: S, bounces: u32) -> u64 {
         let layer = &self.layers[(bounces as usize).min(self.layers.len()) - 1];
         let sums = layer.get_or_init(|| Blocks::new(self.counters));
@@ -155,7 +155,7 @@ impl<S> Stored for MapTally<S> {
 }
 
 impl<S: Spectrum> IlluminationMap<'_, S> {
-    /// Illuminance in lx at a place, by photons with so many bounces at most; the last layer counts
+    /// Illuminance in lx at a place, by photons with at most `max_bounces`; the last layer counts
     /// whole. Linear ones may be negative in places.
     pub(crate) fn illuminance_lx(&self, place: &MapPoint, max_bounces: u32) -> S {
         self.of_layers_lx(place, self.tally.layers_up_to(max_bounces))
