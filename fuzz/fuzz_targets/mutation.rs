@@ -1,6 +1,6 @@
 //! How the fuzzer changes its files: by its own means and, as often, by those of the test suite.
 
-use quasilux_stats::damage::{Random, Seeds, mutate};
+use quasilux_stats::damage::{SplitMix64, Seeds, mutate};
 use std::sync::OnceLock;
 
 /// Changes the first `length` of `bytes`, of which `room` may be used, and returns the new length.
@@ -13,7 +13,7 @@ pub(super) fn change(
 ) -> usize {
     static SEEDS: OnceLock<Seeds> = OnceLock::new();
     let seeds = SEEDS.get_or_init(samples);
-    let mut random = Random::new(u64::from(key));
+    let mut random = SplitMix64::new(u64::from(key));
     let mut file = bytes[..length].to_vec();
     match random.below(16) {
         0 => file.clone_from(&seeds.files()[random.below(seeds.files().len())]),

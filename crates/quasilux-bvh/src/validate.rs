@@ -168,20 +168,20 @@ mod tests {
     }
 
     /// A place of a block below the root.
-    struct Place {
+    struct BlockSlot {
         node: usize,
         slot: usize,
     }
 
     /// The first place of a block below the root.
-    fn above_a_block(tree: &Tree) -> Place {
+    fn above_a_block(tree: &Tree) -> BlockSlot {
         let slot = |node: &Node| {
             (0..WIDTH).find(|&slot| {
                 node.children[slot].is_block() && node.planes[0][slot] < f32::INFINITY
             })
         };
         let mut places = tree.nodes.iter().enumerate().skip(1);
-        places.find_map(|(i, node)| Some(Place { node: i, slot: slot(node)? })).unwrap()
+        places.find_map(|(i, node)| Some(BlockSlot { node: i, slot: slot(node)? })).unwrap()
     }
 
     #[test]
@@ -204,19 +204,19 @@ mod tests {
     #[test]
     fn wrong_boxes_are_found() {
         let flawed = flaw(|tree| {
-            let Place { node, slot } = above_a_block(tree);
+            let BlockSlot { node, slot } = above_a_block(tree);
             tree.nodes[node].planes[1][slot] += 9.0;
         });
         assert!(flawed.contains("out of the box above"), "{flawed}");
         for wrong in [f32::NAN, f32::INFINITY, -9.0] {
             let flawed = flaw(|tree| {
-                let Place { node, slot } = above_a_block(tree);
+                let BlockSlot { node, slot } = above_a_block(tree);
                 tree.nodes[node].planes[3][slot] = wrong;
             });
             assert!(flawed.contains("neither"), "{flawed}");
         }
         let flawed = flaw(|tree| {
-            let Place { node, slot } = above_a_block(tree);
+            let BlockSlot { node, slot } = above_a_block(tree);
             for plane in 0..6 {
                 tree.nodes[node].planes[plane][slot] = Node::EMPTY.planes[plane][slot];
             }
@@ -228,7 +228,7 @@ mod tests {
     fn wrong_links_are_found() {
         let link = |to: fn(&Tree, Child) -> Child| {
             flaw(|tree| {
-                let Place { node, slot } = above_a_block(tree);
+                let BlockSlot { node, slot } = above_a_block(tree);
                 let child = tree.nodes[node].children[slot];
                 tree.nodes[node].children[slot] = to(tree, child);
             })

@@ -32,7 +32,7 @@ pub fn find(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
     let told = std::env::var_os(CORPUS).is_some_and(|value| value == "none");
     match decide(path.exists(), told) {
-        Decision::Read => Some(path),
+        Decision::UseFiles => Some(path),
         Decision::LeaveOut => {
             count(name);
             None
@@ -45,7 +45,7 @@ pub fn find(name: &str) -> Option<PathBuf> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Decision {
-    Read,
+    UseFiles,
     LeaveOut,
     Fail,
 }
@@ -53,7 +53,7 @@ enum Decision {
 fn decide(is_there: bool, is_missing_on_purpose: bool) -> Decision {
     match (is_missing_on_purpose, is_there) {
         (true, _) => Decision::LeaveOut,
-        (false, true) => Decision::Read,
+        (false, true) => Decision::UseFiles,
         (false, false) => Decision::Fail,
     }
 }
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_fails_unless_it_is_missing_on_purpose() {
-        assert_eq!(decide(true, false), Decision::Read);
+        assert_eq!(decide(true, false), Decision::UseFiles);
         assert_eq!(decide(false, false), Decision::Fail);
         assert_eq!(decide(false, true), Decision::LeaveOut);
         assert_eq!(decide(true, true), Decision::LeaveOut);

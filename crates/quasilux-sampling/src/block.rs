@@ -98,7 +98,8 @@ impl PointSet {
     /// let points = PointSet::new(Sequence::Halton, Randomization::None, 0);
     /// let mut columns = [0.0; 3 * 8];
     /// points.fill_dimensions(0, 0, columns.chunks_mut(8));
-    /// assert_eq!([columns[1], columns[8 + 1], columns[16 + 1]], [1.0 / 2.0, 1.0 / 3.0, 1.0 / 5.0]);
+    /// let second = [columns[1], columns[8 + 1], columns[16 + 1]];
+    /// assert_eq!(second, [1.0 / 2.0, 1.0 / 3.0, 1.0 / 5.0]);
     /// ```
     pub fn fill_dimensions<'a>(
         &self,

@@ -3,7 +3,7 @@
 //! A cumulative table with a guide table before it (H.-C. Chen and Y. Asau, "On generating random
 //! variates from an empirical distribution", AIIE Trans. 6, 1974): expected time O(1). Not the
 //! alias method: that map is not monotone, so it tears neighbouring coordinates apart and a
-//! low-discrepancy sequence loses its evenness in it; nor does it give back a rest.
+//! low-discrepancy sequence loses its evenness in it; nor does it give back a remapped coordinate.
 
 use crate::discrete_sample::{DiscreteSample, is_weight, remap};
 
@@ -64,11 +64,11 @@ impl Discrete {
         DiscreteSample { index, pdf: high - low, u_remapped: remap(u, low, high) }
     }
 
-    /// The coordinate that [`sample`](Self::sample) maps to this entry with this rest.
+    /// The coordinate that [`sample`](Self::sample) maps to this entry and to `u_remapped`.
     #[must_use]
-    pub fn invert(&self, index: usize, rest: f64) -> f64 {
+    pub fn invert(&self, index: usize, u_remapped: f64) -> f64 {
         let [low, high] = self.bounds(index);
-        low + rest * (high - low)
+        low + u_remapped * (high - low)
     }
 
     /// The probability with which an entry is chosen: its weight over the total, to within 2^-52 of
@@ -105,9 +105,9 @@ fn entropy(cumulative: &[f64]) -> f64 {
     let mut below = 0.0;
     let mut bits = -1e-9;
     for &sum in cumulative {
-        let probability = sum - below;
-        if probability > 0.0 {
-            bits -= probability * libm::log2(probability);
+        let p = sum - below;
+        if p > 0.0 {
+            bits -= p * libm::log2(p);
         }
         below = sum;
     }

@@ -46,7 +46,7 @@ pub struct Sampler<'a> {
 /// What choices left of a coordinate.
 #[derive(Clone, Copy, Debug)]
 struct Open {
-    rest: f64,
+    u_remapped: f64,
     /// Bits that they were charged.
     spent: u32,
 }
@@ -113,7 +113,8 @@ impl<'a> Sampler<'a> {
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence};
-    /// let [points, others] = [1, 2].map(|key| PointSet::new(Sequence::Sobol, Randomization::Owen, key));
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+    /// let others = PointSet::new(Sequence::Sobol, Randomization::Owen, 2);
     /// let parent = Sampler::new(&points, 7);
     /// assert_eq!(parent.among(&others, 3).next_1d(), others.coordinate(7, 3));
     /// assert_ne!(parent.child(1).among(&others, 3).next_1d(), others.coordinate(7, 3));
@@ -197,7 +198,10 @@ impl<'a> Sampler<'a> {
 
     /// Chooses as [`choose_weights`] does, on a coordinate that other choices share; `None`, and
     /// nothing consumed, where it gives `None`.
-    pub fn choose(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<DiscreteSample> {
+    pub fn sample_weights(
+        &mut self,
+        weights: impl Iterator<Item = f64> + Clone,
+    ) -> Option<DiscreteSample> {
         let entries = weights.clone().filter(|weight| *weight > 0.0).count();
         if entries == 0 {
             return None;
@@ -245,7 +249,7 @@ impl<'a> Sampler<'a> {
     pub fn choose_leading(&mut self, distribution: &Discrete) -> DiscreteSample {
         let choice = distribution.sample(self.next_1d());
         let spent = distribution.bits().min(Self::SHARED_BITS);
-        self.open = Some(Open { rest: choice.u_remapped, spent });
+        self.open = Some(Open { u_remapped: choice.u_remapped, spent });
         choice
     }
 
@@ -264,7 +268,7 @@ impl<'a> Sampler<'a> {
     #[inline]
     pub fn remapped_1d(&mut self) -> f64 {
         match self.open.take() {
-            Some(open) if open.spent <= Self::SHARED_BITS => open.rest,
+            Some(open) if open.spent <= Self::SHARED_BITS => open.u_remapped,
             _ => self.next_1d(),
         }
     }
@@ -281,16 +285,16 @@ impl<'a> Sampler<'a> {
         let fits = |open: &Open| open.spent == 0 || open.spent + bits <= Self::SHARED_BITS;
         let open = match self.open.filter(fits) {
             Some(open) => open,
-            None => Open { rest: self.next_1d(), spent: 0 },
+            None => Open { u_remapped: self.next_1d(), spent: 0 },
         };
         self.open = Some(open);
-        open.rest
+        open.u_remapped
     }
 
     #[inline]
-    fn leave(&mut self, rest: f64, bits: u32) {
+    fn leave(&mut self, u_remapped: f64, bits: u32) {
         let spent = self.open.map_or(0, |open| open.spent) + bits;
-        self.open = Some(Open { rest, spent });
+        self.open = Some(Open { u_remapped, spent });
     }
 
     /// Goes on at `dimension`, for an assignment of coordinates to decisions that is fixed ahead;

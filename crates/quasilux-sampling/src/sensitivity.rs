@@ -16,7 +16,8 @@ impl PointSet {
     ///
     /// ```
     /// use quasilux_sampling::{PointSet, Randomization, Sequence};
-    /// let [points, others] = [1, 2].map(|key| PointSet::new(Sequence::Sobol, Randomization::Owen, key));
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
+    /// let others = PointSet::new(Sequence::Sobol, Randomization::Owen, 2);
     /// let mixed = points.exchanged(1..3, 2);
     /// let from = [&points, &others, &others, &points];
     /// for (dimension, from) in (0..).zip(from) {

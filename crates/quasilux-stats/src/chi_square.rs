@@ -12,7 +12,7 @@ pub struct CellCount {
 }
 
 /// Cells with fewer expected samples are pooled: the statistic is chi-square only for large counts.
-const SMALLEST_EXPECTED: f64 = 5.0;
+const MIN_EXPECTED: f64 = 5.0;
 
 /// The probability that counts as far from the expected ones arise by chance.
 ///
@@ -27,7 +27,7 @@ pub fn chi_square_test(cells: &[CellCount]) -> f64 {
         difference * difference / cell.expected
     };
     for cell in cells {
-        if cell.expected < SMALLEST_EXPECTED {
+        if cell.expected < MIN_EXPECTED {
             if cell.observed > 0 && cell.expected <= 0.0 {
                 return 0.0;
             }

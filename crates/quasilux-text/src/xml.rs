@@ -95,7 +95,7 @@ impl<'t> Parser<'t> {
         loop {
             let start = reader.buffer_position() as usize;
             let event = reader.read_event().map_err(|error| {
-                let at = self.places.of(reader.error_position().max(start as u64) as usize);
+                let at = self.places.position(reader.error_position().max(start as u64) as usize);
                 ParseError::new(at, shortened(&error.to_string(), 120), "well-formed XML")
             })?;
             match event {
@@ -117,7 +117,11 @@ impl<'t> Parser<'t> {
                 }
                 Event::DocType(_) => {
                     let expected = "XML without a document type (remove the DOCTYPE)";
-                    return Err(ParseError::new(self.places.of(start), "a DOCTYPE", expected));
+                    return Err(ParseError::new(
+                        self.places.position(start),
+                        "a DOCTYPE",
+                        expected,
+                    ));
                 }
                 Event::Decl(_) | Event::PI(_) | Event::Comment(_) => {}
                 Event::Eof => return self.finish(),
@@ -126,7 +130,7 @@ impl<'t> Parser<'t> {
     }
 
     fn open(&mut self, tag: &BytesStart<'_>, start: usize) -> Result<(), ParseError> {
-        let at = self.places.of(start);
+        let at = self.places.position(start);
         let length = tag.name().as_ref().len();
         // A tag begins with "<" and its name.
         let name = self.text.get(start + 1..start + 1 + length).unwrap_or_default();
@@ -161,7 +165,7 @@ impl<'t> Parser<'t> {
         if blanks == text.len() {
             return Ok(());
         }
-        let at = self.places.of(start + blanks);
+        let at = self.places.position(start + blanks);
         match self.open.last_mut() {
             Some(element) => {
                 element.push_text(text, at);
@@ -180,12 +184,12 @@ impl<'t> Parser<'t> {
         known.ok_or_else(|| {
             let found = format_args!("the entity {}", quoted(reference)).to_string();
             let expected = "a character reference, or one of lt, gt, amp, apos and quot";
-            ParseError::new(self.places.of(start), found, expected)
+            ParseError::new(self.places.position(start), found, expected)
         })
     }
 
     fn finish(mut self) -> Result<Element<'t>, ParseError> {
-        let end = self.places.of(self.text.len());
+        let end = self.places.position(self.text.len());
         if let Some(open) = self.open.last() {
             let expected = format!("the end of {} of line {}", quoted(open.name), open.at.line);
             return Err(ParseError::new(end, "the end of the file", expected));
@@ -221,7 +225,7 @@ struct Places<'t> {
 }
 
 impl Places<'_> {
-    fn of(&mut self, offset: usize) -> Position {
+    fn position(&mut self, offset: usize) -> Position {
         let mut characters = self.text[self.byte..].chars().peekable();
         while self.byte < offset
             && let Some(character) = characters.next()

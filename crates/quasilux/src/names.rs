@@ -6,14 +6,16 @@ use quasilux_scene::{LoadError, SimulationSection, Spanned, nearest};
 
 /// The sequences by name. Without the number of points those that need it are left out.
 pub(crate) fn sequences(points: Option<u64>) -> Vec<(&'static str, Sequence)> {
-    points.map_or_else(|| Sequence::NAMES.to_vec(), |points| Sequence::names_for(points).to_vec())
+    let all =
+        points.map_or_else(|| Sequence::ALL.to_vec(), |points| Sequence::all_for(points).to_vec());
+    all.into_iter().map(|sequence| (sequence.name(), sequence)).collect()
 }
 
 /// Why a known name is not in a list of sequences.
 fn lacks_points(name: &str) -> Option<String> {
-    let needs = Sequence::names_for(0).into_iter().filter(|(_, kind)| kind.points().is_some());
+    let needs = Sequence::all_for(0).into_iter().filter(|kind| kind.points().is_some());
     needs
-        .map(|(known, _)| known)
+        .map(Sequence::name)
         .find(|known| *known == name)
         .map(|name| format!("{name} must know the number of points ahead: give --samples"))
 }

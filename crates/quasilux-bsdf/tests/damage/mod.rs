@@ -8,7 +8,7 @@ mod surface;
 
 use peak_alloc::PeakAlloc;
 use quasilux_bsdf::{max_bsdf_memory_bytes, read_bsdf_named};
-use quasilux_stats::damage::{Random, Seeds, check_message};
+use quasilux_stats::damage::{Seeds, SplitMix64, check_message};
 use std::path::{Path, PathBuf};
 
 #[global_allocator]
@@ -56,7 +56,7 @@ pub(crate) fn examine(bytes: &[u8]) -> Outcome {
             for warning in &read.warnings {
                 check_message(warning.line(), warning.column(), &warning.to_string(), bytes);
             }
-            surface::check(&read.bsdf, &mut Random::new(bytes.len() as u64));
+            surface::check(&read.bsdf, &mut SplitMix64::new(bytes.len() as u64));
         }
         Err(error) => check_message(error.line(), error.column(), &error.to_string(), bytes),
     }

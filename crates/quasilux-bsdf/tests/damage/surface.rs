@@ -3,7 +3,7 @@
 use glam::DVec3;
 use quasilux_bsdf::{Distribution, MeasuredBsdf, SheetDistribution};
 use quasilux_photometry::Angles;
-use quasilux_stats::damage::Random;
+use quasilux_stats::damage::SplitMix64;
 
 /// A matrix with a basis of its own, trees of both ranks, DDR, ASTM and MERL.
 pub(crate) fn samples() -> Vec<Vec<u8>> {
@@ -80,7 +80,7 @@ pub(crate) fn name(bytes: &[u8]) -> &'static str {
 
 /// Samples, densities and shares are numbers that fit each other, also of the tables that paths
 /// draw from: those with both directions swapped.
-pub(crate) fn check(bsdf: &MeasuredBsdf, random: &mut Random) {
+pub(crate) fn check(bsdf: &MeasuredBsdf, random: &mut SplitMix64) {
     let adjoint = bsdf.distributions().filter_map(|SheetDistribution { side, mode, .. }| {
         Some(SheetDistribution { side, mode, distribution: bsdf.adjoint(side, mode)? })
     });

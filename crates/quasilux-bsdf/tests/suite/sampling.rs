@@ -12,7 +12,7 @@ use glam::DVec3;
 use quasilux_bsdf::{Distribution, GriddedTable, ScatteringMode, Side, read_merl};
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
-use quasilux_stats::damage::Random;
+use quasilux_stats::damage::SplitMix64;
 use quasilux_stats::{CellCount, chi_square_test, sidak, sphere_jacobian};
 use std::f64::consts::{PI, TAU};
 
@@ -290,7 +290,7 @@ fn a_density_two_percent_wrong_is_rejected() {
 fn sample_density_and_inverse_belong_together() {
     const STEP: f64 = 1e-7;
     for (name, distribution) in distributions() {
-        let mut random = Random::new(7);
+        let mut random = SplitMix64::new(7);
         for wi in incidences() {
             for _ in 0..500 {
                 let mut u = || 2.0 * STEP + (1.0 - 4.0 * STEP) * random.uniform();
@@ -333,7 +333,7 @@ fn the_map_of_a_lobe_stretches_by_its_density() {
     };
     let table = GriddedTable::from_function(&theta_rad, &[0.1, 0.3], peak).unwrap();
     let distribution = Distribution::Gridded(table);
-    let mut random = Random::new(5);
+    let mut random = SplitMix64::new(5);
     for wi in distribution.incidences() {
         for _ in 0..500 {
             let mut u = || 2.0 * STEP + (1.0 - 4.0 * STEP) * random.uniform();
@@ -350,7 +350,7 @@ fn the_map_of_a_lobe_stretches_by_its_density() {
 #[test]
 fn the_bound_holds() {
     for (name, distribution) in distributions() {
-        let mut random = Random::new(11);
+        let mut random = SplitMix64::new(11);
         for wi in incidences() {
             let mut max_value = 0.0_f64;
             for _ in 0..20_000 {

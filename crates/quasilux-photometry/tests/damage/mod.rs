@@ -10,7 +10,7 @@ use peak_alloc::PeakAlloc;
 use quasilux_photometry::{
     ParseError, Parsed, max_read_memory_bytes, read_ies, read_ldt, read_tm33,
 };
-use quasilux_stats::damage::{Random, Seeds, check_message};
+use quasilux_stats::damage::{Seeds, SplitMix64, check_message};
 use std::path::{Path, PathBuf};
 
 #[global_allocator]
@@ -99,7 +99,7 @@ fn check_luminaire(read: &Parsed, bytes: &[u8]) {
     let photometry = &read.photometry;
     let flux_lm = photometry.flux_lm();
     assert!(flux_lm.is_finite() && flux_lm >= 0.0, "{flux_lm} lm");
-    let mut random = Random::new(bytes.len() as u64);
+    let mut random = SplitMix64::new(bytes.len() as u64);
     for u in [[0.0, 0.0], [1.0, 1.0], [random.uniform(), random.uniform()]] {
         let Some(sample) = photometry.sample(u) else {
             assert_eq!(flux_lm, 0.0);

@@ -61,13 +61,13 @@ pub fn squared_l2_discrepancy(points: PointsView<'_>, measure: L2Measure) -> f64
 /// A discrepancy's square is the mean over all pairs (x, y) of points, minus 2 times the mean over
 /// all points, plus the integral: of K(x, y) = prod `pair`, of its integral over y = prod `single`,
 /// and of that over x = `whole`^d.
-trait Kernel {
+trait DiscrepancyKernel {
     fn pair(x: f64, y: f64) -> f64;
     fn single(x: f64) -> f64;
     const WHOLE: f64;
 }
 
-fn sum<K: Kernel>(points: PointsView<'_>) -> f64 {
+fn sum<K: DiscrepancyKernel>(points: PointsView<'_>) -> f64 {
     let (n, dimensions) = (points.count(), points.dimensions());
     let columns: Vec<Vec<f64>> = (0..dimensions).map(|j| points.column(j).collect()).collect();
     let whole: f64 = (0..dimensions).map(|_| K::WHOLE).product();
@@ -91,7 +91,7 @@ fn sum<K: Kernel>(points: PointsView<'_>) -> f64 {
 
 struct Star;
 
-impl Kernel for Star {
+impl DiscrepancyKernel for Star {
     const WHOLE: f64 = 1.0 / 3.0;
     fn pair(x: f64, y: f64) -> f64 {
         1.0 - x.max(y)
@@ -103,7 +103,7 @@ impl Kernel for Star {
 
 struct Centred;
 
-impl Kernel for Centred {
+impl DiscrepancyKernel for Centred {
     const WHOLE: f64 = 13.0 / 12.0;
     fn pair(x: f64, y: f64) -> f64 {
         1.0 + 0.5 * ((x - 0.5).abs() + (y - 0.5).abs() - (x - y).abs())
@@ -116,7 +116,7 @@ impl Kernel for Centred {
 
 struct WrapAround;
 
-impl Kernel for WrapAround {
+impl DiscrepancyKernel for WrapAround {
     const WHOLE: f64 = 4.0 / 3.0;
     fn pair(x: f64, y: f64) -> f64 {
         let distance = (x - y).abs();
@@ -129,7 +129,7 @@ impl Kernel for WrapAround {
 
 struct Mixture;
 
-impl Kernel for Mixture {
+impl DiscrepancyKernel for Mixture {
     const WHOLE: f64 = 19.0 / 12.0;
     fn pair(x: f64, y: f64) -> f64 {
         let distance = (x - y).abs();

@@ -56,12 +56,11 @@ impl Sequence {
         [(a.name(), a), (b.name(), b), (c.name(), c), (d.name(), d)]
     };
 
-    /// Every sequence for a known number of points, by the name that users write.
+    /// Every sequence, Hammersley's for that number of points.
     #[must_use]
-    pub fn names_for(points: u64) -> [(&'static str, Self); 5] {
-        let [sobol, halton, faure4, independent] = Self::NAMES;
-        let hammersley = ("hammersley", Self::Hammersley { points });
-        [sobol, halton, hammersley, faure4, independent]
+    pub const fn all_for(points: u64) -> [Self; 5] {
+        let hammersley = Self::Hammersley { points };
+        [Self::Sobol, Self::Halton, hammersley, Self::Faure4, Self::Independent]
     }
 
     /// The name that users write.

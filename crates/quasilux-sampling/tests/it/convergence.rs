@@ -117,8 +117,7 @@ fn plain_sequences_fall_nearly_like_the_inverse() {
 #[test]
 fn randomised_means_are_unbiased() {
     let mut kinds = vec![(Sequence::Independent, Randomization::None)];
-    for (_, sequence) in Sequence::names_for(256).into_iter().filter(|(name, _)| *name != "random")
-    {
+    for sequence in Sequence::all_for(256).into_iter().filter(|it| it.name() != "random") {
         for randomization in [
             Randomization::CranleyPattersonRotation,
             Randomization::DigitalShift,

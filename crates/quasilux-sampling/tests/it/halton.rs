@@ -139,8 +139,7 @@ fn hammersley_is_equal_steps_before_halton() {
 /// Rotation adds one number modulo 1 to all points of a dimension.
 #[test]
 fn rotation_is_a_rotation() {
-    for (_, sequence) in Sequence::names_for(1000).into_iter().filter(|(name, _)| *name != "random")
-    {
+    for sequence in Sequence::all_for(1000).into_iter().filter(|it| it.name() != "random") {
         let plain = PointSet::new(sequence, Randomization::None, 0);
         let rotated =
             PointSet::new(sequence, Randomization::CranleyPattersonRotation, stream_key(9, 0, 0));

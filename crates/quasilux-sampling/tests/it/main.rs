@@ -5,8 +5,8 @@
 
 mod assignment;
 mod block;
-mod choice;
 mod convergence;
+mod discrete;
 mod emission;
 mod faure4;
 mod groups;

@@ -12,7 +12,8 @@ const DIMENSIONS: [u32; 5] = [0, 1, 3, 1000, 5000];
 /// One line for each sequence, randomisation and index: the bits of its coordinates.
 fn table() -> Vec<String> {
     let mut lines = Vec::new();
-    for (name, sequence) in Sequence::names_for(20_000) {
+    for sequence in Sequence::all_for(20_000) {
+        let name = sequence.name();
         for (randomization_name, randomization) in Randomization::NAMES {
             let points = PointSet::new(sequence, randomization, stream_key(2026, 3, 1));
             for index in INDICES {

@@ -52,7 +52,7 @@ fn choices_share_a_coordinate_up_to_its_useful_bits() {
 fn choices_are_charged_by_their_distribution() {
     let points = sobol(Randomization::Owen, 2);
     let mut sampler = Sampler::new(&points, 3);
-    assert_eq!(sampler.choose([0.0].into_iter()), None);
+    assert_eq!(sampler.sample_weights([0.0].into_iter()), None);
     assert_eq!((sampler.used(), sampler.dimension()), (0, 0));
     for _ in 0..100 {
         assert!(sampler.choose_bool(1.0));
@@ -62,7 +62,7 @@ fn choices_are_charged_by_their_distribution() {
     let luminaire = sampler.sample_discrete(&luminaires).index;
     assert_eq!(luminaire, (points.coordinate(3, 0) * 1024.0) as usize);
     assert_eq!(sampler.used(), 1);
-    let second = sampler.choose([1.0, 1.0].into_iter()).expect("weights").index;
+    let second = sampler.sample_weights([1.0, 1.0].into_iter()).expect("weights").index;
     assert_eq!(second, (points.coordinate(3, 1) * 2.0) as usize);
     assert_eq!(sampler.used(), 2);
 }

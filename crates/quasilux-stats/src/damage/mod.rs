@@ -7,7 +7,7 @@ mod mutator;
 mod random;
 
 pub use mutator::mutate;
-pub use random::Random;
+pub use random::SplitMix64;
 
 /// Published files above this length are left out: most of the time would go into a few of them.
 const MAX_SEED_BYTES: usize = 4000;
@@ -40,7 +40,7 @@ impl Seeds {
     /// Damaged file number `index`: one of the seeds after one to five changes.
     #[must_use]
     pub fn damaged(&self, index: u64) -> Vec<u8> {
-        let mut random = Random::new(index);
+        let mut random = SplitMix64::new(index);
         let mut bytes = self.0[random.below(self.0.len())].clone();
         for _ in 0..=random.below(5) {
             mutate(&mut bytes, &self.0, &mut random);

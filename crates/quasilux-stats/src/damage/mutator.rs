@@ -3,7 +3,7 @@
 //! Bytes are what a disk damages. Numbers, lines and encodings are what other programs get wrong,
 //! and what brings a file past the first check of its reader.
 
-use super::random::Random;
+use super::random::SplitMix64;
 use std::ops::Range;
 
 /// No file grows beyond this, however often parts of it are repeated.
@@ -54,7 +54,7 @@ const FRAGMENTS: [&[u8]; 40] = [
 ];
 
 /// Changes `bytes` in one way. `others` are files to take parts from.
-pub fn mutate(bytes: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
+pub fn mutate(bytes: &mut Vec<u8>, others: &[Vec<u8>], random: &mut SplitMix64) {
     match random.below(16) {
         0 => change_bytes(bytes, random),
         1..=3 => change_digit(bytes, random),
@@ -68,7 +68,7 @@ pub fn mutate(bytes: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
     bytes.truncate(MAX_BYTES);
 }
 
-fn change_bytes(bytes: &mut Vec<u8>, random: &mut Random) {
+fn change_bytes(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
     let at = random.below(bytes.len() + 1);
     if at == bytes.len() {
         return bytes.push(random.byte());
@@ -83,19 +83,19 @@ fn change_bytes(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-fn change_digit(bytes: &mut [u8], random: &mut Random) {
+fn change_digit(bytes: &mut [u8], random: &mut SplitMix64) {
     let digits: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i].is_ascii_digit()).collect();
     if !digits.is_empty() {
         bytes[digits[random.below(digits.len())]] = b"0123456789.-e"[random.below(13)];
     }
 }
 
-fn change_token(bytes: &mut Vec<u8>, random: &mut Random) {
+fn change_token(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
     let tokens = parts(bytes, |byte| matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | b',' | b';'));
     if tokens.is_empty() {
         return;
     }
-    let any = |random: &mut Random| tokens[random.below(tokens.len())].clone();
+    let any = |random: &mut SplitMix64| tokens[random.below(tokens.len())].clone();
     let (one, other) = (any(random), any(random));
     let fragment = FRAGMENTS[random.below(FRAGMENTS.len())];
     match random.below(6) {
@@ -113,12 +113,12 @@ fn change_token(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-fn change_line(bytes: &mut Vec<u8>, random: &mut Random) {
+fn change_line(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
     let lines = parts(bytes, |byte| matches!(byte, b'\r' | b'\n'));
     if lines.is_empty() {
         return;
     }
-    let any = |random: &mut Random| lines[random.below(lines.len())].clone();
+    let any = |random: &mut SplitMix64| lines[random.below(lines.len())].clone();
     let (one, other) = (any(random), any(random));
     match random.below(6) {
         0 => replace(bytes, one, b""),
@@ -138,7 +138,7 @@ fn change_line(bytes: &mut Vec<u8>, random: &mut Random) {
 }
 
 /// Leaves out a piece, or repeats it up to a thousand times.
-fn drop_or_repeat(bytes: &mut Vec<u8>, random: &mut Random) {
+fn drop_or_repeat(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
     let start = random.below(bytes.len() + 1);
     let end = (start + random.below(64)).min(bytes.len());
     let times = [0, 0, 2, 2, 10, 1000][random.below(6)];
@@ -147,7 +147,7 @@ fn drop_or_repeat(bytes: &mut Vec<u8>, random: &mut Random) {
 }
 
 /// Goes on with the rest of another file.
-fn splice(bytes: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
+fn splice(bytes: &mut Vec<u8>, others: &[Vec<u8>], random: &mut SplitMix64) {
     let Some(other) = (!others.is_empty()).then(|| &others[random.below(others.len())]) else {
         return;
     };
@@ -156,7 +156,7 @@ fn splice(bytes: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
 }
 
 /// Encodings, line ends and separators.
-fn change_all(bytes: &mut Vec<u8>, random: &mut Random) {
+fn change_all(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
     let each = |bytes: &[u8], from: u8, to: &[u8]| -> Vec<u8> {
         let changed =
             bytes.iter().map(|byte| if *byte == from { to } else { std::slice::from_ref(byte) });

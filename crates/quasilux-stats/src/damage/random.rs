@@ -3,9 +3,9 @@
 /// A deterministic generator (SplitMix64, Steele, Lea and Flood 2014) with a key: streams of
 /// different keys start at unrelated places.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct SplitMix64(u64);
 
-impl Random {
+impl SplitMix64 {
     /// The stream of a key.
     #[must_use]
     pub fn new(key: u64) -> Self {

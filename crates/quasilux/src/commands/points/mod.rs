@@ -35,7 +35,7 @@ pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, CliError> {
 }
 
 fn list_or_draw(name: &str, arguments: &PointsArguments) -> Result<(), CliError> {
-    let sequence = names::on_command_line("sequence", name, &Sequence::names_for(arguments.n))?;
+    let sequence = names::on_command_line("sequence", name, &names::sequences(Some(arguments.n)))?;
     let randomization =
         names::on_command_line("--randomization", &arguments.randomization, &Randomization::NAMES)?;
     let points = PointSet::new(sequence, randomization, stream_key(arguments.seed, 0, 0));

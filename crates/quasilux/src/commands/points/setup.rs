@@ -25,9 +25,9 @@ pub(super) struct Setup {
 impl Setup {
     /// All of them; random points are randomised as they are.
     pub(super) fn all() -> Vec<Self> {
-        let sequences = Sequence::names_for(MIN).into_iter().enumerate();
+        let sequences = Sequence::all_for(MIN).into_iter().enumerate();
         sequences
-            .flat_map(|(number, (_, sequence))| {
+            .flat_map(|(number, sequence)| {
                 Randomization::NAMES
                     .into_iter()
                     .filter(move |(_, kind)| {
@@ -50,7 +50,7 @@ impl Setup {
     }
 
     fn points(&self, count: u64, seed: u64, replicate: u32) -> PointSet {
-        let sequence = Sequence::names_for(count)[self.number].1;
+        let sequence = Sequence::all_for(count)[self.number];
         PointSet::new(sequence, self.randomization, stream_key(seed, replicate, 0))
     }
 }
