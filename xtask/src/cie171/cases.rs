@@ -37,17 +37,24 @@ pub(super) fn wall_luminaire() -> String {
     luminaire::even_file(SENT_LX / WALL, ROOM_M[1] - BEFORE_WALL[1], 66)
 }
 
-/// File name and content of each project.
-pub(super) fn projects() -> Vec<(String, Project)> {
+/// A project and its file's name without the ending.
+pub(super) struct NamedProject {
+    pub(super) name: String,
+    pub(super) project: Project,
+}
+
+/// All projects.
+pub(super) fn projects() -> Vec<NamedProject> {
+    let named = |number: &str, project| NamedProject { name: format!("cie171_{number}"), project };
     let mut projects = vec![
-        ("cie171_5_2".to_owned(), point_light()),
-        ("cie171_5_3".to_owned(), area_light()),
-        ("cie171_5_4".to_owned(), flux()),
-        ("cie171_5_6".to_owned(), diffuse_reflection()),
-        ("cie171_5_7".to_owned(), obstruction()),
+        named("5_2", point_light()),
+        named("5_3", area_light()),
+        named("5_4", flux()),
+        named("5_6", diffuse_reflection()),
+        named("5_7", obstruction()),
     ];
     for (reflectance, label) in CUBES {
-        projects.push((format!("cie171_5_8_{label}"), cube(reflectance)));
+        projects.push(named(&format!("5_8_{label}"), cube(reflectance)));
     }
     projects
 }
@@ -81,24 +88,12 @@ pub(super) fn cases() -> Vec<Case> {
             "5.3 area light",
             gathered,
             "closed form: contour integral of Lambert (1760)",
-            {
-                let value = |normal| {
-                    move |at: Point| PI * PANEL_CD_M2 * configuration_factor(at, normal, &PANEL)
-                };
-                let mut expect = points(
-                    &wall_places(&WALL_A_TO_F_M),
-                    "wall",
-                    "illuminance_lx",
-                    FACTOR,
-                    value(FORWARD),
-                );
-                let floor = floor_places(&FLOOR_G_TO_N_M);
-                expect.extend(points(&floor, "floor", "illuminance_lx", FACTOR, value(UP)));
-                expect
-            },
+            under_panel(),
         ),
         case("5_4", "5.4 flux", counted, "closed form: flux = sum of illuminance x area", {
-            let mut expect: Vec<Expectation> = FACES.iter().enumerate().map(face_average).collect();
+            let faces = FACES.iter().enumerate();
+            let mut expect: Vec<Expectation> =
+                faces.map(|(face, name)| face_average(face, name)).collect();
             expect.push(all_flux(FLUX_LM));
             expect
         }),
@@ -107,34 +102,14 @@ pub(super) fn cases() -> Vec<Case> {
             "5.6 diffuse reflection",
             gathered,
             "closed form: contour integral of Lambert (1760)",
-            {
-                let value = |normal| {
-                    move |at: Point| SENT_LX * configuration_factor(at, normal, &FLOOR_CORNERS)
-                };
-                let mut expect = vec![lit("floor", SENT_LX / FLOOR)];
-                let wall = wall_places(&WALL_B_TO_F_M);
-                expect.extend(points(&wall, "wall", "indirect_lx", FACTOR, value(FORWARD)));
-                let ceiling = ceiling_places(&CEILING_G_TO_J_M);
-                expect.extend(points(&ceiling, "ceiling", "indirect_lx", FACTOR, value(DOWN)));
-                expect
-            },
+            over_lit_floor(),
         ),
         case(
             "5_7",
             "5.7 obstruction",
             gathered,
             "closed form: contour integral of Lambert (1760)",
-            {
-                let value = |normal| {
-                    move |at: Point| SENT_LX * configuration_factor(at, normal, &seen_over_box(at))
-                };
-                let mut expect = vec![lit("back", SENT_LX / WALL)];
-                let wall = wall_places(&WALL_A_TO_F_M);
-                expect.extend(points(&wall, "wall", "indirect_lx", FACTOR, value(FORWARD)));
-                let floor = floor_places(&FLOOR_G_TO_K_M);
-                expect.extend(points(&floor, "floor", "indirect_lx", FACTOR, value(UP)));
-                expect
-            },
+            behind_box(),
         ),
     ];
     for (reflectance, label) in CUBES {
@@ -145,6 +120,41 @@ pub(super) fn cases() -> Vec<Case> {
         cases.push(case(&number, &name, counted, "closed form: flux / (1 - reflectance)", all));
     }
     cases
+}
+
+/// Direct light of the panel of case 5.3.
+fn under_panel() -> Vec<Expectation> {
+    let value =
+        |normal| move |at: Point| PI * PANEL_CD_M2 * configuration_factor(at, normal, &PANEL);
+    let wall = wall_places(&WALL_A_TO_F_M);
+    let mut expect = points(&wall, "wall", "illuminance_lx", FACTOR, value(FORWARD));
+    let floor = floor_places(&FLOOR_G_TO_N_M);
+    expect.extend(points(&floor, "floor", "illuminance_lx", FACTOR, value(UP)));
+    expect
+}
+
+/// Light from the floor of case 5.6.
+fn over_lit_floor() -> Vec<Expectation> {
+    let value =
+        |normal| move |at: Point| SENT_LX * configuration_factor(at, normal, &FLOOR_CORNERS);
+    let mut expect = vec![lit("floor", SENT_LX / FLOOR)];
+    let wall = wall_places(&WALL_B_TO_F_M);
+    expect.extend(points(&wall, "wall", "indirect_lx", FACTOR, value(FORWARD)));
+    let ceiling = ceiling_places(&CEILING_G_TO_J_M);
+    expect.extend(points(&ceiling, "ceiling", "indirect_lx", FACTOR, value(DOWN)));
+    expect
+}
+
+/// Light from the wall of case 5.7 over its box.
+fn behind_box() -> Vec<Expectation> {
+    let value =
+        |normal| move |at: Point| SENT_LX * configuration_factor(at, normal, &seen_over_box(at));
+    let mut expect = vec![lit("back", SENT_LX / WALL)];
+    let wall = wall_places(&WALL_A_TO_F_M);
+    expect.extend(points(&wall, "wall", "indirect_lx", FACTOR, value(FORWARD)));
+    let floor = floor_places(&FLOOR_G_TO_K_M);
+    expect.extend(points(&floor, "floor", "indirect_lx", FACTOR, value(UP)));
+    expect
 }
 
 const UP: Point = [0.0, 0.0, 1.0];
@@ -233,7 +243,7 @@ fn reflected_flux(value: f64) -> Expectation {
 }
 
 /// The mean over a face of the black room with an isotropic source in its middle.
-fn face_average((face, name): (usize, &&'static str)) -> Expectation {
+fn face_average(face: usize, name: &'static str) -> Expectation {
     let axis = face / 2;
     let half = ROOM_M.map(|side| 0.5 * side);
     let (a, b) = (half[(axis + 1) % 3], half[(axis + 2) % 3]);

@@ -25,7 +25,7 @@ fn files() -> Vec<File> {
         ("scenes/cie171_floor.ies".to_owned(), cases::floor_luminaire()),
         ("scenes/cie171_wall.ies".to_owned(), cases::wall_luminaire()),
     ];
-    for (name, project) in cases::projects() {
+    for cases::NamedProject { name, project } in cases::projects() {
         files.push((format!("scenes/{name}.toml"), project.text()));
     }
     for case in cases::cases() {
