@@ -1,26 +1,37 @@
-//! Histograms of dimensions as bytes.
+//! Histograms of dimensions in the form in which they are stored, for `#[serde(with = ..)]`.
 
-use super::{Reader, StateError, Stored, Writer};
 use quasilux_sampling::DimensionHistogram;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-impl Stored for DimensionHistogram {
-    fn put(&self, out: &mut Writer) {
-        out.u64(self.counts().len() as u64);
-        self.counts().iter().for_each(|count| out.u64(*count));
-        out.i128(self.coordinates().cast_signed());
-        out.u32(self.largest());
-    }
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    counts: Vec<u64>,
+    coordinates: u128,
+    largest: u32,
+}
 
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let counts: Result<Vec<u64>, StateError> =
-            (0..from.length(size_of::<u64>())?).map(|_| from.u64()).collect();
-        let (counts, coordinates) = (counts?, from.i128()?.cast_unsigned());
-        let other = Self::from_counts(counts, coordinates, from.u32()?);
-        let other = other.ok_or(StateError::Unfit("a histogram"))?;
-        // Their sums then fit, too: no count of samples is larger.
-        let all = self.samples().checked_add(other.samples());
-        all.ok_or(StateError::Unfit("a histogram"))?;
-        self.merge(&other);
-        Ok(())
-    }
+pub(crate) fn serialize<S: Serializer>(
+    histogram: &DimensionHistogram,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let counts = histogram.counts().to_vec();
+    let (coordinates, largest) = (histogram.coordinates(), histogram.largest());
+    Stored { counts, coordinates, largest }.serialize(serializer)
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<DimensionHistogram, D::Error> {
+    let Stored { counts, coordinates, largest } = Stored::deserialize(deserializer)?;
+    DimensionHistogram::from_counts(counts, coordinates, largest)
+        .ok_or_else(|| D::Error::custom("a histogram whose sums differ"))
+}
+
+/// Adds a histogram to another; `None` where the number of samples overflows: no other sum of them
+/// is larger.
+pub(crate) fn checked_add(sum: &mut DimensionHistogram, more: &DimensionHistogram) -> Option<()> {
+    sum.samples().checked_add(more.samples())?;
+    sum.merge(more);
+    Some(())
 }

@@ -1,6 +1,6 @@
-//! Bytes to numbers: whatever the bytes are, the answer is numbers or an error, and no length that
-//! they claim takes memory before so many bytes are there.
+//! Bytes to values.
 
+use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 /// Why bytes are no state of this run.
@@ -26,97 +26,43 @@ impl<'b> Reader<'b> {
         Self(bytes)
     }
 
-    /// So many bytes.
+    /// The next `count` bytes.
     pub(crate) fn bytes(&mut self, count: usize) -> Result<&'b [u8], StateError> {
         let (bytes, rest) = self.0.split_at_checked(count).ok_or(StateError::Length)?;
         self.0 = rest;
         Ok(bytes)
     }
 
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], StateError> {
-        let (bytes, rest) = self.0.split_first_chunk().ok_or(StateError::Length)?;
+    /// A value in the postcard format.
+    pub(crate) fn value<T: DeserializeOwned>(&mut self) -> Result<T, StateError> {
+        let (value, rest) = postcard::take_from_bytes(self.0).map_err(|error| match error {
+            postcard::Error::DeserializeUnexpectedEnd => StateError::Length,
+            _ => StateError::Unfit("a value"),
+        })?;
         self.0 = rest;
-        Ok(*bytes)
+        Ok(value)
     }
 
-    pub(crate) fn u8(&mut self) -> Result<u8, StateError> {
-        Ok(u8::from_le_bytes(self.array()?))
-    }
-
-    pub(crate) fn bool(&mut self) -> Result<bool, StateError> {
-        match self.u8()? {
-            0 => Ok(false),
-            1 => Ok(true),
-            _ => Err(StateError::Unfit("a flag")),
-        }
-    }
-
-    pub(crate) fn u32(&mut self) -> Result<u32, StateError> {
-        Ok(u32::from_le_bytes(self.array()?))
-    }
-
-    pub(crate) fn u64(&mut self) -> Result<u64, StateError> {
-        Ok(u64::from_le_bytes(self.array()?))
-    }
-
-    pub(crate) fn i64(&mut self) -> Result<i64, StateError> {
-        Ok(i64::from_le_bytes(self.array()?))
-    }
-
-    pub(crate) fn i128(&mut self) -> Result<i128, StateError> {
-        Ok(i128::from_le_bytes(self.array()?))
-    }
-
-    pub(crate) fn f64(&mut self) -> Result<f64, StateError> {
-        Ok(f64::from_bits(self.u64()?))
-    }
-
-    /// What there may be.
-    pub(crate) fn option<T>(
-        &mut self,
-        read: impl FnOnce(&mut Self) -> Result<T, StateError>,
-    ) -> Result<Option<T>, StateError> {
-        if self.bool()? { read(self).map(Some) } else { Ok(None) }
-    }
-
-    /// A list of things of so many bytes each, at least.
-    pub(crate) fn length(&mut self, bytes_each: usize) -> Result<usize, StateError> {
-        let length = usize::try_from(self.u64()?).map_err(|_| StateError::Length)?;
-        let bytes = length.checked_mul(bytes_each).ok_or(StateError::Length)?;
-        if bytes > self.0.len() { Err(StateError::Length) } else { Ok(length) }
-    }
-
-    /// A list that has so many things.
+    /// The length of a list, which has to be this one.
     pub(crate) fn expect_length(&mut self, expected: usize) -> Result<(), StateError> {
-        if self.u64()? == expected as u64 { Ok(()) } else { Err(StateError::Unfit("a list")) }
+        let length: usize = self.value()?;
+        if length == expected { Ok(()) } else { Err(StateError::Unfit("a list")) }
     }
 
-    pub(crate) fn f64s(&mut self) -> Result<Vec<f64>, StateError> {
-        (0..self.length(size_of::<f64>())?).map(|_| self.f64()).collect()
-    }
-
-    pub(crate) fn text(&mut self) -> Result<String, StateError> {
-        let length = self.length(1)?;
-        let text = std::str::from_utf8(self.bytes(length)?);
-        text.map(str::to_owned).map_err(|_| StateError::Unfit("a text"))
-    }
-
-    /// Bytes with their length before them.
+    /// Bytes preceded by their length.
     pub(crate) fn block(&mut self) -> Result<&'b [u8], StateError> {
-        let length = self.length(1)?;
+        let length = self.value()?;
         self.bytes(length)
     }
 
     /// Adds a count.
-    pub(crate) fn add_u64(&mut self, sum: &mut u64) -> Result<(), StateError> {
-        *sum = sum.checked_add(self.u64()?).ok_or(StateError::Unfit("a count"))?;
-        Ok(())
+    pub(crate) fn add_count(&mut self, sum: &mut u64) -> Result<(), StateError> {
+        super::add_count(sum, self.value()?).ok_or(StateError::Unfit("a count"))
     }
 
     /// Adds a number of quanta.
-    pub(crate) fn add_i64(&mut self, sum: &mut i64) -> Result<(), StateError> {
-        *sum = sum.checked_add(self.i64()?).ok_or(StateError::Unfit("a sum"))?;
-        Ok(())
+    pub(crate) fn add_quanta(&mut self, sum: &mut i64) -> Result<(), StateError> {
+        super::add_quanta(sum, self.value()?).ok_or(StateError::Unfit("a sum"))
     }
 
     /// Nothing more may follow.
@@ -133,36 +79,37 @@ mod tests {
     #[test]
     fn what_was_written_is_read() {
         let mut out = Writer::default();
-        out.i128(-3);
-        out.f64s(&[0.5, -0.0]);
-        out.text("ü");
-        out.block(|out| out.bool(true));
+        out.value(&-3_i128);
+        out.value(&[0.5, -0.0]);
+        out.value("ü");
+        out.block(|out| out.value(&true));
         let bytes = out.finish();
         let read = |bytes: &[u8]| -> Result<(), StateError> {
             let mut from = Reader::new(bytes);
-            assert_eq!(from.i128()?, -3);
-            let numbers = from.f64s()?;
+            assert_eq!(from.value(), Ok(-3_i128));
+            let numbers: [f64; 2] = from.value()?;
             assert!(numbers[0] == 0.5 && numbers[1].is_sign_negative());
-            assert_eq!(from.text()?, "ü");
+            assert_eq!(from.value::<String>()?, "ü");
             assert_eq!(from.block()?, [1]);
             from.end()
         };
         assert_eq!(read(&bytes), Ok(()));
-        for length in 0..bytes.len() {
+        for length in 1..bytes.len() {
             assert_eq!(read(&bytes[..length]), Err(StateError::Length), "{length}");
         }
         assert_eq!(read(&[&bytes[..], &[0]].concat()), Err(StateError::Length));
     }
 
-    /// A claimed length of 2^60 numbers is refused before memory is taken for them.
+    /// A claimed length of 2^60 elements is refused before memory is taken for them.
     #[test]
     fn claims_take_no_memory() {
         let mut out = Writer::default();
-        out.u64(1 << 60);
-        out.f64(0.0);
+        out.value(&(1_u64 << 60));
+        out.value(&0.0);
         let bytes = out.finish();
-        assert_eq!(Reader::new(&bytes).f64s(), Err(StateError::Length));
-        assert_eq!(Reader::new(&bytes).text(), Err(StateError::Length));
+        assert_eq!(Reader::new(&bytes).value::<Vec<f64>>(), Err(StateError::Length));
+        assert_eq!(Reader::new(&bytes).value::<Vec<Vec<u64>>>(), Err(StateError::Length));
+        assert_eq!(Reader::new(&bytes).value::<String>(), Err(StateError::Length));
         assert_eq!(Reader::new(&bytes).block(), Err(StateError::Length));
     }
 }

@@ -1,67 +1,21 @@
-//! Numbers to bytes.
+//! Values to bytes.
+
+use serde::Serialize;
 
 /// Bytes that grow.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Writer(Vec<u8>);
 
 impl Writer {
-    /// Goes on behind these bytes.
+    /// Continues after these bytes.
     pub(crate) fn behind(bytes: &[u8]) -> Self {
         Self(bytes.to_vec())
     }
 
-    pub(crate) fn u8(&mut self, number: u8) {
-        self.0.push(number);
-    }
-
-    pub(crate) fn bool(&mut self, flag: bool) {
-        self.u8(u8::from(flag));
-    }
-
-    pub(crate) fn u32(&mut self, number: u32) {
-        self.bytes(&number.to_le_bytes());
-    }
-
-    pub(crate) fn u64(&mut self, number: u64) {
-        self.bytes(&number.to_le_bytes());
-    }
-
-    pub(crate) fn i64(&mut self, number: i64) {
-        self.bytes(&number.to_le_bytes());
-    }
-
-    pub(crate) fn i128(&mut self, number: i128) {
-        self.bytes(&number.to_le_bytes());
-    }
-
-    /// By its bits.
-    pub(crate) fn f32(&mut self, number: f32) {
-        self.u32(number.to_bits());
-    }
-
-    /// By its bits.
-    pub(crate) fn f64(&mut self, number: f64) {
-        self.u64(number.to_bits());
-    }
-
-    /// Whether there is one, then what there is.
-    pub(crate) fn option<T>(&mut self, thing: Option<T>, put: impl FnOnce(&mut Self, T)) {
-        self.bool(thing.is_some());
-        if let Some(thing) = thing {
-            put(self, thing);
-        }
-    }
-
-    /// Their number, then each.
-    pub(crate) fn f64s(&mut self, numbers: &[f64]) {
-        self.u64(numbers.len() as u64);
-        numbers.iter().for_each(|number| self.f64(*number));
-    }
-
-    /// Its length, then its bytes in UTF-8.
-    pub(crate) fn text(&mut self, text: &str) {
-        self.u64(text.len() as u64);
-        self.bytes(text.as_bytes());
+    /// A value in the postcard format.
+    pub(crate) fn value(&mut self, value: &(impl Serialize + ?Sized)) {
+        let bytes = postcard::to_extend(value, std::mem::take(&mut self.0));
+        self.0 = bytes.expect("values of a run have lengths, and memory does not fail");
     }
 
     /// Bytes as they are, without their number.
@@ -69,13 +23,12 @@ impl Writer {
         self.0.extend_from_slice(bytes);
     }
 
-    /// What `put` puts out, with its length before it.
+    /// Everything that `put` writes, preceded by its length.
     pub(crate) fn block(&mut self, put: impl FnOnce(&mut Self)) {
-        let start = self.0.len();
-        self.u64(0);
-        put(self);
-        let length = (self.0.len() - start - size_of::<u64>()) as u64;
-        self.0[start..start + size_of::<u64>()].copy_from_slice(&length.to_le_bytes());
+        let mut block = Self::default();
+        put(&mut block);
+        self.value(&block.0.len());
+        self.bytes(&block.0);
     }
 
     pub(crate) fn finish(self) -> Vec<u8> {

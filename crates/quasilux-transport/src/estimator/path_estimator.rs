@@ -28,6 +28,7 @@ use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{Target, by_sensor, targets};
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The first checkpoint takes at most this many indices, and about this many paths in all.
@@ -74,7 +75,7 @@ pub(crate) struct PathEstimator<'a, S> {
 }
 
 /// What was traced.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Costs {
     work: WorkCounts,
     photons: PhotonCounts,

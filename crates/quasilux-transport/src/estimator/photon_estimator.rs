@@ -219,10 +219,10 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
             uses_importance: windows.is_some(),
             digest: digest(|out| {
                 windows.iter().for_each(|windows| windows.put(out));
-                out.u64(self.plan.rays);
+                out.value(&self.plan.rays);
                 self.receivers.targets.iter().for_each(|(counter, area_m2)| {
-                    out.u32(*counter);
-                    out.f64(*area_m2);
+                    out.value(counter);
+                    out.value(area_m2);
                 });
             }),
             ..Decisions::default()
@@ -230,12 +230,12 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
     }
 
     fn put(&self, out: &mut Writer) {
-        out.u64(self.samples);
+        out.value(&self.samples);
         self.put_part(out);
     }
 
     fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.samples = from.u64()?;
+        self.samples = from.value()?;
         self.merge_part(from)?;
         let is_fine = self.samples <= coming;
         if is_fine { Ok(()) } else { Err(StateError::Unfit("the number of samples")) }
@@ -377,14 +377,14 @@ impl Counters {
 impl Stored for Counters {
     fn put(&self, out: &mut Writer) {
         let counters = self.all.iter().chain(self.by_bounces.iter().flatten());
-        out.u64((self.all.len() * (1 + self.by_bounces.len())) as u64);
-        counters.for_each(|counter| out.u64(counter.load(Ordering::Relaxed)));
+        out.value(&((self.all.len() * (1 + self.by_bounces.len())) as u64));
+        counters.for_each(|counter| out.value(&counter.load(Ordering::Relaxed)));
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         from.expect_length(self.all.len() * (1 + self.by_bounces.len()))?;
         let counters = self.all.iter_mut().chain(self.by_bounces.iter_mut().flatten());
-        counters.map(AtomicU64::get_mut).try_for_each(|counter| from.add_u64(counter))?;
+        counters.map(AtomicU64::get_mut).try_for_each(|counter| from.add_count(counter))?;
         let told_apart = |counter: usize| {
             let counts =
                 self.by_bounces.iter().map(|counts| counts[counter].load(Ordering::Relaxed));

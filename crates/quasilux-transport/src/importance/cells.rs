@@ -57,8 +57,8 @@ impl Regions {
     /// Puts them among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
         let Cells { low, edge_m, counts: _ } = self.cells;
-        out.f64s(&[low.x, low.y, low.z, edge_m]);
-        self.number_of_cell.iter().for_each(|number| out.u32(*number));
+        out.value(&[low.x, low.y, low.z, edge_m]);
+        self.number_of_cell.iter().for_each(|number| out.value(number));
     }
 
     /// By the number of each cell, [`Self::UNKNOWN`] for none.

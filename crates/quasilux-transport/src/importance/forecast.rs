@@ -105,7 +105,7 @@ impl Landings {
         self.per_m2
             .iter()
             .flat_map(|density| [density.first, density.rest])
-            .for_each(|x| out.f64(x));
+            .for_each(|x| out.value(&x));
     }
 
     /// The surveyed cells around a place on the side `n` of a surface.

@@ -137,8 +137,8 @@ impl GuidingTree {
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
         for Node { low_share, halves } in &self.nodes {
-            out.u32(u32::from(*low_share));
-            halves.iter().for_each(|half| out.u8(*half));
+            out.value(&u32::from(*low_share));
+            halves.iter().for_each(|half| out.value(half));
         }
     }
 

@@ -66,7 +66,7 @@ impl WeightWindows {
     pub(crate) fn put(&self, out: &mut Writer) {
         self.regions.put(out);
         for Window { weight, guide } in &self.windows {
-            out.f64(*weight);
+            out.value(weight);
             guide.put(out);
         }
     }

@@ -236,7 +236,7 @@ impl<S: Spectrum> PathEnd<S> {
 impl<S> Stored for PathEnd<S> {
     fn put(&self, out: &mut Writer) {
         if let Self::Own { tallies, photons, .. } = self {
-            out.u64(*photons);
+            out.value(photons);
             tallies.as_slice().put(out);
         }
     }
@@ -245,7 +245,7 @@ impl<S> Stored for PathEnd<S> {
         match self {
             Self::Nothing | Self::Frozen(_) => Ok(()),
             Self::Own { tallies, photons, .. } => {
-                from.add_u64(photons)?;
+                from.add_count(photons)?;
                 tallies.as_mut_slice().merge_from(from)
             }
         }

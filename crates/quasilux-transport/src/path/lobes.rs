@@ -15,12 +15,13 @@
 //! mean(k (a + b)^2 / b^2)` met it.
 
 use crate::bsdf::{Bsdf, TransportMode};
-use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::codec::{Sums, add_count};
 use crate::lights::{Incidence, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use std::ops::AddAssign;
 
@@ -53,7 +54,7 @@ pub(crate) struct Met<'a> {
 }
 
 /// The same of many paths.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct LobeSums {
     surfaces: u64,
     sharpness: u64,
@@ -130,16 +131,10 @@ impl AddAssign<&Self> for LobeSums {
     }
 }
 
-impl Stored for LobeSums {
-    fn put(&self, out: &mut Writer) {
-        let Self { surfaces, sharpness, even } = self;
-        [surfaces, sharpness].into_iter().for_each(|count| out.u64(*count));
-        even.put(out);
-    }
-
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let Self { surfaces, sharpness, even } = self;
-        [surfaces, sharpness].into_iter().try_for_each(|count| from.add_u64(count))?;
-        even.merge_from(from)
+impl Sums for LobeSums {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        add_count(&mut self.surfaces, other.surfaces)?;
+        add_count(&mut self.sharpness, other.sharpness)?;
+        self.even.checked_add(&other.even)
     }
 }

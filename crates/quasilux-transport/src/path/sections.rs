@@ -1,7 +1,7 @@
 //! Sections of paths, one target in one replicate each, that are traced in one wave, and their
 //! sums.
 
-use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::codec::{Sums, add_count, histogram};
 use crate::context::Context;
 use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
@@ -16,10 +16,11 @@ use crate::spectrum::Spectrum;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
 use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
+use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Range};
 
 /// What the paths of one target in one replicate found, in all.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PathSums {
     pub(crate) direct: Sum,
     pub(crate) indirect: Sum,
@@ -31,10 +32,11 @@ pub(crate) struct PathSums {
 }
 
 /// What paths cost.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct WorkCounts {
     pub(crate) paths: u64,
     pub(crate) rays: u64,
+    #[serde(with = "histogram")]
     pub(crate) dimensions: DimensionHistogram,
     pub(crate) endless: u64,
 }
@@ -175,51 +177,32 @@ impl WorkCounts {
 
 impl AddAssign for WorkCounts {
     fn add_assign(&mut self, other: Self) {
-        self.paths += other.paths;
-        self.rays += other.rays;
-        self.dimensions.merge(&other.dimensions);
-        self.endless += other.endless;
+        self.checked_add(&other).expect("the counts of one run fit 64 bits");
     }
 }
 
-impl Stored for PathSums {
-    fn put(&self, out: &mut Writer) {
-        let Self { direct, indirect, terms, reflected, lobes } = self;
-        direct.put(out);
-        indirect.put(out);
-        out.u64(*reflected);
-        lobes.put(out);
-        terms.as_slice().put(out);
+impl Sums for WorkCounts {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        add_count(&mut self.paths, other.paths)?;
+        add_count(&mut self.rays, other.rays)?;
+        add_count(&mut self.endless, other.endless)?;
+        histogram::checked_add(&mut self.dimensions, &other.dimensions)
     }
+}
 
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let Self { direct, indirect, terms, reflected, lobes } = self;
-        direct.merge_from(from)?;
-        indirect.merge_from(from)?;
-        from.add_u64(reflected)?;
-        lobes.merge_from(from)?;
-        let listed = from.length(Sum::BYTES)?;
-        if terms.is_empty() {
+impl Sums for PathSums {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        self.direct.checked_add(&other.direct)?;
+        self.indirect.checked_add(&other.indirect)?;
+        add_count(&mut self.reflected, other.reflected)?;
+        self.lobes.checked_add(&other.lobes)?;
+        if self.terms.is_empty() {
             // Before its first path a target has none.
-            terms.resize(listed, Sum::default());
+            self.terms.clone_from(&other.terms);
+            return Some(());
         }
-        if listed != 0 && listed != terms.len() {
-            return Err(StateError::Unfit("a list of terms"));
-        }
-        terms.iter_mut().take(listed).try_for_each(|term| term.merge_from(from))
-    }
-}
-
-impl Stored for WorkCounts {
-    fn put(&self, out: &mut Writer) {
-        let Self { paths, rays, dimensions, endless } = self;
-        [paths, rays, endless].into_iter().for_each(|count| out.u64(*count));
-        dimensions.put(out);
-    }
-
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let Self { paths, rays, dimensions, endless } = self;
-        [paths, rays, endless].into_iter().try_for_each(|count| from.add_u64(count))?;
-        dimensions.merge_from(from)
+        let fits = other.terms.is_empty() || other.terms.len() == self.terms.len();
+        let mut terms = self.terms.iter_mut().zip(&other.terms);
+        fits.then(|| terms.try_for_each(|(sum, more)| sum.checked_add(more)))?
     }
 }

@@ -154,19 +154,19 @@ impl<S: Spectrum> CausticMap<S> {
 
     /// Puts out what the photons gave to the targets, without what paths see of them.
     pub(crate) fn put_targets(&self, out: &mut Writer) {
-        out.u64(self.photons);
-        out.u64(self.invalid);
+        out.value(&self.photons);
+        out.value(&self.invalid);
         for quanta in self.tallies.iter().flat_map(|tally| tally.targets.iter().flatten()) {
-            out.i64(quanta.load(Ordering::Relaxed));
+            out.value(&quanta.load(Ordering::Relaxed));
         }
     }
 
     /// Takes that in.
     pub(crate) fn take_targets(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        from.add_u64(&mut self.photons)?;
-        from.add_u64(&mut self.invalid)?;
+        from.add_count(&mut self.photons)?;
+        from.add_count(&mut self.invalid)?;
         for quanta in self.tallies.iter_mut().flat_map(|tally| tally.targets.iter_mut().flatten()) {
-            from.add_i64(quanta.get_mut())?;
+            from.add_quanta(quanta.get_mut())?;
         }
         Ok(())
     }

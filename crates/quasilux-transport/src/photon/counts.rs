@@ -1,14 +1,15 @@
 //! Counts of photons: the balance of their flux, rays and coordinates.
 
-use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::codec::{Sums, add_count, add_quanta, histogram};
 use quasilux_sampling::DimensionHistogram;
+use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
 /// Flux is counted in this many steps a photon: 2^39 photons fit.
 pub(super) const QUANTA_PER_PHOTON: f64 = (1 << 24) as f64;
 
 /// How photons ended, and what they cost. Flux is in quanta.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PhotonCounts {
     /// Photons that began, until those from lit places are [taken out](Self::apart_from_flux):
     /// those that left lights.
@@ -33,6 +34,7 @@ pub(crate) struct PhotonCounts {
     /// Surfaces that photons came to.
     pub(crate) events: u64,
     /// Coordinates that each of them used, children of splits by themselves.
+    #[serde(with = "histogram")]
     pub(crate) dimensions: DimensionHistogram,
 }
 
@@ -52,62 +54,23 @@ impl PhotonCounts {
 
 impl AddAssign for PhotonCounts {
     fn add_assign(&mut self, other: Self) {
-        self.emitted += other.emitted;
-        self.begun += other.begun;
-        self.absorbed += other.absorbed;
-        self.lost += other.lost;
-        self.cut += other.cut;
-        self.endless += other.endless;
-        self.trapped += other.trapped;
-        self.invalid += other.invalid;
-        self.rays += other.rays;
-        self.connections += other.connections;
-        self.events += other.events;
-        self.dimensions.merge(&other.dimensions);
+        self.checked_add(&other).expect("the counts of one run fit 64 bits");
     }
 }
 
-impl Stored for PhotonCounts {
-    fn put(&self, out: &mut Writer) {
-        let Self {
-            emitted,
-            begun,
-            absorbed,
-            lost,
-            cut,
-            endless,
-            trapped,
-            invalid,
-            rays,
-            connections,
-            events,
-            dimensions,
-        } = self;
-        [emitted, begun, endless, trapped, invalid, rays, connections, events]
-            .into_iter()
-            .for_each(|count| out.u64(*count));
-        [absorbed, lost, cut].into_iter().for_each(|quanta| out.i64(*quanta));
-        dimensions.put(out);
-    }
-
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let Self {
-            emitted,
-            begun,
-            absorbed,
-            lost,
-            cut,
-            endless,
-            trapped,
-            invalid,
-            rays,
-            connections,
-            events,
-            dimensions,
-        } = self;
-        let counts = [emitted, begun, endless, trapped, invalid, rays, connections, events];
-        counts.into_iter().try_for_each(|count| from.add_u64(count))?;
-        [absorbed, lost, cut].into_iter().try_for_each(|quanta| from.add_i64(quanta))?;
-        dimensions.merge_from(from)
+impl Sums for PhotonCounts {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        add_count(&mut self.emitted, other.emitted)?;
+        add_count(&mut self.begun, other.begun)?;
+        add_quanta(&mut self.absorbed, other.absorbed)?;
+        add_quanta(&mut self.lost, other.lost)?;
+        add_quanta(&mut self.cut, other.cut)?;
+        add_count(&mut self.endless, other.endless)?;
+        add_count(&mut self.trapped, other.trapped)?;
+        add_count(&mut self.invalid, other.invalid)?;
+        add_count(&mut self.rays, other.rays)?;
+        add_count(&mut self.connections, other.connections)?;
+        add_count(&mut self.events, other.events)?;
+        histogram::checked_add(&mut self.dimensions, &other.dimensions)
     }
 }

@@ -130,8 +130,7 @@ fn trace<S: Spectrum>(
     let mut out = Writer::default();
     out.bytes(&estimation.decisions().digest);
     out.bytes(&fingerprint(scene, settings, samples));
-    out.u64(part.start);
-    out.u64(part.end);
+    out.value(&part);
     if !estimation.trace_part(part, samples, watch) {
         return None;
     }
@@ -203,7 +202,7 @@ impl Expected<'_> {
             return Err(refuse(StateError::Decisions));
         }
         let mut rest = || -> Result<Part<'b>, StateError> {
-            let range = from.u64()?..from.u64()?;
+            let range = from.value()?;
             let part = Part { number, range, shared: from.block()?, own: from.block()? };
             from.clone().end().map(|()| part)
         };

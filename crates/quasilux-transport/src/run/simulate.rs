@@ -167,7 +167,7 @@ impl Stopping {
 fn put_preface(decisions: &Decisions, course: &Course, watch: &mut Watch<'_>) {
     watch.preface(|out| {
         out.bytes(&decisions.digest);
-        course.put(out);
+        out.value(course);
     });
 }
 

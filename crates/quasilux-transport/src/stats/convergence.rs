@@ -25,12 +25,12 @@
 //! distance from it to luck. Half of it is lost at the next checkpoint, for half of the samples are
 //! the same.
 
-use crate::codec::{Reader, StateError, Writer};
 use crate::settings::Settings;
 use crate::stats::estimates::{Convergence, Estimates};
 use crate::stats::schedule::{MAX_SAMPLES, Schedule};
 use crate::stats::tolerance::Standing;
 use quasilux_sampling::quality::fit_power_law;
+use serde::{Deserialize, Serialize};
 
 /// Checkpoints that a slope is fitted to at least.
 const MIN_CHECKPOINTS: usize = 3;
@@ -44,19 +44,22 @@ const SPREAD_OF_SLOPES: f64 = 0.25;
 const SLOPES: std::ops::RangeInclusive<f64> = -1.5..=-0.4;
 
 /// The checkpoints of a run so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct History {
     /// Those that the chain of half-widths goes through.
     checkpoints: Vec<Checkpoint>,
     /// How predictions did.
     outcomes: Outcomes,
     /// Half-width over value and indices of each target at the last checkpoint.
+    #[serde(skip)]
     widths: Vec<(Option<f64>, u64)>,
+    #[serde(skip)]
     samples: u64,
+    #[serde(skip)]
     rays: u64,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Checkpoint {
     samples: u64,
     /// exp y: half-widths in units of those at the first checkpoint.
@@ -66,7 +69,7 @@ struct Checkpoint {
 }
 
 /// Logarithms of half-widths over what was predicted for them.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Outcomes {
     targets: f64,
     sum: f64,
@@ -124,34 +127,11 @@ impl History {
         Convergence { slope, samples: end, rays, against_prediction }
     }
 
-    /// Puts out the checkpoints; the rest follows from the estimates of the last one.
-    pub(crate) fn put(&self, out: &mut Writer) {
-        let Self { checkpoints, outcomes: Outcomes { targets, sum }, .. } = self;
-        out.u64(checkpoints.len() as u64);
-        for Checkpoint { samples, width, exponent } in checkpoints {
-            out.u64(*samples);
-            out.f64(*width);
-            out.option(*exponent, Writer::f64);
-        }
-        out.f64(*targets);
-        out.f64(*sum);
-    }
-
-    /// That of a run whose last checkpoint had these estimates.
-    pub(crate) fn read(
-        last: &Estimates,
-        settings: &Settings,
-        from: &mut Reader<'_>,
-    ) -> Result<Self, StateError> {
-        let checkpoint = |from: &mut Reader<'_>| {
-            let (samples, width) = (from.u64()?, from.f64()?);
-            Ok(Checkpoint { samples, width, exponent: from.option(Reader::f64)? })
-        };
-        let count = from.length(size_of::<u64>())?;
-        let checkpoints = (0..count).map(|_| checkpoint(from)).collect::<Result<_, _>>()?;
-        let outcomes = Outcomes { targets: from.f64()?, sum: from.f64()? };
+    /// The stored history of a run whose last checkpoint had these estimates: everything but the
+    /// checkpoints follows from them.
+    pub(crate) fn resumed(self, last: &Estimates, settings: &Settings) -> Self {
         let widths = widths(last, &Standing::of(last, settings));
-        Ok(Self { checkpoints, outcomes, widths, samples: last.samples, rays: last.rays })
+        Self { widths, samples: last.samples, rays: last.rays, ..self }
     }
 
     /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one

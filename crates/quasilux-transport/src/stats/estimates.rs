@@ -5,14 +5,16 @@ use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{interval_of_minimum, ratios};
 use crate::stats::picture::CameraEstimates;
 use quasilux_sampling::DimensionHistogram;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The state of a simulation at a checkpoint that all replicates have completed.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimates {
     /// One entry a sensor, in the order of the scene.
     pub sensors: Vec<SensorEstimates>,
     /// One entry a camera, in the order of the scene; none before the sensors are done.
+    #[serde(skip)]
     pub cameras: Vec<CameraEstimates>,
     /// Indices used so far by each replicate: photons, and paths for each sensor point; without
     /// sensors those of a pixel.
@@ -20,6 +22,7 @@ pub struct Estimates {
     /// Rays traced so far, all kinds and replicates together.
     pub rays: u64,
     /// What was decided before the first of them.
+    #[serde(skip)]
     pub decisions: Decisions,
     /// Where the photons' flux went.
     pub flux: FluxBalance,
@@ -47,7 +50,7 @@ pub struct Estimates {
 }
 
 /// The figures of one sensor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensorEstimates {
     /// Illuminance in lx: one row a replicate, one column a sensor point.
     pub replicate_lx: Vec<Vec<f64>>,
@@ -67,7 +70,7 @@ pub struct SensorEstimates {
 }
 
 /// What light of one number of bounces, or of that many and more, gives to one sensor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TermEstimates {
     /// Illuminance in lx: one row a replicate, one column a sensor point.
     pub replicate_lx: Vec<Vec<f64>>,
@@ -76,7 +79,7 @@ pub struct TermEstimates {
 }
 
 /// Where the flux of the photons went, all in lm. Emitted is the sum of the other three.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FluxBalance {
     /// Emitted by all lights.
     pub emitted_lm: f64,
@@ -89,9 +92,10 @@ pub struct FluxBalance {
 }
 
 /// How many coordinates samples used, the constructive dimension; empty where nothing was traced.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Dimensions {
     /// Of the photons, those that steering split off by themselves.
+    #[serde(with = "crate::codec::histogram")]
     pub photon: DimensionHistogram,
     /// Photons that began, for estimate, map, energy balance and what decided over them together;
     /// those that were split off are not among them, nor those that look for what paths cannot
@@ -100,6 +104,7 @@ pub struct Dimensions {
     /// Surfaces that all these photons came to.
     pub photon_events: u64,
     /// Of the paths from sensors.
+    #[serde(with = "crate::codec::histogram")]
     pub path: DimensionHistogram,
 }
 
@@ -223,7 +228,7 @@ impl SensorEstimates {
 }
 
 /// How half-widths shrank so far, and what follows from that.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// The measured exponent of N in half-widths; `None` before there are enough checkpoints, or
     /// where nothing has a half-width above 0. About -0.5 says that the points are no better than

@@ -2,7 +2,8 @@
 //!
 //! The first ones only plan; at each of the others a run may end ([`crate::stats::sequential`]).
 
-use crate::codec::{Reader, StateError, Writer};
+use crate::codec::StateError;
+use serde::{Deserialize, Serialize};
 
 /// No run goes past this many indices per replicate.
 pub(crate) const MAX_SAMPLES: u64 = 1 << 48;
@@ -14,9 +15,12 @@ pub(crate) const MAX_SAMPLES: u64 = 1 << 48;
 pub(crate) const MIN_SAMPLES: u64 = 128;
 
 /// The checkpoints of one run: a function of counts alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Schedule {
+    /// This and the limit belong to the run.
+    #[serde(skip)]
     first: u64,
+    #[serde(skip)]
     limit: u64,
     next: u64,
 }
@@ -29,15 +33,9 @@ impl Schedule {
         Self { first, limit, next: first }
     }
 
-    /// Puts out how far it has come; the first checkpoint and the limit belong to the run.
-    pub(crate) fn put(&self, out: &mut Writer) {
-        let Self { first: _, limit: _, next } = self;
-        out.u64(*next);
-    }
-
-    /// Comes as far as another of the same run has come.
-    pub(crate) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let next = from.u64()?;
+    /// Advances to where the stored schedule of the same run stands.
+    pub(crate) fn advance_to(&mut self, stored: Self) -> Result<(), StateError> {
+        let next = stored.next;
         if next == 0 || self.at_or_after(next) != next {
             return Err(StateError::Unfit("the schedule"));
         }

@@ -4,7 +4,8 @@
 //! order, thread count or split gives the same bits. The quantum is a power of two fixed before
 //! sampling from the light that the scene can get, so dimming all lights scales it with them.
 
-use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::codec::{Sums, add_count};
+use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
 /// Quanta per unit of the reference, as a power of two: contributions down to 2^-80 of it count.
@@ -25,7 +26,7 @@ pub(crate) fn checked_quanta(contribution: f64, per_unit: f64) -> Option<i64> {
 }
 
 /// The size of one step of a tally: a power of two, in the unit of the contributions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Quantum {
     size: f64,
     per_unit: f64,
@@ -38,11 +39,6 @@ impl Quantum {
         Self { size: libm::ldexp(1.0, exponent), per_unit: libm::ldexp(1.0, -exponent) }
     }
 
-    /// Puts it among the decisions.
-    pub(crate) fn put(self, out: &mut Writer) {
-        out.f64(self.size);
-    }
-
     /// The value of a sum.
     pub(crate) fn value(self, sum: Sum) -> f64 {
         sum.quanta as f64 * self.size
@@ -50,7 +46,7 @@ impl Quantum {
 }
 
 /// A sum of contributions, and how many of them could not be added.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Sum {
     quanta: i128,
     /// Contributions that were not finite, too large, or wrongly negative.
@@ -58,9 +54,6 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
-    /// What it takes in a state.
-    pub(crate) const BYTES: usize = size_of::<i128>() + size_of::<u64>();
-
     /// Whether nothing but zeros was added.
     pub(crate) fn is_zero(&self) -> bool {
         self.quanta == 0
@@ -99,16 +92,10 @@ impl AddAssign for Sum {
     }
 }
 
-impl Stored for Sum {
-    fn put(&self, out: &mut Writer) {
-        out.i128(self.quanta);
-        out.u64(self.invalid);
-    }
-
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let quanta = self.quanta.checked_add(from.i128()?);
-        self.quanta = quanta.ok_or(StateError::Unfit("a sum"))?;
-        from.add_u64(&mut self.invalid)
+impl Sums for Sum {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        self.quanta = self.quanta.checked_add(other.quanta)?;
+        add_count(&mut self.invalid, other.invalid)
     }
 }
 

@@ -94,7 +94,7 @@ impl<'o> Watch<'o> {
     fn give_state(&mut self, put: impl FnOnce(&mut Writer)) {
         let mut out = Writer::behind(&self.preface);
         let Progress { photons, paths, rays, .. } = self.progress;
-        [photons, paths, rays].into_iter().for_each(|count| out.u64(count));
+        out.value(&[photons, paths, rays]);
         put(&mut out);
         self.observer.state(&out.finish());
     }
@@ -104,9 +104,7 @@ impl<'o> Watch<'o> {
         // Surveys and pilots are made again.
         let own_rays = self.progress.rays;
         let Progress { photons, paths, rays, .. } = &mut self.progress;
-        for count in [photons, paths, rays] {
-            *count = from.u64()?;
-        }
+        [*photons, *paths, *rays] = from.value()?;
         self.progress.earlier_rays = self.progress.rays.saturating_sub(own_rays);
         Ok(())
     }

@@ -337,9 +337,10 @@ fn parts_with_gaps_and_overlaps_are_refused() {
     let brighter = closed(0.6);
     let other = trace_part(&brighter, &settings, 40, 25..40, &mut ()).expect("not stopped");
     assert_eq!(refused(&[&first, &middle, &other]), Err(MergeError::Foreign { part: 2 }));
-    // A range that a changed file claims: past the two digests.
+    // A range that a changed file claims, a byte for each end, past the two digests.
     let mut claims = last.clone();
-    claims[64..80].copy_from_slice(&[25_u64, 41].map(u64::to_le_bytes).concat());
+    assert_eq!(claims[64..66], [25, 40]);
+    claims[65] = 41;
     let (range, samples) = (25..41, 40);
     let wrong = MergeError::Range { part: 2, range, samples };
     assert_eq!(refused(&[&first, &middle, &claims]), Err(wrong.clone()));

@@ -48,7 +48,7 @@ impl CellTransfer {
 
     /// Puts it among the decisions.
     pub(super) fn put(&self, out: &mut Writer) {
-        self.lx_sr_lm.iter().for_each(|lx| out.f32(*lx));
+        self.lx_sr_lm.iter().for_each(|lx| out.value(lx));
     }
 
     /// What all targets get from a cell, by what comes there straight from the lights or otherwise.

@@ -111,7 +111,7 @@ impl LightVertexConnections {
     /// Puts what was found out before the first photon among the decisions.
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         self.connection.put(out);
-        out.f64s(&self.expected_lx);
+        out.value(&self.expected_lx);
         let transfers = self.coarse.iter().flat_map(|(transfers, _)| transfers);
         transfers.for_each(|transfer| transfer.put(out));
     }
@@ -284,9 +284,7 @@ impl Stored for LightVertexConnections {
         if let Some((_, coarse)) = &self.coarse {
             coarse.put(out);
         }
-        for parts in &self.settled {
-            out.option(parts.as_ref(), |out, parts| out.f64s(parts));
-        }
+        out.value(&self.settled);
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
@@ -296,12 +294,12 @@ impl Stored for LightVertexConnections {
             .try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
         self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))?;
         let length = self.replicates.len() * (1 + self.terms);
-        for parts in &mut self.settled {
-            *parts = from.option(Reader::f64s)?;
-            if parts.as_ref().is_some_and(|parts| parts.len() != length) {
-                return Err(StateError::Unfit("the number of terms"));
-            }
+        let settled: Vec<Option<Vec<f64>>> = from.value()?;
+        let fits = |parts: &Vec<f64>| parts.len() == length;
+        if settled.len() != self.settled.len() || !settled.iter().flatten().all(fits) {
+            return Err(StateError::Unfit("the number of terms"));
         }
+        self.settled = settled;
         Ok(())
     }
 }

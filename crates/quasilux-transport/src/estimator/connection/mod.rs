@@ -89,15 +89,15 @@ impl ConnectionPlan {
     pub(crate) fn put(&self, out: &mut Writer) {
         let Self { partition, windows, cell_photons, small, places } = self;
         partition.landings.put(out);
-        out.bool(windows.is_some());
+        out.value(&windows.is_some());
         if let Some(windows) = windows {
             windows.put(out);
         }
-        out.u64(partition.photons);
-        out.u64(*cell_photons);
-        out.f64(*small);
+        out.value(&partition.photons);
+        out.value(cell_photons);
+        out.value(small);
         let places = places.iter().flatten().flat_map(|at| at.position.to_array());
-        places.for_each(|x| out.f64(x));
+        places.for_each(|x| out.value(&x));
     }
 
     /// How photons begin, and what guides them.

@@ -1,7 +1,7 @@
 //! State of the path estimator for checkpoints and parts of a run.
 
 use super::{Costs, PathEstimator};
-use crate::codec::{Reader, StateError, Stored, Writer, digest};
+use crate::codec::{Reader, StateError, Stored, Sums, Writer, digest};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 
@@ -20,13 +20,13 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             map_elements: facts.elements,
             caustic_photons,
             digest: digest(|out| {
-                self.quantum.put(out);
-                out.f64s(&self.exact.iter().map(|exact| exact.sum_lx()).collect::<Vec<_>>());
+                out.value(&self.quantum);
+                out.value(&self.exact.iter().map(|exact| exact.sum_lx()).collect::<Vec<_>>());
                 self.light_vertices
                     .iter()
                     .for_each(|light_vertices| light_vertices.put_decisions(out));
                 self.end.put_decisions(out);
-                out.u64(caustic_photons.unwrap_or(0));
+                out.value(&caustic_photons);
                 self.prepared.put(out);
             }),
         }
@@ -34,10 +34,11 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Everything, at any time between two pieces.
     pub(super) fn put_all(&self, out: &mut Writer) {
-        out.u64(self.samples);
-        out.u64(self.done);
-        out.u64(self.light_vertices.as_ref().map_or(0, |light_vertices| light_vertices.samples()));
-        self.ends.iter().for_each(|end| out.u64(end.unwrap_or(0)));
+        let light_vertices = self.light_vertices.as_ref();
+        out.value(&self.samples);
+        out.value(&self.done);
+        out.value(&light_vertices.map_or(0, |light_vertices| light_vertices.samples()));
+        out.value(&self.ends);
         self.shared.put(out);
         self.end.put(out);
         self.caustics.iter().for_each(|caustics| caustics.put(out));
@@ -50,12 +51,14 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         coming: u64,
         from: &mut Reader<'_>,
     ) -> Result<(), StateError> {
-        self.samples = from.u64()?;
-        self.done = from.u64()?;
-        let light_vertices = from.u64()?;
-        for end in &mut self.ends {
-            *end = Some(from.u64()?).filter(|end| *end > 0);
+        self.samples = from.value()?;
+        self.done = from.value()?;
+        let light_vertices: u64 = from.value()?;
+        let ends: Vec<Option<u64>> = from.value()?;
+        if ends.len() != self.ends.len() || ends.contains(&Some(0)) {
+            return Err(StateError::Unfit("the ends of targets"));
         }
+        self.ends = ends;
         self.shared.merge_from(from)?;
         self.end.merge_from(from)?;
         self.caustics.iter_mut().try_for_each(|caustics| caustics.merge_from(from))?;
@@ -112,14 +115,9 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     }
 }
 
-impl Stored for Costs {
-    fn put(&self, out: &mut Writer) {
-        self.work.put(out);
-        self.photons.put(out);
-    }
-
-    fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.work.merge_from(from)?;
-        self.photons.merge_from(from)
+impl Sums for Costs {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        self.work.checked_add(&other.work)?;
+        self.photons.checked_add(&other.photons)
     }
 }

@@ -72,10 +72,10 @@ impl<S: Spectrum> FrozenMap<S> {
         let Self { layout, tally, photon_lm, first_shot, survival, importance_per_lx } = self;
         layout.put(out);
         tally.put(out);
-        out.f64(*photon_lm);
-        out.bool(*first_shot);
+        out.value(photon_lm);
+        out.value(first_shot);
         survival.put(out);
-        out.f64s(importance_per_lx);
+        out.value(importance_per_lx);
     }
 }
 

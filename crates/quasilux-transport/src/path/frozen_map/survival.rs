@@ -110,10 +110,10 @@ impl Survival {
     /// Puts it among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
         let Self { sureness, mean_lx, usual_off, off } = self;
-        [sureness, mean_lx, usual_off].into_iter().for_each(|x| out.f64(*x));
+        [sureness, mean_lx, usual_off].into_iter().for_each(|x| out.value(x));
         for (element, off) in off {
-            out.u64(*element as u64);
-            out.f64(*off);
+            out.value(&(*element as u64));
+            out.value(off);
         }
     }
 }

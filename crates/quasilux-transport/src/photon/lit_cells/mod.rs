@@ -166,12 +166,12 @@ impl LitCells {
     /// Puts them among the decisions.
     pub(crate) fn put(&self, out: &mut Writer) {
         for DrawnCell { cell: _, facet, light, front, density } in &self.cells {
-            out.u32(*facet);
-            out.u32(*light);
-            out.bool(*front);
-            density.iter().for_each(|lm_m2| out.f64(*lm_m2));
+            out.value(facet);
+            out.value(light);
+            out.value(front);
+            density.iter().for_each(|lm_m2| out.value(lm_m2));
         }
-        out.f64(self.flux_share);
+        out.value(&self.flux_share);
     }
 
     /// Flux that a photon stands for, as a share of that of one photon of all lights, before its

@@ -4,6 +4,7 @@
 //! often. So a counter takes four bytes until it is full, and sums are exact and in any order.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
+use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -48,39 +49,35 @@ impl Blocks {
     }
 }
 
-/// Blocks where something was counted: the number of the block, whether it has the second halves,
-/// and the words.
+/// A block where something was counted.
+#[derive(Serialize, Deserialize)]
+struct StoredBlock {
+    number: usize,
+    low: Vec<u32>,
+    high: Option<Vec<u32>>,
+}
+
 impl Stored for Blocks {
     fn put(&self, out: &mut Writer) {
-        let taken = || (0_u64..).zip(&self.blocks).filter_map(|(at, cell)| Some((at, cell.get()?)));
-        let put = |words: &Words, out: &mut Writer| {
-            words.iter().for_each(|word| out.u32(word.load(Ordering::Relaxed)));
-        };
-        out.u64(taken().count() as u64);
+        let taken =
+            || self.blocks.iter().enumerate().filter_map(|(i, cell)| Some((i, cell.get()?)));
+        let words = |words: &Words| words.iter().map(|word| word.load(Ordering::Relaxed)).collect();
+        out.value(&taken().count());
         for (number, block) in taken() {
-            out.u64(number);
-            out.bool(block.high.get().is_some());
-            put(&block.low, out);
-            if let Some(high) = block.high.get() {
-                put(high, out);
-            }
+            let (low, high) = (words(&block.low), block.high.get().map(|high| words(high)));
+            out.value(&StoredBlock { number, low, high });
         }
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        let read = |from: &mut Reader<'_>| -> Result<Vec<u64>, StateError> {
-            (0..BLOCK).map(|_| Ok(u64::from(from.u32()?))).collect()
-        };
-        for _ in 0..from.length(BLOCK * size_of::<u32>())? {
-            let number = usize::try_from(from.u64()?).unwrap_or(usize::MAX);
-            if number >= self.blocks.len() {
+        for _ in 0..from.value::<usize>()? {
+            let StoredBlock { number, low, high } = from.value()?;
+            let high = high.unwrap_or_else(|| vec![0; BLOCK]);
+            if number >= self.blocks.len() || [low.len(), high.len()] != [BLOCK; 2] {
                 return Err(StateError::Unfit("an illumination map"));
             }
-            let has_high = from.bool()?;
-            let low = read(from)?;
-            let high = if has_high { read(from)? } else { vec![0; BLOCK] };
             for (at, (low, high)) in low.into_iter().zip(high).enumerate() {
-                self.add(number * BLOCK + at, low | high << 32);
+                self.add(number * BLOCK + at, u64::from(low) | u64::from(high) << 32);
             }
         }
         Ok(())

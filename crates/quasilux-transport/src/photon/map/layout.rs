@@ -105,13 +105,13 @@ impl MapLayout {
     /// Puts it among the decisions: how facets are cut, and their parts split.
     pub(crate) fn put(&self, out: &mut Writer) {
         for Subdivision { first, parts, area_m2: _ } in &self.facets {
-            out.u32(*first);
-            out.u32(*parts);
+            out.value(first);
+            out.value(parts);
         }
         let Trees { roots, lists, leaves } = &self.trees;
         let entries = roots.iter().chain(lists.iter().flatten());
-        entries.for_each(|entry| out.u32(*entry));
-        out.u64(*leaves as u64);
+        entries.for_each(|entry| out.value(entry));
+        out.value(&(*leaves as u64));
     }
 
     /// What photons say about an element.

@@ -136,16 +136,16 @@ impl<S> Stored for MapTally<S> {
     fn put(&self, out: &mut Writer) {
         let used =
             || (0_u32..).zip(&self.layers).filter_map(|(at, layer)| Some((at, layer.get()?)));
-        out.u64(used().count() as u64);
+        out.value(&used().count());
         used().for_each(|(number, sums)| {
-            out.u32(number);
+            out.value(&number);
             sums.put(out);
         });
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        for _ in 0..from.length(size_of::<u32>())? {
-            let layer = self.layers.get_mut(from.u32()? as usize);
+        for _ in 0..from.value::<usize>()? {
+            let layer = self.layers.get_mut(from.value::<u32>()? as usize);
             let layer = layer.ok_or(StateError::Unfit("an illumination map"))?;
             layer.get_or_init(|| Blocks::new(self.counters));
             layer.get_mut().map_or(Ok(()), |sums| sums.merge_from(from))?;
