@@ -29,6 +29,7 @@ const LATER: f64 = 0.5;
 
 /// The selected estimator, and the cost of the selection. Without connected photons and map, paths
 /// go alone.
+#[derive(Default)]
 pub(crate) struct Decision<S> {
     pub(crate) light_vertices: Option<LightVertexConnections>,
     /// With its photons.
@@ -38,12 +39,6 @@ pub(crate) struct Decision<S> {
     /// Rays of all trials, and of what connected photons need beforehand; but for those of photons
     /// above.
     pub(crate) rays: u64,
-}
-
-impl<S> Default for Decision<S> {
-    fn default() -> Self {
-        Self { light_vertices: None, frozen: None, photons: None, rays: 0 }
-    }
 }
 
 /// Tries the estimators that the settings leave open, and decides.

@@ -84,6 +84,7 @@ pub(crate) struct Path<'p, S> {
 }
 
 /// What the paths that travel together ask of the lights, with working space.
+#[derive(Default)]
 pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
     light_samples: Vec<LightSample<S>>,
@@ -375,15 +376,4 @@ impl<'p, S: Spectrum> Path<'p, S> {
 /// Russian roulette: the factor on the weight, 0 or the reciprocal of the survival probability.
 pub(crate) fn russian_roulette_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
     if sampler.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
-}
-
-impl<S> Default for PathWork<S> {
-    fn default() -> Self {
-        Self {
-            shadows: ShadowQueue::default(),
-            light_samples: Vec::new(),
-            images: ImageSamples::default(),
-            weights: Vec::new(),
-        }
-    }
 }

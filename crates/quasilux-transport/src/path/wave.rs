@@ -18,6 +18,7 @@ use std::mem::take;
 pub(crate) const WAVE: u64 = 512;
 
 /// Working space of paths that travel together, used again for the next ones.
+#[derive(Default)]
 pub(crate) struct PathWave<S: 'static> {
     work: PathWork<S>,
     /// Starts where all point-like lights are tested.
@@ -28,20 +29,6 @@ pub(crate) struct PathWave<S: 'static> {
     hits: Vec<Option<Hit>>,
     arrivals: Vec<Option<Interaction>>,
     rays: u64,
-}
-
-impl<S: 'static> Default for PathWave<S> {
-    fn default() -> Self {
-        Self {
-            work: PathWork::default(),
-            receivers: Vec::new(),
-            travelling: Vec::new(),
-            queries: Vec::new(),
-            hits: Vec::new(),
-            arrivals: Vec::new(),
-            rays: 0,
-        }
-    }
 }
 
 impl<S: Spectrum> PathWave<S> {

@@ -1,14 +1,12 @@
 //! Batches of photons: a range of indices of all replicates, shared between threads.
 
 use crate::context::{Context, Stream};
-use crate::cutoff;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{PhotonOrder, WAVES_PER_FIELD, Waves};
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
-use crate::stats::estimates::FluxBalance;
 use crate::stats::observer::Snapshot;
 use crate::stats::watch::Watch;
 use quasilux_sampling::{PointSet, Sampler};
@@ -111,7 +109,7 @@ impl<'b, 'c, S: Spectrum> BatchWaves<'b, 'c, S> {
         };
         let waves = Waves::new(points.first()?, batch.indices.clone(), coherent_dimensions);
         let spaces =
-            (0..rayon::current_num_threads()).map(|_| Mutex::new(PhotonWave::new())).collect();
+            (0..rayon::current_num_threads()).map(|_| Mutex::new(PhotonWave::default())).collect();
         Some(Self { context, batch, points, waves, spaces })
     }
 
@@ -153,23 +151,5 @@ impl<'b, 'c, S: Spectrum> BatchWaves<'b, 'c, S> {
         counts.rays += rays;
         counts.invalid += invalid;
         counts
-    }
-}
-
-impl PhotonCounts {
-    /// Where the flux of the lights went, by the shares of the photons.
-    pub(crate) fn balance(&self, emitted_lm: f64) -> FluxBalance {
-        let of = |quanta: i64| emitted_lm * self.share(quanta);
-        FluxBalance {
-            emitted_lm,
-            absorbed_lm: of(self.absorbed),
-            lost_lm: of(self.lost),
-            cut_lm: of(self.cut),
-        }
-    }
-
-    /// What a reader of the results must know of them.
-    pub(crate) fn warning(&self) -> Option<String> {
-        cutoff::warning(self.endless + self.trapped, "photons", "values")
     }
 }

@@ -1,6 +1,8 @@
 //! Counts of photons: the balance of their flux, rays and coordinates.
 
 use crate::codec::{Sums, add_count, add_quanta, histogram};
+use crate::cutoff;
+use crate::stats::estimates::FluxBalance;
 use quasilux_sampling::DimensionHistogram;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -49,6 +51,22 @@ impl PhotonCounts {
     /// Flux of some quanta, as a share of all that was emitted.
     pub(crate) fn share(&self, quanta: i64) -> f64 {
         quanta as f64 / (self.emitted.max(1) as f64 * QUANTA_PER_PHOTON)
+    }
+
+    /// Where the flux of the lights went, by the shares of the photons.
+    pub(crate) fn balance(&self, emitted_lm: f64) -> FluxBalance {
+        let of = |quanta: i64| emitted_lm * self.share(quanta);
+        FluxBalance {
+            emitted_lm,
+            absorbed_lm: of(self.absorbed),
+            lost_lm: of(self.lost),
+            cut_lm: of(self.cut),
+        }
+    }
+
+    /// What a reader of the results must know of them.
+    pub(crate) fn warning(&self) -> Option<String> {
+        cutoff::warning(self.endless + self.trapped, "photons", "values")
     }
 }
 

@@ -29,6 +29,7 @@ pub(crate) struct Wave<'p, 'w, I> {
 }
 
 /// Working space for one wave after the other.
+#[derive(Default)]
 pub(crate) struct PhotonWave<'p, S> {
     photons: Vec<Photon<'p, S>>,
     /// The ray of each photon.
@@ -55,21 +56,6 @@ struct Waiting<'p, S> {
 }
 
 impl<'p, S: Spectrum> PhotonWave<'p, S> {
-    pub(crate) fn new() -> Self {
-        Self {
-            photons: Vec::new(),
-            queries: Vec::new(),
-            departed: (Vec::new(), Vec::new()),
-            waiting: Vec::new(),
-            hits: Vec::new(),
-            found: Vec::new(),
-            beginnings: Vec::new(),
-            is_lit: Vec::new(),
-            indices: Vec::new(),
-            ahead: [Vec::new(), Vec::new()],
-        }
-    }
-
     /// Traces photons, and what they are split into, to their ends.
     pub(crate) fn trace(
         &mut self,

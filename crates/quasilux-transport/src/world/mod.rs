@@ -209,9 +209,7 @@ impl<S: Spectrum> World<S> {
         hits: &mut Vec<Option<Hit>>,
         found: &mut Vec<Option<Interaction>>,
     ) {
-        hits.clear();
-        hits.resize(queries.len(), None);
-        self.bvh.closest_hit_batch(queries, hits);
+        self.closest_hit_batch(queries, hits);
         found.clear();
         found.extend(queries.iter().zip(hits).map(|(query, hit)| {
             let hit = self.unless_flush((*hit)?, &query.ray, query.excluded[0]);

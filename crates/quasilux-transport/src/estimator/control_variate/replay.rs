@@ -16,7 +16,7 @@ use rayon::prelude::*;
 const MAX_NOISE: f64 = 0.75;
 
 /// Paths of a trial.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct PathRecords<S> {
     paths: Vec<Path<S>>,
     rays: RayCounts,
@@ -63,12 +63,6 @@ pub(crate) struct Outcome {
     /// Added by Russian roulette, of each target that gets light.
     pub(crate) variances: Vec<f64>,
     pub(crate) rays: f64,
-}
-
-impl<S> Default for PathRecords<S> {
-    fn default() -> Self {
-        Self { paths: Vec::new(), rays: RayCounts::default() }
-    }
 }
 
 impl<S: Spectrum> PathRecords<S> {

@@ -42,6 +42,7 @@ pub(crate) struct SpecularImages {
 }
 
 /// What images offer to one place, and working space.
+#[derive(Default)]
 pub(crate) struct ImageSamples<S> {
     links: Links,
     light_samples: Vec<ImageSample<S>>,
@@ -237,11 +238,5 @@ impl SpecularImages {
         shadows.push_polyline(who, light_sample.light, image.depth, |shadow_rays| {
             links.shadow_rays(world, &light_sample.path, from, light_m, shadow_rays);
         });
-    }
-}
-
-impl<S> Default for ImageSamples<S> {
-    fn default() -> Self {
-        Self { links: Links::default(), light_samples: Vec::new() }
     }
 }
