@@ -4,16 +4,8 @@
 //! was misspelt the nearest valid one.
 
 use crate::nearest::nearest;
+use quasilux_text::Position;
 use std::fmt;
-
-/// A place in a text file, counted from 1; columns count characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
-    /// The line.
-    pub line: usize,
-    /// The column; 1 where only the line is known.
-    pub column: usize,
-}
 
 /// A value with its span: where the project file gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,14 +13,14 @@ pub struct Spanned<T> {
     /// The value.
     pub value: T,
     /// Its place in the project file.
-    pub place: Place,
+    pub place: Position,
 }
 
 /// Why a project cannot be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoadError {
     file: String,
-    place: Option<Place>,
+    place: Option<Position>,
     message: String,
     suggestion: Option<String>,
 }
@@ -39,13 +31,13 @@ pub struct Warning {
     /// The file, as the project file writes it.
     pub file: String,
     /// The place in it, where there is one.
-    pub place: Option<Place>,
+    pub place: Option<Position>,
     /// What is odd, and what was done about it.
     pub message: String,
 }
 
 impl LoadError {
-    pub(crate) fn new(file: &str, place: Option<Place>, message: impl Into<String>) -> Self {
+    pub(crate) fn new(file: &str, place: Option<Position>, message: impl Into<String>) -> Self {
         Self { file: file.to_owned(), place, message: message.into(), suggestion: None }
     }
 
@@ -67,7 +59,7 @@ impl LoadError {
 
     /// The place in the file, where there is one.
     #[must_use]
-    pub fn place(&self) -> Option<Place> {
+    pub fn place(&self) -> Option<Position> {
         self.place
     }
 
@@ -85,7 +77,7 @@ impl LoadError {
 }
 
 impl Warning {
-    pub(crate) fn new(file: &str, place: Option<Place>, message: impl Into<String>) -> Self {
+    pub(crate) fn new(file: &str, place: Option<Position>, message: impl Into<String>) -> Self {
         Self { file: file.to_owned(), place, message: message.into() }
     }
 }
@@ -111,11 +103,11 @@ impl fmt::Display for Warning {
 fn write_line(
     f: &mut fmt::Formatter<'_>,
     file: &str,
-    place: Option<Place>,
+    place: Option<Position>,
     message: &str,
 ) -> fmt::Result {
     match place {
-        Some(Place { line, column }) => write!(f, "{file}:{line}:{column}: {message}"),
+        Some(place) => write!(f, "{file}:{place}: {message}"),
         None => write!(f, "{file}: {message}"),
     }
 }
@@ -126,7 +118,7 @@ mod tests {
 
     #[test]
     fn one_line_with_place_and_nearest_name() {
-        let place = Some(Place { line: 3, column: 7 });
+        let place = Some(Position { line: 3, column: 7 });
         let error = LoadError::new("a.toml", place, "unknown key \"sped\"");
         assert_eq!(error.to_string(), "a.toml:3:7: unknown key \"sped\"");
         let error = error.offer("sped", ["seed", "counts"]);

@@ -25,13 +25,14 @@ mod solids;
 
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
-pub use error::{LoadError, Place, Spanned, Warning};
+pub use error::{LoadError, Spanned, Warning};
 pub use files::Files;
 pub use light::Light;
 pub use load::{Loaded, load};
 pub use mesh::Mesh;
 pub use nearest::nearest;
 pub use project::SimulationSection;
+pub use quasilux_text::Position;
 pub use rgb::Rgb;
 pub use scene::{Material, Scene};
 pub use sensor::{Grid, Quantity, Sensor, SensorPoint, SensorShape};

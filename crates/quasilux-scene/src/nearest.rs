@@ -1,7 +1,8 @@
 //! The nearest valid name to a misspelt one.
 //!
-//! Distance is the restricted Damerau-Levenshtein distance (Damerau 1964, Levenshtein 1966):
-//! insertions, deletions, substitutions and swaps of neighbours each cost 1. Case costs nothing.
+//! Distance is the restricted Damerau-Levenshtein distance (Damerau 1964, Levenshtein 1966), also
+//! called optimal string alignment: insertions, deletions, substitutions and swaps of neighbours
+//! each cost 1. Case costs nothing.
 
 /// Names longer than this are not compared: the distance costs the product of the lengths.
 const MAX_CHARS: usize = 128;
@@ -24,27 +25,14 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
+/// Distance without regard to case; `None` where a name is too long.
 fn distance(a: &str, b: &str) -> Option<usize> {
-    let letters = |s: &str| s.chars().flat_map(char::to_lowercase).take(MAX_CHARS + 1).collect();
-    let (a, b): (Vec<char>, Vec<char>) = (letters(a), letters(b));
-    if a.len() > MAX_CHARS || b.len() > MAX_CHARS {
-        return None;
-    }
-    // Rows i - 2, i - 1 and i of the table of distances between prefixes.
-    let mut before: Vec<usize> = vec![0; b.len() + 1];
-    let mut previous: Vec<usize> = (0..=b.len()).collect();
-    for i in 1..=a.len() {
-        let mut row = vec![i; b.len() + 1];
-        for j in 1..=b.len() {
-            let substitution = previous[j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            row[j] = substitution.min(previous[j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                row[j] = row[j].min(before[j - 2] + 1);
-            }
-        }
-        before = std::mem::replace(&mut previous, row);
-    }
-    previous.last().copied()
+    let lower = |name: &str| -> String {
+        name.chars().flat_map(char::to_lowercase).take(MAX_CHARS + 1).collect()
+    };
+    let (a, b) = (lower(a), lower(b));
+    let is_short = |name: &str| name.chars().count() <= MAX_CHARS;
+    (is_short(&a) && is_short(&b)).then(|| strsim::osa_distance(&a, &b))
 }
 
 #[cfg(test)]

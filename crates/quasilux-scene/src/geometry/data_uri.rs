@@ -1,5 +1,17 @@
 //! Buffers written into a URI: base64 (RFC 4648, section 4) in a data URI (RFC 2397).
 
+use base64::DecodeError;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, Engine, GeneralPurpose, GeneralPurposeConfig};
+
+/// Padding may be missing, and bits after the last byte are ignored, as by other readers of glTF.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &STANDARD,
+    GeneralPurposeConfig::new()
+        .with_decode_allow_trailing_bits(true)
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
 /// Why a data URI cannot be decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum DataUriError {
@@ -15,33 +27,13 @@ pub(super) fn decode(uri: &str) -> Result<Vec<u8>, DataUriError> {
     if !head.ends_with(";base64") {
         return Err(DataUriError::NotBase64);
     }
-    let digits = data.trim_end_matches('=');
-    let mut bytes = Vec::with_capacity(digits.len() / 4 * 3 + 2);
-    let mut bits = 0_u32;
-    for (at, digit) in digits.bytes().enumerate() {
-        bits = bits << 6 | digit_value(digit).ok_or(DataUriError::BadCharacter(at + 1))?;
-        match at % 4 {
-            0 => {}
-            // Eight bits are complete, and 4, 2 or 0 of the next byte are known.
-            phase => bytes.push((bits >> (6 - 2 * phase)) as u8),
+    BASE64.decode(data).map_err(|error| match error {
+        DecodeError::InvalidByte(at, _) | DecodeError::InvalidLastSymbol { offset: at, .. } => {
+            DataUriError::BadCharacter(at + 1)
         }
-    }
-    if digits.len() % 4 == 1 {
-        return Err(DataUriError::BadCharacter(digits.len()));
-    }
-    Ok(bytes)
-}
-
-fn digit_value(digit: u8) -> Option<u32> {
-    let value = match digit {
-        b'A'..=b'Z' => digit - b'A',
-        b'a'..=b'z' => digit - b'a' + 26,
-        b'0'..=b'9' => digit - b'0' + 52,
-        b'+' => 62,
-        b'/' => 63,
-        _ => return None,
-    };
-    Some(u32::from(value))
+        DecodeError::InvalidLength(length) => DataUriError::BadCharacter(length),
+        DecodeError::InvalidPadding => DataUriError::BadCharacter(data.len()),
+    })
 }
 
 /// A relative URI as a path: `%20` and the like become what they stand for (RFC 3986, 2.1).
@@ -76,6 +68,7 @@ mod tests {
             assert_eq!(decode(&uri).unwrap(), text.as_bytes(), "{base64}");
         }
         assert_eq!(decode("data:;base64,+/+/").unwrap(), [0xFB, 0xFF, 0xBF]);
+        assert_eq!(decode("data:;base64,Zm8").unwrap(), b"fo");
     }
 
     #[test]

@@ -8,12 +8,13 @@
 use super::builder::MeshBuilder;
 use super::gltf_primitive::{self, Target};
 use super::{beside, data_uri, reason};
-use crate::{Files, LoadError, Place, Rgb, Warning};
+use crate::{Files, LoadError, Rgb, Warning};
 use ::gltf::buffer::Source;
 use ::gltf::json::validation::Checked;
 use ::gltf::scene::Transform;
 use ::gltf::{Document, Gltf, Node, Semantic};
 use glam::{DMat4, DQuat, DVec3, DVec4};
+use quasilux_text::Position;
 use std::collections::HashMap;
 
 /// Required extensions that change no geometry.
@@ -88,7 +89,7 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
             ::gltf::Error::Deserialize(json) if !is_binary => LoadError::new(
                 file,
                 (json.line() > 0)
-                    .then(|| Place { line: json.line(), column: json.column().max(1) }),
+                    .then(|| Position { line: json.line(), column: json.column().max(1) }),
                 format!("not a valid glTF file: {json}"),
             ),
             other => error(format!("not a valid glTF file: {other}")),

@@ -3,7 +3,8 @@
 //! Of each material its name, `Kd` (diffuse reflectance, kept within 0 to 1) and `Ke` (whether it
 //! emits) are read. Textures and highlights are not: a texture is warned of.
 
-use crate::{Place, Rgb, Warning};
+use crate::{Rgb, Warning};
+use quasilux_text::Position;
 
 /// What MTL files say of a material without `Kd`: the reflectance of the format's default grey.
 const DEFAULT_REFLECTANCE: f64 = 0.8;
@@ -25,7 +26,7 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
         let line = line.trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let mut warn = |message: String| {
-            let place = Some(Place { line: number, column: 1 });
+            let place = Some(Position { line: number, column: 1 });
             warnings.push(Warning::new(file, place, message));
         };
         if keyword == "newmtl" {

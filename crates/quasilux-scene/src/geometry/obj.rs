@@ -5,8 +5,9 @@ use super::mtl::{self, MtlMaterial};
 use super::obj_lines::{self, ObjLines};
 use super::polygon::triangulate;
 use super::{DEFAULT_MATERIAL, beside, reason};
-use crate::{Files, LoadError, Place, Warning};
+use crate::{Files, LoadError, Warning};
 use glam::DVec3;
+use quasilux_text::Position;
 use std::path::Path;
 
 /// The first line of what `tobj` reads: makes it ask for the materials.
@@ -53,7 +54,7 @@ pub(super) fn read(
         for arity in arities(mesh) {
             let (face, rest) = indices.split_at(arity.min(indices.len()));
             indices = rest;
-            let place = face_lines.next().map(|&line| Place { line, column: 1 });
+            let place = face_lines.next().map(|&line| Position { line, column: 1 });
             let corners: Vec<DVec3> = face.iter().map(position).collect();
             let triangles = triangulate(&corners)
                 .map_err(|error| LoadError::new(&file, place, error.to_string()))?;
@@ -93,7 +94,7 @@ fn arities(mesh: &tobj::Mesh) -> Vec<usize> {
 /// the materials.
 fn read_library(
     path: &str,
-    place: Place,
+    place: Position,
     files: &dyn Files,
     builder: &mut MeshBuilder,
     lines: &ObjLines,

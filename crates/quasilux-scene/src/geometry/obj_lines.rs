@@ -6,7 +6,8 @@
 //! absolute position indices alone. Format: Wavefront, Object Files (.obj), Advanced Visualizer
 //! manual, appendix B1 (1995).
 
-use crate::{LoadError, Place};
+use crate::LoadError;
+use quasilux_text::Position;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -17,7 +18,7 @@ pub(super) struct ObjLines {
     /// The same geometry in plain statements.
     pub(super) text: String,
     /// Files of `mtllib` statements with their places, in order.
-    pub(super) libraries: Vec<(String, Place)>,
+    pub(super) libraries: Vec<(String, Position)>,
     /// Material names of `usemtl` statements, in order of first use.
     pub(super) materials: Vec<String>,
     /// The line of each face in `text`, in order.
@@ -39,7 +40,7 @@ struct Reader<'a> {
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
     if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
         let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
-        let place = Some(Place { line, column: 1 });
+        let place = Some(Position { line, column: 1 });
         return Err(LoadError::new(
             file,
             place,
@@ -93,7 +94,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
         }
     }
     if let Some(face) = faces.iter().position(|&highest| highest > vertices) {
-        let place = Some(Place { line: lines.face_lines[face], column: 1 });
+        let place = Some(Position { line: lines.face_lines[face], column: 1 });
         let message = format!(
             "a face refers to vertex {}; expected 1 to {vertices}, the vertices of the file",
             faces[face]
@@ -139,9 +140,9 @@ fn rest(statement: &str) -> &str {
 }
 
 impl Reader<'_> {
-    fn place(&self, at: usize) -> Place {
+    fn place(&self, at: usize) -> Position {
         let before = self.statement.get(..at).unwrap_or_default();
-        Place { line: self.line, column: before.chars().count() + 1 }
+        Position { line: self.line, column: before.chars().count() + 1 }
     }
 
     fn error(&self, at: usize, message: impl Into<String>) -> LoadError {
@@ -208,7 +209,7 @@ mod tests {
                     f 1/1/1 2//2 -1\nf 1 2\nl 1 2\n";
         let lines = read("a.obj", text.as_bytes()).unwrap();
         assert_eq!(lines.text, "v 0 0 0\nv 1 0 0\nv 0 1 0\no desk#1\nusemtl wood grain\nf 1 2 3\n");
-        assert_eq!(lines.libraries, [("a b.mtl".to_owned(), Place { line: 2, column: 1 })]);
+        assert_eq!(lines.libraries, [("a b.mtl".to_owned(), Position { line: 2, column: 1 })]);
         assert_eq!(lines.materials, ["wood grain"]);
         assert_eq!((lines.face_lines, lines.thin_faces), (vec![10], 1));
     }
@@ -226,7 +227,7 @@ mod tests {
             ("v 0 0 0\n\0\u{1}", (2, 1), "binary"),
         ] {
             let error = read("a.obj", text.as_bytes()).unwrap_err();
-            let Place { line, column } = error.place().unwrap();
+            let Position { line, column } = error.place().unwrap();
             assert_eq!((line, column), place, "{error}");
             assert!(error.message().contains(needle), "{error}");
         }

@@ -4,9 +4,10 @@ use super::{materials::listed, photometry};
 use crate::geometry::Geometry;
 use crate::light::{AreaLight, Luminaire};
 use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
-use crate::{Files, Light, LoadError, Place, Spanned, Warning};
+use crate::{Files, Light, LoadError, Spanned, Warning};
 use glam::DVec3;
 use quasilux_photometry::{LuminousShape, Photometry, TiltSupport};
+use quasilux_text::Position;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -33,7 +34,7 @@ pub(super) fn place(
         };
         lights.push(Light::Luminaire(luminaire(project, entry, photometry, warnings)));
     }
-    let mut emitting: HashMap<u32, Place> = HashMap::new();
+    let mut emitting: HashMap<u32, Position> = HashMap::new();
     for entry in &project.lights {
         lights.push(match entry {
             LightEntry::Point { light, .. } => Light::Point(*light),
@@ -54,7 +55,7 @@ pub(super) fn place(
         let first_luminaire = project.luminaires.iter().map(|entry| entry.place);
         let first_light = project.lights.iter().map(LightEntry::place);
         let place =
-            first_luminaire.chain(first_light).min().unwrap_or(Place { line: 1, column: 1 });
+            first_luminaire.chain(first_light).min().unwrap_or(Position { line: 1, column: 1 });
         let message = "no light gives any flux; expected at least one light with a positive flux";
         return Err(project.error(place, message));
     }

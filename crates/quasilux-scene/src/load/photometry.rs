@@ -2,8 +2,9 @@
 
 use crate::geometry::{beside, read_file, reason};
 use crate::project::Project;
-use crate::{Files, LoadError, Place, Spanned, Warning};
+use crate::{Files, LoadError, Spanned, Warning};
 use quasilux_photometry::{Format, ParseError, Photometry, Tilt, WarningKind, read_tilt};
+use quasilux_text::Position;
 
 /// Reads an IES, EULUMDAT or TM-33 file, as its content or else its extension says, passing its
 /// warnings on.
@@ -43,7 +44,8 @@ pub(super) fn read(
         }
         Err(error) => {
             let at = read.warnings.iter().find(|w| w.kind() == WarningKind::TiltFile);
-            let place = at.map(|warning| Place { line: warning.line(), column: warning.column() });
+            let place =
+                at.map(|warning| Position { line: warning.line(), column: warning.column() });
             let reason = reason(&error);
             let message = format!(
                 "cannot read the tilt file \"{tilt_path}\": {reason}; the lamps count as giving \
@@ -56,11 +58,11 @@ pub(super) fn read(
 }
 
 pub(super) fn load_error(file: &str, error: &ParseError) -> LoadError {
-    let place = Place { line: error.line(), column: error.column() };
+    let place = Position { line: error.line(), column: error.column() };
     LoadError::new(file, Some(place), error.message())
 }
 
 pub(super) fn passed_on<K: Copy>(file: &str, warning: &quasilux_text::Warning<K>) -> Warning {
-    let place = Place { line: warning.line(), column: warning.column() };
+    let place = Position { line: warning.line(), column: warning.column() };
     Warning::new(file, Some(place), warning.message())
 }

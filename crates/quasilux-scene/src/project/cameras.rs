@@ -2,8 +2,9 @@
 
 use super::document::{Section, Value};
 use super::names::Names;
-use crate::{Camera, LoadError, Place};
+use crate::{Camera, LoadError};
 use glam::DVec3;
+use quasilux_text::Position;
 
 const KEYS: [&str; 6] = ["name", "position", "target", "up", "vertical_fov_deg", "resolution"];
 
@@ -17,7 +18,7 @@ const MIN_SINE: f64 = 1e-6;
 /// One camera, and where it is.
 #[derive(Clone, Debug)]
 pub(crate) struct CameraEntry {
-    pub(crate) place: Place,
+    pub(crate) place: Position,
     pub(crate) camera: Camera,
 }
 

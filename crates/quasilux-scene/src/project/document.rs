@@ -4,8 +4,9 @@
 //! what is expected, so that each refusal can.
 
 use super::renamed::RenamedKey;
-use crate::{LoadError, Place, Spanned};
+use crate::{LoadError, Spanned};
 use glam::DVec3;
+use quasilux_text::Position;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
@@ -48,11 +49,11 @@ impl<'a> Source<'a> {
         Self { file, text, line_starts }
     }
 
-    pub(super) fn place(&self, offset: usize) -> Place {
+    pub(super) fn place(&self, offset: usize) -> Position {
         let line = self.line_starts.partition_point(|&start| start <= offset);
         let start = self.line_starts[line - 1];
         let before = self.text.get(start..offset).unwrap_or_default();
-        Place { line, column: before.chars().count() + 1 }
+        Position { line, column: before.chars().count() + 1 }
     }
 
     pub(super) fn error(&self, offset: usize, message: impl Into<String>) -> LoadError {
@@ -65,7 +66,7 @@ impl<'a> Source<'a> {
 }
 
 impl<'a> Section<'a> {
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn place(&self) -> Position {
         self.source.place(self.span.start)
     }
 
@@ -161,7 +162,7 @@ impl<'a> Section<'a> {
 }
 
 impl<'a> Value<'a> {
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn place(&self) -> Position {
         self.source.place(self.value.span().start)
     }
 

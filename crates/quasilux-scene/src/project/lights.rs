@@ -2,7 +2,8 @@
 
 use super::document::Section;
 use crate::light::PointLight;
-use crate::{LoadError, Place, Spanned};
+use crate::{LoadError, Spanned};
+use quasilux_text::Position;
 
 const AREA_KEYS: [&str; 4] = ["kind", "material", "luminance_cd_m2", "flux_lm"];
 
@@ -12,7 +13,7 @@ const MAX_LIGHT: f64 = 1e60;
 /// One light.
 #[derive(Clone, Debug)]
 pub(crate) enum LightEntry {
-    Point { place: Place, light: PointLight },
+    Point { place: Position, light: PointLight },
     Area { material: Spanned<String>, emission: Emission },
 }
 
@@ -26,7 +27,7 @@ pub(crate) enum Emission {
 }
 
 impl LightEntry {
-    pub(crate) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Position {
         match self {
             Self::Point { place, .. } => *place,
             Self::Area { material, .. } => material.place,

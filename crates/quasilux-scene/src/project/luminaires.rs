@@ -2,8 +2,9 @@
 
 use super::document::{Section, Value};
 use crate::light::{Placement, PlacementError};
-use crate::{LoadError, Place, Spanned};
+use crate::{LoadError, Spanned};
 use glam::{DMat3, DVec3};
+use quasilux_text::Position;
 
 const KEYS: [&str; 7] = ["photometry", "position", "as", "aim", "c0", "rotation_deg", "dimming"];
 
@@ -13,14 +14,14 @@ const FILE_NAME: &str = "the name of an .ies, .ldt or .xml (TM-33) file";
 /// One luminaire.
 #[derive(Clone, Debug)]
 pub(crate) struct LuminaireEntry {
-    pub(crate) place: Place,
+    pub(crate) place: Position,
     /// Name of an IES, EULUMDAT or TM-33 file.
     pub(crate) photometry: Spanned<String>,
     pub(crate) position: DVec3,
     pub(crate) world_from_luminaire: DMat3,
     pub(crate) dimming: f64,
     /// Where `as = "area"` asks for the luminous shape of the file; a point else.
-    pub(crate) as_area: Option<Place>,
+    pub(crate) as_area: Option<Position>,
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Vec<LuminaireEntry>, LoadError> {

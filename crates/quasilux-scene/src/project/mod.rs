@@ -26,9 +26,10 @@ pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::{MaterialEntry, Scattering};
 pub(crate) use sensors::SensorEntry;
 
-use crate::{LoadError, Place, Spanned};
+use crate::{LoadError, Spanned};
 use document::{Section, Source};
 use names::Names;
+use quasilux_text::Position;
 use toml::de::DeTable;
 
 /// The axis that points up in the geometry files.
@@ -100,7 +101,7 @@ impl Project {
 }
 
 impl Project {
-    pub(crate) fn error(&self, place: Place, message: impl Into<String>) -> LoadError {
+    pub(crate) fn error(&self, place: Position, message: impl Into<String>) -> LoadError {
         LoadError::new(&self.file, Some(place), message)
     }
 }

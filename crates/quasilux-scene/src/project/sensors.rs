@@ -3,8 +3,9 @@
 use super::document::{Section, Value};
 use super::grid::{cells_along, en12464_cell_m};
 use super::names::Names;
-use crate::{Grid, LoadError, Place, Quantity, Sensor, SensorPoint, SensorShape};
+use crate::{Grid, LoadError, Quantity, Sensor, SensorPoint, SensorShape};
 use glam::DVec3;
+use quasilux_text::Position;
 
 const GRID_KEYS: [&str; 10] =
     ["name", "kind", "origin", "u", "v", "spacing", "counts", "rule", "normal", "quantity"];
@@ -16,9 +17,9 @@ const MAX_CELLS: f64 = 1e7;
 /// One sensor, and where its parts are.
 #[derive(Clone, Debug)]
 pub(crate) struct SensorEntry {
-    pub(crate) place: Place,
+    pub(crate) place: Position,
     /// The place of each point of a `points` sensor; empty for a grid.
-    pub(crate) point_places: Vec<Place>,
+    pub(crate) point_places: Vec<Position>,
     pub(crate) sensor: Sensor,
 }
 
@@ -124,7 +125,7 @@ fn direction(value: Value<'_>) -> Result<DVec3, LoadError> {
     value.vector(expected)?.try_normalize().ok_or_else(|| value.unexpected(expected))
 }
 
-fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Place>), LoadError> {
+fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Position>), LoadError> {
     let expected = "positions [[x, y, z], ...] in m";
     let list = section.require("points", expected)?;
     let positions = list.array(expected)?;
