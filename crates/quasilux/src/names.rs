@@ -40,15 +40,18 @@ pub(crate) fn on_command_line<T: Copy>(
     Err(CliError::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
 }
 
-/// The value that a name in a project file stands for.
+/// The value that a name in a project file stands for; `None` without a name.
 pub(crate) fn in_project<T: Copy>(
     section: &SimulationSection,
     key: &str,
-    name: &Spanned<String>,
+    name: &Option<Spanned<String>>,
     known: &[(&str, T)],
-) -> Result<T, LoadError> {
+) -> Result<Option<T>, LoadError> {
+    let Some(name) = name else {
+        return Ok(None);
+    };
     if let Some((_, value)) = known.iter().find(|(other, _)| *other == name.value) {
-        return Ok(*value);
+        return Ok(Some(*value));
     }
     if let Some(reason) = lacks_points(&name.value) {
         return Err(section.error_at(name, format!("{key}: {reason}")));

@@ -3,9 +3,9 @@
 use crate::arguments::SimulationArguments;
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
-use crate::names;
+use crate::names::{self, in_project};
 use quasilux_sampling::Randomization;
-use quasilux_scene::{Files, Loaded, load};
+use quasilux_scene::{Files, LoadError, Loaded, SimulationSection, Spanned, load};
 use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -72,33 +72,83 @@ pub(crate) fn read_all(reader: impl Read) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// What the simulation is asked to do: the command line before the project file before defaults;
-/// checked against the scene.
+/// The settings of a run: the command line before the project file before defaults; checked against
+/// the scene.
+///
+/// # Errors
+/// When a name is unknown, or the settings make no sense together or for the scene.
 pub(crate) fn settings(
     project: &Project,
     arguments: &SimulationArguments,
 ) -> Result<Settings, CliError> {
     let section = &project.loaded.simulation;
     let mut settings = Settings::default();
-    if let Some(name) = &section.estimator {
-        settings.estimator = names::in_project(section, "estimator", name, &EstimatorKind::NAMES)?;
+    names_in_section(&mut settings, section, arguments)?;
+    values_in_section(&mut settings, section);
+    take_arguments(&mut settings, arguments)?;
+    expect_an_end(project, &settings, arguments)?;
+    let checked = quasilux_transport::check(&project.loaded.scene, &settings);
+    checked.map_err(|error| CliError::new(format!("{}: {error}", project.name)))?;
+    Ok(settings)
+}
+
+/// Takes over what the project file gives by name.
+fn names_in_section(
+    settings: &mut Settings,
+    section: &SimulationSection,
+    arguments: &SimulationArguments,
+) -> Result<(), LoadError> {
+    // A sequence that is overruled needs no number of points.
+    let points = arguments.samples.or(arguments.sequence.as_ref().map(|_| 1));
+    let sequences = names::sequences(points);
+    let given = in_project(section, "estimator", &section.estimator, &EstimatorKind::NAMES)?;
+    settings.estimator = given.unwrap_or(settings.estimator);
+    let given = in_project(section, "sequence", &section.sequence, &sequences)?;
+    settings.sequence = given.unwrap_or(settings.sequence);
+    let given =
+        in_project(section, "randomization", &section.randomization, &Randomization::NAMES)?;
+    settings.randomization = given.unwrap_or(settings.randomization);
+    let given = in_project(section, "tolerance_on", &section.tolerance_on, &ToleranceOn::NAMES)?;
+    settings.tolerance_on = given.unwrap_or(settings.tolerance_on);
+    let given =
+        in_project(section, "reconstruction", &section.map_reconstruction, &Reconstruction::NAMES)?;
+    settings.map_reconstruction = given.unwrap_or(settings.map_reconstruction);
+    let given = in_project(section, "importance", &section.importance, &Switch::NAMES)?;
+    settings.importance = given.unwrap_or(settings.importance);
+    let given = in_project(section, "connections", &section.connections, &Switch::NAMES)?;
+    settings.connections = given.unwrap_or(settings.connections);
+    let given = in_project(section, "first shot", &section.first_shot, &Switch::NAMES)?;
+    settings.first_shot = given.unwrap_or(settings.first_shot);
+    Ok(())
+}
+
+/// Takes over the numbers and truth values of the project file.
+fn values_in_section(settings: &mut Settings, section: &SimulationSection) {
+    fn take<T: Clone>(setting: &mut T, given: &Option<Spanned<T>>) {
+        if let Some(given) = given {
+            *setting = given.value.clone();
+        }
     }
-    if let Some(name) = &section.sequence {
-        // A sequence that is overruled needs no number of points.
-        let points = arguments.samples.or(arguments.sequence.as_ref().map(|_| 1));
-        let known = names::sequences(points);
-        settings.sequence = names::in_project(section, "sequence", name, &known)?;
-    }
-    if let Some(name) = &section.randomization {
-        let known = &Randomization::NAMES;
-        settings.randomization = names::in_project(section, "randomization", name, known)?;
-    }
-    if let Some(name) = &section.importance {
-        settings.importance = names::in_project(section, "importance", name, &Switch::NAMES)?;
-    }
-    if let Some(name) = &section.connections {
-        settings.connections = names::in_project(section, "connections", name, &Switch::NAMES)?;
-    }
+    take(&mut settings.rel_tol, &section.rel_tol);
+    take(&mut settings.abs_tol_lx, &section.abs_tol_lx);
+    take(&mut settings.confidence, &section.confidence);
+    take(&mut settings.map_elements, &section.map_elements);
+    take(&mut settings.map_adaptive, &section.map_adaptive);
+    take(&mut settings.map_photons, &section.map_photons);
+    take(&mut settings.replicates, &section.replicates);
+    take(&mut settings.seed, &section.seed);
+    take(&mut settings.list_terms, &section.list_terms);
+    take(&mut settings.max_bounces, &section.max_bounces);
+    settings.map_element_m = section.map_element_m.as_ref().map(|given| given.value);
+    settings.map_dimensions = section.map_dimensions.as_ref().map(|given| given.value);
+    settings.image_depth = section.image_depth.as_ref().map(|given| given.value);
+}
+
+/// Takes over what the command line gives.
+fn take_arguments(
+    settings: &mut Settings,
+    arguments: &SimulationArguments,
+) -> Result<(), CliError> {
     if let Some(name) = &arguments.estimator {
         settings.estimator = names::on_command_line("--estimator", name, &EstimatorKind::NAMES)?;
     }
@@ -106,6 +156,25 @@ pub(crate) fn settings(
         let known = names::sequences(arguments.samples);
         settings.sequence = names::on_command_line("--sequence", name, &known)?;
     }
+    if let Some(name) = &arguments.tolerance_on {
+        let known = &ToleranceOn::NAMES;
+        settings.tolerance_on = names::on_command_line("--tolerance-on", name, known)?;
+    }
+    settings.rel_tol = arguments.rel_tol.unwrap_or(settings.rel_tol);
+    settings.abs_tol_lx = arguments.abs_tol.unwrap_or(settings.abs_tol_lx);
+    settings.confidence = arguments.confidence.unwrap_or(settings.confidence);
+    settings.seed = arguments.seed.unwrap_or(settings.seed);
+    settings.max_samples = arguments.samples;
+    settings.max_rays = arguments.rays;
+    Ok(())
+}
+
+/// Refuses limits that cannot end the run, and runs that nothing can end.
+fn expect_an_end(
+    project: &Project,
+    settings: &Settings,
+    arguments: &SimulationArguments,
+) -> Result<(), CliError> {
     let limit = [("--time", arguments.time.is_some()), ("--rays", arguments.rays.is_some())];
     if let (Some(_), Some((limit, _))) =
         (settings.sequence.points(), limit.into_iter().find(|(_, is_given)| *is_given))
@@ -115,56 +184,14 @@ pub(crate) fn settings(
             settings.sequence.name()
         )));
     }
-    let spanned = |at: &Option<quasilux_scene::Spanned<f64>>| at.as_ref().map(|at| at.value);
-    let defaults = Settings::default();
-    settings.rel_tol = arguments.rel_tol.or(spanned(&section.rel_tol)).unwrap_or(defaults.rel_tol);
-    settings.abs_tol_lx =
-        arguments.abs_tol.or(spanned(&section.abs_tol_lx)).unwrap_or(defaults.abs_tol_lx);
-    if let Some(name) = &section.tolerance_on {
-        let known = &ToleranceOn::NAMES;
-        settings.tolerance_on = names::in_project(section, "tolerance_on", name, known)?;
-    }
-    if let Some(name) = &arguments.tolerance_on {
-        let known = &ToleranceOn::NAMES;
-        settings.tolerance_on = names::on_command_line("--tolerance-on", name, known)?;
-    }
-    settings.confidence =
-        arguments.confidence.or(spanned(&section.confidence)).unwrap_or(defaults.confidence);
-    if let Some(name) = &section.first_shot {
-        let known = &Switch::NAMES;
-        settings.first_shot = names::in_project(section, "first shot", name, known)?;
-    }
-    settings.map_element_m = spanned(&section.map_element_m);
-    settings.map_elements =
-        section.map_elements.as_ref().map_or(defaults.map_elements, |at| at.value);
-    settings.map_adaptive =
-        section.map_adaptive.as_ref().map_or(defaults.map_adaptive, |at| at.value);
-    if let Some(name) = &section.map_reconstruction {
-        let known = &Reconstruction::NAMES;
-        settings.map_reconstruction = names::in_project(section, "reconstruction", name, known)?;
-    }
-    settings.map_photons = section.map_photons.as_ref().map_or(defaults.map_photons, |at| at.value);
-    settings.map_dimensions = section.map_dimensions.as_ref().map(|at| at.value);
-    settings.image_depth = section.image_depth.as_ref().map(|at| at.value);
-    settings.replicates = section.replicates.as_ref().map_or(defaults.replicates, |at| at.value);
-    settings.seed =
-        arguments.seed.or(section.seed.as_ref().map(|at| at.value)).unwrap_or(defaults.seed);
-    settings.max_bounces = section.max_bounces.as_ref().and_then(|at| at.value);
-    settings.list_terms = section.list_terms.as_ref().map_or(0, |at| at.value);
-    settings.max_samples = arguments.samples;
-    settings.max_rays = arguments.rays;
-    if settings.effective_replicates() < 2
-        && arguments.samples.is_none()
-        && arguments.time.is_none()
-        && arguments.rays.is_none()
-    {
+    let has_limit =
+        arguments.samples.is_some() || arguments.time.is_some() || arguments.rays.is_some();
+    if settings.effective_replicates() < 2 && !has_limit {
         return Err(CliError::new(format!(
             "{}: one replicate gives no interval, so no tolerance can end the run: give --samples, \
              --rays or --time, or ask for more replicates and a randomization",
             project.name
         )));
     }
-    let checked = quasilux_transport::check(&project.loaded.scene, &settings);
-    checked.map_err(|error| CliError::new(format!("{}: {error}", project.name)))?;
-    Ok(settings)
+    Ok(())
 }
