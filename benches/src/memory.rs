@@ -60,7 +60,7 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
         map_reconstruction: named(&Reconstruction::NAMES, reconstruction),
         ..Settings::default()
     };
-    let predicted = MemoryNeed::of(&scene, &settings).total_bytes(settings.max_samples) as f64;
+    let predicted = MemoryNeed::new(&scene, &settings).total_bytes(settings.max_samples) as f64;
     let estimates = simulate(&scene, &settings, &mut ());
     let peak = peak_bytes();
     println!(

@@ -38,9 +38,9 @@ impl Gain {
 pub(crate) fn warning(count: u64, who: &str, values: &str) -> Option<String> {
     (count > 0).then(|| {
         format!(
-            "{count} {who} were cut after {MAX_EVENTS} bounces, or where surfaces that give more than they \
-             get had made {MAX_GAIN} times as much of them: light is trapped here, and {values} are too \
-             low"
+            "{count} {who} were cut after {MAX_EVENTS} bounces, or where surfaces that give more \
+             than they get had made {MAX_GAIN} times as much of them: light is trapped here, and \
+             {values} are too low"
         )
     })
 }

@@ -52,11 +52,18 @@ pub enum Purpose {
     Connections,
 }
 
+/// A dimension and what it was drawn for, ordered by dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct DimensionUse {
+    pub(crate) dimension: u32,
+    pub(crate) purpose: Purpose,
+}
+
 /// Which dimensions were drawn for what, how often.
 #[derive(Debug, Default)]
 pub(crate) struct Ledger {
     open: AtomicBool,
-    uses: Mutex<BTreeMap<(u32, Purpose), u64>>,
+    uses: Mutex<BTreeMap<DimensionUse, u64>>,
 }
 
 impl Ledger {
@@ -74,12 +81,12 @@ impl Ledger {
         }
         let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
         for dimension in first..sampler.dimension() {
-            *uses.entry((dimension, purpose)).or_default() += 1;
+            *uses.entry(DimensionUse { dimension, purpose }).or_default() += 1;
         }
     }
 
     /// All that was noted, by dimension; forgets it.
-    pub(crate) fn take(&self) -> BTreeMap<(u32, Purpose), u64> {
+    pub(crate) fn take(&self) -> BTreeMap<DimensionUse, u64> {
         std::mem::take(&mut self.uses.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }

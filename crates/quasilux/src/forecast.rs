@@ -20,7 +20,7 @@ pub(crate) struct Forecast<'a> {
 
 impl<'a> Forecast<'a> {
     pub(crate) fn new(scene: &'a Scene, settings: &'a Settings, threads: usize) -> Self {
-        Self { scene, settings, threads, need: MemoryNeed::of(scene, settings) }
+        Self { scene, settings, threads, need: MemoryNeed::new(scene, settings) }
     }
 
     /// Memory of the program for a run of so many samples; for one of any number with `None`.

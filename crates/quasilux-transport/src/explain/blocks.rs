@@ -1,7 +1,7 @@
 //! From what coordinates were drawn for to blocks of them.
 
 use super::{Block, Use};
-use crate::purpose::Purpose;
+use crate::purpose::{DimensionUse, Purpose};
 use std::collections::BTreeMap;
 
 /// More blocks than this are one.
@@ -11,25 +11,25 @@ const MIN_REACHED: f64 = 1.0 / 64.0;
 
 /// The blocks of `samples` samples that drew these dimensions. What decides over joins has a block
 /// of its own, for its dimensions are far from all others.
-pub(super) fn of(uses: BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
+pub(super) fn from_uses(uses: BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
     let (connections, others): (BTreeMap<_, _>, BTreeMap<_, _>) =
-        uses.into_iter().partition(|((_, purpose), _)| *purpose == Purpose::Connections);
+        uses.into_iter().partition(|(used, _)| used.purpose == Purpose::Connections);
     let mut blocks = in_order(&others, samples);
-    if let (Some(last), Some(((first, _), _))) = (blocks.last_mut(), connections.first_key_value())
-    {
-        last.dimensions.end = *first;
+    if let (Some(last), Some((first, _))) = (blocks.last_mut(), connections.first_key_value()) {
+        last.dimensions.end = first.dimension;
         blocks.extend(in_order(&connections, samples));
     }
     blocks
 }
 
 /// Of dimensions from the first on that is in use.
-fn in_order(uses: &BTreeMap<(u32, Purpose), u64>, samples: u64) -> Vec<Block> {
-    let start = uses.keys().next().map_or(0, |(dimension, _)| *dimension);
-    let end = uses.keys().next_back().map_or(0, |(dimension, _)| dimension + 1);
+fn in_order(uses: &BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
+    let start = uses.keys().next().map_or(0, |used| used.dimension);
+    let end = uses.keys().next_back().map_or(0, |used| used.dimension + 1);
     let of_dimension = |dimension: u32| {
-        let all = (dimension, FIRST_PURPOSE)..(dimension + 1, FIRST_PURPOSE);
-        uses.range(all).map(|(&(_, purpose), &count)| (purpose, count))
+        let first = |dimension| DimensionUse { dimension, purpose: FIRST_PURPOSE };
+        let own = uses.range(first(dimension)..first(dimension + 1));
+        own.map(|(used, &count)| (used.purpose, count))
     };
     let mut blocks: Vec<Block> = Vec::new();
     let mut last_purpose = None;

@@ -256,51 +256,23 @@ struct Look {
 }
 
 fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> Look {
-    let samples = walk.samples();
-    let key = |replicate: u32, stream: Stream| stream_key(settings.seed, replicate, stream.id());
-    let random = |key| PointSet::new(Sequence::Independent, Randomization::None, key);
+    let mut exchange = Exchange { walk, seed: settings.seed, rays: 0 };
     ledger.set_open(true);
-    let pilot = walk.trace(samples, &|stream| random(key(PILOT, stream)));
+    let pilot = exchange.trace(&|stream| exchange_points(settings.seed, PILOT, stream));
     ledger.set_open(false);
-    let other = walk.trace(samples, &|stream| random(key(EXCHANGE, stream)));
-    let mut rays = pilot.rays + other.rays;
-    let mut vary = |points: &Points<'_>| {
-        let varied = walk.trace(samples, points);
-        rays += varied.rays;
-        varied.values
-    };
-
+    let other = exchange.trace(&|stream| exchange_points(settings.seed, EXCHANGE, stream));
     let spread = Spread::new([&pilot.values, &other.values], walk.whole_lx());
+    let samples = walk.samples();
     let an_index = walk.kind().samples_an_index(pilot.values.len());
-    let mut blocks = blocks::of(ledger.take(), samples * an_index as u64);
+    let mut blocks = blocks::from_uses(ledger.take(), samples * an_index as u64);
     let mut truncation_dimension = None;
-    for (number, block) in blocks.iter_mut().enumerate().filter(|_| spread.varies()) {
-        let Range { start: first, end } = block.dimensions;
-        let mut exchange = |dimensions: Range<u32>| {
-            vary(&|stream| {
-                random(key(PILOT, stream)).exchanged(dimensions.clone(), key(EXCHANGE, stream))
-            })
-        };
-        let exchanged = exchange(first..end);
-        block.alone = spread.alone(&exchanged);
-        block.total = spread.total(&exchanged);
-        let carries = |share: Option<Share>, least| share.is_some_and(|share| share.value > least);
-        let follows =
-            number > 0 && block.uses.iter().all(|used| used.purpose != Purpose::Connections);
-        if truncation_dimension.is_none() && follows {
-            let tail = spread.total(&exchange(first..u32::MAX));
-            truncation_dimension = (!carries(tail, 0.01)).then_some(first);
-        }
-        if carries(block.total, MIN_SHARE) {
-            let squares = STEPS.map(|by| {
-                let moved = vary(&|stream| random(key(PILOT, stream)).moved(first..end, by));
-                spread.total(&moved).map_or(0.0, |share| share.value)
-            });
-            block.smoothness = shares::power(squares, STEPS);
-        }
+    if spread.varies() {
+        blocks.iter_mut().for_each(|block| exchange.measure(block, &spread));
+        truncation_dimension = exchange.truncation_dimension(&blocks, &spread);
     }
     let totals: Option<Vec<f64>> =
         blocks.iter().map(|block| block.total.map(|share| share.value)).collect();
+    let mut rays = exchange.rays;
     let gain = gain(walk, settings, &spread, &mut rays);
     let explanation = Explanation {
         walk: walk.kind(),
@@ -316,6 +288,70 @@ fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> L
         beside: Vec::new(),
     };
     Look { explanation, means_lx: spread.into_means() }
+}
+
+/// Independent points of a stream, the pilot's or those exchanged for them.
+fn exchange_points(seed: u64, replicate: u32, stream: Stream) -> PointSet {
+    let key = stream_key(seed, replicate, stream.id());
+    PointSet::new(Sequence::Independent, Randomization::None, key)
+}
+
+/// Traces the samples of the pilot again with some of their coordinates exchanged or moved.
+struct Exchange<'w> {
+    walk: &'w dyn SampleSource,
+    seed: u64,
+    /// Traced so far.
+    rays: u64,
+}
+
+impl Exchange<'_> {
+    fn trace(&mut self, points: &Points<'_>) -> Pilot {
+        let pilot = self.walk.trace(self.walk.samples(), points);
+        self.rays += pilot.rays;
+        pilot
+    }
+
+    /// Values with fresh coordinates in some dimensions.
+    fn exchanged(&mut self, dimensions: Range<u32>) -> Vec<Vec<f64>> {
+        let seed = self.seed;
+        let points = |stream: Stream| {
+            let fresh = stream_key(seed, EXCHANGE, stream.id());
+            exchange_points(seed, PILOT, stream).exchanged(dimensions.clone(), fresh)
+        };
+        self.trace(&points).values
+    }
+
+    /// The shares of a block in the variance, and how smooth values are in it.
+    fn measure(&mut self, block: &mut Block, spread: &Spread) {
+        let exchanged = self.exchanged(block.dimensions.clone());
+        block.alone = spread.alone(&exchanged);
+        block.total = spread.total(&exchanged);
+        if carries(block.total, MIN_SHARE) {
+            let squares = STEPS.map(|by| {
+                let (seed, dimensions) = (self.seed, &block.dimensions);
+                let points = |stream: Stream| {
+                    exchange_points(seed, PILOT, stream).moved(dimensions.clone(), by)
+                };
+                let moved = self.trace(&points).values;
+                spread.total(&moved).map_or(0.0, |share| share.value)
+            });
+            block.smoothness = shares::power(squares, STEPS);
+        }
+    }
+
+    /// The first dimension of a block from which on all together carry at most a hundredth of the
+    /// variance.
+    fn truncation_dimension(&mut self, blocks: &[Block], spread: &Spread) -> Option<u32> {
+        let is_own =
+            |block: &&Block| block.uses.iter().all(|used| used.purpose != Purpose::Connections);
+        let mut firsts = blocks.iter().skip(1).filter(is_own).map(|block| block.dimensions.start);
+        firsts.find(|&first| !carries(spread.total(&self.exchanged(first..u32::MAX)), 0.01))
+    }
+}
+
+/// Whether a share is known and larger than `least`.
+fn carries(share: Option<Share>, least: f64) -> bool {
+    share.is_some_and(|share| share.value > least)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Photons as a pilot sees them: what each gives to the average of every sensor.
 //!
-//! Steered photons split; what they split off draws coordinates that belong to no block.
+//! Photons split in weight windows; their children draw coordinates that belong to no block.
 
 use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
@@ -22,7 +22,7 @@ pub(super) struct PhotonSource<'s, S> {
     context: &'s Context<'s, S>,
     receivers: Receivers,
     windows: Option<WeightWindows>,
-    /// What a photon at each counter is worth.
+    /// Contributions of a photon at each counter.
     readings: Vec<Vec<Reading>>,
     sensors: usize,
 }
@@ -34,7 +34,7 @@ struct Reading {
 }
 
 /// What one photon adds to the average of each sensor, in lx.
-struct Found<'w> {
+struct PhotonReadings<'w> {
     receivers: &'w Receivers,
     readings: &'w [Vec<Reading>],
     lx: Vec<f64>,
@@ -70,7 +70,7 @@ impl<S: Spectrum> SampleSource for PhotonSource<'_, S> {
         let points = points(Stream::Photons);
         Pilot::of_photons(samples, self.sensors, |index, counts| {
             let Self { receivers, readings, .. } = self;
-            let mut found = Found { receivers, readings, lx: vec![0.0; self.sensors] };
+            let mut found = PhotonReadings { receivers, readings, lx: vec![0.0; self.sensors] };
             let sampler = Sampler::new(&points, index);
             let lead = Lead::by_chance(Source::Lights, self.windows.as_ref());
             trace_photon(self.context, lead, sampler, &mut found, counts);
@@ -79,7 +79,7 @@ impl<S: Spectrum> SampleSource for PhotonSource<'_, S> {
     }
 }
 
-impl Found<'_> {
+impl PhotonReadings<'_> {
     fn count(&mut self, counter: usize, photons: f64) {
         for reading in &self.readings[counter] {
             self.lx[reading.sensor] += photons * reading.lx;
@@ -87,7 +87,7 @@ impl Found<'_> {
     }
 }
 
-impl<S: Spectrum> PhotonReceiver<S> for Found<'_> {
+impl<S: Spectrum> PhotonReceiver<S> for PhotonReadings<'_> {
     fn flight(&mut self, flight: &Flight, photon: &SeenPhoton<S>) {
         let &SeenPhoton { weight, .. } = photon;
         for counter in self.receivers.passed(flight) {

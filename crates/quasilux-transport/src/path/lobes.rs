@@ -116,9 +116,9 @@ impl LobeSums {
 pub(crate) fn warning(points: usize) -> Option<String> {
     (points > 0).then(|| {
         format!(
-            "{points} sensor points get light of point-like lights over surfaces with lobes so narrow that fewer \
-             than {MIN_MET} paths can have met where they are bright: much may be missing, and values have no \
-             interval there"
+            "{points} sensor points get light of point-like lights over surfaces with lobes so \
+             narrow that fewer than {MIN_MET} paths can have met where they are bright: much may \
+             be missing, and values have no interval there"
         )
     })
 }

@@ -10,8 +10,8 @@ use quasilux_scene::{Quantity, Scene, SensorShape};
 pub enum CheckError {
     /// Photon counting reads sensor points from the map of the surface they lie on.
     #[error(
-        "sensor \"{sensor}\", point {point}: the estimator \"photon\" can only read points that lie \
-         on a diffuse surface, with the normal on its side; use a grid, or another estimator"
+        "sensor \"{sensor}\", point {point}: the estimator \"photon\" can only read points that \
+         lie on a diffuse surface, with the normal on its side; use a grid, or another estimator"
     )]
     PointOffSurface {
         /// Name of the sensor.
@@ -37,7 +37,8 @@ pub enum CheckError {
     },
     /// These photons are counted from their first flight on, or there are none.
     #[error(
-        "first_shot = \"on\" is for the photons of illumination maps: the estimator \"{estimator}\" has none"
+        "first_shot = \"on\" is for the photons of illumination maps: the estimator \
+         \"{estimator}\" has none"
     )]
     FirstShotWithoutMap {
         /// Name of the estimator.
@@ -51,8 +52,8 @@ pub enum CheckError {
     },
     /// No photon of these is split or ended.
     #[error(
-        "importance = \"on\" is for photons that sensors count, that are joined to them, or that fill growing maps: there \
-         are none with the estimator \"{estimator}\"{why}"
+        "importance = \"on\" is for photons that sensors count, that are joined to them, or that \
+         fill growing maps: there are none with the estimator \"{estimator}\"{why}"
     )]
     NothingToSteer {
         /// Name of the estimator.
@@ -62,12 +63,14 @@ pub enum CheckError {
     },
     /// LightVertexConnections photons leave the lights.
     #[error(
-        "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" leaves none"
+        "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" \
+         leaves none"
     )]
     FirstShotOfJoined,
     /// Nothing can be left out of a map that is not there.
     #[error(
-        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" and connections = \"{connections}\""
+        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" \
+         and connections = \"{connections}\""
     )]
     NoMapToLeaveOutOf {
         /// Name of the estimator.
@@ -199,12 +202,15 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
         }
         EstimatorKind::BidirectionalMap => {
             caveats.push(
-                "the estimator \"bidirectional-map\" reads means over map elements; the intervals leave \
-                 out this bias"
+                "the estimator \"bidirectional-map\" reads means over map elements; the intervals \
+                 leave out this bias"
                     .to_owned(),
             );
             caveats.extend(settings.map_dimensions.map(|most| {
-                format!("photons that took more than {most} coordinates are left out of maps: values may be too low")
+                format!(
+                    "photons that took more than {most} coordinates are left out of maps: \
+                 values may be too low"
+                )
             }));
         }
         EstimatorKind::Path | EstimatorKind::Bidirectional => {}

@@ -3,7 +3,7 @@
 
 use crate::codec::{Reader, StateError};
 use crate::settings::Settings;
-use crate::stats::convergence::History;
+use crate::stats::convergence::{Finding, History};
 use crate::stats::estimates::{Estimates, SensorEstimates, TermEstimates};
 use crate::stats::schedule::Schedule;
 use crate::stats::tolerance::Standing;
@@ -37,8 +37,8 @@ impl Course {
         settings: &Settings,
     ) {
         let Self { history, schedule, is_adaptive, .. } = self;
-        estimates.convergence =
-            history.record(estimates, (standing, *is_adaptive), schedule, settings);
+        let finding = Finding { estimates, standing, is_adaptive: *is_adaptive };
+        estimates.convergence = history.record(finding, schedule, settings);
     }
 
     /// Whether a course of any run is over, of which only the beginning is read.

@@ -59,7 +59,7 @@ pub struct MemoryNeed {
 impl MemoryNeed {
     /// Of runs of any number of samples.
     #[must_use]
-    pub fn of(scene: &Scene, settings: &Settings) -> Self {
+    pub fn new(scene: &Scene, settings: &Settings) -> Self {
         let triangles = scene.mesh.triangles.len() as u64;
         let points: u64 = scene.sensors.iter().map(|sensor| sensor.len() as u64).sum();
         let pixels = scene.cameras.iter().map(|camera| {
@@ -173,7 +173,7 @@ mod tests {
     fn with(change: impl Fn(&mut Settings)) -> MemoryNeed {
         let mut settings = Settings::default();
         change(&mut settings);
-        MemoryNeed::of(&Scene::default(), &settings)
+        MemoryNeed::new(&Scene::default(), &settings)
     }
 
     #[test]

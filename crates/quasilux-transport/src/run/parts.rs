@@ -26,12 +26,16 @@ use thiserror::Error;
 /// What surveys and pilots decide for these settings.
 #[must_use]
 pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
-    fn of<S: Spectrum>(scene: &Scene, settings: &Settings) -> Decisions {
+    fn decide_in<S: Spectrum>(scene: &Scene, settings: &Settings) -> Decisions {
         let context = Context::<S>::new(scene, settings);
         let mut nobody = ();
         new_estimator(&context, scene, settings, &mut Watch::new(&mut nobody)).decisions()
     }
-    if is_grey(scene) { of::<f64>(scene, settings) } else { of::<Rgb>(scene, settings) }
+    if is_grey(scene) {
+        decide_in::<f64>(scene, settings)
+    } else {
+        decide_in::<Rgb>(scene, settings)
+    }
 }
 
 /// Traces the indices `part` of a run of so many `samples` in all replicates, for [`merge`]; `None`
@@ -70,7 +74,10 @@ pub enum MergeError {
         part: usize,
     },
     /// The indices of a part end before they begin, or behind the last sample of the run.
-    #[error("part {part} has the indices from {} to before {}, of {samples}", .range.start, .range.end)]
+    #[error(
+        "part {part} has the indices from {} to before {}, of {samples}",
+        .range.start, .range.end
+    )]
     Range {
         /// Number of the part.
         part: usize,

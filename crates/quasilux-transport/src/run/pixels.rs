@@ -31,14 +31,14 @@ use crate::stats::watch::Watch;
 use quasilux_sampling::{PointSet, Sampler};
 use quasilux_scene::{Camera, Scene, View};
 use rayon::prelude::*;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Paths of each pixel in each replicate, where no limit says otherwise: 256 with 16 replicates.
 const PIXEL_SAMPLES: u64 = 16;
 /// From one pass to the next the number of paths grows by this factor.
 const GROWTH: u64 = 16;
 /// Photons for each path of a pixel that look for light which paths cannot find.
-const HIDDEN_PHOTONS: u64 = 1 << 12;
+const CAUSTIC_PHOTONS: u64 = 1 << 12;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 /// Strips of a round at least, so that all threads have work.
@@ -69,22 +69,11 @@ pub(crate) fn add_pictures<S: Spectrum>(
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
             caustics: CausticMap::new(context, settings, &[]),
         };
-        let mut picture: Option<Exposure> = None;
         // Part of a set whose number of points is fixed would leave part of its lights out.
         let first = if settings.sequence.points().is_some() { samples } else { 1 };
-        let mut next = Some(first.min(samples));
-        while let Some(pass) = next {
-            darkroom.samples = pass;
-            let stops = picture.is_some();
-            if !darkroom.look_for_hidden(stops, &mut work, watch) {
-                break;
-            }
-            let Some(taken) = darkroom.expose(camera, stops, &mut work, watch) else { break };
-            picture = Some(taken);
-            next = (pass < samples).then(|| pass.saturating_mul(GROWTH).min(samples));
-        }
-        complete &= next.is_none();
-        let Exposure { figures, invalid } = picture.expect("the first pass is never stopped");
+        let Exposure { figures, invalid } =
+            darkroom.expose_until(first.min(samples)..=samples, camera, &mut work, watch);
+        complete &= figures.samples == samples;
         estimates.invalid_contributions +=
             invalid + darkroom.caustics.as_ref().map_or(0, CausticMap::invalid);
         estimates.cameras.push(figures);
@@ -145,14 +134,14 @@ struct PixelSums {
 impl<S: Spectrum> Darkroom<'_, S> {
     /// Has as many photons look for light that no path finds as belong to this pass. Whether to go
     /// on; it is always so where the pass may not be stopped.
-    fn look_for_hidden(
+    fn trace_caustics(
         &mut self,
         may_stop: bool,
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> bool {
         let Some(caustics) = &mut self.caustics else { return true };
-        let photons = self.samples.saturating_mul(HIDDEN_PHOTONS);
+        let photons = self.samples.saturating_mul(CAUSTIC_PHOTONS);
         let mut nobody = ();
         let rays = match may_stop {
             true => caustics.grow(self.context, photons, watch),
@@ -160,6 +149,31 @@ impl<S: Spectrum> Darkroom<'_, S> {
         };
         work.rays += rays.unwrap_or_default();
         rays.is_some()
+    }
+
+    /// Passes with more and more paths until the last of `paths`, or until the observer stops them:
+    /// the last complete one. The first is never stopped.
+    fn expose_until(
+        &mut self,
+        paths: RangeInclusive<u64>,
+        camera: &Camera,
+        work: &mut WorkCounts,
+        watch: &mut Watch<'_>,
+    ) -> Exposure {
+        let mut picture = None;
+        let mut next = Some(*paths.start());
+        while let Some(pass) = next {
+            self.samples = pass;
+            let may_stop = picture.is_some();
+            if !self.trace_caustics(may_stop, work, watch) {
+                break;
+            }
+            let Some(taken) = self.expose(camera, may_stop, work, watch) else { break };
+            picture = Some(taken);
+            let last = *paths.end();
+            next = (pass < last).then(|| pass.saturating_mul(GROWTH).min(last));
+        }
+        picture.expect("the first pass is never stopped")
     }
 
     /// One pass over the whole picture; `None` when the observer stopped it, if it may.

@@ -102,44 +102,67 @@ fn run<S: Spectrum>(
         estimation.merge_from(course.schedule.next_checkpoint(), &mut from)?;
         from.end()?;
         if let Some(last) = &course.last {
-            watch.begin_at(last, Standing::of(last, settings).largest());
+            watch.begin_at(last, Standing::new(last, settings).largest());
         }
     }
-    put_preface(&decisions, &course, &mut watch);
-    // The observer has a state before the first sample, too.
-    let _ = watch.keep(|out| estimation.put(out));
-    let stopping = Stopping::new(settings);
-    while !course.over {
-        watch.expect(course.last.as_ref().and_then(|last| expected_rays(last, settings)));
-        if !estimation.advance(course.schedule.next_checkpoint(), &mut watch) {
-            break;
-        }
-        let miss_probability = stopping.miss_probability;
-        let Look { mut estimates, standing } =
-            look(context, scene, settings, estimation.as_ref(), miss_probability);
-        estimates.decisions = decisions.clone();
-        let is_look = stopping.may_end && course.schedule.is_look();
-        let is_enough = is_look && standing.may_end;
-        if is_look && !is_enough {
-            course.is_adaptive = estimation.freeze_converged(&standing.done);
-        }
-        course.record(&mut estimates, &standing, settings);
-        let control = watch.checkpoint(&estimates, standing.largest());
-        course.last = Some(estimates);
-        course.over = is_enough || !course.schedule.advance();
-        put_preface(&decisions, &course, &mut watch);
-        if course.over {
-            watch.keep_last(|out| estimation.put(out));
-        } else if !watch.keep(|out| estimation.put(out)) || control == Control::Stop {
-            break;
-        }
-    }
+    let steps = Steps { context, scene, settings, decisions: &decisions };
+    steps.advance_to_the_end(estimation.as_mut(), &mut course, &mut watch);
     drop(estimation);
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     // The last checkpoint may have come from a state.
     estimates.decisions = decisions;
     add_pictures(context, scene, settings, &mut estimates, &mut watch);
     Ok(estimates)
+}
+
+/// The steps from checkpoint to checkpoint, and what stays the same in them.
+struct Steps<'r, 'a, S> {
+    context: &'r Context<'a, S>,
+    scene: &'r Scene,
+    settings: &'r Settings,
+    decisions: &'r Decisions,
+}
+
+impl<S: Spectrum> Steps<'_, '_, S> {
+    /// Goes from checkpoint to checkpoint until the tolerance or a limit is reached, or the observer
+    /// stops it.
+    fn advance_to_the_end(
+        &self,
+        estimation: &mut (dyn Estimator + '_),
+        course: &mut Course,
+        watch: &mut Watch<'_>,
+    ) {
+        let Self { context, scene, settings, decisions } = *self;
+        put_preface(decisions, course, watch);
+        // The observer has a state before the first sample, too.
+        let _ = watch.keep(|out| estimation.put(out));
+        let stopping = Stopping::new(settings);
+        while !course.over {
+            watch.expect(course.last.as_ref().and_then(|last| expected_rays(last, settings)));
+            if !estimation.advance(course.schedule.next_checkpoint(), watch) {
+                break;
+            }
+            let miss_probability = stopping.miss_probability;
+            let Look { mut estimates, standing } =
+                look(context, scene, settings, &*estimation, miss_probability);
+            estimates.decisions = decisions.clone();
+            let is_look = stopping.may_end && course.schedule.is_look();
+            let is_enough = is_look && standing.may_end;
+            if is_look && !is_enough {
+                course.is_adaptive = estimation.freeze_converged(&standing.done);
+            }
+            course.record(&mut estimates, &standing, settings);
+            let control = watch.checkpoint(&estimates, standing.largest());
+            course.last = Some(estimates);
+            course.over = is_enough || !course.schedule.advance();
+            put_preface(decisions, course, watch);
+            if course.over {
+                watch.keep_last(|out| estimation.put(out));
+            } else if !watch.keep(|out| estimation.put(out)) || control == Control::Stop {
+                break;
+            }
+        }
+    }
 }
 
 /// When a run may end, and what its intervals are to miss.
@@ -204,11 +227,11 @@ pub(crate) fn look<S: Spectrum>(
         estimates.biased = true;
         estimates.warnings.push(format!(
             "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
-             density: it is blurred over about the length of a map element, and missing on surfaces that are \
-             not plain diffuse ones"
+             density: it is blurred over about the length of a map element, and missing on \
+             surfaces that are not plain diffuse ones"
         ));
     }
-    let standing = Standing::of(&estimates, settings);
+    let standing = Standing::new(&estimates, settings);
     estimates.unresolved_points = standing.unresolved;
     estimates.warnings.extend(warnings_of_values(&estimates));
     // Without sensors there is nothing to be wrong about, and what is not sampled is exact.
@@ -218,8 +241,8 @@ pub(crate) fn look<S: Spectrum>(
     estimates.tolerance_reached = standing.is_reached && may_be_done;
     if standing.is_reached && !may_be_done {
         estimates.warnings.push(format!(
-            "half-widths are within the tolerance, but {} samples are too few to rely on them: nothing is \
-             called done before {MIN_SAMPLES}",
+            "half-widths are within the tolerance, but {} samples are too few to rely on them: \
+             nothing is called done before {MIN_SAMPLES}",
             estimates.samples
         ));
     }
@@ -237,8 +260,8 @@ fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
     }
     if estimates.unresolved_points > 0 {
         warnings.push(format!(
-            "at {} sensor points light may be that was not found: they may be dark or light may be hard to \
-             find, and their values have no interval",
+            "at {} sensor points light may be that was not found: they may be dark or light may be \
+             hard to find, and their values have no interval",
             estimates.unresolved_points
         ));
     }

@@ -50,13 +50,38 @@ pub(crate) struct History {
     checkpoints: Vec<Checkpoint>,
     /// How predictions did.
     outcomes: Outcomes,
-    /// Half-width over value and indices of each target at the last checkpoint.
+    /// Each target at the last checkpoint.
     #[serde(skip)]
-    widths: Vec<(Option<f64>, u64)>,
+    widths: Vec<TargetWidth>,
     #[serde(skip)]
     samples: u64,
     #[serde(skip)]
     rays: u64,
+}
+
+/// How well a target is known, and from how many samples.
+#[derive(Clone, Copy, Debug)]
+struct TargetWidth {
+    /// Half-width over value; `None` without an interval.
+    relative: Option<f64>,
+    /// Indices per replicate.
+    samples: u64,
+}
+
+impl TargetWidth {
+    /// The logarithm of a half-width that is neither zero nor infinite.
+    fn logarithm(&self) -> Option<f64> {
+        self.relative.filter(|width| *width > 0.0 && width.is_finite()).map(libm::log)
+    }
+}
+
+/// What a checkpoint found.
+#[derive(Clone, Copy)]
+pub(crate) struct Finding<'e> {
+    pub(crate) estimates: &'e Estimates,
+    pub(crate) standing: &'e Standing,
+    /// Whether converged targets get no more samples.
+    pub(crate) is_adaptive: bool,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -82,14 +107,14 @@ struct Change {
 }
 
 impl History {
-    /// Adds a checkpoint. `is_adaptive` says whether targets that are done get no more samples.
+    /// Adds a checkpoint.
     pub(crate) fn record(
         &mut self,
-        estimates: &Estimates,
-        (standing, is_adaptive): (&Standing, bool),
+        finding: Finding<'_>,
         schedule: &Schedule,
         settings: &Settings,
     ) -> Convergence {
+        let Finding { estimates, standing, is_adaptive } = finding;
         let now = widths(estimates, standing);
         let noise = 0.5 / (f64::from(settings.effective_replicates()) - 1.0).max(1.0);
         let exponent = self.chain(&now, estimates.samples, noise);
@@ -98,7 +123,7 @@ impl History {
         let ends: Vec<Option<u64>> = (0..now.len())
             .map(|target| {
                 if standing.done[target] && schedule.is_look() {
-                    return Some(now[target].1);
+                    return Some(now[target].samples);
                 }
                 let excess = standing.excess[target].filter(|excess| excess.is_finite());
                 let wanted =
@@ -108,7 +133,7 @@ impl History {
                     .then(|| schedule.look_at_or_after((wanted as u64).max(estimates.samples)))
             })
             .collect();
-        let grown = now.iter().filter(|(_, samples)| *samples == estimates.samples).count();
+        let grown = now.iter().filter(|own| own.samples == estimates.samples).count();
         let end = ends.iter().copied().try_fold(0, |end: u64, own| Some(end.max(own?)));
         let rays = end.map(|end| {
             // At the first checkpoint surveys and pilots count as if they came again.
@@ -130,7 +155,7 @@ impl History {
     /// The stored history of a run whose last checkpoint had these estimates: everything but the
     /// checkpoints follows from them.
     pub(crate) fn resumed(self, last: &Estimates, settings: &Settings) -> Self {
-        let widths = widths(last, &Standing::of(last, settings));
+        let widths = widths(last, &Standing::new(last, settings));
         Self { widths, samples: last.samples, rays: last.rays, ..self }
     }
 
@@ -138,7 +163,7 @@ impl History {
     /// that has not begun begins here, and one that has is at its end: what others told stands for
     /// targets that had nothing before. `noise` is the variance of logarithms of half-widths by
     /// chance. The exponent that is predicted with from now on.
-    fn chain(&mut self, now: &[(Option<f64>, u64)], samples: u64, noise: f64) -> Option<f64> {
+    fn chain(&mut self, now: &[TargetWidth], samples: u64, noise: f64) -> Option<f64> {
         let change = self.change(now, noise);
         let width = match (&change, self.checkpoints.last()) {
             (Some(change), Some(last)) if last.samples == self.samples => {
@@ -157,7 +182,7 @@ impl History {
             self.outcomes.sum += targets * logarithm;
         }
         self.checkpoints.push(Checkpoint { samples, width, exponent: None });
-        let exponent = self.slope().map(|slope| self.foretold_with(slope, noise));
+        let exponent = self.slope().map(|slope| self.predicted_with(slope, noise));
         if let Some(last) = self.checkpoints.last_mut() {
             last.exponent = exponent;
         }
@@ -166,20 +191,17 @@ impl History {
 
     /// How the logarithms of half-widths changed since the last checkpoint, over the targets that
     /// grew; `None` without any. `noise` is their variance by chance.
-    fn change(&self, now: &[(Option<f64>, u64)], noise: f64) -> Option<Change> {
-        let logarithm = |width: Option<f64>| {
-            width.filter(|width| *width > 0.0 && width.is_finite()).map(libm::log)
-        };
+    fn change(&self, now: &[TargetWidth], noise: f64) -> Option<Change> {
         let (mut all, mut chosen, mut change) = (Moments::default(), Moments::default(), 0.0);
-        for ((width_before, samples_before), (width, samples_now)) in self.widths.iter().zip(now) {
-            let Some(before) = logarithm(*width_before).filter(|_| *samples_before == self.samples)
+        for (before, now) in self.widths.iter().zip(now) {
+            let Some(log_before) = before.logarithm().filter(|_| before.samples == self.samples)
             else {
                 continue;
             };
-            all.add(before);
-            if let Some(width) = logarithm(*width).filter(|_| samples_now > samples_before) {
-                chosen.add(before);
-                change += width - before;
+            all.add(log_before);
+            if let Some(log_now) = now.logarithm().filter(|_| now.samples > before.samples) {
+                chosen.add(log_before);
+                change += log_now - log_before;
             }
         }
         if chosen.count == 0.0 {
@@ -201,7 +223,7 @@ impl History {
     }
 
     /// The exponent to predict with where this slope was measured.
-    fn foretold_with(&self, slope: f64, noise: f64) -> f64 {
+    fn predicted_with(&self, slope: f64, noise: f64) -> f64 {
         let mut places = Moments::default();
         self.checkpoints.iter().for_each(|at| places.add(libm::log(at.samples as f64)));
         let spread = places.count * places.variance() * SPREAD_OF_SLOPES * SPREAD_OF_SLOPES;
@@ -225,10 +247,11 @@ impl Outcomes {
     }
 }
 
-/// Half-width over value and indices of each target.
-fn widths(estimates: &Estimates, standing: &Standing) -> Vec<(Option<f64>, u64)> {
+/// The half-widths of all targets.
+fn widths(estimates: &Estimates, standing: &Standing) -> Vec<TargetWidth> {
     let samples = estimates.sensors.iter().flat_map(|sensor| sensor.samples.iter().copied());
-    standing.relative_widths.iter().copied().zip(samples).collect()
+    let widths = standing.relative_widths.iter().zip(samples);
+    widths.map(|(relative, samples)| TargetWidth { relative: *relative, samples }).collect()
 }
 
 /// Sums of numbers.
@@ -294,7 +317,8 @@ mod tests {
                 is_reached: false,
                 may_end: false,
             };
-            let convergence = history.record(&estimates, (&standing, true), &schedule, &settings);
+            let finding = Finding { estimates: &estimates, standing: &standing, is_adaptive: true };
+            let convergence = history.record(finding, &schedule, &settings);
             if n >= last {
                 return convergence;
             }
@@ -323,7 +347,7 @@ mod tests {
     /// The first checkpoint already says how many rays it takes, as if half-widths shrank like
     /// those of random points.
     #[test]
-    fn the_first_checkpoint_foretells() {
+    fn the_first_checkpoint_predicts() {
         let scale = 0.08 * 4.0;
         let first = known(-0.5, [scale, scale], 1 << 20, 16);
         assert_eq!(first.slope, None);
@@ -336,8 +360,9 @@ mod tests {
     fn the_chain_begins_where_something_is_found() {
         let mut history = History::default();
         let mut record = |samples: u64, width: Option<f64>| {
-            history.chain(&[(width, samples)], samples, 1e-9);
-            history.widths = vec![(width, samples)];
+            let target = TargetWidth { relative: width, samples };
+            history.chain(&[target], samples, 1e-9);
+            history.widths = vec![target];
             history.samples = samples;
             history.slope()
         };
@@ -366,7 +391,7 @@ mod tests {
                 let width = 1.0 / f64::from(1 << k);
                 history.checkpoints.push(Checkpoint { samples, width, exponent: None });
             }
-            history.foretold_with(history.slope().unwrap(), 1.0 / 30.0)
+            history.predicted_with(history.slope().unwrap(), 1.0 / 30.0)
         };
         // 2 ln(2)^2 P^2 / (2 ln(2)^2 P^2 + v) = 0.6431.
         assert!((of(3) + 0.5 + 0.5 * 0.6431).abs() < 1e-4);

@@ -94,7 +94,7 @@ pub struct FluxBalance {
 /// How many coordinates samples used, the constructive dimension; empty where nothing was traced.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Dimensions {
-    /// Of the photons, those that steering split off by themselves.
+    /// Of the photons, those that weight windows split off by themselves.
     #[serde(with = "crate::codec::histogram")]
     pub photon: DimensionHistogram,
     /// Photons that began, for estimate, map, energy balance and what decided over them together;

@@ -35,7 +35,7 @@ const MAX_ROWS: usize = 256;
 
 /// Mean and standard error of one point.
 #[derive(Clone, Copy)]
-struct SurveyCell {
+struct PointMean {
     mean: f64,
     error: f64,
 }
@@ -44,7 +44,8 @@ struct SurveyCell {
 /// number where a value is none, or there are no values.
 pub(crate) fn interval_of_minimum(rows: &[Vec<f64>], miss_probability: f64) -> Interval {
     let columns = rows.first().map_or(0, Vec::len);
-    let points: Vec<SurveyCell> = (0..columns).map(|column| SurveyCell::of(rows, column)).collect();
+    let points: Vec<PointMean> =
+        (0..columns).map(|column| PointMean::from_column(rows, column)).collect();
     let is_number = points.iter().all(|point| !point.mean.is_nan());
     let seeming = points.iter().copied().reduce(|a, b| if b.mean < a.mean { b } else { a });
     let Some(seeming) = seeming.filter(|_| is_number) else {
@@ -85,8 +86,8 @@ pub(crate) fn ratios(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     rows.iter().map(linear).collect()
 }
 
-impl SurveyCell {
-    fn of(rows: &[Vec<f64>], column: usize) -> Self {
+impl PointMean {
+    fn from_column(rows: &[Vec<f64>], column: usize) -> Self {
         let values = rows.iter().map(|row| row[column]);
         let interval = Interval::of_mean(values, (rows.len() >= 2).then_some(1.0));
         Self { mean: interval.value, error: interval.half_width.unwrap_or(0.0) }
@@ -94,7 +95,7 @@ impl SurveyCell {
 }
 
 /// To how many independent points some points amount.
-fn independent(rows: &[Vec<f64>], points: &[SurveyCell], chosen: &[usize]) -> f64 {
+fn independent(rows: &[Vec<f64>], points: &[PointMean], chosen: &[usize]) -> f64 {
     let n = chosen.len() as f64;
     let rows = &rows[..rows.len().min(MAX_ROWS)];
     let degrees = rows.len() as f64 - 1.0;

@@ -47,7 +47,7 @@ mod tests {
     struct Normals(PointSet);
 
     impl Normals {
-        fn of(&self, run: u32, dimension: u32) -> f64 {
+        fn value(&self, run: u32, dimension: u32) -> f64 {
             let u = |d| self.0.coordinate(u64::from(run), 2 * dimension + d);
             (-2.0 * libm::log(1.0 - u(0))).sqrt() * libm::cos(TAU * u(1))
         }
@@ -65,11 +65,11 @@ mod tests {
         let covered = (0..runs).filter(|&run| {
             let phase = f64::from(run) / f64::from(runs);
             let tolerance = t_far.unwrap() / root * libm::exp2(-0.5 * (GOAL - phase));
-            let mut errors: Vec<f64> = (0..replicates).map(|r| normals.of(run, r)).collect();
+            let mut errors: Vec<f64> = (0..replicates).map(|r| normals.value(run, r)).collect();
             let mut spread = 1.0_f64;
             for k in 1..CHECKPOINTS {
                 for (r, error) in (0..).zip(&mut errors) {
-                    let fresh = normals.of(run, k as u32 * replicates + r);
+                    let fresh = normals.value(run, k as u32 * replicates + r);
                     *error = 0.5 * *error + 0.5 * spread * fresh;
                 }
                 spread *= std::f64::consts::FRAC_1_SQRT_2;

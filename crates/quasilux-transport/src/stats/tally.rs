@@ -11,17 +11,17 @@ use std::ops::AddAssign;
 /// Quanta per unit of the reference, as a power of two: contributions down to 2^-80 of it count.
 const FINENESS: i32 = 80;
 /// Larger contributions, in quanta, are refused; 2^23 of the largest fit the sum.
-const LARGEST: f64 = (1_u128 << 104) as f64;
+const MAX_CONTRIBUTION: f64 = (1_u128 << 104) as f64;
 
 /// Larger contributions to a counter of 64 bits, in quanta, are refused; 2^7 of the largest fit.
-const LARGEST_COUNTED: f64 = (1_u64 << 56) as f64;
+const MAX_COUNTED: f64 = (1_u64 << 56) as f64;
 
 /// Quanta of a contribution to a counter of 64 bits, `per_unit` of them to its unit; `None` where
 /// it is not finite, negative or too large, for the caller to count as invalid.
 #[inline]
 pub(crate) fn checked_quanta(contribution: f64, per_unit: f64) -> Option<i64> {
     let quanta = contribution * per_unit;
-    let is_valid = (0.0..=LARGEST_COUNTED).contains(&quanta);
+    let is_valid = (0.0..=MAX_COUNTED).contains(&quanta);
     is_valid.then(|| quanta.round_ties_even() as i64)
 }
 
@@ -63,7 +63,7 @@ impl Sum {
     #[inline]
     pub(crate) fn add_signed(&mut self, contribution: f64, quantum: Quantum) {
         let quanta = (contribution * quantum.per_unit).round_ties_even();
-        let valid = quanta.abs() <= LARGEST;
+        let valid = quanta.abs() <= MAX_CONTRIBUTION;
         match self.quanta.checked_add(if valid { quanta as i128 } else { 0 }) {
             Some(sum) if valid => self.quanta = sum,
             _ => self.invalid += 1,

@@ -29,7 +29,7 @@ pub(crate) struct Standing {
 }
 
 impl Standing {
-    pub(crate) fn of(estimates: &Estimates, settings: &Settings) -> Self {
+    pub(crate) fn new(estimates: &Estimates, settings: &Settings) -> Self {
         let replicates = settings.effective_replicates();
         let is_wanted = settings.has_tolerance() && replicates >= 2;
         let tries = estimates.samples as f64 * f64::from(replicates);

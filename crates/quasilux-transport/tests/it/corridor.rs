@@ -168,7 +168,7 @@ fn a_sheet_in_the_dark_is_left_alone() {
 
 /// Whatever rays the survey happens to find, photons are steered, and all cells are known with an
 /// error of 3 % root mean square. A survey that leaves far light to connections alone loses light
-/// on its order with two of these seeds, and gives up steering.
+/// on its order with two of these seeds, and gives up guiding.
 #[test]
 fn no_seed_loses_the_way() {
     for seed in [0, 5, 10, 15] {

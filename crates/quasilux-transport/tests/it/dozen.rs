@@ -24,7 +24,7 @@ const SIGNIFICANCE: f64 = 0.05;
 const WIDEST: f64 = 0.003;
 /// The standard error of each that leads there.
 const STANDARD_ERROR: f64 = 0.00057;
-const FEWEST_SAMPLES: u64 = 1 << 9;
+const MIN_SAMPLES: u64 = 1 << 9;
 const MAX_SAMPLES: u64 = 1 << 17;
 
 /// The mean of replicates.
@@ -36,7 +36,7 @@ struct Mean {
 
 impl Mean {
     /// Of all sensors, each a cell.
-    fn of(estimates: &Estimates) -> Self {
+    fn new(estimates: &Estimates) -> Self {
         let cells = |r: usize| estimates.sensors.iter().map(move |own| own.replicate_lx[r][0]);
         let of_replicate = |r| cells(r).sum::<f64>() / estimates.sensors.len() as f64;
         let n = f64::from(REPLICATES);
@@ -73,12 +73,8 @@ struct UntilKnown;
 
 impl Observer for UntilKnown {
     fn checkpoint(&mut self, estimates: &Estimates) -> Control {
-        let is_known = Mean::of(estimates).relative_error() <= STANDARD_ERROR;
-        if is_known && estimates.samples >= FEWEST_SAMPLES {
-            Control::Stop
-        } else {
-            Control::Continue
-        }
+        let is_known = Mean::new(estimates).relative_error() <= STANDARD_ERROR;
+        if is_known && estimates.samples >= MIN_SAMPLES { Control::Stop } else { Control::Continue }
     }
 }
 
@@ -95,7 +91,7 @@ fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mea
     let is_map = estimator == EstimatorKind::BidirectionalMap;
     let estimates = simulate(scene, &settings, &mut UntilKnown);
     assert_eq!((estimates.invalid_contributions, estimates.biased), (0, is_map));
-    Mean::of(&estimates)
+    Mean::new(&estimates)
 }
 
 /// Paths, photons, both joined, and paths of the corrected map are without bias; so, in means over

@@ -109,7 +109,7 @@ fn the_parts_tell_the_error_of_a_run() {
         squares / (f64::from(REPLICATES - 1) * mean * mean)
     };
     let found = ((0..3).map(square).sum::<f64>() / 3.0).sqrt();
-    assert!((found / predicted - 1.0).abs() < 0.08, "{found}, foretold {predicted}");
+    assert!((found / predicted - 1.0).abs() < 0.08, "{found}, predicted {predicted}");
 }
 
 /// The mean that deviations are measured by has all light, also what comes by a mirror that no

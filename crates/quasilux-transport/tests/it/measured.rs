@@ -88,7 +88,7 @@ pub(crate) fn estimates(scene: &Scene, estimator: EstimatorKind, samples: u64) -
     assert_eq!(check(&scene, &settings), Ok(()));
     let found = simulate(&scene, &settings, &mut ());
     assert_eq!((found.invalid_contributions, found.biased), (0, false));
-    (0..scene.sensors.len()).map(|sensor| Mean::of(&found, sensor, 0)).collect()
+    (0..scene.sensors.len()).map(|sensor| Mean::new(&found, sensor, 0)).collect()
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -101,7 +101,7 @@ impl Mean {
     /// Of all points of the first sensor.
     pub(crate) fn all(estimates: &Estimates) -> Vec<Self> {
         let points = estimates.sensors[0].replicate_lx[0].len();
-        (0..points).map(|point| Self::of(estimates, 0, point)).collect()
+        (0..points).map(|point| Self::new(estimates, 0, point)).collect()
     }
 
     /// Of light that is so many times as much.
@@ -110,7 +110,7 @@ impl Mean {
         Self { value_lx: value_lx * factor, standard_error_lx: standard_error_lx * factor }
     }
 
-    fn of(estimates: &Estimates, sensor: usize, point: usize) -> Self {
+    fn new(estimates: &Estimates, sensor: usize, point: usize) -> Self {
         let values: Vec<f64> =
             estimates.sensors[sensor].replicate_lx.iter().map(|row| row[point]).collect();
         let n = values.len() as f64;

@@ -130,7 +130,8 @@ fn tables_of_metals_light_a_room_as_the_metals_do() {
         let joint_lx = joint_half_width_lx(known, found);
         let off_lx = (known.value_lx - found.value_lx).abs();
         println!(
-            "{} of alpha {alpha}: {off_lx:.3} of {brought_lx:.2} lx brought, known to {joint_lx:.3}, stated {stated:.4}",
+            "{} of alpha {alpha}: {off_lx:.3} of {brought_lx:.2} lx brought, known to \
+             {joint_lx:.3}, stated {stated:.4}",
             table.kind()
         );
         assert!(joint_lx < 0.03 * brought_lx, "{alpha}: {known:?}, {found:?}");
@@ -164,7 +165,8 @@ fn tables_of_metals_light_a_furnace_as_the_metals_do() {
                 let joint_lx = joint_half_width_lx(known, found);
                 let off_lx = (known.value_lx - found.value_lx).abs();
                 println!(
-                    "{} of alpha {alpha}, {}: {off_lx:.2} of {:.1} lx, known to {joint_lx:.2}, stated {stated:.4}",
+                    "{} of alpha {alpha}, {}: {off_lx:.2} of {:.1} lx, known to {joint_lx:.2}, \
+                     stated {stated:.4}",
                     table.kind(),
                     estimator.name(),
                     known.value_lx
