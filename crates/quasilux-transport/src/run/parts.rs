@@ -131,18 +131,18 @@ fn trace<S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Option<Vec<u8>> {
     let context = Context::<S>::new(scene, settings);
-    let mut estimation = new_estimator(&context, scene, settings, watch);
+    let mut estimator = new_estimator(&context, scene, settings, watch);
     // There is no checkpoint before the end, and so no result if it is stopped.
     watch.obey();
     let mut out = Writer::default();
-    out.bytes(&estimation.decisions().digest);
+    out.bytes(&estimator.decisions().digest);
     out.bytes(&fingerprint(scene, settings, samples));
     out.value(&part);
-    if !estimation.trace_part(part, samples, watch) {
+    if !estimator.trace_part(part, samples, watch) {
         return None;
     }
-    out.block(|out| estimation.put_shared(out));
-    out.block(|out| estimation.put_part(out));
+    out.block(|out| estimator.put_shared(out));
+    out.block(|out| estimator.put_part(out));
     Some(out.finish())
 }
 
@@ -154,8 +154,8 @@ fn put_together<'p, S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Result<Estimates, MergeError> {
     let context = Context::<S>::new(scene, settings);
-    let mut estimation = new_estimator(&context, scene, settings, watch);
-    let decisions = estimation.decisions();
+    let mut estimator = new_estimator(&context, scene, settings, watch);
+    let decisions = estimator.decisions();
     let expected = Expected {
         decisions: &decisions.digest,
         fingerprint: fingerprint(scene, settings, samples),
@@ -166,14 +166,14 @@ fn put_together<'p, S: Spectrum>(
     expect_all_indices(&read, samples)?;
     let mut shared = None;
     for part in &read {
-        add(estimation.as_mut(), part, &mut shared)
+        add(estimator.as_mut(), part, &mut shared)
             .map_err(|error| MergeError::Part { part: part.number, error })?;
     }
-    estimation.complete_at(samples);
+    estimator.complete_at(samples);
     let Look { mut estimates, .. } =
-        look(&context, scene, settings, estimation.as_ref(), 1.0 - settings.confidence);
+        look(&context, scene, settings, estimator.as_ref(), 1.0 - settings.confidence);
     estimates.decisions = decisions;
-    drop(estimation);
+    drop(estimator);
     add_pictures(&context, scene, settings, &mut estimates, watch);
     Ok(estimates)
 }
@@ -242,14 +242,14 @@ fn expect_all_indices(parts: &[Part<'_>], samples: u64) -> Result<(), MergeError
 
 /// Adds the sums of a part; `shared` are the bytes that the parts before it have in common.
 fn add<'b>(
-    estimation: &mut (dyn Estimator + '_),
+    estimator: &mut (dyn Estimator + '_),
     part: &Part<'b>,
     shared: &mut Option<&'b [u8]>,
 ) -> Result<(), StateError> {
     match *shared {
         None => {
             let mut from = Reader::new(part.shared);
-            estimation.merge_shared(&mut from)?;
+            estimator.merge_shared(&mut from)?;
             from.end()?;
             *shared = Some(part.shared);
         }
@@ -257,7 +257,7 @@ fn add<'b>(
         Some(_) => return Err(StateError::Unfit("what photons for all paths found")),
     }
     let mut from = Reader::new(part.own);
-    estimation.merge_part(&mut from)?;
+    estimator.merge_part(&mut from)?;
     from.end()
 }
 

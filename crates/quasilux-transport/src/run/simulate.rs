@@ -86,12 +86,12 @@ fn run<S: Spectrum>(
 ) -> Result<Estimates, StateError> {
     let mut watch = Watch::new(observer);
     watch.limit_rays(settings.max_rays);
-    let mut estimation = new_estimator(context, scene, settings, &mut watch);
-    let first = estimation.first_checkpoint();
+    let mut estimator = new_estimator(context, scene, settings, &mut watch);
+    let first = estimator.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
     let mut course = Course::new(Schedule::new(first, limit));
-    let decisions = estimation.decisions();
+    let decisions = estimator.decisions();
     if let Some(state) = state {
         let mut from = Reader::new(state);
         if from.bytes(decisions.digest.len())? != decisions.digest {
@@ -99,15 +99,15 @@ fn run<S: Spectrum>(
         }
         course.read(scene, settings, &mut from)?;
         watch.read(&mut from)?;
-        estimation.merge_from(course.schedule.next_checkpoint(), &mut from)?;
+        estimator.merge_from(course.schedule.next_checkpoint(), &mut from)?;
         from.end()?;
         if let Some(last) = &course.last {
             watch.begin_at(last, Standing::new(last, settings).largest());
         }
     }
     let steps = Steps { context, scene, settings, decisions: &decisions };
-    steps.advance_to_the_end(estimation.as_mut(), &mut course, &mut watch);
-    drop(estimation);
+    steps.advance_to_the_end(estimator.as_mut(), &mut course, &mut watch);
+    drop(estimator);
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     // The last checkpoint may have come from a state.
     estimates.decisions = decisions;
@@ -128,28 +128,28 @@ impl<S: Spectrum> Steps<'_, '_, S> {
     /// stops it.
     fn advance_to_the_end(
         &self,
-        estimation: &mut (dyn Estimator + '_),
+        estimator: &mut (dyn Estimator + '_),
         course: &mut Course,
         watch: &mut Watch<'_>,
     ) {
         let Self { context, scene, settings, decisions } = *self;
         put_preface(decisions, course, watch);
         // The observer has a state before the first sample, too.
-        let _ = watch.keep(|out| estimation.put(out));
+        let _ = watch.keep(|out| estimator.put(out));
         let stopping = Stopping::new(settings);
         while !course.over {
             watch.expect(course.last.as_ref().and_then(|last| expected_rays(last, settings)));
-            if !estimation.advance(course.schedule.next_checkpoint(), watch) {
+            if !estimator.advance(course.schedule.next_checkpoint(), watch) {
                 break;
             }
             let miss_probability = stopping.miss_probability;
             let Look { mut estimates, standing } =
-                look(context, scene, settings, &*estimation, miss_probability);
+                look(context, scene, settings, &*estimator, miss_probability);
             estimates.decisions = decisions.clone();
             let is_look = stopping.may_end && course.schedule.is_look();
             let is_enough = is_look && standing.may_end;
             if is_look && !is_enough {
-                course.is_adaptive = estimation.freeze_converged(&standing.done);
+                course.is_adaptive = estimator.freeze_converged(&standing.done);
             }
             course.record(&mut estimates, &standing, settings);
             let control = watch.checkpoint(&estimates, standing.largest());
@@ -157,8 +157,8 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             course.over = is_enough || !course.schedule.advance();
             put_preface(decisions, course, watch);
             if course.over {
-                watch.keep_last(|out| estimation.put(out));
-            } else if !watch.keep(|out| estimation.put(out)) || control == Control::Stop {
+                watch.keep_last(|out| estimator.put(out));
+            } else if !watch.keep(|out| estimator.put(out)) || control == Control::Stop {
                 break;
             }
         }
@@ -212,10 +212,10 @@ pub(crate) fn look<S: Spectrum>(
     context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
-    estimation: &(dyn Estimator + '_),
+    estimator: &(dyn Estimator + '_),
     miss_probability: f64,
 ) -> Look {
-    let mut estimates = estimation.estimates();
+    let mut estimates = estimator.estimates();
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
     estimates.biased |= is_biased(scene, settings);
