@@ -27,12 +27,12 @@ mod tests {
 
     #[test]
     fn a_prediction_off_by_more_than_the_factor_is_refused() {
-        let of = |ratio: Value| json!({"run": {"prediction": {"slope": -0.7, "half_width_ratio": ratio}}});
+        let document = |ratio: Value| json!({"run": {"prediction": {"slope": -0.7, "half_width_ratio": ratio}}});
         for good in [0.67, 1.0, 1.5] {
-            assert_eq!(check(&of(json!(good))), Ok(()));
+            assert_eq!(check(&document(json!(good))), Ok(()));
         }
         for bad in [json!(0.66), json!(1.51), Value::Null] {
-            assert!(check(&of(bad)).is_err());
+            assert!(check(&document(bad)).is_err());
         }
     }
 }

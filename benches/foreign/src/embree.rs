@@ -127,7 +127,7 @@ impl Embree {
         if library.is_null() {
             return None;
         }
-        let calls = Calls::of(library)?;
+        let calls = Calls::load(library)?;
         let config = format!("threads={threads}\0");
         // SAFETY: the configuration is a C string that outlives the call.
         let device = unsafe { (calls.new_device)(config.as_ptr().cast()) };
@@ -186,7 +186,7 @@ impl Drop for Embree {
 }
 
 impl Calls {
-    fn of(library: *mut c_void) -> Option<Self> {
+    fn load(library: *mut c_void) -> Option<Self> {
         let find = |name: &CStr| {
             // SAFETY: the library is open and the name is a C string.
             let symbol = unsafe { dlsym(library, name.as_ptr()) };

@@ -31,7 +31,7 @@ use walks::Walks;
 
 const REPLICATES: u32 = 16;
 /// Each contestant ends at the checkpoint after this, unless told otherwise.
-const LONGEST_SECONDS: f64 = 20.0;
+const MAX_SECONDS: f64 = 20.0;
 /// Errors that are waited for.
 const GOALS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
 
@@ -68,7 +68,7 @@ const fn contestant(
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let longest = words.iter().find_map(|word| word.parse().ok()).unwrap_or(LONGEST_SECONDS);
+    let longest = words.iter().find_map(|word| word.parse().ok()).unwrap_or(MAX_SECONDS);
     let names: Vec<&String> = words.iter().filter(|word| word.parse::<f64>().is_err()).collect();
     let reference = Reference::read();
     println!(
@@ -164,7 +164,7 @@ impl<'a> Table<'a> {
         known: Option<&Reference>,
     ) -> Control {
         let seconds = all_processors_seconds() - self.start;
-        let cells = Cells::of(replicate_lx, &self.reference.value_lx);
+        let cells = Cells::new(replicate_lx, &self.reference.value_lx);
         let one = root_mean_square(cells.spread.iter().copied());
         let mean = one / f64::from(REPLICATES).sqrt();
         print!(
@@ -227,7 +227,7 @@ struct Cells {
 }
 
 impl Cells {
-    fn of(replicate_lx: &[Vec<f64>], reference_lx: &[f64]) -> Self {
+    fn new(replicate_lx: &[Vec<f64>], reference_lx: &[f64]) -> Self {
         let replicates = replicate_lx.len() as f64;
         let cell = |(cell, wanted_lx): (usize, &f64)| {
             let values = replicate_lx.iter().map(|row| row[cell] / wanted_lx);

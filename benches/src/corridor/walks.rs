@@ -29,7 +29,7 @@ pub(crate) struct Walks {
 
 /// A place where a walk landed.
 #[derive(Clone, Copy)]
-struct Place {
+struct WalkVertex {
     at: [f64; 3],
     in_niche: bool,
     /// The normal: along this axis, up or down it.
@@ -80,7 +80,7 @@ impl Walks {
     }
 
     /// By the cosine distribution.
-    fn fly_on(&mut self, place: &Place) -> Place {
+    fn fly_on(&mut self, place: &WalkVertex) -> WalkVertex {
         let square = self.numbers.next();
         let (sin, cos) = libm::sincos(TAU * self.numbers.next());
         let mut direction = [0.0; 3];
@@ -92,7 +92,7 @@ impl Walks {
 }
 
 /// Where a flight ends; through the opening of the niche it goes on.
-fn land(mut from: [f64; 3], direction: [f64; 3], mut in_niche: bool) -> Place {
+fn land(mut from: [f64; 3], direction: [f64; 3], mut in_niche: bool) -> WalkVertex {
     loop {
         let [low, high] = if in_niche { NICHE } else { CORRIDOR };
         let wall = |axis: usize| if direction[axis] > 0.0 { high[axis] } else { low[axis] };
@@ -105,7 +105,7 @@ fn land(mut from: [f64; 3], direction: [f64; 3], mut in_niche: bool) -> Place {
         at[axis] = wall(axis);
         let is_through = axis == 1 && at[1] == NICHE[0][1] && (in_niche || is_open(at));
         if !is_through {
-            return Place { at, in_niche, axis, up: -direction[axis].signum() };
+            return WalkVertex { at, in_niche, axis, up: -direction[axis].signum() };
         }
         (from, in_niche) = (at, !in_niche);
     }
@@ -128,7 +128,7 @@ fn sees(way: [f64; 3], at: [f64; 3]) -> bool {
 }
 
 /// `cos cos' / d^2`, in m^-2, where nothing hides the place.
-fn given(place: &Place, sensor: usize) -> f64 {
+fn given(place: &WalkVertex, sensor: usize) -> f64 {
     let way = from_sensor(sensor, place.at);
     let facing = -place.up * way[place.axis];
     if facing <= 0.0 || (place.in_niche && !sees(way, place.at)) {

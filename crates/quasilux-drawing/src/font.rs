@@ -40,7 +40,7 @@ pub(crate) struct Glyph {
 
 impl Glyph {
     /// The glyph of a character. White space that no face has, such as a tabulator, is a space.
-    pub(crate) fn of(c: char) -> Self {
+    pub(crate) fn new(c: char) -> Self {
         let space = c.is_whitespace().then_some(' ');
         [Some(c), space, Some(REPLACEMENT)]
             .into_iter()
@@ -78,7 +78,7 @@ impl Glyph {
 
 /// Width of a line of text in em: the sum of its advances.
 pub(crate) fn width_em(text: &str) -> f64 {
-    text.chars().map(|c| Glyph::of(c).advance_em()).sum()
+    text.chars().map(|c| Glyph::new(c).advance_em()).sum()
 }
 
 /// Collects an outline, its curves cut into straight pieces.
@@ -161,28 +161,28 @@ mod tests {
     #[test]
     fn each_script_has_its_letters() {
         for c in COVERED.iter().flat_map(|line| line.chars()) {
-            let glyph = Glyph::of(c);
+            let glyph = Glyph::new(c);
             assert!(!glyph.is_replacement(), "{c} is missing");
             assert!(c.is_whitespace() || !glyph.outline_em().is_empty(), "{c} is empty");
         }
-        assert!(('\u{ac00}'..='\u{d7a3}').all(|c| !Glyph::of(c).is_replacement()));
+        assert!(('\u{ac00}'..='\u{d7a3}').all(|c| !Glyph::new(c).is_replacement()));
     }
 
     #[test]
     fn what_no_face_has_is_replaced_visibly() {
         for c in ['\u{5d0}', '\u{e01}', '\u{1f4a1}', '\u{e000}', '\u{0}'] {
-            assert!(Glyph::of(c).is_replacement(), "{c:?}");
+            assert!(Glyph::new(c).is_replacement(), "{c:?}");
         }
-        assert!(!Glyph::of(REPLACEMENT).outline_em().is_empty());
-        assert_eq!(Glyph::of('\t'), Glyph::of(' '));
+        assert!(!Glyph::new(REPLACEMENT).outline_em().is_empty());
+        assert_eq!(Glyph::new('\t'), Glyph::new(' '));
     }
 
     #[test]
     fn digits_are_of_one_width_and_capitals_of_the_stated_height() {
         for digit in '0'..='9' {
-            assert_eq!(Glyph::of(digit).advance_em(), Glyph::of('0').advance_em());
+            assert_eq!(Glyph::new(digit).advance_em(), Glyph::new('0').advance_em());
         }
-        let top = Glyph::of('H').outline_em().iter().flatten().map(|p| p.y).fold(0.0, f64::max);
+        let top = Glyph::new('H').outline_em().iter().flatten().map(|p| p.y).fold(0.0, f64::max);
         assert!((top - CAPITAL_EM).abs() < 1e-9);
         assert_eq!(width_em("机の上"), 3.0);
     }
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn outlines_are_closed() {
         for c in COVERED.iter().flat_map(|line| line.chars()) {
-            let turn: DVec2 = Glyph::of(c).outline_em().iter().map(|[a, b]| *b - *a).sum();
+            let turn: DVec2 = Glyph::new(c).outline_em().iter().map(|[a, b]| *b - *a).sum();
             assert!(turn.length() < 1e-9, "{c}");
         }
     }

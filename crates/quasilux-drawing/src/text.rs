@@ -68,7 +68,7 @@ pub(crate) fn outline(text: &str, at: DVec2, style: &TextStyle, scale: f64) -> V
     for run in runs(text) {
         let scale = run.scale();
         let y_em = if run.is_raised { RAISED_EM } else { 0.0 };
-        for glyph in run.text.chars().map(Glyph::of) {
+        for glyph in run.text.chars().map(Glyph::new) {
             let place = |p: DVec2| at + right * (p.x * scale + x_em) + up * (p.y * scale + y_em);
             pieces.extend(glyph.outline_em().into_iter().map(|[a, b]| [place(a), place(b)]));
             x_em += glyph.advance_em() * scale;

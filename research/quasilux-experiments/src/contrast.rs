@@ -30,14 +30,22 @@ pub(super) struct Contrast {
     replicates: usize,
 }
 
+/// A power of one setup's root mean square.
+#[derive(Clone, Copy)]
+pub(super) struct Factor<'a> {
+    pub(super) power: f64,
+    /// Squared errors, one a replicate.
+    pub(super) squares: &'a [f64],
+}
+
 impl Contrast {
-    /// From powers, each with squared errors, one a replicate, in the same order.
-    pub(super) fn of(factors: &[(f64, &[f64])]) -> Self {
-        let replicates = factors.iter().map(|(_, squares)| squares.len()).min().unwrap_or(0);
+    /// The product of powers of root mean squares, their replicates in the same order.
+    pub(super) fn product(factors: &[Factor<'_>]) -> Self {
+        let replicates = factors.iter().map(|factor| factor.squares.len()).min().unwrap_or(0);
         let n = replicates as f64;
         let sums: Vec<(f64, f64, &[f64])> = factors
             .iter()
-            .map(|&(power, squares)| (0.5 * power, squares.iter().sum(), squares))
+            .map(|&Factor { power, squares }| (0.5 * power, squares.iter().sum(), squares))
             .collect();
         let log_ratio = sums.iter().map(|(half, sum, _)| half * libm::log(sum / n)).sum();
         let without = |r: usize| -> f64 {
@@ -56,7 +64,10 @@ impl Contrast {
 
     /// How many times smaller the second root mean square is than the first.
     pub(super) fn gain(worse: &[f64], better: &[f64]) -> Self {
-        Self::of(&[(1.0, worse), (-1.0, better)])
+        Self::product(&[
+            Factor { power: 1.0, squares: worse },
+            Factor { power: -1.0, squares: better },
+        ])
     }
 
     /// The same for a ratio of cost as well, which is taken as known: how many times as efficient,
@@ -118,7 +129,7 @@ mod tests {
     fn ratios_and_their_errors_follow_from_the_squares() {
         // Sums 15 and 15/4; two thirds of the first less each square are 9, 6 and 0.5 of ten.
         let worse = [1.0, 4.0, 9.5];
-        let gain = Contrast::of(&[(1.0, &worse)]);
+        let gain = Contrast::product(&[Factor { power: 1.0, squares: &worse }]);
         assert!((gain.ratio - (14.5_f64 / 3.0).sqrt()).abs() < 1e-12);
         let logs = worse.map(|square| 0.5 * libm::log(2.0 / 3.0 * 14.5 - square));
         let mean = logs.iter().sum::<f64>() / 3.0;
@@ -128,11 +139,11 @@ mod tests {
         let paired = Contrast::gain(&worse, &worse.map(|square| 0.25 * square));
         assert!((paired.ratio - 2.0).abs() < 1e-12 && paired.log_error < 1e-12);
         assert!((paired.efficiency(0.5).ratio - 2.0).abs() < 1e-12);
-        let of_gains = Contrast::of(&[
-            (1.0, &[4.0; 3]),
-            (-1.0, &[1.0; 3]),
-            (-1.0, &[9.0; 3]),
-            (1.0, &[4.0; 3]),
+        let of_gains = Contrast::product(&[
+            Factor { power: 1.0, squares: &[4.0; 3] },
+            Factor { power: -1.0, squares: &[1.0; 3] },
+            Factor { power: -1.0, squares: &[9.0; 3] },
+            Factor { power: 1.0, squares: &[4.0; 3] },
         ]);
         assert!((of_gains.ratio - 4.0 / 3.0).abs() < 1e-12);
     }
@@ -160,8 +171,8 @@ mod tests {
                     let u = points.coordinate(run, 64 * r + d) - 0.5;
                     u * u
                 };
-                let of = |r: u32| (0..6).chain(first..first + 6).map(|d| square(r, d)).sum();
-                (0..32).map(of).collect()
+                let sum = |r: u32| (0..6).chain(first..first + 6).map(|d| square(r, d)).sum();
+                (0..32).map(sum).collect()
             };
             [squares(6), squares(12)]
         });

@@ -12,11 +12,11 @@ use std::time::{Duration, Instant};
 
 /// A run up to its largest number of samples.
 pub(super) struct Course {
-    pub(super) stages: Vec<Stage>,
+    pub(super) snapshots: Vec<Snapshot>,
 }
 
 /// A checkpoint.
-pub(super) struct Stage {
+pub(super) struct Snapshot {
     /// Indices per replicate.
     pub(super) samples: u64,
     /// Time per replicate, from the start of the run.
@@ -30,7 +30,7 @@ struct Watch {
     start: Instant,
     limit: Option<Duration>,
     replicates: f64,
-    stages: Vec<Stage>,
+    snapshots: Vec<Snapshot>,
 }
 
 impl Course {
@@ -40,14 +40,14 @@ impl Course {
     pub(super) fn run(scene: &Scene, settings: &Settings, limit: Option<Duration>) -> Self {
         let settings = Settings { rel_tol: 0.0, abs_tol_lx: 0.0, ..settings.clone() };
         let replicates = f64::from(settings.effective_replicates());
-        let mut watch = Watch { start: Instant::now(), limit, replicates, stages: Vec::new() };
+        let mut watch = Watch { start: Instant::now(), limit, replicates, snapshots: Vec::new() };
         // All that is known at its end was known at the last checkpoint.
         let _ = simulate(scene, &settings, &mut watch);
-        Self { stages: watch.stages }
+        Self { snapshots: watch.snapshots }
     }
 
-    pub(super) fn last(&self) -> &Stage {
-        self.stages.last().expect("a run has a checkpoint")
+    pub(super) fn last(&self) -> &Snapshot {
+        self.snapshots.last().expect("a run has a checkpoint")
     }
 }
 
@@ -63,7 +63,7 @@ pub(super) fn mean_interval(values: &[f64]) -> Interval {
 impl Observer for Watch {
     fn checkpoint(&mut self, estimates: &Estimates) -> Control {
         let elapsed = self.start.elapsed();
-        self.stages.push(Stage {
+        self.snapshots.push(Snapshot {
             samples: estimates.samples,
             seconds: elapsed.as_secs_f64() / self.replicates,
             rays: estimates.rays as f64 / self.replicates,

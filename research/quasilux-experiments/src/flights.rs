@@ -44,7 +44,7 @@ struct Replicate {
 
 impl Flights {
     /// Sends photons, each of which tells of every cell that it lands in.
-    pub(super) fn of(
+    pub(super) fn trace(
         photon: impl Fn(&mut Sampler<'_>, &mut dyn FnMut(usize)) + Sync,
         sequence: Sequence,
         effort: Effort,
@@ -55,7 +55,7 @@ impl Flights {
                 _ => Randomization::Owen,
             };
             let key = stream_key(effort.seed, replicate, 0);
-            Replicate::of(&photon, &PointSet::new(sequence, randomization, key), effort.most)
+            Replicate::trace(&photon, &PointSet::new(sequence, randomization, key), effort.most)
         };
         let traced: Vec<Replicate> = (0..effort.replicates).into_par_iter().map(one).collect();
         let mut dimensions = DimensionHistogram::new();
@@ -80,7 +80,7 @@ impl Flights {
 }
 
 impl Replicate {
-    fn of(
+    fn trace(
         photon: &impl Fn(&mut Sampler<'_>, &mut dyn FnMut(usize)),
         points: &PointSet,
         most: u64,

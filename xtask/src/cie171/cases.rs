@@ -3,7 +3,7 @@
 use super::factors::{Point, configuration_factor, solid_angle_sr};
 use super::geometry::{BOX, CUBE_M, FACES, PANEL, ROOM_M};
 use super::luminaire;
-use super::project::{Case, Expectation, Project, Sensor, Tolerance};
+use super::project::{Case, Expectation, Material, Project, Sensor, Tolerance};
 use std::f64::consts::PI;
 
 /// Of the panel of case 5.3.
@@ -61,65 +61,67 @@ pub(super) fn projects() -> Vec<NamedProject> {
 
 /// All cases.
 pub(super) fn cases() -> Vec<Case> {
-    let case = |number: &str, name: &str, estimators, source, expect| Case {
+    let cubes = CUBES.map(|(reflectance, label)| cube_case(reflectance, label));
+    room_cases().into_iter().chain(cubes).collect()
+}
+
+/// Estimators of sensors at points, which paths find, and of means, which photons find as well.
+const OF_POINTS: &[&str] = &["path", "bidirectional"];
+const OF_MEANS: &[&str] = &["path", "photon"];
+const CONTOUR_INTEGRAL: &str = "closed form: contour integral of Lambert (1760)";
+
+/// Cases 5.2 to 5.7.
+fn room_cases() -> [Case; 5] {
+    let in_room = |number, name, source, expect| case(number, name, OF_POINTS, source, expect);
+    [
+        in_room(
+            "5_2",
+            "5.2 point light",
+            "closed form: E = I cos / d^2, I = 1000 cd cos gamma",
+            points(&plane_places(), "floor", "illuminance_lx", "I h / d^3", under_point_light_lx),
+        ),
+        in_room("5_3", "5.3 area light", CONTOUR_INTEGRAL, under_panel()),
+        case("5_4", "5.4 flux", OF_MEANS, "closed form: flux = sum of illuminance x area", {
+            let faces = FACES.iter().enumerate();
+            let means = faces.map(|(face, name)| face_average(face, name));
+            means.chain([all_flux(FLUX_LM)]).collect()
+        }),
+        in_room("5_6", "5.6 diffuse reflection", CONTOUR_INTEGRAL, over_lit_floor()),
+        in_room("5_7", "5.7 obstruction", CONTOUR_INTEGRAL, behind_box()),
+    ]
+}
+
+/// Case 5.8 with one reflectance.
+fn cube_case(reflectance: f64, label: &str) -> Case {
+    let all_lm = FLUX_LM / (1.0 - reflectance);
+    let expect = vec![all_flux(all_lm), reflected_flux(reflectance * all_lm)];
+    let name = format!("5.8 reflectance {reflectance}");
+    let source = "closed form: flux / (1 - reflectance)";
+    case(&format!("5_8_{label}"), &name, OF_MEANS, source, expect)
+}
+
+fn case(
+    number: &str,
+    name: &str,
+    estimators: &'static [&'static str],
+    source: &'static str,
+    expect: Vec<Expectation>,
+) -> Case {
+    Case {
         file: format!("cie171_{number}"),
         name: format!("CIE 171:2006, {name}"),
         source,
         project: format!("cie171_{number}"),
         estimators,
         expect,
-    };
-    let gathered: &[&str] = &["path", "bidirectional"];
-    let counted: &[&str] = &["path", "photon"];
-    let mut cases = vec![
-        case(
-            "5_2",
-            "5.2 point light",
-            gathered,
-            "closed form: E = I cos / d^2, I = 1000 cd cos gamma",
-            points(&plane_places(), "floor", "illuminance_lx", "I h / d^3", |at| {
-                let h = ROOM_M[2];
-                let squared = (at[0] - 2.0) * (at[0] - 2.0) + (at[1] - 2.0) * (at[1] - 2.0) + h * h;
-                1000.0 * h * h / (squared * squared)
-            }),
-        ),
-        case(
-            "5_3",
-            "5.3 area light",
-            gathered,
-            "closed form: contour integral of Lambert (1760)",
-            under_panel(),
-        ),
-        case("5_4", "5.4 flux", counted, "closed form: flux = sum of illuminance x area", {
-            let faces = FACES.iter().enumerate();
-            let mut expect: Vec<Expectation> =
-                faces.map(|(face, name)| face_average(face, name)).collect();
-            expect.push(all_flux(FLUX_LM));
-            expect
-        }),
-        case(
-            "5_6",
-            "5.6 diffuse reflection",
-            gathered,
-            "closed form: contour integral of Lambert (1760)",
-            over_lit_floor(),
-        ),
-        case(
-            "5_7",
-            "5.7 obstruction",
-            gathered,
-            "closed form: contour integral of Lambert (1760)",
-            behind_box(),
-        ),
-    ];
-    for (reflectance, label) in CUBES {
-        let number = format!("5_8_{label}");
-        let all_lm = FLUX_LM / (1.0 - reflectance);
-        let all = vec![all_flux(all_lm), reflected_flux(reflectance * all_lm)];
-        let name = format!("5.8 reflectance {reflectance}");
-        cases.push(case(&number, &name, counted, "closed form: flux / (1 - reflectance)", all));
     }
-    cases
+}
+
+/// Illuminance on the floor at a place of case 5.2, whose light has 1000 cd times the cosine.
+fn under_point_light_lx(at: Point) -> f64 {
+    let h = ROOM_M[2];
+    let squared = (at[0] - 2.0) * (at[0] - 2.0) + (at[1] - 2.0) * (at[1] - 2.0) + h * h;
+    1000.0 * h * h / (squared * squared)
 }
 
 /// Direct light of the panel of case 5.3.
@@ -282,7 +284,7 @@ fn point_light() -> Project {
 
 fn area_light() -> Project {
     let mut materials = faces(|_| 0.0);
-    materials.push(("panel", 0.0));
+    materials.push(Material { name: "panel", reflectance: 0.0 });
     let light = format!(
         "[[lights]]\nkind = \"area\"\nmaterial = \"panel\"\nluminance_cd_m2 = {PANEL_CD_M2}\n"
     );
@@ -322,7 +324,7 @@ fn diffuse_reflection() -> Project {
 
 fn obstruction() -> Project {
     let mut materials = faces(|face| if face == "back" { WALL } else { 0.0 });
-    materials.push(("box", 0.0));
+    materials.push(Material { name: "box", reflectance: 0.0 });
     let places = [0.25, 1.5, 2.75].map(|z| [1.0, ROOM_M[1], z]);
     let back = Sensor::Points { name: "back", places: places.to_vec(), normal: [0.0, -1.0, 0.0] };
     Project {
@@ -347,8 +349,8 @@ fn cube(reflectance: f64) -> Project {
     }
 }
 
-fn faces(reflectance: impl Fn(&str) -> f64) -> Vec<(&'static str, f64)> {
-    FACES.into_iter().map(|face| (face, reflectance(face))).collect()
+fn faces(reflectance: impl Fn(&str) -> f64) -> Vec<Material> {
+    FACES.into_iter().map(|name| Material { name, reflectance: reflectance(name) }).collect()
 }
 
 fn wall(heights_m: &[f64]) -> Sensor {

@@ -19,20 +19,20 @@ pub(super) const FACES: [&str; 6] = ["left", "right", "front", "back", "floor", 
 /// A box from the origin on, seen from within, its faces named as [`FACES`].
 pub(super) fn room_file(size_m: Point) -> String {
     let faces = box_faces([[0.0; 3], size_m]);
-    file(FACES.into_iter().zip(faces.map(|mut corners| {
+    file(FACES.into_iter().zip(faces).map(|(material, mut corners)| {
         corners.reverse();
-        corners
-    })))
+        Quad { material, corners }
+    }))
 }
 
 /// The panel, shining down.
 pub(super) fn panel_file() -> String {
-    file([("panel", PANEL)])
+    file([Quad { material: "panel", corners: PANEL }])
 }
 
 /// The obstruction, seen from outside.
 pub(super) fn box_file() -> String {
-    file(box_faces(BOX).map(|corners| ("box", corners)))
+    file(box_faces(BOX).map(|corners| Quad { material: "box", corners }))
 }
 
 /// Corners of the six faces, counter-clockwise from outside.
@@ -53,9 +53,15 @@ fn box_faces([low, high]: [Point; 2]) -> [[Point; 4]; 6] {
     [face(0, false), face(0, true), face(1, false), face(1, true), face(2, false), face(2, true)]
 }
 
-fn file(quads: impl IntoIterator<Item = (&'static str, [Point; 4])>) -> String {
+/// Four corners of a face, named as its material.
+struct Quad {
+    material: &'static str,
+    corners: [Point; 4],
+}
+
+fn file(quads: impl IntoIterator<Item = Quad>) -> String {
     let mut text = "# Written by `cargo xtask cie171`; metres, z up\n".to_owned();
-    for (material, corners) in quads {
+    for Quad { material, corners } in quads {
         writeln!(text, "o {material}\nusemtl {material}").expect("strings grow");
         for [x, y, z] in corners {
             writeln!(text, "v {x} {y} {z}").expect("strings grow");

@@ -7,11 +7,17 @@ use std::fmt::Write;
 pub(super) struct Project {
     pub(super) what: &'static str,
     pub(super) geometry: Vec<&'static str>,
-    pub(super) materials: Vec<(&'static str, f64)>,
+    pub(super) materials: Vec<Material>,
     /// A table of the project file, its header included.
     pub(super) light: String,
     pub(super) sensors: Vec<Sensor>,
     pub(super) tolerance: Tolerance,
+}
+
+/// A diffuse material.
+pub(super) struct Material {
+    pub(super) name: &'static str,
+    pub(super) reflectance: f64,
 }
 
 /// Half-width over value, and of what.
@@ -73,7 +79,7 @@ impl Project {
             "# {}.\n# Written by `cargo xtask cie171`.\n\n[scene]\ngeometry = {:?}\n",
             self.what, self.geometry
         );
-        for (name, reflectance) in &self.materials {
+        for Material { name, reflectance } in &self.materials {
             write!(text, "\n[materials.{name}]\nreflectance = {reflectance}\n")
                 .expect("strings grow");
         }

@@ -20,6 +20,18 @@ impl Meaning {
     }
 }
 
+/// A name that is looked up in a module.
+struct Lookup {
+    module: usize,
+    name: String,
+}
+
+impl Lookup {
+    fn is(&self, module: usize, name: &str) -> bool {
+        self.module == module && self.name == name
+    }
+}
+
 /// The names that one module knows.
 #[derive(Default)]
 struct Scope {
@@ -56,12 +68,7 @@ impl<'a> Scopes<'a> {
     }
 
     /// `open` holds the lookups that this one serves, so that a name that is made of itself ends.
-    fn resolve(
-        &self,
-        module: usize,
-        names: &[String],
-        open: &mut Vec<(usize, String)>,
-    ) -> Vec<Meaning> {
+    fn resolve(&self, module: usize, names: &[String], open: &mut Vec<Lookup>) -> Vec<Meaning> {
         let Some((first, mut rest)) = names.split_first() else {
             return Vec::new();
         };
@@ -78,7 +85,7 @@ impl<'a> Scopes<'a> {
         meanings
     }
 
-    fn step(&self, at: Meaning, name: &str, open: &mut Vec<(usize, String)>) -> Vec<Meaning> {
+    fn step(&self, at: Meaning, name: &str, open: &mut Vec<Lookup>) -> Vec<Meaning> {
         let Meaning::Module(module) = at else {
             return vec![at];
         };
@@ -87,21 +94,21 @@ impl<'a> Scopes<'a> {
         }
         let found = self.look_up(module, name, open);
         // What a macro defines has no name here: it is an item of the module all the same.
-        let is_open = open.iter().any(|(m, n)| *m == module && n == name);
+        let is_open = open.iter().any(|lookup| lookup.is(module, name));
         if found.is_empty() && !is_open { vec![Meaning::Item(module)] } else { found }
     }
 
-    fn look_up(&self, module: usize, name: &str, open: &mut Vec<(usize, String)>) -> Vec<Meaning> {
+    fn look_up(&self, module: usize, name: &str, open: &mut Vec<Lookup>) -> Vec<Meaning> {
         let scope = &self.scopes[module];
         let mut meanings = Vec::new();
         if scope.defined.iter().any(|defined| defined == name) {
             meanings.push(Meaning::Item(module));
         }
         meanings.extend(self.tree.modules[module].children.get(name).map(|&c| Meaning::Module(c)));
-        if open.iter().any(|(m, n)| *m == module && n == name) {
+        if open.iter().any(|lookup| lookup.is(module, name)) {
             return meanings;
         }
-        open.push((module, name.to_owned()));
+        open.push(Lookup { module, name: name.to_owned() });
         for path in scope.used.get(name).into_iter().flatten() {
             meanings.extend(self.resolve(module, path, open));
         }

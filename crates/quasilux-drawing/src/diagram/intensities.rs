@@ -76,7 +76,7 @@ pub fn intensities(intensities: &Intensities<'_>) -> Drawing {
 }
 
 fn panel(curves: &[IntensityCurve]) -> Panel {
-    let end_deg = if Extent::of(curves) == Extent::Down { 90.0 } else { 180.0 };
+    let end_deg = if Extent::from_curves(curves) == Extent::Down { 90.0 } else { 180.0 };
     let values = curves.iter().flat_map(|curve| &curve.points).map(|[_, value]| *value);
     let max_value = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
     let high = if max_value > 0.0 { 1.05 * max_value } else { 1.0 };

@@ -54,7 +54,7 @@ const STEP_DEG: f64 = 1.0;
 const GRID: Stroke = Stroke::solid([0xcc; 3], 0.9);
 
 impl Extent {
-    pub(super) fn of(curves: &[IntensityCurve]) -> Self {
+    pub(super) fn from_curves(curves: &[IntensityCurve]) -> Self {
         let max_value = |is_below: bool| {
             let points = curves.iter().flat_map(|curve| refined(&curve.points));
             let side = points.filter(|[gamma_deg, _]| {
@@ -93,13 +93,13 @@ impl Extent {
 impl Polar<'_> {
     /// Width and height of the diagram.
     pub(super) fn size_px(&self) -> [f64; 2] {
-        let [above, below] = Extent::of(self.curves).heights_px();
+        let [above, below] = Extent::from_curves(self.curves).heights_px();
         [2.0 * (RADIUS_PX + RIM_PX), above + below]
     }
 
     /// Draws the diagram with its top left corner at `corner_px`.
     pub(super) fn draw(&self, drawing: &mut Drawing, [left, top]: [f64; 2]) {
-        let extent = Extent::of(self.curves);
+        let extent = Extent::from_curves(self.curves);
         let centre = [left + RADIUS_PX + RIM_PX, top + extent.heights_px()[0]];
         let rings = self.rings();
         let outermost = rings.values.last().copied().unwrap_or(1.0);

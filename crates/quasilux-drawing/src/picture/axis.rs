@@ -15,7 +15,7 @@ pub(crate) struct Axis {
 impl Axis {
     /// World coordinates where the edge runs along one of their axes, else lengths from the grid's
     /// corner, named as the edge; at most `most` ticks.
-    pub(crate) fn of(origin: DVec3, edge: DVec3, edge_name: &str, most: usize) -> Self {
+    pub(crate) fn along_edge(origin: DVec3, edge: DVec3, edge_name: &str, most: usize) -> Self {
         let length_m = edge.length();
         let world = (0..3).find(|&a| edge[a].abs() > length_m * (1.0 - 1e-9));
         let (title, start_m, end_m) = match world {
@@ -38,18 +38,18 @@ mod tests {
 
     #[test]
     fn world_coordinates_where_there_are_some() {
-        let axis = Axis::of(DVec3::new(0.5, 0.0, 0.0), DVec3::X * 4.0, "u", 5);
+        let axis = Axis::along_edge(DVec3::new(0.5, 0.0, 0.0), DVec3::X * 4.0, "u", 5);
         assert_eq!(axis.title, "x (m)");
         let expected = [(0.125, "1"), (0.375, "2"), (0.625, "3"), (0.875, "4")];
         assert_eq!(axis.ticks, expected.map(|(share, text)| tick(share, text)));
-        let backward = Axis::of(DVec3::Y * 4.0, DVec3::Y * -4.0, "v", 3);
+        let backward = Axis::along_edge(DVec3::Y * 4.0, DVec3::Y * -4.0, "v", 3);
         assert_eq!(backward.title, "y (m)");
         assert_eq!(backward.ticks[0], tick(1.0, "0"));
     }
 
     #[test]
     fn lengths_from_the_corner_otherwise() {
-        let axis = Axis::of(DVec3::ONE, DVec3::new(3.0, 4.0, 0.0), "u", 6);
+        let axis = Axis::along_edge(DVec3::ONE, DVec3::new(3.0, 4.0, 0.0), "u", 6);
         assert_eq!(axis.title, "u (m)");
         assert_eq!(axis.ticks.first(), Some(&tick(0.0, "0")));
         assert_eq!(axis.ticks.last(), Some(&tick(1.0, "5")));

@@ -21,8 +21,8 @@ const TICK: Stroke = Stroke::solid(GREY, 1.0);
 pub fn grid(grid: &GridPicture<'_>) -> Drawing {
     let [columns, rows] = grid.counts.map(|n| n as usize);
     assert_eq!(grid.cells.len(), columns * rows, "cells of another grid");
-    let scale = ValueScale::of(grid.cells);
-    let layout = Layout::of(grid.edges_m(), grid.caption.facts);
+    let scale = ValueScale::from_cells(grid.cells);
+    let layout = Layout::new(grid.edges_m(), grid.caption.facts);
     let mut drawing = frame::titled(&layout, &grid.caption);
     plot::draw(&mut drawing, &layout, grid, &scale);
     draw_axes(&mut drawing, &layout, grid);
@@ -41,8 +41,8 @@ fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>) {
     let plot = layout.plot();
     let most = |length_px: usize| (length_px / 70).max(2);
     let origin = DVec3::from(grid.origin_m);
-    let along = Axis::of(origin, DVec3::from(grid.u_m), "u", most(layout.plot_size[0]));
-    let across = Axis::of(origin, DVec3::from(grid.v_m), "v", most(layout.plot_size[1]));
+    let along = Axis::along_edge(origin, DVec3::from(grid.u_m), "u", most(layout.plot_size[0]));
+    let across = Axis::along_edge(origin, DVec3::from(grid.v_m), "v", most(layout.plot_size[1]));
     let style = |anchor| TextStyle::new(layout::SMALL_PX, GREY, anchor);
     for tick in &along.ticks {
         let [x, bottom] = plot.at([tick.share, 0.0]);
@@ -85,7 +85,7 @@ mod tests {
     fn the_picture_has_the_expected_size_and_proportion() {
         let grid = Grid::new([5.0, 4.0], [24, 20], 0.01, batwing);
         let (size, pixels) = decoded(&super::grid(&grid.picture("workplane")).to_png(1.0));
-        let layout = Layout::of([5.0, 4.0], &grid.facts);
+        let layout = Layout::new([5.0, 4.0], &grid.facts);
         assert_eq!(layout.plot_size, [900, 720]);
         assert_eq!(size.map(|n| n as usize), layout.size);
         assert_eq!(pixels.len(), 3 * layout.size[0] * layout.size[1]);
@@ -103,8 +103,8 @@ mod tests {
                 },
             );
         let (size, pixels) = decoded(&super::grid(&grid.picture("s")).to_png(1.0));
-        let layout = Layout::of([2.0, 2.0], &grid.facts);
-        let scale = ValueScale::of(&grid.cells);
+        let layout = Layout::new([2.0, 2.0], &grid.facts);
+        let scale = ValueScale::from_cells(&grid.cells);
         let at = |x: usize, y: usize| {
             let [left, top] = layout.plot_corner;
             let index = 3 * ((top + y) * size[0] as usize + left + x);

@@ -44,7 +44,7 @@ pub(crate) struct Layout {
 impl Layout {
     /// The layout for a rectangle with these edges; `summary` is broken into lines between its
     /// pieces.
-    pub(crate) fn of([u_m, v_m]: [f64; 2], summary: &[String]) -> Self {
+    pub(crate) fn new([u_m, v_m]: [f64; 2], summary: &[String]) -> Self {
         let px_per_m = PLOT_LONG / u_m.max(v_m);
         let plot_size =
             [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
@@ -143,17 +143,17 @@ mod tests {
 
     #[test]
     fn true_proportion() {
-        assert_eq!(Layout::of([6.0, 5.0], &[]).plot_size, [900, 750]);
-        assert_eq!(Layout::of([0.05, 0.06], &[]).plot_size, [750, 900]);
-        assert_eq!(Layout::of([50.0, 2.0], &[]).plot_size, [900, 36]);
+        assert_eq!(Layout::new([6.0, 5.0], &[]).plot_size, [900, 750]);
+        assert_eq!(Layout::new([0.05, 0.06], &[]).plot_size, [750, 900]);
+        assert_eq!(Layout::new([50.0, 2.0], &[]).plot_size, [900, 36]);
     }
 
     #[test]
     fn summary_wraps_between_its_pieces() {
         let pieces = ["average 500 lx", "minimum 200 lx"].map(str::to_owned);
-        assert_eq!(Layout::of([1.0, 1.0], &pieces).summary_lines.len(), 1);
+        assert_eq!(Layout::new([1.0, 1.0], &pieces).summary_lines.len(), 1);
         let many = vec![pieces; 6].concat();
-        let lines = Layout::of([1.0, 50.0], &many).summary_lines;
+        let lines = Layout::new([1.0, 50.0], &many).summary_lines;
         assert_eq!(lines.len(), 3);
         assert!(lines.iter().all(|l| width_px(l, SUMMARY_PX) <= CONTENT_LEAST as f64));
         assert_eq!(lines.join(SUMMARY_GAP), many.join(SUMMARY_GAP));

@@ -23,7 +23,7 @@ pub struct LuminancePicture<'a> {
 /// Draws luminances in false colours; pixels of small pictures are squares.
 #[must_use]
 pub fn luminance(picture: &LuminancePicture<'_>) -> Drawing {
-    let scale = LuminanceScale::of(picture.luminances_cd_m2);
+    let scale = LuminanceScale::new(picture.luminances_cd_m2);
     let [width, height] = picture.resolution.map(|n| n as usize);
     let zoom = (LONG_PX / width.max(height)).max(1);
     let layout = Layout::without_axes([zoom * width, zoom * height], picture.caption.facts);
@@ -66,7 +66,7 @@ mod tests {
             let index = 3 * ((top + y) * size[0] + left + x);
             [pixels[index], pixels[index + 1], pixels[index + 2]]
         };
-        let scale = LuminanceScale::of(&luminances);
+        let scale = LuminanceScale::new(&luminances);
         assert_eq!([at(0, 0), at(989, 32)], [colour_map::colour(1.0); 2]);
         assert_eq!([at(0, 33), at(32, 659)], [scale.colour(1.0); 2]);
         assert_eq!(at(989, 33), scale.colour(30.0));

@@ -29,7 +29,7 @@ pub(crate) struct LuminanceScale {
 
 impl LuminanceScale {
     /// The scale for a picture.
-    pub(crate) fn of(luminances_cd_m2: &[f32]) -> Self {
+    pub(crate) fn new(luminances_cd_m2: &[f32]) -> Self {
         let lit = |luminance: &f32| *luminance > 0.0;
         let mut lit: Vec<f32> = luminances_cd_m2.iter().copied().filter(lit).collect();
         lit.sort_unstable_by(f32::total_cmp);
@@ -88,21 +88,21 @@ mod tests {
 
     #[test]
     fn ends_and_ticks_are_round() {
-        let room = LuminanceScale::of(&[3.4, 17.0, 88.0, 410.0]);
+        let room = LuminanceScale::new(&[3.4, 17.0, 88.0, 410.0]);
         assert_eq!(room.ticks, [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
         assert_eq!((room.share(2.0), room.share(500.0)), (0.0, 1.0));
         assert!((room.share(libm::sqrt(1000.0)) - 0.5).abs() < 1e-12);
         let labels: Vec<String> =
             room.legend().ticks.into_iter().filter_map(|tick| tick.label).collect();
         assert_eq!(labels, ["2", "5", "10", "20", "50", "100", "200", "500"]);
-        let dim = LuminanceScale::of(&[0.01, 0.05]);
+        let dim = LuminanceScale::new(&[0.01, 0.05]);
         assert_eq!(dim.ticks, [0.01, 0.02, 0.05]);
     }
 
     #[test]
     fn any_picture_has_a_scale() {
         for luminances in [&[][..], &[0.0], &[7.0], &[1e-30, 1.0], &[1e-30, 1e30], &[0.0, 1e-38]] {
-            let scale = LuminanceScale::of(luminances);
+            let scale = LuminanceScale::new(luminances);
             assert!(scale.ticks.len() >= 2 && scale.ticks.len() <= 15, "{luminances:?}");
             assert!(luminances.iter().all(|&l| scale.share(f64::from(l)) < 1.0 + HAIR));
             assert!(!scale.legend().ticks.is_empty());
@@ -113,6 +113,6 @@ mod tests {
     fn a_few_dark_pixels_do_not_stretch_it() {
         let mut luminances = vec![50.0; 200];
         luminances[0] = 1e-3;
-        assert_eq!(LuminanceScale::of(&luminances).ticks, [50.0, 100.0]);
+        assert_eq!(LuminanceScale::new(&luminances).ticks, [50.0, 100.0]);
     }
 }

@@ -27,7 +27,7 @@ impl ValueScale {
     /// It begins at zero unless all values lie in the upper half: then differences would be lost.
     /// Contour lines are never closer than twice the median half-width, so that noise is not drawn
     /// as structure.
-    pub(crate) fn of(cells: &[Cell]) -> Self {
+    pub(crate) fn from_cells(cells: &[Cell]) -> Self {
         let values = || cells.iter().filter_map(|cell| cell.value);
         let low = values().reduce(f64::min).unwrap_or(0.0);
         let high = values().reduce(f64::max).unwrap_or(0.0);
@@ -77,7 +77,7 @@ mod tests {
     use crate::example::Grid;
 
     fn scale(noise: f64, lx: impl Fn(f64, f64) -> f64) -> ValueScale {
-        ValueScale::of(&Grid::new([4.0, 4.0], [10, 10], noise, lx).cells)
+        ValueScale::from_cells(&Grid::new([4.0, 4.0], [10, 10], noise, lx).cells)
     }
 
     #[test]

@@ -30,7 +30,7 @@ pub fn series(
     pictures: &[LabelledImage<'_>],
     exposure: &[f32],
 ) -> Drawing {
-    let operator = Operator::of(exposure);
+    let operator = Operator::from_luminances(exposure);
     let [width, height] = [width, height].map(|n| n as usize);
     let size = [GAP_PX + pictures.len() * (width + GAP_PX), height + LABEL_PX + GAP_PX];
     let labels: Vec<&str> = pictures.iter().map(|picture| picture.label).collect();

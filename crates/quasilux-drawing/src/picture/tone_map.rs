@@ -19,7 +19,7 @@ const KEY: f64 = 0.18;
 /// Luminances are relative to the picture's own: two pictures cannot be compared by it.
 #[must_use]
 pub fn tone_mapped_png(image: &Image<'_>) -> Vec<u8> {
-    let operator = Operator::of(image.luminance);
+    let operator = Operator::from_luminances(image.luminance);
     srgb_png(image.resolution, operator.all_shown(image).as_flattened())
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Operator {
 
 impl Operator {
     /// The operator of an image with these luminances.
-    pub(super) fn of(luminances: &[f32]) -> Self {
+    pub(super) fn from_luminances(luminances: &[f32]) -> Self {
         let (mut logarithms, mut lit, mut largest) = (0.0, 0_u64, 0.0_f64);
         for luminance in luminances.iter().copied().map(f64::from) {
             if luminance > 0.0 {
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn the_operator_is_the_published_one() {
         for unit in [1e-3_f32, 1.0, 1e4] {
-            let operator = Operator::of(&[unit, 4.0 * unit]);
+            let operator = Operator::from_luminances(&[unit, 4.0 * unit]);
             assert_eq!(shown(&operator, 4.0 * unit), [255; 3]);
             let (l, white) = (0.09_f64, 0.36_f64);
             let wanted = 255.0 * encoded(l * (1.0 + l / (white * white)) / (1.0 + l));
@@ -98,8 +98,8 @@ mod tests {
 
     #[test]
     fn dark_and_saturated_pixels_do_not_break() {
-        assert_eq!(shown(&Operator::of(&[0.0]), 0.0), [0; 3]);
-        let blue = Operator::of(&[1.0, 0.0]).shown([0.0, 0.0, 1.0 / 0.0722], 1.0);
+        assert_eq!(shown(&Operator::from_luminances(&[0.0]), 0.0), [0; 3]);
+        let blue = Operator::from_luminances(&[1.0, 0.0]).shown([0.0, 0.0, 1.0 / 0.0722], 1.0);
         assert_eq!(blue, [0, 0, 255]);
     }
 

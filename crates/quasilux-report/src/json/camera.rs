@@ -16,14 +16,14 @@ pub(super) struct CameraEntry<'a> {
 }
 
 impl<'a> CameraEntry<'a> {
-    pub(super) fn of(camera: &'a CameraReport) -> Self {
+    pub(super) fn new(camera: &'a CameraReport) -> Self {
         let files = camera.files();
         Self {
             name: &camera.name,
             resolution: camera.resolution,
             samples: camera.samples,
             files: [files.exr, files.png, files.false_colour_png],
-            mean_luminance_cd_m2: FigureEntry::of(camera.mean_cd_m2),
+            mean_luminance_cd_m2: FigureEntry::new(camera.mean_cd_m2),
             maximum_luminance_cd_m2: camera.maximum_cd_m2,
             mean_half_width_cd_m2: camera.mean_half_width_cd_m2,
         }

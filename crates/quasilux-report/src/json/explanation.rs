@@ -65,7 +65,7 @@ struct GainEntry {
 }
 
 impl<'a> ExplanationEntry<'a> {
-    pub(super) fn of(explanation: &'a Explanation) -> Self {
+    pub(super) fn new(explanation: &'a Explanation) -> Self {
         let deviation = explanation.relative_deviation;
         Self {
             samples_are: match explanation.walk {
@@ -84,21 +84,21 @@ impl<'a> ExplanationEntry<'a> {
             relative_deviation: deviation.is_finite().then_some(deviation),
             interacting_blocks: explanation.interacting_blocks,
             truncation_dimension: explanation.truncation_dimension,
-            blocks: explanation.blocks.iter().map(BlockEntry::of).collect(),
-            gain: explanation.gain.map(GainEntry::of),
-            beside: explanation.beside.iter().map(BesideEntry::of).collect(),
+            blocks: explanation.blocks.iter().map(BlockEntry::new).collect(),
+            gain: explanation.gain.map(GainEntry::new),
+            beside: explanation.beside.iter().map(BesideEntry::new).collect(),
         }
     }
 }
 
 impl<'a> BesideEntry<'a> {
-    fn of(Beside { for_each_path, explanation }: &'a Beside) -> Self {
-        Self { for_each_path: *for_each_path, explanation: ExplanationEntry::of(explanation) }
+    fn new(Beside { for_each_path, explanation }: &'a Beside) -> Self {
+        Self { for_each_path: *for_each_path, explanation: ExplanationEntry::new(explanation) }
     }
 }
 
 impl BlockEntry {
-    fn of(block: &Block) -> Self {
+    fn new(block: &Block) -> Self {
         let share = |share: Option<Share>| {
             share.map(|Share { value, standard_error }| ShareEntry { value, standard_error })
         };
@@ -117,7 +117,7 @@ impl BlockEntry {
 }
 
 impl GainEntry {
-    fn of(gain: Gain) -> Self {
+    fn new(gain: Gain) -> Self {
         let Gain { samples, replicates, factor, standard_error, exponent } = gain;
         Self { samples, replicates, factor, standard_error, exponent }
     }

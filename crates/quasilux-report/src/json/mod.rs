@@ -41,7 +41,7 @@ pub const FORMAT: &str = "quasilux-result/1";
 /// The result document, one line a sensor point, ending in a line feed.
 #[must_use]
 pub fn json(report: &Report) -> String {
-    text(&Document::of(report))
+    text(&Document::new(report))
 }
 
 /// Any document in the same layout: outer levels indented, inner ones on one line. What is not
@@ -193,33 +193,33 @@ struct DimensionCountsEntry<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn of(report: &'a Report) -> Self {
+    fn new(report: &'a Report) -> Self {
         Self {
             format: FORMAT,
             biased: report.biased,
-            sensors: report.sensors.iter().map(|s| SensorEntry::of(s, &report.run)).collect(),
-            cameras: report.cameras.iter().map(CameraEntry::of).collect(),
-            run: RunEntry::of(&report.run),
-            explain: report.explanation.as_ref().map(ExplanationEntry::of),
+            sensors: report.sensors.iter().map(|s| SensorEntry::new(s, &report.run)).collect(),
+            cameras: report.cameras.iter().map(CameraEntry::new).collect(),
+            run: RunEntry::new(&report.run),
+            explain: report.explanation.as_ref().map(ExplanationEntry::new),
             warnings: &report.warnings,
         }
     }
 }
 
 impl<'a> SensorEntry<'a> {
-    fn of(sensor: &'a SensorReport, run: &Run) -> Self {
+    fn new(sensor: &'a SensorReport, run: &Run) -> Self {
         Self {
             name: &sensor.name,
             kind: if sensor.grid.is_some() { "grid" } else { "points" },
             counts: sensor.grid.map(|grid| grid.counts),
-            points: (0..sensor.points.len()).map(|p| PointEntry::of(sensor, p, run)).collect(),
-            summary: SummaryEntry::of(sensor),
+            points: (0..sensor.points.len()).map(|p| PointEntry::new(sensor, p, run)).collect(),
+            summary: SummaryEntry::new(sensor),
         }
     }
 }
 
 impl DecisionsEntry {
-    fn of(decisions: &Decisions) -> Self {
+    fn new(decisions: &Decisions) -> Self {
         let Decisions {
             connected_photons,
             uses_importance: importance,
@@ -233,7 +233,7 @@ impl DecisionsEntry {
 }
 
 impl PointEntry {
-    fn of(sensor: &SensorReport, number: usize, run: &Run) -> Self {
+    fn new(sensor: &SensorReport, number: usize, run: &Run) -> Self {
         let point = &sensor.points[number];
         Self {
             position: point.position_m.to_array(),
@@ -248,15 +248,15 @@ impl PointEntry {
 }
 
 impl FigureEntry {
-    fn of(figure: Figure) -> Self {
+    fn new(figure: Figure) -> Self {
         Self { value: figure.value, half_width: figure.half_width }
     }
 }
 
 impl SummaryEntry {
-    fn of(sensor: &SensorReport) -> Self {
+    fn new(sensor: &SensorReport) -> Self {
         let summary = &sensor.summary;
-        let entry = FigureEntry::of;
+        let entry = FigureEntry::new;
         Self {
             average_lx: entry(summary.average_lx),
             minimum_lx: entry(summary.minimum_lx),
@@ -268,7 +268,7 @@ impl SummaryEntry {
 }
 
 impl<'a> RunEntry<'a> {
-    fn of(run: &'a Run) -> Self {
+    fn new(run: &'a Run) -> Self {
         Self {
             version: &run.version,
             build: &run.build,
@@ -287,7 +287,7 @@ impl<'a> RunEntry<'a> {
             abs_tol_lx: run.settings.abs_tol_lx,
             tolerance_on: run.settings.tolerance_on.name(),
             tolerance_reached: run.tolerance_reached,
-            prediction: PredictionEntry::of(run),
+            prediction: PredictionEntry::new(run),
             max_bounces: run.settings.max_bounces,
             list_terms: run.settings.list_terms,
             first_shot: run.settings.first_shot.name(),
@@ -300,7 +300,7 @@ impl<'a> RunEntry<'a> {
             image_depth: run.settings.image_depth,
             importance: run.settings.importance.name(),
             connections: run.settings.connections.name(),
-            decisions: DecisionsEntry::of(&run.decisions),
+            decisions: DecisionsEntry::new(&run.decisions),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

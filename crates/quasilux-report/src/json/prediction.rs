@@ -20,7 +20,7 @@ pub(super) struct PredictionEntry {
 }
 
 impl PredictionEntry {
-    pub(super) fn of(run: &Run) -> Self {
+    pub(super) fn new(run: &Run) -> Self {
         let Convergence { slope, samples, rays, against_prediction } = run.convergence;
         let finite = |x: &f64| x.is_finite();
         Self {

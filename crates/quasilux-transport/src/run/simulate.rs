@@ -124,8 +124,8 @@ struct Steps<'r, 'a, S> {
 }
 
 impl<S: Spectrum> Steps<'_, '_, S> {
-    /// Goes from checkpoint to checkpoint until the tolerance or a limit is reached, or the observer
-    /// stops it.
+    /// Goes from checkpoint to checkpoint until the tolerance or a limit is reached, or the
+    /// observer stops it.
     fn advance_to_the_end(
         &self,
         estimator: &mut (dyn Estimator + '_),

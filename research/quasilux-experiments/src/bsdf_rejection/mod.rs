@@ -52,8 +52,11 @@ fn setups(glossy: &Glossy, effort: Effort) -> Vec<Setup> {
     let sequences = [Sequence::Independent, Sequence::Sobol];
     let all = sequences.into_iter().flat_map(|sequence| Method::ALL.map(|m| (sequence, m)));
     all.map(|(sequence, method)| {
-        let flights =
-            Flights::of(|sampler, landed| glossy.photon(method, sampler, landed), sequence, effort);
+        let flights = Flights::trace(
+            |sampler, landed| glossy.photon(method, sampler, landed),
+            sequence,
+            effort,
+        );
         Setup { method, flights }
     })
     .collect()

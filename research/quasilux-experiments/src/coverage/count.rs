@@ -68,7 +68,7 @@ impl Figure {
     }
 
     /// Its own of values of all figures, in the order of [`Figure::all`].
-    pub(super) fn of<T: Copy>(self, values: &[T]) -> T {
+    pub(super) fn pick<T: Copy>(self, values: &[T]) -> T {
         let points = values.len() - 2;
         values[match self {
             Self::Point(number) => number,
@@ -132,7 +132,7 @@ impl Count {
 
 impl Verdict {
     /// Judges intervals of `scale` times the width.
-    pub(super) fn of(counts: &[Count], scale: f64) -> Self {
+    pub(super) fn new(counts: &[Count], scale: f64) -> Self {
         let p_value = |count: &Count| p_value(count.covered(scale), count.errors.len());
         let tests = counts.len().max(1) as f64;
         Self {

@@ -19,7 +19,7 @@ use count::{Count, Figure, Moment, Verdict};
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_transport::Settings;
 use rayon::prelude::*;
-use scenes::Known;
+use scenes::KnownScene;
 use trial::Trial;
 
 /// Seeds of each scene and sequence, unless the command line says otherwise.
@@ -32,7 +32,7 @@ const SEQUENCES: [(Sequence, Randomization); 2] =
 pub(super) fn run(arguments: &Options) -> Outcome {
     let seeds = arguments.seeds.unwrap_or(SEEDS);
     let counts = counts(&scenes::all(), arguments.seed, seeds);
-    let verdict = Verdict::of(&counts, 1.0);
+    let verdict = Verdict::new(&counts, 1.0);
     let mut runs = counts.iter().filter(|count| count.is_of_runs());
     Outcome {
         csv: report::csv(&counts, &verdict),
@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Options) -> Outcome {
 }
 
 /// All counts: of each scene, and of one figure of a kind from each scene together.
-fn counts(scenes: &[Known], first_seed: u64, seeds: u32) -> Vec<Count> {
+fn counts(scenes: &[KnownScene], first_seed: u64, seeds: u32) -> Vec<Count> {
     let mut counts: Vec<Count> = Vec::new();
     for (number, (sequence, randomization)) in SEQUENCES.into_iter().enumerate() {
         let first = counts.len();
@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn intervals_cover_and_narrow_ones_would_be_noticed() {
         let counts = counts(&scenes::all(), 0, 24);
-        let verdict = Verdict::of(&counts, 1.0);
+        let verdict = Verdict::new(&counts, 1.0);
         let failed: Vec<String> = verdict.failures(&counts).map(Count::label).collect();
         assert!(failed.is_empty(), "{failed:?}");
         let (sobol, random) = counts.split_at(counts.len() / 2);
@@ -109,9 +109,9 @@ mod tests {
             })
             .collect();
         assert_eq!(both.len(), 6);
-        let verdict = Verdict::of(&both, 1.0);
+        let verdict = Verdict::new(&both, 1.0);
         let failed: Vec<String> = verdict.failures(&both).map(Count::label).collect();
         assert!(failed.is_empty(), "{failed:?}");
-        assert!(Verdict::of(&both, 0.7).failed() >= 3, "the test has lost its power");
+        assert!(Verdict::new(&both, 0.7).failed() >= 3, "the test has lost its power");
     }
 }

@@ -139,7 +139,7 @@ fn percent(share: f64) -> String {
 }
 
 fn judgement(counts: &[Count], verdict: &Verdict) -> String {
-    let narrow = Verdict::of(counts, NARROW).failed();
+    let narrow = Verdict::new(counts, NARROW).failed();
     let mut text = format!(
         "\nOf {} counts {} fail the binomial test of a coverage from 93.5 to 96.5 % (all together \
          at 1 %, Sidak).\n\

@@ -11,7 +11,7 @@ use quasilux_transport::EstimatorKind;
 use std::f64::consts::PI;
 
 /// A scene with one sensor, and what its points get.
-pub(super) struct Known {
+pub(super) struct KnownScene {
     pub(super) name: &'static str,
     /// Why the values are known.
     pub(super) why: &'static str,
@@ -34,34 +34,26 @@ const MIRROR: f64 = 0.8;
 const WALLS: f64 = 0.5;
 
 /// The scenes.
-pub(super) fn all() -> Vec<Known> {
+pub(super) fn all() -> Vec<KnownScene> {
     vec![furnace(), coloured_furnace(), panel(), mirror(), cube(), walls(), unequal()]
 }
 
 /// Walls of reflectance a that all have the luminance L give pi L / (1 - a) everywhere.
-fn furnace() -> Known {
-    let reflectance = Rgb::grey(0.5);
-    let (scene, truth_lx) = furnace_of(reflectance);
-    let why = "pi L / (1 - reflectance), at points that are all equal";
-    Known {
+fn furnace() -> KnownScene {
+    KnownScene {
         name: "furnace",
-        why,
-        scene,
-        truth_lx,
-        estimator: EstimatorKind::Path,
+        why: "pi L / (1 - reflectance), at points that are all equal",
         rel_tol: [0.005, 0.007],
+        ..furnace_with(Rgb::grey(0.5))
     }
 }
 
 /// The same for each channel.
-fn coloured_furnace() -> Known {
-    let (scene, truth_lx) = furnace_of(Rgb([0.7, 0.5, 0.2]));
-    let why = "the same for each colour";
-    let name = "coloured furnace";
-    Known { name, why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol: [0.007, 0.007] }
+fn coloured_furnace() -> KnownScene {
+    furnace_with(Rgb([0.7, 0.5, 0.2]))
 }
 
-fn furnace_of(reflectance: Rgb) -> (Scene, Vec<f64>) {
+fn furnace_with(reflectance: Rgb) -> KnownScene {
     let mut scene = room(DVec3::splat(2.0), Bsdf::Diffuse(Diffuse { reflectance }));
     shine(&mut scene, 0, 0, LUMINANCE_CD_M2);
     let places = [
@@ -72,17 +64,24 @@ fn furnace_of(reflectance: Rgb) -> (Scene, Vec<f64>) {
     scene.sensors.push(points(&places));
     let Rgb(channels) = reflectance;
     let lx = Rgb(channels.map(|share| PI * LUMINANCE_CD_M2 / (1.0 - share))).luminance();
-    (scene, vec![lx; places.len()])
+    KnownScene {
+        name: "coloured furnace",
+        why: "the same for each colour",
+        scene,
+        truth_lx: vec![lx; places.len()],
+        estimator: EstimatorKind::Path,
+        rel_tol: [0.007, 0.007],
+    }
 }
 
 /// A panel of 1 m by 1 m that shines down from 1.5 m, and nothing else.
-fn panel() -> Known {
+fn panel() -> KnownScene {
     let mut scene = Scene::default();
     let corners = add_panel(&mut scene);
     let places = add_places(&mut scene, [[0.5, 0.5], [1.1, 0.2], [0.1, 1.3], [1.5, 1.2]]);
     let truth_lx = places.iter().map(|&(at, n)| polygon_lx(at, n, &corners)).collect();
     let why = "the contour integral of Lambert (1760)";
-    Known {
+    KnownScene {
         name: "panel",
         why,
         scene,
@@ -93,7 +92,7 @@ fn panel() -> Known {
 }
 
 /// The same beside a mirror, which shows a second panel.
-fn mirror() -> Known {
+fn mirror() -> KnownScene {
     let mut scene = Scene::default();
     let corners = add_panel(&mut scene);
     // Wide enough to show all of it from everywhere below.
@@ -106,7 +105,7 @@ fn mirror() -> Known {
         .map(|&(at, n)| polygon_lx(at, n, &corners) + MIRROR * polygon_lx(at, n, &image))
         .collect();
     let why = "the contour integral for the panel and its image";
-    Known {
+    KnownScene {
         name: "mirror",
         why,
         scene,
@@ -119,7 +118,7 @@ fn mirror() -> Known {
 /// The panel over two places beside a mirror, which they get 41 % of their light from and which few
 /// paths find, and two that get about as much from the panel alone and have the mirror below their
 /// horizon: the lowest of four that are within 0.3 % is known worse than the next.
-fn unequal() -> Known {
+fn unequal() -> KnownScene {
     let mut scene = Scene::default();
     let corners = add_panel(&mut scene);
     let mirror = [[-0.5, 0.2], [1.5, 0.2], [1.5, 0.78], [-0.5, 0.78]];
@@ -133,12 +132,12 @@ fn unequal() -> Known {
     let truth_lx = [beside.map(with_image_lx), above.map(direct_lx)].concat();
     let why = "the contour integral, at two of four points for the image as well";
     let rel_tol = [0.02, 0.03];
-    Known { name: "unequal", why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol }
+    KnownScene { name: "unequal", why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol }
 }
 
 /// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose
 /// luminance is known to 1e-5 from the solution of its integral equation.
-fn cube() -> Known {
+fn cube() -> KnownScene {
     let mut scene = room(DVec3::splat(10.0), grey(2.0 / 3.0));
     lamp(&mut scene, DVec3::splat(5.0), 50_000.0);
     let known = [((5.0, 5.0), 892.80), ((7.5, 5.0), 768.69), ((7.5, 7.5), 686.70)];
@@ -146,7 +145,7 @@ fn cube() -> Known {
     scene.sensors.push(points(&known.map(place)));
     let truth_lx = known.iter().map(|(_, luminance_cd_m2)| luminance_cd_m2 * PI * 1.5).collect();
     let why = "the integral equation of the diffuse cube, solved to 1e-5";
-    Known {
+    KnownScene {
         name: "cube",
         why,
         scene,
@@ -157,7 +156,7 @@ fn cube() -> Known {
 }
 
 /// A cube with a lamp in its middle: a quarter of a wall gets 1/24 of the light, the reflected too.
-fn walls() -> Known {
+fn walls() -> KnownScene {
     let mut scene = room(DVec3::splat(2.0), grey(WALLS));
     lamp(&mut scene, DVec3::ONE, 100.0);
     let (u, v) = (DVec3::Y * 2.0, DVec3::Z * 2.0);
@@ -166,7 +165,7 @@ fn walls() -> Known {
     scene.sensors.push(Sensor { name: "wall".to_owned(), shape: SensorShape::Grid(grid) });
     let truth_lx = vec![4.0 * PI * 100.0 / (24.0 * (1.0 - WALLS)); 4];
     let why = "flux over area over 1 - reflectance, by symmetry in all quarters of a wall";
-    Known {
+    KnownScene {
         name: "walls",
         why,
         scene,

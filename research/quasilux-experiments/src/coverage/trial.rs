@@ -1,7 +1,7 @@
 //! One run: its intervals at the first checkpoint and where it stops, against the truth.
 
 use super::count::{Figure, Moment};
-use super::scenes::Known;
+use super::scenes::KnownScene;
 use quasilux_transport::{Control, Estimates, Interval, Observer, Settings, simulate};
 
 /// Errors over half-widths of all figures, in the order of [`Figure::all`].
@@ -29,7 +29,7 @@ impl Observer for First {
 }
 
 impl Trial {
-    pub(super) fn run(known: &Known, settings: &Settings) -> Self {
+    pub(super) fn run(known: &KnownScene, settings: &Settings) -> Self {
         let mut first = First::default();
         let stopped = simulate(&known.scene, settings, &mut first);
         let end = |mut estimates: Estimates, moment: Moment| {
@@ -45,12 +45,12 @@ impl Trial {
 
     /// Distance from the truth over half-width.
     pub(super) fn error(&self, moment: Moment, figure: Figure) -> f64 {
-        figure.of(&self.end(moment).errors)
+        figure.pick(&self.end(moment).errors)
     }
 
     /// Indices per replicate.
     pub(super) fn samples(&self, moment: Moment, figure: Figure) -> u64 {
-        figure.of(&self.end(moment).samples)
+        figure.pick(&self.end(moment).samples)
     }
 
     fn end(&self, moment: Moment) -> &End {
@@ -67,7 +67,7 @@ fn samples(estimates: &Estimates) -> Vec<u64> {
     of_points.chain([estimates.samples; 2]).collect()
 }
 
-fn errors(known: &Known, estimates: &Estimates) -> Vec<f64> {
+fn errors(known: &KnownScene, estimates: &Estimates) -> Vec<f64> {
     let truth_lx = &known.truth_lx;
     let average_lx = truth_lx.iter().sum::<f64>() / truth_lx.len() as f64;
     let minimum_lx = truth_lx.iter().copied().fold(f64::INFINITY, f64::min);

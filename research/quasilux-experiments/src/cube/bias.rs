@@ -18,7 +18,7 @@ pub(super) struct Bias {
 
 impl Bias {
     /// From the values in lx, one row a replicate.
-    pub(super) fn of(rows: &[Vec<f64>], task: &Task) -> Self {
+    pub(super) fn new(rows: &[Vec<f64>], task: &Task) -> Self {
         let replicates = rows.len() as f64;
         let without: Vec<f64> = (0..rows.len()).map(|out| squared(rows, Some(out), task)).collect();
         let mean = without.iter().sum::<f64>() / replicates;

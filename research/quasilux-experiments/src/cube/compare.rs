@@ -81,7 +81,7 @@ impl Column {
 
 impl Table {
     /// The curves in the order of [`Column::ALL`].
-    pub(super) fn of(curves: &[Curve; 5], currency: Currency) -> Self {
+    pub(super) fn new(curves: &[Curve; 5], currency: Currency) -> Self {
         let of_paper = Column::OF_PAPER.map(|column| curves[column as usize].by_cost(currency));
         let first = of_paper.iter().map(|curve| curve[0][0]).fold(0.0, f64::max);
         let last = of_paper.iter().map(|curve| curve[curve.len() - 1][0]);

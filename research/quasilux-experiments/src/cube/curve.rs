@@ -3,7 +3,7 @@
 use super::bias::Bias;
 use super::setup::{Points, Setup};
 use super::task::Task;
-use crate::course::{Course, Stage};
+use crate::course::{Course, Snapshot};
 use crate::timing::{SHORT_RAYS, seconds_of_a_ray};
 use quasilux_sampling::quality::fit_power_law;
 use quasilux_transport::Estimates;
@@ -54,18 +54,18 @@ impl Curve {
     pub(super) fn run(setup: Setup, task: &Task) -> Self {
         let scene = task.places.scene();
         let most = setup.form.samples(task.most);
-        let stages = |samples: u64, limit: Option<Duration>| {
+        let snapshots = |samples: u64, limit: Option<Duration>| {
             let settings = setup.settings(samples, task.replicates, task.seed);
-            Course::run(&scene, &settings, limit).stages
+            Course::run(&scene, &settings, limit).snapshots
         };
         if setup.points != Points::Hammersley {
-            return Self::new(setup, stages(most, task.limit), task);
+            return Self::new(setup, snapshots(most, task.limit), task);
         }
         // These need their number ahead: each N is a run of its own, of which only the end counts.
         let (mut ends, mut samples) = (Vec::new(), most.min(16));
         loop {
             let start = now();
-            ends.extend(stages(samples, None).pop());
+            ends.extend(snapshots(samples, None).pop());
             let is_over = task.limit.is_some_and(|limit| 4 * start.elapsed() > limit);
             if samples == most || is_over {
                 return Self::new(setup, ends, task);
@@ -74,9 +74,9 @@ impl Curve {
         }
     }
 
-    fn new(setup: Setup, mut stages: Vec<Stage>, task: &Task) -> Self {
-        let looks = stages.iter().map(|stage| Look::new(setup, stage, task)).collect();
-        let last = stages.pop().expect("a run has a checkpoint").estimates;
+    fn new(setup: Setup, mut snapshots: Vec<Snapshot>, task: &Task) -> Self {
+        let looks = snapshots.iter().map(|snapshot| Look::new(setup, snapshot, task)).collect();
+        let last = snapshots.pop().expect("a run has a checkpoint").estimates;
         Self { setup, looks, last }
     }
 
@@ -106,7 +106,7 @@ impl Curve {
 
     /// The same by cost.
     pub(super) fn by_cost(&self, currency: Currency) -> Vec<[f64; 2]> {
-        self.looks.iter().map(|look| [look.cost.of(currency), look.rms()]).collect()
+        self.looks.iter().map(|look| [look.cost.in_currency(currency), look.rms()]).collect()
     }
 
     /// The order of convergence of errors or spreads, of no more than this N.
@@ -125,7 +125,7 @@ impl Curve {
         currency: Currency,
         of_look: fn(&Look) -> &[f64],
     ) -> Option<Vec<f64>> {
-        let of = |look: &Look| libm::log(look.cost.of(currency));
+        let of = |look: &Look| libm::log(look.cost.in_currency(currency));
         let cost = libm::log(cost);
         let pair =
             self.looks.windows(2).find(|pair| of(&pair[0]) <= cost && cost <= of(&pair[1]))?;
@@ -146,19 +146,19 @@ impl Curve {
 }
 
 impl Look {
-    fn new(setup: Setup, stage: &Stage, task: &Task) -> Self {
-        let rows = &stage.estimates.sensors[0].replicate_lx;
+    fn new(setup: Setup, snapshot: &Snapshot, task: &Task) -> Self {
+        let rows = &snapshot.estimates.sensors[0].replicate_lx;
         let replicates = rows.len() as f64;
         let mean_of = |place: usize| rows.iter().map(|row| row[place]).sum::<f64>() / replicates;
         let mean: Vec<f64> = (0..rows[0].len()).map(mean_of).collect();
         let scale = (replicates / (replicates - 1.0)).sqrt();
         Self {
-            n: setup.form.n(stage.samples),
-            paths: setup.form.paths(stage.samples),
-            cost: Cost { rays: stage.rays, seconds: stage.seconds },
+            n: setup.form.n(snapshot.samples),
+            paths: setup.form.paths(snapshot.samples),
+            cost: Cost { rays: snapshot.rays, seconds: snapshot.seconds },
             errors: rows.iter().map(|row| distance(row, &task.truth_lx, task)).collect(),
             spreads: rows.iter().map(|row| scale * distance(row, &mean, task)).collect(),
-            bias: Bias::of(rows, task),
+            bias: Bias::new(rows, task),
         }
     }
 
@@ -185,7 +185,7 @@ impl Currency {
 }
 
 impl Cost {
-    pub(super) fn of(self, currency: Currency) -> f64 {
+    pub(super) fn in_currency(self, currency: Currency) -> f64 {
         match currency {
             Currency::Rays => self.rays,
             Currency::Seconds => self.seconds,

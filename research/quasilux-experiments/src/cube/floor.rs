@@ -34,8 +34,8 @@ impl Floor {
     pub(super) fn all(elements_m: &[f64], photons_per_path: u32, task: &Task) -> Vec<Self> {
         let floor = |&element_m: &f64| Self {
             element_m,
-            photons: End::of(Form::Photons { element_m }, task),
-            map: End::of(Form::Map { element_m, photons_per_path }, task),
+            photons: End::new(Form::Photons { element_m }, task),
+            map: End::new(Form::Map { element_m, photons_per_path }, task),
         };
         elements_m.iter().map(floor).collect()
     }
@@ -60,7 +60,7 @@ impl Floor {
 }
 
 impl End {
-    fn of(form: Form, task: &Task) -> Self {
+    fn new(form: Form, task: &Task) -> Self {
         let curve = Curve::run(Setup { form, points: Points::Halton }, task);
         let end = curve.end();
         Self { n: end.n, rms: end.rms(), bias: end.bias }

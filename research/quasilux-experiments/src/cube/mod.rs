@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Options) -> Outcome {
         plain_setups().map(|setup| Curve::run(setup, &Task { limit: None, ..task.clone() }));
     let to_floor = Task { most: task.most.min(FLOOR_PHOTONS), limit: None, ..task.clone() };
     let floors = Floor::all(&floor::ELEMENTS_M, PHOTONS_PER_PATH, &to_floor);
-    let table = Table::of(&columns, Currency::Seconds);
+    let table = Table::new(&columns, Currency::Seconds);
     let replicates = task.replicates;
     let findings = Findings { replicates, truth, columns, others, plain, floors, deep, table };
     let claims = claims::all(&findings);
@@ -110,9 +110,9 @@ fn columns(element_m: f64, photons_per_path: u32) -> [Setup; 5] {
     let photons = Form::Photons { element_m };
     let map = Form::Map { element_m, photons_per_path };
     [
-        Setup { form: photons, points: Points::Random },
+        Setup { form: photons, points: Points::Independent },
         Setup { form: photons, points: Points::Halton },
-        Setup { form: map, points: Points::Random },
+        Setup { form: map, points: Points::Independent },
         Setup { form: map, points: Points::Halton },
         Setup { form: Form::Own { joins: false }, points: Points::ScrambledSobol },
     ]
@@ -176,7 +176,7 @@ mod tests {
             Curve::run(quasi2, &task),
             Curve::run(own, &few),
         ];
-        let table = Table::of(&curves, Currency::Rays);
+        let table = Table::new(&curves, Currency::Rays);
         let duels = [[Column::Pseudo, Column::Quasi], [Column::Pseudo2, Column::Quasi2]];
         for claim in claims::duels(&table, &duels) {
             assert!(claim.holds() && table.rows.len() == 2, "{}", claim.text());

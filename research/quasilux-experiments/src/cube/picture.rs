@@ -170,7 +170,7 @@ fn stroke(column: Column) -> Stroke {
 }
 
 fn colour(points: Points) -> Colour {
-    let all = [Points::Random].into_iter().chain(Points::SEQUENCES);
+    let all = [Points::Independent].into_iter().chain(Points::SEQUENCES);
     let number = all.into_iter().position(|other| other == points).unwrap_or(0);
     [[0x76; 3], PALETTE[0], PALETTE[4], PALETTE[3], PALETTE[2], PALETTE[6]][number]
 }
@@ -179,7 +179,7 @@ fn legend() -> Vec<Vec<LegendEntry>> {
     let entry =
         |text: &str, stroke: Stroke| LegendEntry { text: text.to_owned(), stroke: Some(stroke) };
     let columns = Column::ALL.map(|column| entry(column.name(), stroke(column)));
-    let all = [Points::Random].into_iter().chain(Points::SEQUENCES);
+    let all = [Points::Independent].into_iter().chain(Points::SEQUENCES);
     let points = all.map(|points| entry(points.name(), Stroke::solid(colour(points), 1.5)));
     let points: Vec<LegendEntry> = points.collect();
     let deep =

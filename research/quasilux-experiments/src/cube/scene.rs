@@ -23,12 +23,12 @@ const LINE: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 /// Where illuminance is asked for.
 #[derive(Clone)]
 pub(super) struct Places {
-    places: Vec<Place>,
+    places: Vec<WallPoint>,
 }
 
 /// A place on a wall.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct WallPoint {
     position: DVec3,
     normal: DVec3,
     /// Number of its class.
@@ -51,12 +51,14 @@ impl Places {
     pub(super) fn one_of_each_class() -> Self {
         let all = Self::all();
         let size = |class: usize| all.iter().filter(|place| place.class == class).count() as f64;
-        let one =
-            |(class, at): (usize, &[f64; 2])| Place { weight: size(class), ..place(0, 1.0, *at) };
+        let one = |(class, at): (usize, &[f64; 2])| WallPoint {
+            weight: size(class),
+            ..place(0, 1.0, *at)
+        };
         Self { places: CLASSES.iter().enumerate().map(one).collect() }
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Place> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &WallPoint> {
         self.places.iter()
     }
 
@@ -81,7 +83,7 @@ pub(super) fn luminance_cd_m2(illuminance_lx: f64) -> f64 {
 }
 
 /// The place at `at` on the wall across an axis, at its low or high end.
-fn place(axis: usize, side: f64, at: [f64; 2]) -> Place {
+fn place(axis: usize, side: f64, at: [f64; 2]) -> WallPoint {
     let mut position = DVec3::ZERO;
     position[axis] = side;
     for (shift, x) in (1..).zip(at) {
@@ -92,7 +94,7 @@ fn place(axis: usize, side: f64, at: [f64; 2]) -> Place {
     let [u, v] = at.map(f64::abs);
     let own = [u.max(v), u.min(v)];
     let class = CLASSES.iter().position(|class| *class == own).expect("each has a class");
-    Place { position: (position + 1.0) * HALF_M, normal, class, weight: 1.0 }
+    WallPoint { position: (position + 1.0) * HALF_M, normal, class, weight: 1.0 }
 }
 
 #[cfg(test)]

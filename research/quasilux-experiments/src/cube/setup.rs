@@ -21,7 +21,7 @@ pub(super) enum Form {
 /// Which points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Points {
-    Random,
+    Independent,
     Halton,
     /// As they are: a single run.
     PlainHalton,
@@ -45,7 +45,7 @@ impl Points {
 
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Random => "random",
+            Self::Independent => "random",
             Self::Halton => "halton",
             Self::PlainHalton => "plain halton",
             Self::Hammersley => "hammersley",
@@ -59,7 +59,7 @@ impl Points {
     /// they are.
     pub(super) fn randomization(self) -> Randomization {
         match self {
-            Self::Random | Self::PlainHalton => Randomization::None,
+            Self::Independent | Self::PlainHalton => Randomization::None,
             Self::Halton | Self::Hammersley => Randomization::CranleyPattersonRotation,
             Self::Sobol => Randomization::DigitalShift,
             Self::ScrambledSobol | Self::Faure4 => Randomization::Owen,
@@ -76,7 +76,7 @@ impl Points {
     /// The sequence of a run of so many indices.
     fn sequence(self, samples: u64) -> Sequence {
         match self {
-            Self::Random => Sequence::Independent,
+            Self::Independent => Sequence::Independent,
             Self::Halton | Self::PlainHalton => Sequence::Halton,
             Self::Hammersley => Sequence::Hammersley { points: samples },
             Self::Sobol | Self::ScrambledSobol => Sequence::Sobol,

@@ -2,7 +2,7 @@
 
 use super::Claim;
 use super::room::{REFLECTANCE, Room};
-use super::walk::{Features, Walk};
+use super::walk::{Features, PhotonTracer};
 use crate::building::{grey, lamp, points, room};
 use glam::DVec3;
 use quasilux_sampling::{PointSet, Randomization, Sampler, Sequence, stream_key};
@@ -43,7 +43,7 @@ impl Cube {
         let cube = Room::cube();
         // Before the absorbing event, and in all.
         let of_walk = |features: Features| -> [f64; 2] {
-            let walk = Walk { room: &cube, features };
+            let walk = PhotonTracer { room: &cube, features };
             let mut sums = [0; 2];
             for index in 0..count {
                 let mut sampler = Sampler::new(&points, index);

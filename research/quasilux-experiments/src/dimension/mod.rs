@@ -23,7 +23,7 @@ use cube::Cube;
 use quasilux_report::number::count;
 use quasilux_sampling::{Sampler, Sequence};
 use room::Room;
-use walk::{Features, Walk};
+use walk::{Features, PhotonTracer};
 
 /// Randomisations of each setup, unless the command line says otherwise.
 const REPLICATES: u32 = 64;
@@ -54,28 +54,28 @@ fn setups(effort: Effort) -> Vec<Setup> {
     let room = Room::furnished();
     let all = SEQUENCES.into_iter().flat_map(|s| Features::ALL.map(move |named| (s, named)));
     all.map(|(sequence, (name, features))| {
-        let walk = Walk { room: &room, features };
+        let walk = PhotonTracer { room: &room, features };
         let photon = |sampler: &mut Sampler<'_>, landed: &mut dyn FnMut(usize)| {
             walk.photon(sampler, landed);
         };
-        let flights = Flights::of(photon, sequence, effort);
+        let flights = Flights::trace(photon, sequence, effort);
         Setup { name, features, flights }
     })
     .collect()
 }
 
 /// Those of one kind of points, the one with all features first.
-fn of(setups: &[Setup], sequence: Sequence) -> Vec<&Setup> {
+fn with_sequence(setups: &[Setup], sequence: Sequence) -> Vec<&Setup> {
     setups.iter().filter(|setup| setup.flights.sequence == sequence).collect()
 }
 
 /// How many times the error of all features another setup has, with the same points.
 fn cost(setups: &[Setup], setup: &Setup) -> Contrast {
-    setup.flights.last().over(of(setups, setup.flights.sequence)[0].flights.last())
+    setup.flights.last().over(with_sequence(setups, setup.flights.sequence)[0].flights.last())
 }
 
 fn claims(setups: &[Setup]) -> Vec<Claim> {
-    let [sobol, random] = SEQUENCES.map(|sequence| of(setups, sequence));
+    let [sobol, random] = SEQUENCES.map(|sequence| with_sequence(setups, sequence));
     let must_show: Vec<&Setup> =
         sobol[1..].iter().copied().filter(|setup| setup.features.must_show()).collect();
     // The last one is what Sobol' points gain.

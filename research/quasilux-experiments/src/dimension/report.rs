@@ -24,7 +24,7 @@ pub(super) fn csv(setups: &[Setup], cube: &Cube) -> String {
             .expect("strings grow");
         }
     }
-    for (name, coordinates) in named(cube) {
+    for NamedCount { name, coordinates } in named_counts(cube) {
         writeln!(text, "cube,{name},sobol,{},{},", exact(coordinates), cube.count)
             .expect("strings grow");
     }
@@ -40,7 +40,7 @@ pub(super) fn markdown(setups: &[Setup], cube: &Cube, replicates: u32, claims: &
         off.\n\n\
         | what | coordinates |\n|---|---:|\n"
         .to_owned();
-    for (name, coordinates) in named(cube) {
+    for NamedCount { name, coordinates } in named_counts(cube) {
         writeln!(text, "| {name} | {coordinates:.3} |").expect("strings grow");
     }
     write!(
@@ -93,11 +93,18 @@ fn savings(setups: &[Setup]) -> String {
     text
 }
 
-fn named(cube: &Cube) -> [(&'static str, f64); 4] {
+/// Mean coordinates of a photon or a path.
+struct NamedCount {
+    name: &'static str,
+    coordinates: f64,
+}
+
+fn named_counts(cube: &Cube) -> [NamedCount; 4] {
+    let named = |name, coordinates| NamedCount { name, coordinates };
     [
-        ("photons but for the absorbing event (walk)", cube.uncounted),
-        ("photons (program)", cube.photons),
-        ("photons without superposition (walk)", cube.separate),
-        ("backward paths of the paper's form (program)", cube.paths),
+        named("photons but for the absorbing event (walk)", cube.uncounted),
+        named("photons (program)", cube.photons),
+        named("photons without superposition (walk)", cube.separate),
+        named("backward paths of the paper's form (program)", cube.paths),
     ]
 }

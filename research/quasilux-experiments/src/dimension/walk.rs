@@ -19,7 +19,7 @@ pub(super) struct Features {
 }
 
 /// A way to trace photons through a room.
-pub(super) struct Walk<'a> {
+pub(super) struct PhotonTracer<'a> {
     pub(super) room: &'a Room,
     pub(super) features: Features,
 }
@@ -42,7 +42,7 @@ impl Features {
     }
 }
 
-impl Walk<'_> {
+impl PhotonTracer<'_> {
     /// Sends a photon, and tells of every cell that it lands in. Returns how many coordinates the
     /// sampler had handed out before the event that absorbed it.
     pub(super) fn photon(&self, sampler: &mut Sampler<'_>, landed: &mut dyn FnMut(usize)) -> u32 {

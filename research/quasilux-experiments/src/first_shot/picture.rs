@@ -1,16 +1,18 @@
 //! Errors against the number of samples and against rays, with and without first shot.
 
-use super::trial::{Part, Trial, error};
-use crate::course::Stage;
+use super::trial::{NamedCourse, Part, Trial, error};
+use crate::course::Snapshot;
 use quasilux_drawing::diagram::{Axis, Figure, LegendEntry, Line, Panel, Scale, figure};
 use quasilux_drawing::{Dash, PALETTE, Stroke};
 use quasilux_sampling::Sequence;
 
 /// What stands along the lower axis: its name, its base, its values.
-type Cost = (&'static str, u32, fn(&Stage) -> f64);
+type Cost = (&'static str, u32, fn(&Snapshot) -> f64);
 
-const COSTS: [Cost; 2] =
-    [("N", 2, |stage| stage.samples as f64), ("rays of a replicate", 10, |stage| stage.rays)];
+const COSTS: [Cost; 2] = [
+    ("N", 2, |snapshot| snapshot.samples as f64),
+    ("rays of a replicate", 10, |snapshot| snapshot.rays),
+];
 
 /// The plot as an SVG file.
 pub(super) fn svg(trials: &[Trial]) -> String {
@@ -27,11 +29,11 @@ pub(super) fn svg(trials: &[Trial]) -> String {
 fn panel(trials: &[Trial], (label, base, cost): Cost) -> Panel {
     let line = |trial: &Trial| {
         let sequence = trial.sequence;
-        trial.runs().map(|(switch, course)| Line {
+        trial.runs().map(|NamedCourse { switch, course }| Line {
             points: course
-                .stages
+                .snapshots
                 .iter()
-                .map(|stage| [cost(stage), error(stage, Part::OfPhotons)])
+                .map(|snapshot| [cost(snapshot), error(snapshot, Part::OfPhotons)])
                 .collect(),
             stroke: stroke(sequence, switch),
         })
@@ -59,7 +61,7 @@ fn stroke(sequence: Sequence, switch: &str) -> Stroke {
 fn legend(trials: &[Trial]) -> Vec<Vec<LegendEntry>> {
     let row = |trial: &Trial| {
         let name = trial.sequence.name();
-        let entry = |(switch, _)| LegendEntry {
+        let entry = |NamedCourse { switch, .. }| LegendEntry {
             text: format!("{name}, first shot {switch}"),
             stroke: Some(stroke(trial.sequence, switch)),
         };

@@ -1,6 +1,6 @@
 //! The figures as a table for programs and as one for people, with what is seen in them.
 
-use super::trial::{Agreement, FIT_FROM, Part, Trial, error, mean_lx, slope};
+use super::trial::{Agreement, FIT_FROM, NamedCourse, Part, Trial, error, mean_lx, slope};
 use crate::claim::Claim;
 use crate::contrast::Contrast;
 use crate::course::Course;
@@ -16,23 +16,23 @@ const COLUMNS: &str = "room,sequence,first_shot,samples,replicates,rms_error_of_
 pub(super) fn csv(trials: &[Trial]) -> String {
     let mut text = COLUMNS.to_owned();
     for trial in trials {
-        for (name, course) in trial.runs() {
+        for NamedCourse { switch: name, course } in trial.runs() {
             let slope = slope(course, Part::OfPhotons).map(exact).unwrap_or_default();
-            for stage in &course.stages {
+            for snapshot in &course.snapshots {
                 writeln!(
                     text,
                     "{},{},{name},{},{},{},{},{},{},{slope},{},{},{}",
                     trial.room,
                     trial.sequence.name(),
-                    stage.samples,
-                    stage.estimates.sensors[0].replicate_lx.len(),
-                    exact(error(stage, Part::OfPhotons)),
-                    exact(error(stage, Part::Whole)),
-                    exact(stage.rays),
-                    exact(stage.seconds),
-                    exact(mean_lx(stage, Part::OfPhotons)),
-                    exact(mean_lx(stage, Part::Whole)),
-                    exact(stage.estimates.dimensions.photon.mean()),
+                    snapshot.samples,
+                    snapshot.estimates.sensors[0].replicate_lx.len(),
+                    exact(error(snapshot, Part::OfPhotons)),
+                    exact(error(snapshot, Part::Whole)),
+                    exact(snapshot.rays),
+                    exact(snapshot.seconds),
+                    exact(mean_lx(snapshot, Part::OfPhotons)),
+                    exact(mean_lx(snapshot, Part::Whole)),
+                    exact(snapshot.estimates.dimensions.photon.mean()),
                 )
                 .expect("strings grow");
             }
@@ -71,19 +71,19 @@ fn table(trials: &[Trial]) -> String {
         .iter()
         .flat_map(|trial| {
             let name = trial.sequence.name();
-            trial.runs().map(|(switch, course)| (format!("{name}, {switch}"), course))
+            trial.runs().map(|run| (format!("{name}, {}", run.switch), run.course))
         })
         .collect();
     let header: String = columns.iter().map(|(name, _)| format!(" {name} |")).collect();
     let mut text = format!("| N |{header}\n|---:|{}\n", "---:|".repeat(columns.len()));
-    let stages = trials[0].off.stages.len();
-    for k in (0..stages).filter(|k| (stages - 1 - k).is_multiple_of(2)) {
-        let cell = |(_, course): &(String, &Course)| match course.stages.get(k) {
-            Some(stage) => format!(" {:.3} % |", 100.0 * error(stage, Part::OfPhotons)),
+    let snapshots = trials[0].off.snapshots.len();
+    for k in (0..snapshots).filter(|k| (snapshots - 1 - k).is_multiple_of(2)) {
+        let cell = |(_, course): &(String, &Course)| match course.snapshots.get(k) {
+            Some(snapshot) => format!(" {:.3} % |", 100.0 * error(snapshot, Part::OfPhotons)),
             None => " |".to_owned(),
         };
         let cells: String = columns.iter().map(cell).collect();
-        writeln!(text, "| {} |{cells}", count(trials[0].off.stages[k].samples))
+        writeln!(text, "| {} |{cells}", count(trials[0].off.snapshots[k].samples))
             .expect("strings grow");
     }
     let mut row = |name: &str, cell: &dyn Fn(&Course) -> String| {
@@ -98,8 +98,8 @@ fn table(trials: &[Trial]) -> String {
         format!("{:.3} %", 100.0 * error(course.last(), Part::Whole))
     });
     row("rays a sample", &|course| {
-        let stage = course.last();
-        format!("{:.1}", stage.rays / stage.samples as f64)
+        let snapshot = course.last();
+        format!("{:.1}", snapshot.rays / snapshot.samples as f64)
     });
     row("ms a replicate", &|course| format!("{:.1}", 1e3 * course.last().seconds));
     row("coordinates a photon", &|course| {

@@ -4,7 +4,7 @@ use super::Effort;
 use super::rooms::Room;
 use crate::claim::largest;
 use crate::contrast::Contrast;
-use crate::course::{Course, Stage};
+use crate::course::{Course, Snapshot};
 use crate::significance::each_of;
 use crate::timing::{SHORT_RAYS, seconds_of_a_ray};
 use quasilux_sampling::Sequence;
@@ -40,6 +40,12 @@ pub(super) struct Trial {
     pub(super) on: Course,
 }
 
+/// A run with the setting of first shot.
+pub(super) struct NamedCourse<'a> {
+    pub(super) switch: &'static str,
+    pub(super) course: &'a Course,
+}
+
 /// Whether means of two runs agree.
 pub(super) struct Agreement {
     /// The largest distance at a point, in standard errors of the difference.
@@ -66,8 +72,9 @@ impl Trial {
             let (switch, course) =
                 if k % 2 == 0 { (Switch::Off, &trial.off) } else { (Switch::On, &trial.on) };
             let replicates = f64::from(effort.replicates);
-            let is_short = |stage: &&Stage| stage.rays * replicates <= SHORT_RAYS;
-            let samples = course.stages.iter().rfind(is_short).map_or(1, |stage| stage.samples);
+            let is_short = |snapshot: &&Snapshot| snapshot.rays * replicates <= SHORT_RAYS;
+            let samples =
+                course.snapshots.iter().rfind(is_short).map_or(1, |snapshot| snapshot.samples);
             let short = Effort { samples, ..*effort };
             let room = rooms.iter().find(|room| room.name == trial.room).expect("its own room");
             let settings = settings(switch, trial.sequence, &short);
@@ -76,25 +83,31 @@ impl Trial {
         });
         for (trial, seconds) in trials.iter_mut().zip(of_a_ray.chunks_exact(2)) {
             for (course, seconds) in [&mut trial.off, &mut trial.on].into_iter().zip(seconds) {
-                course.stages.iter_mut().for_each(|stage| stage.seconds = seconds * stage.rays);
+                course
+                    .snapshots
+                    .iter_mut()
+                    .for_each(|snapshot| snapshot.seconds = seconds * snapshot.rays);
             }
         }
     }
 
     /// Both runs with their names.
-    pub(super) fn runs(&self) -> [(&'static str, &Course); 2] {
-        [("off", &self.off), ("on", &self.on)]
+    pub(super) fn runs(&self) -> [NamedCourse<'_>; 2] {
+        [
+            NamedCourse { switch: "off", course: &self.off },
+            NamedCourse { switch: "on", course: &self.on },
+        ]
     }
 
     /// The last checkpoint that both have.
-    pub(super) fn last(&self) -> [&Stage; 2] {
-        let last = self.off.stages.len().min(self.on.stages.len()) - 1;
-        [&self.off.stages[last], &self.on.stages[last]]
+    pub(super) fn last(&self) -> [&Snapshot; 2] {
+        let last = self.off.snapshots.len().min(self.on.snapshots.len()) - 1;
+        [&self.off.snapshots[last], &self.on.snapshots[last]]
     }
 
     /// By how much first shot divides the error when N is largest.
     pub(super) fn gain(&self, part: Part) -> Contrast {
-        let [off, on] = self.last().map(|stage| squares(stage, part));
+        let [off, on] = self.last().map(|snapshot| squares(snapshot, part));
         Contrast::gain(&off, &on)
     }
 
@@ -124,7 +137,7 @@ impl Trial {
     /// freedom, which is careful; of so many trials.
     pub(super) fn agreement(&self, trials: usize) -> Agreement {
         let [off, on] = self.last();
-        let columns = [off, on].map(|stage| columns(stage, Part::OfPhotons));
+        let columns = [off, on].map(|snapshot| columns(snapshot, Part::OfPhotons));
         let (mut worst, mut relative) = (0.0, 0.0);
         for (a, b) in columns[0].iter().zip(&columns[1]) {
             let [a, b] = [a, b].map(|column| moments(column));
@@ -159,29 +172,29 @@ fn settings(first_shot: Switch, sequence: Sequence, effort: &Effort) -> Settings
 
 /// Root mean square over points and replicates of the distance from the mean, over the mean of all
 /// points.
-pub(super) fn error(stage: &Stage, part: Part) -> f64 {
-    let squares = squares(stage, part);
+pub(super) fn error(snapshot: &Snapshot, part: Part) -> f64 {
+    let squares = squares(snapshot, part);
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
 /// The mean of all points.
-pub(super) fn mean_lx(stage: &Stage, part: Part) -> f64 {
-    let columns = columns(stage, part);
+pub(super) fn mean_lx(snapshot: &Snapshot, part: Part) -> f64 {
+    let columns = columns(snapshot, part);
     columns.iter().map(|column| moments(column).mean).sum::<f64>() / columns.len() as f64
 }
 
 /// The order of convergence.
 pub(super) fn slope(course: &Course, part: Part) -> Option<f64> {
-    let fitted = course.stages.iter().filter(|stage| stage.samples >= FIT_FROM);
+    let fitted = course.snapshots.iter().filter(|snapshot| snapshot.samples >= FIT_FROM);
     let errors: Vec<[f64; 2]> =
-        fitted.map(|stage| [stage.samples as f64, error(stage, part)]).collect();
+        fitted.map(|snapshot| [snapshot.samples as f64, error(snapshot, part)]).collect();
     fit_power_law(&errors).map(|law| law.exponent)
 }
 
 /// Of each replicate: mean over the points of its squared distance from the mean of all, freed from
 /// bias.
-fn squares(stage: &Stage, part: Part) -> Vec<f64> {
-    let columns = columns(stage, part);
+fn squares(snapshot: &Snapshot, part: Part) -> Vec<f64> {
+    let columns = columns(snapshot, part);
     let means: Vec<f64> = columns.iter().map(|column| moments(column).mean).collect();
     let points = columns.len() as f64;
     let level = means.iter().sum::<f64>() / points;
@@ -195,8 +208,8 @@ fn squares(stage: &Stage, part: Part) -> Vec<f64> {
 }
 
 /// The values of each point, one a replicate.
-fn columns(stage: &Stage, part: Part) -> Vec<Vec<f64>> {
-    let sensor = &stage.estimates.sensors[0];
+fn columns(snapshot: &Snapshot, part: Part) -> Vec<Vec<f64>> {
+    let sensor = &snapshot.estimates.sensors[0];
     let rows = match part {
         Part::Whole => &sensor.replicate_lx,
         Part::OfPhotons => &sensor.terms[TERMS_OF_PATHS as usize].replicate_lx,

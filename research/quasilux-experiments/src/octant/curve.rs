@@ -19,7 +19,7 @@ const FITTED_OURS: u64 = 1 << 6;
 
 /// The paper's photons with points of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum PhotonPoints {
     /// Pseudo-random numbers.
     Pseudo,
     /// Halton's points, Owen-scrambled anew in each randomisation; a rotation keeps them nearer to
@@ -48,7 +48,7 @@ pub(super) struct Stop {
     pub(super) lx: Vec<f64>,
 }
 
-impl Way {
+impl PhotonPoints {
     pub(super) const ALL: [Self; 3] = [Self::Pseudo, Self::Quasi, Self::QuasiOnce];
 
     fn name(self) -> &'static str {
@@ -59,11 +59,17 @@ impl Way {
         }
     }
 
-    fn points(self) -> (Sequence, Randomization) {
+    fn sequence(self) -> Sequence {
         match self {
-            Self::Pseudo => (Sequence::Independent, Randomization::None),
-            Self::Quasi => (Sequence::Halton, Randomization::Owen),
-            Self::QuasiOnce => (Sequence::Halton, Randomization::None),
+            Self::Pseudo => Sequence::Independent,
+            Self::Quasi | Self::QuasiOnce => Sequence::Halton,
+        }
+    }
+
+    fn randomization(self) -> Randomization {
+        match self {
+            Self::Quasi => Randomization::Owen,
+            Self::Pseudo | Self::QuasiOnce => Randomization::None,
         }
     }
 }
@@ -71,12 +77,12 @@ impl Way {
 impl Curve {
     /// In the paper's form: photons of equal flux, each absorbed or scattered, counted by the
     /// element.
-    pub(super) fn of_photons(way: Way, effort: &Effort) -> Self {
+    pub(super) fn of_photons(way: PhotonPoints, effort: &Effort) -> Self {
         let octant = Octant::new(MAP_LEVEL);
         let (mut scene, element) = (octant.scene.clone(), octant.element());
         let facets: Vec<_> = element.iter().map(|facet| (facet.place, facet.normal)).collect();
         scene.sensors = vec![points(&facets)];
-        let (sequence, randomization) = way.points();
+        let (sequence, randomization) = (way.sequence(), way.randomization());
         let settings = Settings {
             estimator: EstimatorKind::Photon,
             sequence,
@@ -96,10 +102,10 @@ impl Curve {
             flux_lm.sum::<f64>() / area_m2
         };
         let course = Course::run(&scene, &settings, effort.limit);
-        let stops = course.stages.iter().map(|stage| Stop {
-            samples: stage.samples,
-            seconds: stage.seconds,
-            lx: stage.estimates.sensors[0].replicate_lx.iter().map(mean_lx).collect(),
+        let stops = course.snapshots.iter().map(|snapshot| Stop {
+            samples: snapshot.samples,
+            seconds: snapshot.seconds,
+            lx: snapshot.estimates.sensors[0].replicate_lx.iter().map(mean_lx).collect(),
         });
         Self::new(way.name(), stops.collect(), FITTED_PHOTONS)
     }
@@ -108,8 +114,8 @@ impl Curve {
     pub(super) fn of_ladder(ladder: &Ladder) -> Self {
         let middle = ladder.octants[0].middle;
         let stops = (0..ladder.checkpoints()).map(|k| Stop {
-            samples: ladder.courses[1].stages[k].samples,
-            seconds: ladder.courses[1..].iter().map(|course| course.stages[k].seconds).sum(),
+            samples: ladder.courses[1].snapshots[k].samples,
+            seconds: ladder.courses[1..].iter().map(|course| course.snapshots[k].seconds).sum(),
             lx: ladder.on_sphere_at(k, Part::Total, middle),
         });
         Self::new("bidirectional, Sobol'", stops.collect(), FITTED_OURS)

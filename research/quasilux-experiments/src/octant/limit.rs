@@ -64,12 +64,12 @@ impl Ladder {
 
     /// Checkpoints that all meshes have.
     pub(super) fn checkpoints(&self) -> usize {
-        self.courses.iter().map(|course| course.stages.len()).min().unwrap_or(0)
+        self.courses.iter().map(|course| course.snapshots.len()).min().unwrap_or(0)
     }
 
     /// One value a replicate at the last checkpoint of a mesh.
     pub(super) fn on_mesh(&self, level: usize, part: Part, place: usize) -> Vec<f64> {
-        self.values(level, self.courses[level].stages.len() - 1, part, place)
+        self.values(level, self.courses[level].snapshots.len() - 1, part, place)
     }
 
     /// One value a replicate on the sphere, from the two finest meshes.
@@ -127,7 +127,7 @@ impl Ladder {
     }
 
     fn values(&self, level: usize, checkpoint: usize, part: Part, place: usize) -> Vec<f64> {
-        let rows = &self.courses[level].stages[checkpoint].estimates.sensors[0].replicate_lx;
+        let rows = &self.courses[level].snapshots[checkpoint].estimates.sensors[0].replicate_lx;
         let direct_lx = self.direct_lx[level][place];
         let of_part = |total_lx: f64| match part {
             Part::Direct => direct_lx,

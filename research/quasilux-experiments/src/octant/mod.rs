@@ -20,7 +20,7 @@ mod report;
 mod sphere;
 
 use crate::outcome::{Options, Outcome};
-use curve::{Curve, Way};
+use curve::{Curve, PhotonPoints};
 use limit::Ladder;
 use quasilux_transport::{EstimatorKind, Settings};
 use std::time::Duration;
@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Options) -> Outcome {
 impl Findings {
     fn new(effort: &Effort) -> Self {
         let ladder = effort.ladder(EstimatorKind::Bidirectional);
-        let photons = Way::ALL.map(|way| Curve::of_photons(way, effort));
+        let photons = PhotonPoints::ALL.map(|way| Curve::of_photons(way, effort));
         let curves = photons.into_iter().chain([Curve::of_ladder(&ladder)]).collect();
         Self { ladder, curves }
     }

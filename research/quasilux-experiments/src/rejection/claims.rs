@@ -2,7 +2,7 @@
 
 use super::Curve;
 use crate::claim::Claim;
-use crate::contrast::Contrast;
+use crate::contrast::{Contrast, Factor};
 use crate::significance::{ALIKE, each_of};
 use quasilux_report::number::count;
 
@@ -19,11 +19,11 @@ pub(super) fn claims(curves: &[Curve]) -> Vec<Claim> {
     let gain = |worse: &Curve, better: &Curve| better.last().under(worse.last());
     let of_rejection = gain(rejection_random, rejection_sobol);
     let of_inverse = gain(inverse_random, inverse_sobol);
-    let of_both = Contrast::of(&[
-        (1.0, &inverse_random.last().squares),
-        (-1.0, &inverse_sobol.last().squares),
-        (-1.0, &rejection_random.last().squares),
-        (1.0, &rejection_sobol.last().squares),
+    let of_both = Contrast::product(&[
+        Factor { power: 1.0, squares: &inverse_random.last().squares },
+        Factor { power: -1.0, squares: &inverse_sobol.last().squares },
+        Factor { power: -1.0, squares: &rejection_random.last().squares },
+        Factor { power: 1.0, squares: &rejection_sobol.last().squares },
     ]);
     let random = gain(rejection_random, inverse_random);
     let sobol = gain(rejection_sobol, inverse_sobol);

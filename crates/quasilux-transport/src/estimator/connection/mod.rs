@@ -32,7 +32,8 @@
 //! more or less than that they give. With A and B independent photons,
 //!
 //! ```text
-//! light by photons = mean over many A of expected(A) + mean over few B of (given by B - expected(B))
+//! light by photons = mean over many A of expected(A)
+//!                  + mean over few B of (given by B - expected(B))
 //! ```
 //!
 //! whose mean is right for any expectation: two levels of M. B. Giles, "Multilevel Monte Carlo path
