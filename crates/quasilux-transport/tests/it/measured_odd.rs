@@ -45,7 +45,7 @@ fn photons_and_paths_agree_where_one_side_lets_nothing_through() {
         };
         let tables = Side::ALL.map(|side| (side, ScatteringMode::Transmission, through(side)));
         let scene = divided(measured(tables));
-        assert_estimators_agree("one way", &scene, 1 << 9, 0.06);
+        assert_estimators_agree("one way", &scene, 1 << 10, 0.06);
     }
 }
 
