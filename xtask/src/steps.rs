@@ -13,7 +13,7 @@ struct Step {
 }
 
 const STEPS: [Step; 7] = [
-    Step { name: "fmt", run: || cargo(&["fmt", "--all", "--check"], &[]) },
+    Step { name: "fmt", run: check_format },
     Step {
         name: "clippy",
         run: || cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[]),
@@ -85,12 +85,17 @@ fn run_tests(more: &[(&str, &str)]) -> Result<(), Failure> {
     outcome
 }
 
-/// The fuzz targets are a workspace of their own: formats and lints them without the fuzzer, which
-/// needs a nightly compiler and a C++ one.
+/// The fuzz targets are a workspace of their own.
+const FUZZ_MANIFEST: &str = "--manifest-path=fuzz/Cargo.toml";
+
+fn check_format() -> Result<(), Failure> {
+    cargo(&["fmt", "--all", "--check"], &[])?;
+    cargo(&["fmt", FUZZ_MANIFEST, "--check"], &[])
+}
+
+/// Lints the fuzz targets without the fuzzer, which needs a nightly compiler and a C++ one.
 fn check_fuzz_targets() -> Result<(), Failure> {
-    const MANIFEST: &str = "--manifest-path=fuzz/Cargo.toml";
-    cargo(&["fmt", MANIFEST, "--check"], &[])?;
-    cargo(&["clippy", MANIFEST, "--no-default-features", "--", "-D", "warnings"], &[])
+    cargo(&["clippy", FUZZ_MANIFEST, "--no-default-features", "--", "-D", "warnings"], &[])
 }
 
 /// Packs the crates that may be published and builds each from its package, without the registry,
