@@ -48,7 +48,7 @@ pub enum Purpose {
         /// The surface.
         surface: u32,
     },
-    /// Where in cells of grids a photon is joined, and which joins are left to chance.
+    /// Where in cells of grids a photon is connected, and which connections are left to chance.
     Connections,
 }
 
@@ -132,7 +132,7 @@ impl fmt::Display for Purpose {
             Self::EmissionOfArea => return f.write_str("direction from, or place on, an area"),
             Self::Cell => return f.write_str("place in the cell"),
             Self::Connections => {
-                return f.write_str("chance of joins, and place in the sensor's cell");
+                return f.write_str("chance of connections, and place in the sensor's cell");
             }
             Self::FirstDirection => return f.write_str("direction from the sensor"),
             Self::AreaLight { surface } => ("place on an area light", surface),

@@ -9,7 +9,7 @@ pub enum EstimatorKind {
     Photon,
     /// Paths from the sensors with next-event estimation.
     Path,
-    /// Paths from the sensors beside photons that are joined to them, or paths that end on a frozen
+    /// Paths from the sensors beside photons that are connected to them, or paths that end on a frozen
     /// illumination map, corrected so that its elements cause no bias, or paths alone: what pilots
     /// find best.
     Bidirectional,
@@ -158,10 +158,10 @@ pub struct Settings {
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where
     /// that helps the sensors; else they keep equal flux.
     pub importance: Switch,
-    /// Whether photons are joined to the sensors beside the paths of
+    /// Whether photons are connected to the sensors beside the paths of
     /// [`EstimatorKind::Bidirectional`]; with `Off` these end on a frozen map, which is corrected,
     /// where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`,
-    /// leave `Auto` the map alone, and `importance` that is to be on the joined photons.
+    /// leave `Auto` the map alone, and `importance` that is to be on the connected photons.
     pub connections: Switch,
 }
 
@@ -172,9 +172,9 @@ impl Settings {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
     }
 
-    /// Whether [`EstimatorKind::Bidirectional`] joins photons to the sensors, where that is settled
+    /// Whether [`EstimatorKind::Bidirectional`] connects photons to the sensors, where that is settled
     /// before a pilot: photons that are to leave lit places, or to be left out, are those of maps;
-    /// those that are to be steered are joined.
+    /// those that are to be guided are connected.
     #[must_use]
     pub fn connections(&self) -> Option<bool> {
         let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();

@@ -1,7 +1,7 @@
 //! Photons beside paths as a pilot sees them: what each gives to the sensor points whose paths are
 //! looked at.
 //!
-//! What steered photons split off draws coordinates that belong to no block.
+//! What guided photons split off draws coordinates that belong to no block.
 
 use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
@@ -17,7 +17,7 @@ const SAMPLES: u64 = 1 << 13;
 pub(super) enum Role {
     /// To be counted by the cell they land in.
     Counted,
-    /// To be joined to the sensor points.
+    /// To be connected to the sensor points.
     LightVertexConnections,
 }
 

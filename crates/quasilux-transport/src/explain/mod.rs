@@ -98,7 +98,7 @@ pub enum SampleKind {
     PathsBesidePhotons,
     /// Photons beside these paths that are counted by the cells they land in.
     CountedPhotons,
-    /// Photons beside these paths that are joined to the sensors, beyond what is expected of them.
+    /// Photons beside these paths that are connected to the sensors, beyond what is expected of them.
     ConnectedPhotons,
 }
 

@@ -43,7 +43,7 @@ struct PathTarget {
     /// Its number among all.
     number: u64,
     target: Target,
-    /// Light that is no matter of paths: direct light, what joined photons find, and what only
+    /// Light that is no matter of paths: direct light, what connected photons find, and what only
     /// photons find.
     given_lx: f64,
 }

@@ -31,7 +31,7 @@ pub(crate) struct PhotonCounts {
     /// or too large to be counted.
     pub(crate) invalid: u64,
     pub(crate) rays: u64,
-    /// Rays among them that join photons to sensors.
+    /// Rays among them that connect photons to sensors.
     pub(crate) connections: u64,
     /// Surfaces that photons came to.
     pub(crate) events: u64,

@@ -52,13 +52,13 @@ pub enum CheckError {
     },
     /// No photon of these is split or ended.
     #[error(
-        "importance = \"on\" is for photons that sensors count, that are joined to them, or that \
+        "importance = \"on\" is for photons that sensors count, that are connected to them, or that \
          fill growing maps: there are none with the estimator \"{estimator}\"{why}"
     )]
     NothingToSteer {
         /// Name of the estimator.
         estimator: &'static str,
-        /// What else keeps photons from being joined.
+        /// What else keeps photons from being connected.
         why: &'static str,
     },
     /// LightVertexConnections photons leave the lights.
@@ -66,7 +66,7 @@ pub enum CheckError {
         "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" \
          leaves none"
     )]
-    FirstShotOfJoined,
+    FirstShotWithConnections,
     /// Nothing can be left out of a map that is not there.
     #[error(
         "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" \
@@ -106,7 +106,7 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }
     if settings.first_shot == Switch::On && settings.connections == Switch::On {
-        return Err(CheckError::FirstShotOfJoined);
+        return Err(CheckError::FirstShotWithConnections);
     }
     let has_map = match settings.estimator {
         EstimatorKind::Path | EstimatorKind::Photon => false,

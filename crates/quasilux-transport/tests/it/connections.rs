@@ -1,4 +1,4 @@
-//! Photons joined to sensors: the same light as paths alone find, term by term, and the same bits
+//! Photons connected to sensors: the same light as paths alone find, term by term, and the same bits
 //! whoever computes them.
 
 use crate::agreement::coloured_room_with_mirror;
@@ -96,7 +96,7 @@ fn threads_change_no_bit() {
     assert_eq!(one, three);
 }
 
-/// With light of one bounce wanted, none of more is joined.
+/// With light of one bounce wanted, none of more is connected.
 #[test]
 fn bounces_are_cut_where_wanted() {
     let [_, (_, scene)] = rooms();

@@ -1,4 +1,4 @@
-//! Light that is hard to find: a corridor lit from a niche at one end, with photons steered and
+//! Light that is hard to find: a corridor lit from a niche at one end, with photons guided and
 //! not.
 
 use crate::images::add_panel;
@@ -72,19 +72,19 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// With fewer rays than unsteered photons take, steered ones know the far half of the corridor at
+/// With fewer rays than unguided photons take, guided ones know the far half of the corridor at
 /// least twice as well by the median of three seeds, come to the same values within joint intervals
 /// (30 points of each seed at twice the joint 95 % half-widths, about four standard errors: near
 /// the niche an error of 3 % would be found, at the dark end one of 60 %), and spend as much flux
 /// as they get.
 #[test]
-fn steered_photons_know_the_dark_end_better() {
+fn guided_photons_know_the_dark_end_better() {
     let gain = |seed| {
         let (plain, plain_estimates) = counted(seed, Switch::Off, 1 << 16);
-        let (steered, estimates) = counted(seed, Switch::Auto, 1 << 13);
+        let (guided, estimates) = counted(seed, Switch::Auto, 1 << 13);
         assert!(estimates.rays < plain_estimates.rays, "{} rays", estimates.rays);
         for point in 0..POINTS {
-            let (a, b) = (&plain[point], &steered[point]);
+            let (a, b) = (&plain[point], &guided[point]);
             let [h, k] = [a, b].map(|interval| interval.half_width.unwrap_or(f64::INFINITY));
             let joint = 2.0 * (h * h + k * k).sqrt();
             assert!((a.value - b.value).abs() <= joint, "{seed}, {point}: {a:?}, {b:?}");
@@ -92,18 +92,18 @@ fn steered_photons_know_the_dark_end_better() {
         let flux = estimates.flux;
         let sum = flux.absorbed_lm + flux.lost_lm + flux.cut_lm;
         assert!((sum / flux.emitted_lm - 1.0).abs() < 1e-12 && flux.absorbed_lm > 0.0, "{flux:?}");
-        far(&plain) / far(&steered)
+        far(&plain) / far(&guided)
     };
     let gains: Vec<f64> = (1..=3).map(gain).collect();
     assert!(median(gains.clone()) > 2.0, "{gains:?}");
 }
 
-/// Steered photons, joined to the sensors, know every cell. Each is compared with the independent
+/// Guided photons, connected to the sensors, know every cell. Each is compared with the independent
 /// tracer: 30 differences at twice the joint 95 % half-widths, about four standard errors; an error
 /// of 30 % would be found in any cell. What is found spans four orders of magnitude, and so does
 /// the reference, by three of its standard errors at either end.
 #[test]
-fn joined_photons_know_all_of_four_orders_of_magnitude() {
+fn connected_photons_know_all_of_four_orders_of_magnitude() {
     let settings = Settings {
         estimator: EstimatorKind::Bidirectional,
         max_samples: Some(1 << 9),
@@ -166,7 +166,7 @@ fn a_sheet_in_the_dark_is_left_alone() {
     assert_is_left_alone(&scene);
 }
 
-/// Whatever rays the survey happens to find, photons are steered, and all cells are known with an
+/// Whatever rays the survey happens to find, photons are guided, and all cells are known with an
 /// error of 3 % root mean square. A survey that leaves far light to connections alone loses light
 /// on its order with two of these seeds, and gives up guiding.
 #[test]

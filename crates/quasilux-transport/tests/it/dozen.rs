@@ -7,7 +7,7 @@
 //! every other time and one of 0.45 % nearly always. Each estimate goes on until its standard error
 //! is small enough for that.
 //!
-//! Photons are joined to the sensors in a run of its own, and not steered: few of them that weigh
+//! Photons are connected to the sensors in a run of its own, and not guided: few of them that weigh
 //! much would make intervals of 32 replicates that cannot be trusted at this significance.
 
 use crate::dozen_scenes as scenes;
@@ -94,7 +94,7 @@ fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mea
     Mean::new(&estimates)
 }
 
-/// Paths, photons, both joined, and paths of the corrected map are without bias; so, in means over
+/// Paths, photons, both connected, and paths of the corrected map are without bias; so, in means over
 /// all of a room, is nearly the plain map, whose elements keep all flux where it lands within their
 /// size.
 fn assert_agree(scene: &Scene) {
@@ -102,7 +102,7 @@ fn assert_agree(scene: &Scene) {
         ("paths", EstimatorKind::Path, Switch::Off),
         ("photons", EstimatorKind::Photon, Switch::Off),
         ("corrected map", EstimatorKind::Bidirectional, Switch::Off),
-        ("joined photons", EstimatorKind::Bidirectional, Switch::On),
+        ("connected photons", EstimatorKind::Bidirectional, Switch::On),
     ];
     let found = unbiased
         .map(|(name, estimator, connections)| (name, estimate(scene, estimator, connections)));

@@ -2,7 +2,7 @@
 
 use quasilux_transport::{EstimatorKind, Switch};
 
-/// Alone, beside joined photons, and ending on a map that is corrected.
+/// Alone, beside connected photons, and ending on a map that is corrected.
 pub(crate) const PATH_ESTIMATORS: [(EstimatorKind, Switch); 3] = [
     (EstimatorKind::Path, Switch::Auto),
     (EstimatorKind::Bidirectional, Switch::On),

@@ -84,21 +84,21 @@ fn maps_agree_with_and_without_first_shot_and_with_paths() {
     }
 }
 
-/// Photons that are steered as well, and maps that are corrected, give the same light.
+/// Photons that are guided as well, and maps that are corrected, give the same light.
 #[test]
 fn first_shot_goes_with_steering_and_with_corrected_maps() {
     let significance = sidak(0.001, 27);
     for (name, scene) in rooms() {
         let off = run(&scene, map(Switch::Off, 2));
-        let steered = Settings { importance: Switch::On, ..map(Switch::On, 1) };
+        let guided = Settings { importance: Switch::On, ..map(Switch::On, 1) };
         let corrected = Settings {
             estimator: EstimatorKind::Bidirectional,
             max_samples: Some(1 << 10),
             ..map(Switch::On, 3)
         };
-        let (steered, corrected) = (run(&scene, steered), run(&scene, corrected));
+        let (guided, corrected) = (run(&scene, guided), run(&scene, corrected));
         for (point, x) in corrected.point_intervals(0).iter().enumerate() {
-            let p = p_of_difference(&steered, &off, point);
+            let p = p_of_difference(&guided, &off, point);
             assert!(p > significance, "{name}, point {point}: p = {p}");
             let y = off.point_intervals(0)[point];
             let widths = x.half_width.unwrap() + y.half_width.unwrap();
@@ -158,16 +158,16 @@ fn estimators_without_maps_refuse_it() {
         connections: Switch::On,
         ..map(Switch::On, 1)
     };
-    assert_eq!(check(&scene, &light_vertices), Err(CheckError::FirstShotOfJoined));
+    assert_eq!(check(&scene, &light_vertices), Err(CheckError::FirstShotWithConnections));
 }
 
 /// A switch that is on is heeded or refused.
 #[test]
 fn what_is_switched_on_is_not_passed_over() {
     let [(_, scene), ..] = rooms();
-    let steered =
+    let guided =
         Settings { importance: Switch::On, first_shot: Switch::Auto, ..map(Switch::On, 1) };
-    let with = |estimator, connections| Settings { estimator, connections, ..steered.clone() };
+    let with = |estimator, connections| Settings { estimator, connections, ..guided.clone() };
     for settings in [
         with(EstimatorKind::Path, Switch::Auto),
         with(EstimatorKind::Bidirectional, Switch::Off),

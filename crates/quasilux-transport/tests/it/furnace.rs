@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
-        // Photons fly for very long where little is absorbed: joined ones need minutes for a point
+        // Photons fly for very long where little is absorbed: connected ones need minutes for a point
         // a hair from a corner.
         let is_quick = |connections| connections != Switch::On || reflectance < 0.9;
         for (estimator, connections) in PATH_ESTIMATORS.into_iter().filter(|way| is_quick(way.1)) {

@@ -41,7 +41,7 @@ fn what_is_wanted_decides() {
 
 /// A bright lamp behind a screen in a box with a slit of 2 cm, and a dim one that all paths find at
 /// once. Their small spread says that a short run will do; a few photons show that most of the
-/// light comes through the slit, and so photons are joined.
+/// light comes through the slit, and so photons are connected.
 #[test]
 fn light_that_is_found_at_once_hides_no_other() {
     let mut scene = room(DVec3::new(4.0, 4.0, 3.0), diffuse(0.7));

@@ -70,7 +70,7 @@ impl Numbers {
 }
 
 /// Its survey is most of the time of these tests.
-const STEERED: &str = "photon, steered";
+const GUIDED: &str = "photon, guided";
 
 /// A run of each kind: its name, scene and settings.
 fn runs() -> Vec<(&'static str, Scene, Settings)> {
@@ -102,7 +102,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         importance: Switch::Off,
         ..settings(EstimatorKind::Photon)
     };
-    let steered = Settings { importance: Switch::On, ..photon.clone() };
+    let guided = Settings { importance: Switch::On, ..photon.clone() };
     let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
     let light_vertices =
         Settings { connections: Switch::On, ..listing(EstimatorKind::Bidirectional) };
@@ -117,9 +117,9 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     let of_hidden = Settings { max_bounces: Some(3), ..settings(EstimatorKind::Path) };
     vec![
         ("photon", coloured.clone(), photon),
-        (STEERED, coloured, steered),
+        (GUIDED, coloured, guided),
         ("path", with_points.clone(), listing(EstimatorKind::Path)),
-        ("joined", with_points.clone(), light_vertices),
+        ("connected", with_points.clone(), light_vertices),
         ("on a frozen map", with_points.clone(), mapped),
         ("on maps that grow", with_points, grown),
         ("hidden light", caustics, of_hidden),
@@ -136,7 +136,7 @@ fn a_run_goes_on_from_any_of_its_states() {
         let count = keeper.states.len();
         assert!(count > 8, "{name}: {count} states");
         // All kinds of places, the first and the last among them.
-        let steps = if name == STEERED { 1 } else { 4 };
+        let steps = if name == GUIDED { 1 } else { 4 };
         for number in (0..count).step_by((count / steps).max(1)).chain([count - 1]) {
             let again = resume(&scene, &settings, &keeper.states[number], &mut ());
             assert_eq!(again.as_ref(), Ok(&whole), "{name}: state {number} of {count}");
@@ -149,7 +149,7 @@ fn a_run_goes_on_from_any_of_its_states() {
 #[test]
 fn a_run_that_is_stopped_loses_nothing() {
     for (name, scene, settings) in runs() {
-        if name == STEERED {
+        if name == GUIDED {
             continue;
         }
         let whole = simulate(&scene, &settings, &mut ());
@@ -188,7 +188,7 @@ fn points_that_are_done_stay_done() {
     let light_vertices = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
     for (name, scene, settings) in [
         ("hidden light", mirrored, settings(EstimatorKind::Path)),
-        ("joined", screened(), light_vertices),
+        ("connected", screened(), light_vertices),
         ("on maps that grow", screened(), settings(EstimatorKind::BidirectionalMap)),
     ] {
         let whole = simulate(&scene, &settings, &mut ());
@@ -241,7 +241,7 @@ fn merged(
 fn parts_make_the_same_run_however_it_is_cut() {
     let mut numbers = Numbers(7);
     for (name, scene, settings) in runs() {
-        if name == STEERED {
+        if name == GUIDED {
             continue;
         }
         let samples = settings.max_samples.expect("a number of samples");
@@ -254,7 +254,7 @@ fn parts_make_the_same_run_however_it_is_cut() {
         let whole = whole.expect("a good part");
         assert_eq!((whole.samples, whole.miss_probability), (samples, 1.0 - settings.confidence));
         // Surveys and pilots are most of the time of so small parts.
-        let many = matches!(name, "photon" | "path" | "joined");
+        let many = matches!(name, "photon" | "path" | "connected");
         for count in if many { vec![3, 16] } else { vec![3] } {
             let mut inner: Vec<u64> = (1..samples).collect();
             numbers.shuffle(&mut inner);
@@ -290,7 +290,7 @@ fn a_part_is_a_function_of_its_range_whoever_computes_it() {
 #[test]
 fn parts_and_states_of_other_runs_are_refused() {
     let runs = runs();
-    for (name, scene, settings) in runs.iter().filter(|(name, ..)| *name != STEERED) {
+    for (name, scene, settings) in runs.iter().filter(|(name, ..)| *name != GUIDED) {
         let other = Settings { seed: 2, ..settings.clone() };
         let parts = parts_of(scene, settings, 40, &[0, 20, 40]);
         let foreign = parts_of(scene, &other, 40, &[20, 40]);

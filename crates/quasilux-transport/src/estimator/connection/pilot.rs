@@ -346,11 +346,11 @@ fn powers_up_to(max: u64) -> impl Iterator<Item = u64> {
 /// survey's prediction for photons with weight windows: a trial hardly sees the rare ones that make
 /// most of it.
 fn small_deviation(guided: Option<Performance>) -> f64 {
-    let of_steered = |Performance { rays, variance }: Performance| {
+    let cost = |Performance { rays, variance }: Performance| {
         (variance * SHADOW_RAY / rays).sqrt().clamp(SMALL, MAX_SMALL)
     };
     // Quasi-random points leave little of the variance of the others.
-    guided.map_or(SMALL, of_steered)
+    guided.map_or(SMALL, cost)
 }
 
 /// Light by connected photons, and by photons counted by cell.
