@@ -9,9 +9,9 @@ pub enum EstimatorKind {
     Photon,
     /// Paths from the sensors with next-event estimation.
     Path,
-    /// Paths from the sensors beside photons that are connected to them, or paths that end on a frozen
-    /// illumination map, corrected so that its elements cause no bias, or paths alone: what pilots
-    /// find best.
+    /// Paths from the sensors beside photons that are connected to them, or paths that end on a
+    /// frozen illumination map, corrected so that its elements cause no bias, or paths alone: what
+    /// pilots find best.
     Bidirectional,
     /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
     /// elements leave a bias.
@@ -103,7 +103,7 @@ pub struct Settings {
     pub sequence: Sequence,
     /// How replicates are made independent.
     pub randomization: Randomization,
-    /// ErrorTarget half-width of the interval over the value; 0 where none is wanted.
+    /// Wanted half-width of the interval over the value; 0 where none is wanted.
     pub rel_tol: f64,
     /// Half-width in lx that is enough whatever the value; 0 where none is. Without either
     /// tolerance nothing but a limit ends the run.
@@ -172,9 +172,9 @@ impl Settings {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
     }
 
-    /// Whether [`EstimatorKind::Bidirectional`] connects photons to the sensors, where that is settled
-    /// before a pilot: photons that are to leave lit places, or to be left out, are those of maps;
-    /// those that are to be guided are connected.
+    /// Whether [`EstimatorKind::Bidirectional`] connects photons to the sensors, where that is
+    /// settled before a pilot: photons that are to leave lit places, or to be left out, are those
+    /// of maps; those that are to be guided are connected.
     #[must_use]
     pub fn connections(&self) -> Option<bool> {
         let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();

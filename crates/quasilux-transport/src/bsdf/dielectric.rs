@@ -109,7 +109,7 @@ mod tests {
             let (there, cos_behind) = scaled_share(cos, true);
             let (back, cos_again) = scaled_share(cos_behind, false);
             assert!((cos_again - cos).abs() < 1e-14);
-            // PartitionWeights are counted to a sample or two of 2^14.
+            // Shares are counted to a sample or two of 2^14.
             let quotient = there / back * (1.5 * 1.5 * 1.5 * 1.5);
             assert!((quotient - 1.0).abs() < 4e-4, "{quotient}");
         }

@@ -9,8 +9,8 @@ const MAX_BLOCKS: usize = 12;
 /// Coordinates that fewer samples get to belong to the last block.
 const MIN_REACHED: f64 = 1.0 / 64.0;
 
-/// The blocks of `samples` samples that drew these dimensions. What decides over connections has a block
-/// of its own, for its dimensions are far from all others.
+/// The blocks of `samples` samples that drew these dimensions. What decides over connections has a
+/// block of its own, for its dimensions are far from all others.
 pub(super) fn from_uses(uses: BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
     let (connections, others): (BTreeMap<_, _>, BTreeMap<_, _>) =
         uses.into_iter().partition(|(used, _)| used.purpose == Purpose::Connections);

@@ -4,7 +4,7 @@
 //! which coordinates feed which decision, as the code that draws them says ([`crate::purpose`]).
 //! Neighbouring coordinates that feed the same decision make a block. The pilot is then repeated
 //! with one block exchanged at a time, which gives the block's share of the variance (`shares`),
-//! and with one block moved a little, which tells jumps from slopes. PartitionWeights are of the
+//! and with one block moved a little, which tells jumps from slopes. Shares are of the
 //! variance of one path or photon: what is even in few coordinates, and smooth, quasi-random points
 //! integrate fast (Caflisch, Morokoff and Owen 1997). What they are worth here is measured, too:
 //! independent replicates of the sequence of the run against the variance of the pilot.
@@ -41,7 +41,7 @@ const FIRST_OF_GAIN: u32 = u32::MAX - 1000;
 const PHOTONS_A_PIECE: u64 = 1 << 8;
 /// Steps by which blocks are moved, to see how fast the difference falls.
 const STEPS: [f64; 2] = [1.0 / 16.0, 1.0 / 64.0];
-/// PartitionWeights of less are not looked at for jumps.
+/// Shares of less are not looked at for jumps.
 const MIN_SHARE: f64 = 0.01;
 
 /// Where the variance of an estimate comes from, by coordinates.
@@ -98,7 +98,8 @@ pub enum SampleKind {
     PathsBesidePhotons,
     /// Photons beside these paths that are counted by the cells they land in.
     CountedPhotons,
-    /// Photons beside these paths that are connected to the sensors, beyond what is expected of them.
+    /// Photons beside these paths that are connected to the sensors, beyond what is expected of
+    /// them.
     ConnectedPhotons,
 }
 

@@ -1,4 +1,4 @@
-//! PartitionWeights of the variance, from samples whose coordinates are exchanged in part.
+//! Shares of the variance, from samples whose coordinates are exchanged in part.
 //!
 //! With f(A) and f(B) of independent points, and f(AB) of points with the block from B and the rest
 //! from A, the block's share of the variance V alone is `E f(B) (f(AB) - f(A)) / V`, and with all

@@ -1,4 +1,4 @@
-//! PartitionWeights against the closed form of a known integrand.
+//! Shares against the closed form of a known integrand.
 
 use super::*;
 use quasilux_sampling::Sampler;

@@ -52,16 +52,16 @@ pub enum CheckError {
     },
     /// No photon of these is split or ended.
     #[error(
-        "importance = \"on\" is for photons that sensors count, that are connected to them, or that \
-         fill growing maps: there are none with the estimator \"{estimator}\"{why}"
+        "importance = \"on\" is for photons that sensors count, that are connected to them, or \
+         that fill growing maps: there are none with the estimator \"{estimator}\"{why}"
     )]
-    NothingToSteer {
+    NothingToGuide {
         /// Name of the estimator.
         estimator: &'static str,
         /// What else keeps photons from being connected.
         why: &'static str,
     },
-    /// LightVertexConnections photons leave the lights.
+    /// Photons that are connected to sensors leave the lights, not lit places.
     #[error(
         "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" \
          leaves none"
@@ -130,7 +130,7 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
             Switch::Off => " and connections = \"off\"",
             _ => " on a map that first_shot or map_dimensions ask for",
         };
-        return Err(CheckError::NothingToSteer { estimator: settings.estimator.name(), why });
+        return Err(CheckError::NothingToGuide { estimator: settings.estimator.name(), why });
     }
     if settings.connections == Switch::On && settings.estimator != EstimatorKind::Bidirectional {
         return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });

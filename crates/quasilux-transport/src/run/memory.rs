@@ -142,8 +142,8 @@ fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 
     (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
 }
 
-/// What a survey knows of the cells of the scene, and what photons that are connected to sensors bring
-/// to them.
+/// What a survey knows of the cells of the scene, and what photons that are connected to sensors
+/// bring to them.
 fn cells_bytes(settings: &Settings, points: u64) -> u64 {
     let photons = settings.estimator != EstimatorKind::Path;
     let guides =

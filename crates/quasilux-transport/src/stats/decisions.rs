@@ -3,8 +3,8 @@
 /// What surveys and pilots decided: a function of scene and settings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decisions {
-    /// Photons that are connected to the sensors for each path; `None` where paths go alone or end on
-    /// a map.
+    /// Photons that are connected to the sensors for each path; `None` where paths go alone or end
+    /// on a map.
     pub connected_photons: Option<u64>,
     /// Whether photons are split, ended and guided on their way.
     pub uses_importance: bool,

@@ -1,5 +1,5 @@
-//! Photons connected to sensors: the same light as paths alone find, term by term, and the same bits
-//! whoever computes them.
+//! Photons connected to sensors: the same light as paths alone find, term by term, and the same
+//! bits whoever computes them.
 
 use crate::agreement::coloured_room_with_mirror;
 use crate::images::add_panel;

@@ -94,9 +94,9 @@ fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mea
     Mean::new(&estimates)
 }
 
-/// Paths, photons, both connected, and paths of the corrected map are without bias; so, in means over
-/// all of a room, is nearly the plain map, whose elements keep all flux where it lands within their
-/// size.
+/// Paths, photons, both connected, and paths of the corrected map are without bias; so, in means
+/// over all of a room, is nearly the plain map, whose elements keep all flux where it lands within
+/// their size.
 fn assert_agree(scene: &Scene) {
     let unbiased = [
         ("paths", EstimatorKind::Path, Switch::Off),

@@ -75,8 +75,8 @@ fn what_is_computed_has_no_variance() {
 /// What is said of the parts of an estimate tells how far it strays: the squared error of a run
 /// with random points over N indices is that of a path, of its counted photons and of its connected
 /// ones together, over N. 1024 replicates know the error to 2.2 %; 8 % are allowed. Paths forgotten
-/// would be 13 % and counted photons 49 % (connected ones 2.7 %: what they give is tested one by one,
-/// `connection/single.rs`).
+/// would be 13 % and counted photons 49 % (connected ones 2.7 %: what they give is tested one by
+/// one, `connection/single.rs`).
 #[test]
 fn the_parts_tell_the_error_of_a_run() {
     const REPLICATES: u32 = 1024;

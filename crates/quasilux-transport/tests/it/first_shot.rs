@@ -174,7 +174,7 @@ fn what_is_switched_on_is_not_passed_over() {
         Settings { first_shot: Switch::On, ..with(EstimatorKind::Bidirectional, Switch::Auto) },
     ] {
         let refused = check(&scene, &settings);
-        assert!(matches!(refused, Err(CheckError::NothingToSteer { .. })), "{refused:?}");
+        assert!(matches!(refused, Err(CheckError::NothingToGuide { .. })), "{refused:?}");
     }
     for connections in [Switch::Auto, Switch::On] {
         assert_eq!(check(&scene, &with(EstimatorKind::Bidirectional, connections)), Ok(()));

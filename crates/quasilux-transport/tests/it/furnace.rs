@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
-        // Photons fly for very long where little is absorbed: connected ones need minutes for a point
-        // a hair from a corner.
+        // Photons fly for very long where little is absorbed: connected ones need minutes for a
+        // point a hair from a corner.
         let is_quick = |connections| connections != Switch::On || reflectance < 0.9;
         for (estimator, connections) in PATH_ESTIMATORS.into_iter().filter(|way| is_quick(way.1)) {
             let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(reflectance));
