@@ -39,7 +39,7 @@ pub(crate) fn solids_of(mesh: &Mesh) -> Vec<Solid> {
     if count > MAX_TRIANGLES {
         return Vec::new();
     }
-    let (mut parent, is_open) = connect(mesh);
+    let Forest { mut parent, is_open } = Forest::new(mesh);
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); count];
     let mut closed = vec![true; count];
     for (triangle, is_open) in is_open.into_iter().enumerate() {
@@ -57,25 +57,33 @@ pub(crate) fn solids_of(mesh: &Mesh) -> Vec<Solid> {
     solids
 }
 
-/// Joins triangles that share an edge: the forest of parents, and which triangles have an edge
-/// that an odd number of triangles share.
-fn connect(mesh: &Mesh) -> (Vec<usize>, Vec<bool>) {
-    let mut edges: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
-    for (triangle, &[a, b, c]) in (0..).zip(&mesh.triangles) {
-        edges.extend([(a, b), (b, c), (c, a)].map(|(a, b)| (a.min(b), a.max(b), triangle)));
-    }
-    edges.sort_unstable();
-    let mut parent: Vec<usize> = (0..mesh.triangles.len()).collect();
-    let mut is_open = vec![false; mesh.triangles.len()];
-    for sharers in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let first = sharers[0].2 as usize;
-        is_open[first] |= sharers.len() % 2 == 1;
-        for &(_, _, other) in &sharers[1..] {
-            let (a, b) = (root(&mut parent, first), root(&mut parent, other as usize));
-            parent[a.max(b)] = a.min(b);
+/// Trees of triangles that share edges.
+struct Forest {
+    /// The parent of each triangle; a root is its own.
+    parent: Vec<usize>,
+    /// Which triangles have an edge that an odd number of triangles share.
+    is_open: Vec<bool>,
+}
+
+impl Forest {
+    fn new(mesh: &Mesh) -> Self {
+        let mut edges: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
+        for (triangle, &[a, b, c]) in (0..).zip(&mesh.triangles) {
+            edges.extend([(a, b), (b, c), (c, a)].map(|(a, b)| (a.min(b), a.max(b), triangle)));
         }
+        edges.sort_unstable();
+        let mut parent: Vec<usize> = (0..mesh.triangles.len()).collect();
+        let mut is_open = vec![false; mesh.triangles.len()];
+        for sharers in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let first = sharers[0].2 as usize;
+            is_open[first] |= sharers.len() % 2 == 1;
+            for &(_, _, other) in &sharers[1..] {
+                let (a, b) = (root(&mut parent, first), root(&mut parent, other as usize));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        Self { parent, is_open }
     }
-    (parent, is_open)
 }
 
 /// The root of a tree, halving the path to it (Tarjan and van Leeuwen 1984).

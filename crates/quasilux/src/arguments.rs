@@ -58,12 +58,13 @@ pub(crate) struct RunArguments {
     pub(crate) simulation: SimulationArguments,
     /// Do what a plan says, in one part: the same bits as its parts put together
     #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "rel_tol", "abs_tol", "tolerance_on", "confidence", "time", "samples", "rays", "estimator", "sequence",
+        "rel_tol", "abs_tol", "tolerance_on", "confidence", "time", "samples", "rays",
+        "estimator", "sequence",
         "seed", "checkpoint", "explain",
     ])]
     pub(crate) plan: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) keeping: KeepingArguments,
+    pub(crate) keeping: CheckpointArguments,
     /// Also say which coordinates carry the variance, and what the sequence is worth here; takes
     /// some seconds more
     #[arg(long)]
@@ -88,7 +89,7 @@ pub(crate) struct OutputArguments {
 
 /// Whether a run is kept on disk.
 #[derive(Debug, Args)]
-pub(crate) struct KeepingArguments {
+pub(crate) struct CheckpointArguments {
     /// Keep the run in this file while it goes, for `resume`
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
@@ -192,7 +193,7 @@ fn illuminance(text: &str) -> Result<f64, String> {
 }
 
 /// Thirty years: what is longer cannot be added to a clock.
-const LONGEST_S: f64 = 1e9;
+const MAX_SECONDS: f64 = 1e9;
 
 /// A positive time in seconds, minutes or hours; seconds where no unit is given.
 fn duration(text: &str) -> Result<Duration, String> {
@@ -204,7 +205,7 @@ fn duration(text: &str) -> Result<Duration, String> {
     };
     let seconds = number.trim().parse::<f64>().ok().map(|number| number * unit_s);
     seconds
-        .filter(|seconds| *seconds > 0.0 && *seconds <= LONGEST_S)
+        .filter(|seconds| *seconds > 0.0 && *seconds <= MAX_SECONDS)
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
         .ok_or_else(|| "expected a time above 0, like 60s, 5m or 1.5h, and at most 1e9s".to_owned())
 }

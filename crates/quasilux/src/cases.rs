@@ -109,7 +109,8 @@ impl Expectation {
             }
             (Some(name), [], None) => self.judge_sensor(sensor(report, name)?),
             _ => Err(CliError::new(
-                "an expectation has one `sensor`; one of `flux_lm` or `indirect_flux_lm` has `sensors`, a list of grids",
+                "an expectation has one `sensor`; one of `flux_lm` or `indirect_flux_lm` has \
+                 `sensors`, a list of grids",
             )),
         }
     }

@@ -97,7 +97,7 @@ impl CheckpointWriter {
             project: file.to_owned(),
             project_absolute: std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
             scene: project.identity.clone(),
-            settings: SettingsRecord::of(settings),
+            settings: SettingsRecord::new(settings),
         };
         Ok(Self { path: path.to_owned(), heading: json::text(&heading), before: Before::Foreign })
     }
@@ -175,8 +175,8 @@ fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), CliError
     }
     let project = heading.project.display();
     Err(CliError::new(format!(
-        "{name}: keeps a run of {project} that may not be over: go on with `quasilux resume {name}`, or remove it to \
-         begin anew"
+        "{name}: keeps a run of {project} that may not be over: go on with `quasilux resume \
+         {name}`, or remove it to begin anew"
     )))
 }
 

@@ -102,7 +102,7 @@ impl Plan {
             project: path.to_owned(),
             scene: project.identity.clone(),
             samples,
-            settings: SettingsRecord::of(settings),
+            settings: SettingsRecord::new(settings),
             decisions,
             sha256: String::new(),
         };

@@ -36,7 +36,7 @@ pub(crate) struct SettingsRecord {
 }
 
 impl SettingsRecord {
-    pub(crate) fn of(settings: &Settings) -> Self {
+    pub(crate) fn new(settings: &Settings) -> Self {
         let Settings {
             estimator,
             sequence,
@@ -160,11 +160,11 @@ mod tests {
             ..Settings::default()
         };
         for settings in [settings, Settings::default()] {
-            let text = serde_json::to_string(&SettingsRecord::of(&settings)).unwrap();
+            let text = serde_json::to_string(&SettingsRecord::new(&settings)).unwrap();
             let record: SettingsRecord = serde_json::from_str(&text).unwrap();
             assert_eq!(record.settings("x").unwrap(), settings);
         }
-        let mut bad = SettingsRecord::of(&Settings::default());
+        let mut bad = SettingsRecord::new(&Settings::default());
         bad.confidence = 1.0;
         assert!(bad.settings("x").is_err());
     }

@@ -37,7 +37,7 @@ pub(crate) struct Watcher<'a> {
     start: Instant,
     deadline: Option<Instant>,
     /// Where the run is kept, and when it is next.
-    kept: Option<Kept>,
+    kept: Option<Checkpoints>,
     /// Why the run was told to stop, if it was.
     pub(crate) stopped: Option<Stopped>,
     /// Rays that were traced before the clock was started.
@@ -45,7 +45,7 @@ pub(crate) struct Watcher<'a> {
 }
 
 /// A run that is kept on disk.
-struct Kept {
+struct Checkpoints {
     writer: CheckpointWriter,
     every: Duration,
     next: Instant,
@@ -99,7 +99,7 @@ impl<'a> Watcher<'a> {
     /// Keeps the run on disk: at once, every so often, and when it is told to stop.
     pub(crate) fn checkpoints(mut self, writer: CheckpointWriter, every: Duration) -> Self {
         let (next, asked) = (self.start, self.start);
-        self.kept = Some(Kept { writer, every, next, asked, has_failed: false });
+        self.kept = Some(Checkpoints { writer, every, next, asked, has_failed: false });
         self
     }
 

@@ -37,13 +37,13 @@ pub(super) fn read(
 ) -> Result<(), LoadError> {
     let file = builder.file().to_owned();
     let error = |message: String| LoadError::new(&file, None, message);
-    let (document, blob) = parse(&file, bytes)?;
+    let Parsed { document, blob } = parse(&file, bytes)?;
     let buffers = buffers(&file, &document, blob, files).map_err(error)?;
 
     let mut skipped = 0;
     let mut textured = false;
     let mut material_of: HashMap<Option<usize>, u32> = HashMap::new();
-    for (node, world_from_node) in nodes(&document).map_err(error)? {
+    for PlacedNode { node, world_from_node } in nodes(&document).map_err(error)? {
         let Some(mesh) = node.mesh() else { continue };
         let name = node.name().or(mesh.name());
         let name = name.map_or_else(|| format!("node_{}", node.index()), str::to_owned);
@@ -78,7 +78,12 @@ pub(super) fn read(
 }
 
 /// The validated document, and the binary chunk of a GLB.
-fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadError> {
+struct Parsed {
+    document: Document,
+    blob: Option<Vec<u8>>,
+}
+
+fn parse(file: &str, bytes: &[u8]) -> Result<Parsed, LoadError> {
     let error = |message: String| LoadError::new(file, None, message);
     let is_binary = bytes.starts_with(b"glTF");
     if is_binary {
@@ -99,7 +104,8 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
     if let Some(name) = json.extensions_required.iter().find(required) {
         let name: String = name.chars().take(60).collect();
         return Err(error(format!(
-            "the file requires the extension \"{name}\", which is not built; expected plain glTF 2.0"
+            "the file requires the extension \"{name}\", which is not built; expected plain glTF \
+             2.0"
         )));
     }
     json.extensions_required.clear();
@@ -111,7 +117,7 @@ fn parse(file: &str, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), LoadEr
         },
         other => error(format!("not a valid glTF file: {other}")),
     })?;
-    Ok((document, blob))
+    Ok(Parsed { document, blob })
 }
 
 /// Checks that accessors of positions exist: the validation of `gltf` looks them up unchecked.
@@ -184,9 +190,15 @@ fn buffers(
     Ok(buffers)
 }
 
+/// A node with its transform to the world.
+struct PlacedNode<'a> {
+    node: Node<'a>,
+    world_from_node: DMat4,
+}
+
 /// All nodes of the default scene with their transforms to the world; of the first scene where no
 /// default is named, and all roots where there is no scene.
-fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, String> {
+fn nodes(document: &Document) -> Result<Vec<PlacedNode<'_>>, String> {
     let mut seen = vec![false; document.nodes().len()];
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let roots: Vec<Node<'_>> = match scene {
@@ -213,7 +225,7 @@ fn nodes(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, String> {
         }
         let children: Vec<_> = node.children().collect();
         stack.extend(children.into_iter().rev().map(|child| (child, world_from_node)));
-        found.push((node, world_from_node));
+        found.push(PlacedNode { node, world_from_node });
     }
     Ok(found)
 }

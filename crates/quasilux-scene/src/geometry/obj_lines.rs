@@ -9,7 +9,7 @@
 use crate::LoadError;
 use quasilux_text::Position;
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::fmt::Write;
 
 /// The checked statements of an OBJ file.
@@ -38,75 +38,103 @@ struct Reader<'a> {
 
 /// Checks and rewrites an OBJ file.
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
-    if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
-        let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
-        let place = Some(Position { line, column: 1 });
-        return Err(LoadError::new(
-            file,
-            place,
-            "binary data; expected an OBJ file, which is text",
-        ));
-    }
+    refuse_binary(file, bytes)?;
     let text = String::from_utf8_lossy(bytes);
-    let mut lines = ObjLines::default();
-    let mut statements = String::new();
-    let mut faces = Vec::new();
-    let mut known_materials = HashMap::new();
-    let mut vertices: u64 = 0;
-    for (line, statement) in statements_of(&text) {
-        let reader = Reader { file, line, statement: &statement };
-        let mut words = words_of(&statement);
-        let Some((_, keyword)) = words.next() else {
-            continue;
-        };
-        match keyword {
-            "v" => {
-                lines.text.push_str(&reader.vertex(words)?);
-                vertices += 1;
-            }
-            "f" | "fo" => match reader.face(words, vertices)? {
-                corners if corners.len() < 3 => lines.thin_faces += 1,
-                corners => {
-                    statements.push('f');
-                    for corner in &corners {
-                        let _ = write!(statements, " {corner}");
-                    }
-                    statements.push('\n');
-                    faces.push(corners.into_iter().max().unwrap_or(0));
-                    lines.face_lines.push(line);
-                }
-            },
-            "o" | "g" => {
-                let _ = writeln!(statements, "o {}", rest(&statement));
-            }
-            "usemtl" => {
-                let name = rest(&statement);
-                if name.is_empty() {
-                    return Err(reader.error(0, "usemtl names no material; expected a name"));
-                }
-                known_materials.entry(name.to_owned()).or_insert_with(|| {
-                    lines.materials.push(name.to_owned());
-                });
-                let _ = writeln!(statements, "usemtl {name}");
-            }
-            "mtllib" => lines.libraries.push((rest(&statement).to_owned(), reader.place(0))),
-            _ => {}
-        }
+    let mut rewriter = Rewriter::default();
+    for Statement { line, text } in statements_of(&text) {
+        rewriter.add(&Reader { file, line, statement: &text })?;
     }
-    if let Some(face) = faces.iter().position(|&highest| highest > vertices) {
-        let place = Some(Position { line: lines.face_lines[face], column: 1 });
-        let message = format!(
-            "a face refers to vertex {}; expected 1 to {vertices}, the vertices of the file",
-            faces[face]
-        );
-        return Err(LoadError::new(file, place, message));
-    }
-    lines.text.push_str(&statements);
-    Ok(lines)
+    rewriter.finish(file)
 }
 
-/// Statements with the number of their first line: without comments, continued lines joined.
-fn statements_of(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+fn refuse_binary(file: &str, bytes: &[u8]) -> Result<(), LoadError> {
+    let Some(at) = bytes.iter().position(|&byte| byte == 0) else {
+        return Ok(());
+    };
+    let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
+    let place = Some(Position { line, column: 1 });
+    Err(LoadError::new(file, place, "binary data; expected an OBJ file, which is text"))
+}
+
+/// Statements so far: vertices in the result's text, all others behind them at the end.
+#[derive(Default)]
+struct Rewriter {
+    lines: ObjLines,
+    others: String,
+    /// The highest index of each face.
+    highest: Vec<u64>,
+    known_materials: HashSet<String>,
+    vertices: u64,
+}
+
+impl Rewriter {
+    fn add(&mut self, reader: &Reader<'_>) -> Result<(), LoadError> {
+        let mut words = words_of(reader.statement);
+        let Some((_, keyword)) = words.next() else {
+            return Ok(());
+        };
+        let name = rest(reader.statement);
+        match keyword {
+            "v" => {
+                self.lines.text.push_str(&reader.vertex(words)?);
+                self.vertices += 1;
+            }
+            "f" | "fo" => self.add_face(&reader.face(words, self.vertices)?, reader.line),
+            "o" | "g" => {
+                let _ = writeln!(self.others, "o {name}");
+            }
+            "usemtl" if name.is_empty() => {
+                return Err(reader.error(0, "usemtl names no material; expected a name"));
+            }
+            "usemtl" => {
+                if self.known_materials.insert(name.to_owned()) {
+                    self.lines.materials.push(name.to_owned());
+                }
+                let _ = writeln!(self.others, "usemtl {name}");
+            }
+            "mtllib" => self.lines.libraries.push((name.to_owned(), reader.place(0))),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn add_face(&mut self, corners: &[u64], line: usize) {
+        if corners.len() < 3 {
+            self.lines.thin_faces += 1;
+            return;
+        }
+        self.others.push('f');
+        for corner in corners {
+            let _ = write!(self.others, " {corner}");
+        }
+        self.others.push('\n');
+        self.highest.push(corners.iter().copied().max().unwrap_or(0));
+        self.lines.face_lines.push(line);
+    }
+
+    fn finish(self, file: &str) -> Result<ObjLines, LoadError> {
+        let Self { mut lines, others, highest, vertices, .. } = self;
+        if let Some(face) = highest.iter().position(|&highest| highest > vertices) {
+            let place = Some(Position { line: lines.face_lines[face], column: 1 });
+            let message = format!(
+                "a face refers to vertex {}; expected 1 to {vertices}, the vertices of the file",
+                highest[face]
+            );
+            return Err(LoadError::new(file, place, message));
+        }
+        lines.text.push_str(&others);
+        Ok(lines)
+    }
+}
+
+/// A statement without comments, its continued lines joined.
+struct Statement<'a> {
+    /// The number of its first line.
+    line: usize,
+    text: Cow<'a, str>,
+}
+
+fn statements_of(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut lines = text.lines().zip(1..);
     std::iter::from_fn(move || {
         let (line, number) = lines.next()?;
@@ -115,7 +143,7 @@ fn statements_of(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
             let next = lines.next().map_or("", |(line, _)| without_comment(line));
             statement = Cow::Owned(format!("{start} {next}"));
         }
-        Some((number, statement))
+        Some(Statement { line: number, text: statement })
     })
 }
 

@@ -67,7 +67,8 @@ fn up(section: &Section<'_>, forward: DVec3) -> Result<DVec3, LoadError> {
     let up = value.vector(expected)?.try_normalize().ok_or_else(|| value.unexpected(expected))?;
     Some(up).filter(|up| across(*up)).ok_or_else(|| {
         value.error(
-            "\"up\" is parallel to the line from position to target; expected a direction across it",
+            "\"up\" is parallel to the line from position to target; expected a direction across \
+             it",
         )
     })
 }

@@ -24,6 +24,12 @@ pub(super) struct Source<'a> {
     line_starts: Vec<usize>,
 }
 
+/// A key of a table with its value.
+pub(super) struct Entry<'a> {
+    pub(super) key: Spanned<&'a str>,
+    pub(super) value: Value<'a>,
+}
+
 /// A table of the document.
 #[derive(Clone)]
 pub(super) struct Section<'a> {
@@ -75,7 +81,7 @@ impl<'a> Section<'a> {
     }
 
     /// All entries, in the order of the file.
-    pub(super) fn entries(&self) -> Vec<(Spanned<&'a str>, Value<'a>)> {
+    pub(super) fn entries(&self) -> Vec<Entry<'a>> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
         entries
@@ -83,14 +89,15 @@ impl<'a> Section<'a> {
             .map(|(key, value)| {
                 let name: &str = key.get_ref();
                 let place = self.source.place(key.span().start);
-                (Spanned { value: name, place }, Value { source: self.source, key: name, value })
+                let value = Value { source: self.source, key: name, value };
+                Entry { key: Spanned { value: name, place }, value }
             })
             .collect()
     }
 
     /// Refuses keys that are neither in `known` nor in `planned`; the latter are not built yet.
     pub(super) fn only(&self, known: &[&str], planned: &[&str]) -> Result<(), LoadError> {
-        for (key, _) in self.entries() {
+        for Entry { key, .. } in self.entries() {
             let name = key.value;
             let refuse =
                 |message: String| Err(LoadError::new(self.source.file, Some(key.place), message));
@@ -108,7 +115,7 @@ impl<'a> Section<'a> {
 
     /// Refuses the old names of renamed keys, with the new ones.
     pub(super) fn refuse_renamed(&self, renamed: &[RenamedKey]) -> Result<(), LoadError> {
-        for (key, _) in self.entries() {
+        for Entry { key, .. } in self.entries() {
             if let Some(RenamedKey { old, new }) = renamed.iter().find(|it| it.old == key.value) {
                 let message = format!("the key \"{old}\" in {} is \"{new}\" now", self.name);
                 return Err(LoadError::new(self.source.file, Some(key.place), message));

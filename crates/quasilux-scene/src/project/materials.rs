@@ -1,7 +1,7 @@
 //! `[materials.NAME]`: what the project file says about the materials of the geometry.
 
 use super::coefficients::{eta, index, reflectance, shares};
-use super::document::Section;
+use super::document::{Entry, Section};
 use super::pane;
 use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Spanned};
@@ -54,7 +54,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> 
     };
     let entries = materials.entries().into_iter();
     entries
-        .map(|(name, value)| {
+        .map(|Entry { key: name, value }| {
             let section = value.section(format!("[materials.{}]", name.value))?;
             let name = Spanned { value: name.value.to_owned(), place: name.place };
             Ok(MaterialEntry { name, scattering: scattering(&section)? })
@@ -102,7 +102,7 @@ fn refuse_keys_of_other_kinds(section: &Section<'_>, kind: &str) -> Result<(), L
     let keys_of =
         |name: &str| KINDS.iter().find(|(known, _)| *known == name).map(|(_, keys)| *keys);
     let known: Vec<&str> = ["kind"].iter().chain(keys_of(kind).unwrap_or(&[])).copied().collect();
-    for (key, value) in section.entries() {
+    for Entry { key, value } in section.entries() {
         let has_key = |(_, keys): &&(&str, &[&str])| keys.contains(&key.value);
         if !known.contains(&key.value) && KINDS.iter().any(|kind| has_key(&kind)) {
             let kinds: Vec<String> =

@@ -71,7 +71,7 @@ impl Project {
         let root = source.root(table.get_ref());
         root.only(&SECTIONS, &[])?;
 
-        let (geometry, up) = scene_section(&root)?;
+        let SceneSection { geometry, up } = scene_section(&root)?;
         let luminaires = luminaires::read(&root)?;
         let lights = lights::read(&root)?;
         if luminaires.is_empty() && lights.is_empty() {
@@ -115,7 +115,13 @@ fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, LoadError> {
     })
 }
 
-fn scene_section(root: &Section<'_>) -> Result<(Vec<Spanned<String>>, Option<UpAxis>), LoadError> {
+/// `[scene]`: names of geometry files, and the axis that points up in OBJ files.
+struct SceneSection {
+    geometry: Vec<Spanned<String>>,
+    up: Option<UpAxis>,
+}
+
+fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
     let expected = "[\"room.obj\"]: OBJ, glTF or GLB files, relative to the project file";
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
@@ -139,5 +145,5 @@ fn scene_section(root: &Section<'_>) -> Result<(Vec<Spanned<String>>, Option<UpA
         Some("y") => Some(UpAxis::Y),
         Some(_) => Some(UpAxis::Z),
     };
-    Ok((geometry, up))
+    Ok(SceneSection { geometry, up })
 }

@@ -12,8 +12,8 @@ pub(super) fn read(section: &Section<'_>) -> Result<Pane, LoadError> {
     let Some(value) = section.get("transmittance") else {
         if let Some(reflectance) = section.get("reflectance") {
             return Err(reflectance.error(
-                "\"reflectance\" of a pane goes with a table of \"transmittance\"; expected eta, or \
-                 both as tables",
+                "\"reflectance\" of a pane goes with a table of \"transmittance\"; expected eta, \
+                 or both as tables",
             ));
         }
         return Ok(Pane::Clear { eta: eta(section)? });

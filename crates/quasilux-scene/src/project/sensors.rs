@@ -36,7 +36,7 @@ pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<SensorEn
             let shape = SensorShape::Grid(grid(&section, &mut cells)?);
             SensorEntry { place, point_places: Vec::new(), sensor: Sensor { name, shape } }
         } else {
-            let (points, point_places) = points(&section)?;
+            let PlacedPoints { points, places: point_places } = points(&section)?;
             let shape = SensorShape::Points(points);
             SensorEntry { place, point_places, sensor: Sensor { name, shape } }
         });
@@ -125,7 +125,13 @@ fn direction(value: Value<'_>) -> Result<DVec3, LoadError> {
     value.vector(expected)?.try_normalize().ok_or_else(|| value.unexpected(expected))
 }
 
-fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Position>), LoadError> {
+/// Sensor points, and where the file has them.
+struct PlacedPoints {
+    points: Vec<SensorPoint>,
+    places: Vec<Position>,
+}
+
+fn points(section: &Section<'_>) -> Result<PlacedPoints, LoadError> {
     let expected = "positions [[x, y, z], ...] in m";
     let list = section.require("points", expected)?;
     let positions = list.array(expected)?;
@@ -145,5 +151,5 @@ fn points(section: &Section<'_>) -> Result<(Vec<SensorPoint>, Vec<Position>), Lo
         let position = position.vector("a position [x, y, z] in m")?;
         Ok(SensorPoint { position, normal: direction(normal)? })
     });
-    Ok((points.collect::<Result<_, LoadError>>()?, places))
+    Ok(PlacedPoints { points: points.collect::<Result<_, LoadError>>()?, places })
 }

@@ -6,6 +6,7 @@
 use super::document::{Section, Value};
 use super::renamed::RENAMED_KEYS;
 use crate::{LoadError, Spanned};
+use std::ops::RangeInclusive;
 
 const KEYS: [&str; 21] = [
     "estimator",
@@ -120,6 +121,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
     let number = |key, expected: &str, accept: fn(f64) -> bool| {
         spanned(&section, key, |value| value.number(expected, accept))
     };
+    let up_to = |key, range| integer(&section, key, range);
     Ok(SimulationSection {
         file,
         estimator: name("estimator")?,
@@ -133,18 +135,12 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
             x > 0.0 && x < 1.0
         })?,
-        replicates: spanned(&section, "replicates", |value| {
-            let expected = format!("an integer from 1 to {MAX_REPLICATES}");
-            value.integer(&expected, 1..=MAX_REPLICATES).map(|n| n as u32)
-        })?,
+        replicates: up_to("replicates", 1..=MAX_REPLICATES)?,
         seed: spanned(&section, "seed", |value| {
             value.integer("an integer from 0 to 18446744073709551615", 0..=u64::MAX)
         })?,
         max_bounces: spanned(&section, "max_bounces", |value| bounces(&value))?,
-        list_terms: spanned(&section, "list_terms", |value| {
-            let expected = format!("an integer from 1 to {MAX_TERMS}");
-            value.integer(&expected, 1..=MAX_TERMS).map(|n| n as u32)
-        })?,
+        list_terms: up_to("list_terms", 1..=MAX_TERMS)?,
         first_shot: name("first_shot")?,
         map_element_m: number("map_element_m", "a length in m above 0", |x| x > 0.0)?,
         map_elements: spanned(&section, "map_elements", |value| {
@@ -153,20 +149,23 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         })?,
         map_adaptive: spanned(&section, "map_adaptive", |value| value.boolean())?,
         map_reconstruction: name("map_reconstruction")?,
-        map_photons: spanned(&section, "map_photons", |value| {
-            let expected = format!("an integer from 1 to {MAX_MAP_PHOTONS}");
-            value.integer(&expected, 1..=MAX_MAP_PHOTONS).map(|n| n as u32)
-        })?,
-        map_dimensions: spanned(&section, "map_dimensions", |value| {
-            let expected = format!("an integer from 1 to {}", u32::MAX);
-            value.integer(&expected, 1..=u64::from(u32::MAX)).map(|n| n as u32)
-        })?,
-        image_depth: spanned(&section, "image_depth", |value| {
-            let expected = format!("an integer from 0 to {MAX_IMAGE_DEPTH}");
-            value.integer(&expected, 0..=MAX_IMAGE_DEPTH).map(|n| n as u32)
-        })?,
+        map_photons: up_to("map_photons", 1..=MAX_MAP_PHOTONS)?,
+        map_dimensions: up_to("map_dimensions", 1..=u64::from(u32::MAX))?,
+        image_depth: up_to("image_depth", 0..=MAX_IMAGE_DEPTH)?,
         importance: name("importance")?,
         connections: name("connections")?,
+    })
+}
+
+/// An integer in a range that ends within `u32`.
+fn integer<'a>(
+    section: &Section<'a>,
+    key: &'a str,
+    range: RangeInclusive<u64>,
+) -> Result<Option<Spanned<u32>>, LoadError> {
+    spanned(section, key, |value| {
+        let expected = format!("an integer from {} to {}", range.start(), range.end());
+        value.integer(&expected, range.clone()).map(|n| n as u32)
     })
 }
 

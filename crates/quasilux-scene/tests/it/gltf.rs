@@ -18,9 +18,12 @@ pub(crate) const SQUARE: &str = r#"{
   "meshes": [{"name": "square", "primitives": [
     {"attributes": {"POSITION": 0}, "indices": 1, "material": 0}
   ]}],
-  "materials": [{"name": "oak", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1]}}],
+  "materials": [
+    {"name": "oak", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1]}}
+  ],
   "accessors": [
-    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, -1], "max": [1, 0, 0]},
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+     "min": [0, 0, -1], "max": [1, 0, 0]},
     {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}
   ],
   "bufferViews": [
@@ -153,7 +156,8 @@ fn what_lies_or_is_not_built_is_refused() {
         ),
         (
             "\"count\": 6",
-            "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 1, \"componentType\": 5123}, \"values\": {\"bufferView\": 1}}",
+            "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 1, \
+             \"componentType\": 5123}, \"values\": {\"bufferView\": 1}}",
             "is sparse",
         ),
         ("\"bufferView\": 1,", "", "accessors[1].bufferView: Missing data"),

@@ -40,7 +40,8 @@ fn oddities_are_warned_of_once_a_file() {
             "room.obj:1:1: cannot read \"none.mtl\": no such file; its materials are unknown",
             "room.obj: 1 faces have fewer than three corners: dropped",
             "room.obj: 2 of 4 triangles are degenerate: dropped",
-            "room.obj: the material \"wood\" of 2 triangles is not defined: reflectance 0.5 is used",
+            "room.obj: the material \"wood\" of 2 triangles is not defined: reflectance 0.5 is \
+             used",
         ]
     );
 }

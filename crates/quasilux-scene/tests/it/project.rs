@@ -110,7 +110,8 @@ fn simulation_values_keep_their_places() {
     let project = PROJECT.to_owned()
         + "[simulation]\nestimator = \"pat\"\nrel_tol = 0.02\nconfidence = 0.9\nreplicates = 8\n\
            seed = 0xff\nmax_bounces = \"unlimited\"\nlist_terms = 4\nmap_element_m = 1\n\
-           map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\nmap_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
+           map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\n\
+           map_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
            importance = \"on\"\nconnections = \"off\"\nfirst_shot = \"off\"\n\
            abs_tol = 0.5\ntolerance_on = \"summary\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;

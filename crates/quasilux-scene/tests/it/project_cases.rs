@@ -142,7 +142,8 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     ),
     case(
         "intensity_cd = 100",
-        "intensity_cd = 100\n[[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 1\n[[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 1",
+        "intensity_cd = 100\n[[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 1\n\
+         [[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 1",
         14,
         "already emits by line 10",
     ),
@@ -178,13 +179,15 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[sensors]]\nname = \"Plane\"\nkind = \"points\"\npoints = [[0, 0, 1]]\nnormals = [[0, 0, 1]]",
+        "spacing = 0.25\n[[sensors]]\nname = \"Plane\"\nkind = \"points\"\npoints = [[0, 0, 1]]\n\
+         normals = [[0, 0, 1]]",
         17,
         "the same name as the sensor \"plane\" on line 9",
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[sensors]]\nname = \"p\"\nkind = \"points\"\npoints = [[0, 0, 1], [1, 1, 1]]\nnormals = [[0, 0, 1]]",
+        "spacing = 0.25\n[[sensors]]\nname = \"p\"\nkind = \"points\"\n\
+         points = [[0, 0, 1], [1, 1, 1]]\nnormals = [[0, 0, 1]]",
         20,
         "2 points but 1 normals",
     ),
@@ -270,7 +273,8 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\ndimming = -1",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n\
+         dimming = -1",
         19,
         "at least 0",
     ),
@@ -282,30 +286,35 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\naim = [0, 0, 0]",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n\
+         aim = [0, 0, 0]",
         19,
         "no length",
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\naim = [1, 0, 0]",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n\
+         aim = [1, 0, 0]",
         19,
         "the default \"c0\"",
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\nc0 = [0, 0, 3]",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n\
+         c0 = [0, 0, 3]",
         19,
         "parallel to \"aim\"",
     ),
     case(
         "spacing = 0.25",
-        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\nrotation = 3",
+        "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n\
+         rotation = 3",
         19,
         "did you mean \"rotation_deg\"?",
     ),
     case(
-        "[[sensors]]\nname = \"plane\"\nkind = \"grid\"\norigin = [0, 0, 0.8]\nu = [1, 0, 0]\nv = [0, 1, 0]\nspacing = 0.25\n",
+        "[[sensors]]\nname = \"plane\"\nkind = \"grid\"\norigin = [0, 0, 0.8]\nu = [1, 0, 0]\n\
+         v = [0, 1, 0]\nspacing = 0.25\n",
         "",
         1,
         "no sensors",

@@ -32,7 +32,8 @@ fn probe(points: &str) -> String {
     let normals = vec!["[0, 0, 1]"; points.matches('[').count()].join(", ");
     let grid = PROJECT.find("[[sensors]]").unwrap_or(0);
     format!(
-        "{}[[sensors]]\nname = \"probe\"\nkind = \"points\"\npoints = [\n  {}\n]\nnormals = [{normals}]\n",
+        "{}[[sensors]]\nname = \"probe\"\nkind = \"points\"\npoints = [\n  {}\n]\n\
+         normals = [{normals}]\n",
         &PROJECT[..grid],
         points.replace("], ", "],\n  "),
     )
@@ -63,7 +64,8 @@ fn a_closed_hall_where_nothing_absorbs_is_refused() {
     let error = hall("1").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "room.toml:16:12: nothing absorbs light in the closed object \"room\", so that it would grow \
+        "room.toml:16:12: nothing absorbs light in the closed object \"room\", so that it would \
+         grow \
          for ever; expected a reflectance below 1 on some surface"
     );
     assert!(hall("[0.5, 1, 0.5]").is_err() && hall("0.999").is_ok());
@@ -142,7 +144,8 @@ fn lights_on_the_surface_of_a_room_light_it() {
 fn a_camera_in_a_cupboard_is_refused() {
     let camera = |x_m: f64| {
         format!(
-            "{PROJECT}[[cameras]]\nname = \"eye\"\nposition = [{x_m}, 0.5, 1]\ntarget = [2, 0.5, 1]\n\
+            "{PROJECT}[[cameras]]\nname = \"eye\"\nposition = [{x_m}, 0.5, 1]\n\
+             target = [2, 0.5, 1]\n\
              vertical_fov_deg = 50\nresolution = [4, 3]\n"
         )
     };

@@ -40,7 +40,7 @@ pub(crate) struct Incidence {
 
 impl Incidence {
     /// Of a direction above the surface.
-    pub(crate) fn of(direction: DVec3) -> Self {
+    pub(crate) fn from_direction(direction: DVec3) -> Self {
         let across = libm::hypot(direction.x, direction.y);
         let phi_deg = libm::atan2(direction.y, direction.x).to_degrees();
         Self {
@@ -96,7 +96,7 @@ mod tests {
     fn angles_and_directions_belong_together() {
         for text in ["0", "30", "75,90", "45, 210"] {
             let read = incidence(text).expect("an incidence");
-            let [theta_deg, phi_deg] = Incidence::of(read.direction()).degrees();
+            let [theta_deg, phi_deg] = Incidence::from_direction(read.direction()).degrees();
             assert!((theta_deg - read.theta_deg).abs() < 1e-9, "{text}");
             assert!(theta_deg == 0.0 || (phi_deg - read.phi_deg).abs() < 1e-9, "{text}");
         }

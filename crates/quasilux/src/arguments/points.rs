@@ -15,10 +15,24 @@ pub(crate) struct PointsArguments {
     #[arg(required_unless_present = "compare", conflicts_with = "compare")]
     pub(crate) name: Option<String>,
     /// Number of points, like 64 or 2^6
-    #[arg(short, long = "count", value_name = "N", default_value = "64", value_parser = points, conflicts_with = "compare")]
+    #[arg(
+        short,
+        long = "count",
+        value_name = "N",
+        default_value = "64",
+        value_parser = points,
+        conflicts_with = "compare",
+    )]
     pub(crate) n: u64,
     /// The dimensions, counted from 0, with commas between them
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "0,1", value_parser = dimension, conflicts_with = "compare")]
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        default_value = "0,1",
+        value_parser = dimension,
+        conflicts_with = "compare",
+    )]
     pub(crate) dims: Vec<u32>,
     /// none, rotation, shift or owen
     #[arg(long, value_name = "NAME", default_value = "none", conflicts_with = "compare")]
@@ -33,13 +47,25 @@ pub(crate) struct PointsArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
     /// Cells along each side of the drawing; 1 draws none
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=128), conflicts_with = "compare")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 8,
+        value_parser = clap::value_parser!(u32).range(1..=128),
+        conflicts_with = "compare",
+    )]
     pub(crate) cells: u32,
     /// Compare all sequences under all randomisations: discrepancy and integration error against N
     #[arg(long)]
     pub(crate) compare: bool,
     /// Largest number of points compared
-    #[arg(long, value_name = "N", default_value = "2^16", requires = "compare", value_parser = compared)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "2^16",
+        requires = "compare",
+        value_parser = compared,
+    )]
     pub(crate) max_n: u64,
 }
 

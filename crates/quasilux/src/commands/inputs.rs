@@ -74,7 +74,7 @@ fn rule<K: Copy + fmt::Debug>(warning: &Warning<K>) -> String {
 
 impl Failure {
     /// A reader's error.
-    pub(super) fn of(name: &str, error: &ParseError) -> Self {
+    pub(super) fn new(name: &str, error: &ParseError) -> Self {
         Self::at(name, [error.line(), error.column()], error.message())
     }
 
@@ -102,7 +102,7 @@ impl fmt::Display for Failure {
 }
 
 impl WarningEntry {
-    pub(super) fn of<K: Copy + fmt::Debug>(warning: &Warning<K>) -> Self {
+    pub(super) fn new<K: Copy + fmt::Debug>(warning: &Warning<K>) -> Self {
         Self {
             rule: rule(warning),
             line: warning.line(),

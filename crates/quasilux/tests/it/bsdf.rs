@@ -10,7 +10,8 @@ fn sheet() -> String {
         let row = vec![format!("{:.12}", share / PI); 41].join(", ");
         let rows = vec![row; 41].join(",\n");
         format!(
-            "<WavelengthData><LayerNumber>System</LayerNumber><Wavelength unit=\"Integral\">Visible</Wavelength>\
+            "<WavelengthData><LayerNumber>System</LayerNumber>\
+             <Wavelength unit=\"Integral\">Visible</Wavelength>\
              <WavelengthDataBlock><WavelengthDataDirection>{direction}</WavelengthDataDirection>\
              <ColumnAngleBasis>LBNL/Klems Quarter</ColumnAngleBasis>\
              <RowAngleBasis>LBNL/Klems Quarter</RowAngleBasis>\
@@ -24,10 +25,12 @@ fn sheet() -> String {
         .chain(["Transmission Front", "Transmission Back"].map(|direction| block(direction, 0.2)))
         .collect();
     format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<WindowElement>\n<WindowElementType>System</WindowElementType>\n\
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<WindowElement>\n\
+         <WindowElementType>System</WindowElementType>\n\
          <Optical><Layer><Material><Name>formula</Name><Manufacturer>none</Manufacturer>\
          <Thickness unit=\"Meter\">0.002</Thickness></Material>\n<DataDefinition>\
-         <IncidentDataStructure>Columns</IncidentDataStructure></DataDefinition>\n{blocks}</Layer></Optical>\n\
+         <IncidentDataStructure>Columns</IncidentDataStructure></DataDefinition>\n\
+         {blocks}</Layer></Optical>\n\
          </WindowElement>\n"
     )
 }
@@ -120,9 +123,11 @@ fn a_project_uses_the_table() {
     );
     let project = |material: &str| {
         format!(
-            "[scene]\ngeometry = [\"wall.obj\"]\n[materials.black]\nreflectance = 0\n[materials.sheet]\n{material}\n\
+            "[scene]\ngeometry = [\"wall.obj\"]\n[materials.black]\nreflectance = 0\n\
+             [materials.sheet]\n{material}\n\
              [[lights]]\nkind = \"point\"\nposition = [-1, 2, 2]\nintensity_cd = 1000\n\
-             [[sensors]]\nname = \"probe\"\nkind = \"points\"\npoints = [[1, 2, 2]]\nnormals = [[-1, 0, 0]]\n"
+             [[sensors]]\nname = \"probe\"\nkind = \"points\"\npoints = [[1, 2, 2]]\n\
+             normals = [[-1, 0, 0]]\n"
         )
     };
     folder.write("table.toml", project("kind = \"bsdf\"\nfile = \"sheet.xml\"\nup = [0, 0, 1]"));

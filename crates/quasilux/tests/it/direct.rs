@@ -179,7 +179,8 @@ fn project(placement: &Placement) -> String {
     format!(
         "[scene]\ngeometry = [\"floor.obj\"]\n[materials.black]\nreflectance = 0\n[[luminaires]]\n\
          photometry = \"lamp.ies\"\nposition = {position:?}\naim = {aim:?}\nc0 = {c0:?}\n\
-         rotation_deg = {rotation_deg}\n[[sensors]]\nname = \"points\"\nkind = \"points\"\npoints = \
+         rotation_deg = {rotation_deg}\n[[sensors]]\nname = \"points\"\nkind = \"points\"\n\
+         points = \
          {points:?}\nnormals = {normals:?}\n"
     )
 }

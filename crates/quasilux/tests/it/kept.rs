@@ -91,7 +91,7 @@ fn an_interrupt_keeps_the_run() {
         let before = std::fs::read(folder.path("run.ck")).expect("a checkpoint");
         sleep(Duration::from_millis(300));
         interrupt(&child);
-        let run = Run::of(child.wait_with_output().expect("the program ends"));
+        let run = Run::new(child.wait_with_output().expect("the program ends"));
         assert_eq!(run.code, Some(130), "{estimator}: {}", run.stderr);
         assert_ne!(std::fs::read(folder.path("run.ck")).expect("a checkpoint"), before);
         // As far as it came in no time at all: the same checkpoint again.

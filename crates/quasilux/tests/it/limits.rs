@@ -103,7 +103,7 @@ fn an_interrupt_leaves_results_and_exit_code_130() {
         sleep(Duration::from_millis(5));
     }
     interrupt(&child);
-    let run = Run::of(child.wait_with_output().expect("the program ends"));
+    let run = Run::new(child.wait_with_output().expect("the program ends"));
     assert_eq!(run.code, Some(130), "{}", run.stderr);
     assert!(run.stdout.contains("average"), "{}", run.stdout);
     assert_is_a_samples_run(&folder, &folder.read("interrupt/result.json"), "path");

@@ -1,4 +1,4 @@
-//! The memory that a run foretells, against the peak of the process as Linux tells it (`VmHWM`).
+//! The memory that a run predicts, against the peak of the process as Linux tells it (`VmHWM`).
 
 use crate::scenes::{Look, write_room};
 use crate::support::{Folder, Run, number, parsed};
@@ -11,8 +11,8 @@ use std::time::Duration;
 /// Cells of the ground along an edge, two triangles each.
 const CELLS: usize = 300;
 
-/// Runs a project, and says what it foretold and what it took, both in bytes.
-fn foretold_and_taken(folder: &Folder, more: &[&str]) -> [f64; 2] {
+/// Runs a project, and says what it predicted and what it took, both in bytes.
+fn predicted_and_taken(folder: &Folder, more: &[&str]) -> [f64; 2] {
     let arguments = ["run", "room.toml", "--out", "out", "--quiet", "--threads", "2"];
     let mut command = folder.command(&[&arguments, more].concat());
     let mut child = command.stdout(Stdio::null()).spawn().expect("the program starts");
@@ -25,7 +25,7 @@ fn foretold_and_taken(folder: &Folder, more: &[&str]) -> [f64; 2] {
         peak_bytes = kib.map_or(peak_bytes, |kib| 1024.0 * kib);
         sleep(Duration::from_millis(2));
     }
-    let run = Run::of(child.wait_with_output().expect("the program ended"));
+    let run = Run::new(child.wait_with_output().expect("the program ended"));
     assert_eq!(run.code, Some(3), "{}", run.stderr);
     let document = parsed(&folder.read("out/result.json"));
     [number(&document, "/run/prediction/bytes"), peak_bytes]
@@ -57,30 +57,30 @@ fn with_many_triangles(folder: &Folder) {
 const LIMITS: [&str; 4] = ["--rel-tol", "1e-9", "--samples", "1024"];
 
 #[test]
-fn memory_is_foretold_within_a_factor_of_one_and_a_half() {
-    let folder = Folder::new("memory_foretold");
+fn memory_is_predicted_within_a_factor_of_one_and_a_half() {
+    let folder = Folder::new("memory_predicted");
     write_room(&folder, "room", &Look::GREY);
     for triangles in ["few", "many"] {
         if triangles == "many" {
             with_many_triangles(&folder);
         }
-        let [foretold, taken] = foretold_and_taken(&folder, &LIMITS);
-        let ratio = foretold / taken;
-        println!("{triangles} triangles: {foretold:.3e} foretold, {taken:.3e} taken");
+        let [predicted, taken] = predicted_and_taken(&folder, &LIMITS);
+        let ratio = predicted / taken;
+        println!("{triangles} triangles: {predicted:.3e} predicted, {taken:.3e} taken");
         assert!((1.0 / 1.5..=1.5).contains(&ratio), "{triangles} triangles: {ratio}");
     }
 }
 
-/// What photons may take is foretold as the most that it may be.
+/// What photons may take is predicted as the most that it may be.
 #[test]
 fn memory_of_photons_is_bounded() {
     let folder = Folder::new("memory_bounded");
     write_room(&folder, "room", &Look::GREY);
     for estimator in ["bidirectional", "bidirectional-map"] {
         let more = [&LIMITS[..], &["--estimator", estimator]].concat();
-        let [foretold, taken] = foretold_and_taken(&folder, &more);
-        println!("{estimator}: {foretold:.3e} foretold, {taken:.3e} taken");
-        let ratio = foretold / taken;
+        let [predicted, taken] = predicted_and_taken(&folder, &more);
+        println!("{estimator}: {predicted:.3e} predicted, {taken:.3e} taken");
+        let ratio = predicted / taken;
         assert!((1.0 / 1.5..=2.0).contains(&ratio), "{estimator}: {ratio}");
     }
 }

@@ -20,8 +20,10 @@ fn lambertian() -> String {
 }
 
 /// 100 cd everywhere, in EULUMDAT: 100 cd/klm of 1000 lm.
-const EVERYWHERE_LDT: &str = "maker\n1\n1\n1\n0\n2\n180\n\nball\n\nball.ldt\n\n0\n0\n0\n0\n0\n0\n0\n0\n0\n\
-    50\n100\n1\n0\n1\n1\nlamp\n1000\nwhite\n80\n10\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n180\n100\n100\n";
+const EVERYWHERE_LDT: &str = "maker\n1\n1\n1\n0\n2\n180\n\nball\n\nball.ldt\n\n0\n0\n0\n0\n0\n0\n\
+    0\n0\n0\n\
+    50\n100\n1\n0\n1\n1\nlamp\n1000\nwhite\n80\n10\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n180\n100\n\
+    100\n";
 
 fn folder(name: &str) -> Folder {
     let folder = Folder::new(&format!("photometry-{name}"));
@@ -148,7 +150,7 @@ fn a_file_may_come_through_stdin() {
     let mut stdin = child.stdin.take().expect("a pipe");
     stdin.write_all(lambertian().as_bytes()).expect("the program reads");
     drop(stdin);
-    let run = Run::of(child.wait_with_output().expect("the program ends"));
+    let run = Run::new(child.wait_with_output().expect("the program ends"));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(run.stdout.starts_with("stdin\n") && run.stdout.contains("even disk"));
 }
@@ -265,6 +267,6 @@ fn the_readme_is_right() {
     let readme = std::fs::read_to_string(format!("{root}/README.md")).expect("a README");
     let mut command =
         Folder::new("photometry-readme").command(&["photometry", "examples/office/batwing.ies"]);
-    let run = Run::of(command.current_dir(root).output().expect("the program starts"));
+    let run = Run::new(command.current_dir(root).output().expect("the program starts"));
     assert!(readme.contains(&format!("```\n{}```\n", run.stdout)), "{}", run.stdout);
 }

@@ -178,7 +178,7 @@ fn no_escape_codes_without_a_terminal() {
     for no_colour in ["", "1"] {
         let mut command = folder.command(&["run", "room.toml"]);
         let output = command.env("NO_COLOR", no_colour).output().expect("the program starts");
-        let run = Run::of(output);
+        let run = Run::new(output);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         assert!(run.stdout.contains("average"));
         assert!(!run.stdout.contains('\x1b') && !run.stderr.contains('\x1b'));

@@ -3,7 +3,8 @@
 use crate::scenes::{Look, remove_probes, write_room};
 use crate::support::{Folder, Numbers, damaged, forged, without_seconds_and_threads};
 
-const CAMERA: &str = "[[cameras]]\nname = \"view\"\nposition = [0.3, 0.3, 1]\ntarget = [1.5, 1.5, 1]\n\
+const CAMERA: &str = "[[cameras]]\nname = \"view\"\nposition = [0.3, 0.3, 1]\n\
+    target = [1.5, 1.5, 1]\n\
     vertical_fov_deg = 60\nresolution = [4, 3]\n[simulation]";
 
 /// The room with a camera and fewer replicates.

@@ -49,7 +49,7 @@ impl Folder {
     }
 
     pub(crate) fn quasilux(&self, arguments: &[&str]) -> Run {
-        Run::of(self.command(arguments).output().expect("the program starts"))
+        Run::new(self.command(arguments).output().expect("the program starts"))
     }
 
     /// Runs a project into `out` in quiet, asserts the exit code, and returns the document.
@@ -62,7 +62,7 @@ impl Folder {
 }
 
 impl Run {
-    pub(crate) fn of(output: Output) -> Self {
+    pub(crate) fn new(output: Output) -> Self {
         let text = |bytes| String::from_utf8(bytes).expect("the program writes UTF-8");
         Self {
             code: output.status.code(),
@@ -80,7 +80,7 @@ pub(crate) fn interrupt(child: &std::process::Child) {
 }
 
 /// A document without what may differ between runs of one project: how long it took and on how many
-/// threads, the time that was foretold, and the memory of those threads.
+/// threads, the time that was predicted, and the memory of those threads.
 pub(crate) fn without_seconds_and_threads(document: &str) -> String {
     let mut text = document.to_owned();
     for (key, times) in [("\"seconds\": ", 2), ("\"threads\": ", 1), ("\"bytes\": ", 1)] {

@@ -28,7 +28,7 @@ fn all_cases_of_the_project_hold() {
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .expect("the program starts");
-    let run = Run::of(output);
+    let run = Run::new(output);
     assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
     let last = run.stdout.lines().last().unwrap_or_default();
     assert!(last.ends_with(" passed, 0 failed") && !last.starts_with("0 "), "{last}");
@@ -90,7 +90,7 @@ fn an_interrupt_is_no_verdict() {
     stdout.read_line(&mut text).expect("a header");
     interrupt(&child);
     stdout.read_to_string(&mut text).expect("UTF-8");
-    let run = Run::of(child.wait_with_output().expect("the program ends"));
+    let run = Run::new(child.wait_with_output().expect("the program ends"));
     assert_eq!(run.code, Some(130), "{text}{}", run.stderr);
     assert!(!text.contains("holds") && !text.contains("FAILS"), "{text}");
 }
@@ -102,7 +102,7 @@ fn a_reader_that_has_gone_is_no_reason_to_panic() {
     folder.write("validation/cases/right.toml", case("25"));
     let mut child = folder.command(&["validate"]).spawn().expect("the program starts");
     drop(child.stdout.take());
-    let run = Run::of(child.wait_with_output().expect("the program ends"));
+    let run = Run::new(child.wait_with_output().expect("the program ends"));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert_eq!(run.stderr, "");
 }

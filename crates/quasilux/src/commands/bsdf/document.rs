@@ -21,7 +21,7 @@ const FORMAT: &str = "quasilux-bsdf/2";
 
 /// The document, ending in a line feed.
 pub(super) fn document(inputs: &[Input], incidences: &[Incidence]) -> String {
-    let files = inputs.iter().map(|input| FileEntry::of(input, incidences)).collect();
+    let files = inputs.iter().map(|input| FileEntry::new(input, incidences)).collect();
     json::text(&Document { format: FORMAT, files })
 }
 
@@ -100,24 +100,24 @@ struct ReciprocityEntry {
 }
 
 impl<'a> FileEntry<'a> {
-    fn of(input: &'a Input, incidences: &[Incidence]) -> Self {
+    fn new(input: &'a Input, incidences: &[Incidence]) -> Self {
         let surface = input.surface.as_ref();
         let warnings = surface.map_or(&[][..], |surface| &surface.warnings);
         Self {
             file: &input.name,
             error: surface.err().map(Failure::entry),
-            surface: surface.ok().map(|surface| SurfaceEntry::of(surface, incidences)),
-            warnings: warnings.iter().map(WarningEntry::of).collect(),
+            surface: surface.ok().map(|surface| SurfaceEntry::new(surface, incidences)),
+            warnings: warnings.iter().map(WarningEntry::new).collect(),
         }
     }
 }
 
 impl<'a> SurfaceEntry<'a> {
-    fn of(surface: &'a Surface, incidences: &[Incidence]) -> Self {
+    fn new(surface: &'a Surface, incidences: &[Incidence]) -> Self {
         let bsdf = &surface.bsdf;
         let analysis = bsdf.analysis();
         let facts = bsdf.facts();
-        let energy = |balance: &EnergyBalance| EnergyEntry::of(balance, surface, incidences);
+        let energy = |balance: &EnergyBalance| EnergyEntry::new(balance, surface, incidences);
         Self {
             format: facts.format.name(),
             name: &facts.name,
@@ -125,18 +125,18 @@ impl<'a> SurfaceEntry<'a> {
             thickness_m: facts.thickness_m,
             is_isotropic: bsdf.is_isotropic(),
             is_coloured: bsdf.is_coloured(),
-            tables: bsdf.distributions().map(TableEntry::of).collect(),
+            tables: bsdf.distributions().map(TableEntry::new).collect(),
             energy: analysis.energy.iter().map(energy).collect(),
-            reciprocity: analysis.reciprocity.iter().map(ReciprocityEntry::of).collect(),
+            reciprocity: analysis.reciprocity.iter().map(ReciprocityEntry::new).collect(),
         }
     }
 }
 
 impl TableEntry {
-    fn of(entry: SheetDistribution<&Distribution>) -> Self {
+    fn new(entry: SheetDistribution<&Distribution>) -> Self {
         let table = entry.distribution;
         let incidence = |&wi: &_| {
-            let [theta_deg, phi_deg] = Incidence::of(wi).degrees();
+            let [theta_deg, phi_deg] = Incidence::from_direction(wi).degrees();
             IncidenceEntry { theta_deg, phi_deg, share: luminance(table.albedo(wi)) }
         };
         Self {
@@ -149,7 +149,7 @@ impl TableEntry {
 }
 
 impl EnergyEntry {
-    fn of(balance: &EnergyBalance, surface: &Surface, incidences: &[Incidence]) -> Self {
+    fn new(balance: &EnergyBalance, surface: &Surface, incidences: &[Incidence]) -> Self {
         let light = |&incidence: &Incidence| {
             let [theta_deg, phi_deg] = incidence.degrees();
             let [reflectance, transmittance] =
@@ -164,13 +164,13 @@ impl EnergyEntry {
             diffuse_reflectance: balance.diffuse[0],
             diffuse_transmittance: balance.diffuse[1],
             most_scattered: balance.worst,
-            most_scattered_at_deg: Incidence::of(balance.worst_wi).degrees(),
+            most_scattered_at_deg: Incidence::from_direction(balance.worst_wi).degrees(),
         }
     }
 }
 
 impl ReciprocityEntry {
-    fn of(found: &Reciprocity) -> Self {
+    fn new(found: &Reciprocity) -> Self {
         Self {
             side: found.side.name(),
             mode: found.mode.name(),

@@ -25,7 +25,7 @@ impl Input {
         let name = name_of(path);
         let surface = bytes_of(path).and_then(|bytes| {
             let read =
-                read_bsdf_named(&name, &bytes).map_err(|error| Failure::of(&name, &error))?;
+                read_bsdf_named(&name, &bytes).map_err(|error| Failure::new(&name, &error))?;
             Ok(Surface { bsdf: read.bsdf, warnings: read.warnings })
         });
         Self { name, surface }

@@ -84,7 +84,7 @@ fn shares([reflected, passed]: [f64; 2]) -> String {
 }
 
 fn most(balance: &EnergyBalance) -> String {
-    let [theta_deg, phi_deg] = Incidence::of(balance.worst_wi).degrees();
+    let [theta_deg, phi_deg] = Incidence::from_direction(balance.worst_wi).degrees();
     format!(
         "{} of light at {}\u{b0}, {}\u{b0}",
         percent(balance.worst),

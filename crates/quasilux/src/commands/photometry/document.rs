@@ -18,7 +18,7 @@ const FORMAT: &str = "quasilux-photometry/1";
 
 /// The document, ending in a line feed.
 pub(super) fn document(inputs: &[Input]) -> String {
-    json::text(&Document { format: FORMAT, files: inputs.iter().map(FileEntry::of).collect() })
+    json::text(&Document { format: FORMAT, files: inputs.iter().map(FileEntry::new).collect() })
 }
 
 #[derive(Serialize)]
@@ -89,20 +89,20 @@ struct FluxCodeEntry {
 }
 
 impl<'a> FileEntry<'a> {
-    fn of(input: &'a Input) -> Self {
+    fn new(input: &'a Input) -> Self {
         let luminaire = input.luminaire.as_ref();
         let warnings = luminaire.map_or(&[][..], |luminaire| &luminaire.warnings);
         Self {
             file: &input.name,
             error: luminaire.err().map(Failure::entry),
-            luminaire: luminaire.ok().map(LuminaireEntry::of),
-            warnings: warnings.iter().map(WarningEntry::of).collect(),
+            luminaire: luminaire.ok().map(LuminaireEntry::new),
+            warnings: warnings.iter().map(WarningEntry::new).collect(),
         }
     }
 }
 
 impl LuminaireEntry {
-    fn of(luminaire: &Luminaire) -> Self {
+    fn new(luminaire: &Luminaire) -> Self {
         let Luminaire { photometry, analysis, .. } = luminaire;
         let (facts, table) = (photometry.facts(), photometry.table());
         let maximum = |maximum: MaximumIntensity| MaximumEntry {
@@ -126,7 +126,7 @@ impl LuminaireEntry {
             input_watts: facts.input_watts,
             efficacy_lm_w: analysis.efficacy_lm_w,
             maximum: analysis.maximum.map(maximum),
-            principal_planes: analysis.planes.map(PlaneEntry::of),
+            principal_planes: analysis.planes.map(PlaneEntry::new),
             flux_code: FluxCodeEntry {
                 percent: analysis.flux_code.percent(),
                 upper: analysis.flux_code.upper,
@@ -138,7 +138,7 @@ impl LuminaireEntry {
 }
 
 impl PlaneEntry {
-    fn of(plane: PlaneAnalysis) -> Self {
+    fn new(plane: PlaneAnalysis) -> Self {
         let spread = |spread: Spread| SpreadEntry {
             angle_deg: degrees(spread.angle_rad()),
             start_deg: degrees(spread.start_rad),

@@ -41,7 +41,7 @@ fn luminaire(name: &str, bytes: &[u8]) -> Result<Luminaire, Failure> {
                        file, LM-63, EULUMDAT or TM-33";
         return Err(Failure::at(name, [1, 1], message.to_owned()));
     };
-    let read = format.read(bytes).map_err(|error| Failure::of(name, &error))?;
+    let read = format.read(bytes).map_err(|error| Failure::new(name, &error))?;
     Ok(Luminaire {
         analysis: Analysis::new(&read.photometry),
         photometry: read.photometry,

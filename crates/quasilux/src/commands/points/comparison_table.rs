@@ -11,8 +11,8 @@ const COLUMNS: &str =
 /// A block for each measure, a line for each setup.
 pub(super) fn table(curves: &[Curve]) -> String {
     let mut text = format!(
-        "Root mean squares over {REPLICATES} randomisations; unrandomised sequences once. Slopes are \
-         fitted from N = {FIT_FROM} on.\n"
+        "Root mean squares over {REPLICATES} randomisations; unrandomised sequences once. Slopes \
+         are fitted from N = {FIT_FROM} on.\n"
     );
     for block in curves.chunk_by(|a, b| a.measure == b.measure) {
         write!(text, "\n{}\n{:<12}{:<10}", heading(block[0].measure), "sequence", "")
