@@ -104,7 +104,7 @@ fn package_crates() -> Result<(), Failure> {
     let packages = xtask::packages::of_workspace(&workspace_root())?;
     let mut arguments = vec!["package", "--quiet", "--offline", "--allow-dirty"];
     arguments.extend(packages.iter().flat_map(|package| ["--package", &package.name]));
-    cargo(&arguments, &[])
+    cargo(&arguments, &[("CARGO_PROFILE_DEV_DEBUG", "0")])
 }
 
 /// Runs cargo in the workspace with further environment variables.
