@@ -1,7 +1,8 @@
-//! What the crates that others may take still lack: `cargo package` accepts them without.
+//! The crates that others may take: what they still lack, which `cargo package` does not ask for,
+//! and the copies that it has left unpacked.
 
 use crate::modules::targets;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Files that each of them holds, since a package holds nothing from the folder above.
@@ -18,6 +19,14 @@ pub struct Package {
     pub missing: Vec<String>,
 }
 
+impl Package {
+    /// Whether a folder of this name, the name and the version of a crate, is for this one.
+    fn is_named_by(&self, folder: &str) -> bool {
+        let version = folder.strip_prefix(&self.name).and_then(|rest| rest.strip_prefix('-'));
+        version.is_some_and(|version| version.starts_with(|c: char| c.is_ascii_digit()))
+    }
+}
+
 /// The members of a workspace with `publish = true`, by the paths of their folders.
 ///
 /// # Errors
@@ -30,6 +39,34 @@ pub fn of_workspace(root: &Path) -> Result<Vec<Package>, String> {
         packages.extend(package(&manifest, &exists));
     }
     Ok(packages)
+}
+
+/// Removes the unpacked copies of the packages from the folder of cargo. It builds packages from a
+/// temporary registry, unpacks them below its own folder by name and version, and takes what lies
+/// there from an earlier time for the same, whatever has changed since.
+///
+/// # Errors
+/// When a copy cannot be removed.
+pub fn remove_unpacked(packages: &[Package], cargo_home: &Path) -> std::io::Result<()> {
+    let sources = cargo_home.join("registry/src");
+    // Registries on a server are named after it, those in a folder have no name before the hash.
+    let registries = entries(&sources).filter(|registry| name_of(registry).starts_with('-'));
+    for unpacked in registries.flat_map(|registry| entries(&registry)) {
+        if packages.iter().any(|package| package.is_named_by(name_of(&unpacked))) {
+            std::fs::remove_dir_all(unpacked)?;
+        }
+    }
+    Ok(())
+}
+
+/// What lies in a folder, and nothing if there is none.
+fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
+}
+
+/// The last part of a path, empty where it is not of letters.
+fn name_of(path: &Path) -> &str {
+    path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
 }
 
 fn package(manifest: &Table, exists: &dyn Fn(&str) -> bool) -> Option<Package> {
@@ -61,5 +98,21 @@ mod tests {
         for publish in ["", "publish = false", "publish.workspace = true"] {
             assert!(package(&manifest(publish), &|_| false).is_none(), "{publish}");
         }
+    }
+
+    #[test]
+    fn unpacked_copies_of_packages_are_removed_and_nothing_else() {
+        let home = std::env::temp_dir().join(format!("quasilux-packages-{}", std::process::id()));
+        let copies = ["-1a/light-0.1.0", "-2b/light-2.0.0-rc1"];
+        let others = ["-1a/light-ray-0.1.0", "-1a/lights-0.1.0", "index.org-3c/light-0.1.0"];
+        let folder = |copy: &&str| home.join("registry/src").join(copy);
+        for copy in copies.iter().chain(&others) {
+            std::fs::create_dir_all(folder(copy).join("src")).unwrap();
+        }
+        let light = Package { name: "light".to_owned(), missing: Vec::new() };
+        remove_unpacked(&[light], &home).unwrap();
+        assert!(!copies.iter().any(|copy| folder(copy).exists()));
+        assert!(others.iter().all(|other| folder(other).exists()));
+        std::fs::remove_dir_all(home).unwrap();
     }
 }

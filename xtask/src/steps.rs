@@ -2,6 +2,7 @@
 
 use crate::{examples, same_bits};
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use xtask::workspace::{Failure, root as workspace_root};
@@ -102,9 +103,18 @@ fn check_fuzz_targets() -> Result<(), Failure> {
 /// the command line among them: what `cargo install` would do.
 fn package_crates() -> Result<(), Failure> {
     let packages = xtask::packages::of_workspace(&workspace_root())?;
+    xtask::packages::remove_unpacked(&packages, &cargo_home()?)
+        .map_err(|error| format!("copies of an earlier run cannot be removed: {error}"))?;
     let mut arguments = vec!["package", "--quiet", "--offline", "--allow-dirty"];
     arguments.extend(packages.iter().flat_map(|package| ["--package", &package.name]));
     cargo(&arguments, &[("CARGO_PROFILE_DEV_DEBUG", "0")])
+}
+
+/// The folder where cargo keeps what it has fetched.
+fn cargo_home() -> Result<PathBuf, Failure> {
+    let named = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let in_home = || std::env::home_dir().map(|home| home.join(".cargo"));
+    named.or_else(in_home).ok_or_else(|| "neither CARGO_HOME nor HOME is set".into())
 }
 
 /// Runs cargo in the workspace with further environment variables.
