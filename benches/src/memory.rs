@@ -52,12 +52,12 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
     let scene = relief();
     let loaded = peak_bytes();
     let settings = Settings {
-        estimator: named(&EstimatorKind::NAMES, estimator),
+        estimator: named(&EstimatorKind::ALL, EstimatorKind::name, estimator),
         replicates: replicates.parse().expect("a number"),
         max_samples: Some(1 << log_samples.parse::<u32>().expect("a number")),
         rel_tol: 0.0,
         map_elements: 10_000_000,
-        map_reconstruction: named(&Reconstruction::NAMES, reconstruction),
+        map_reconstruction: named(&Reconstruction::ALL, Reconstruction::name, reconstruction),
         ..Settings::default()
     };
     let predicted = MemoryNeed::new(&scene, &settings).total_bytes(settings.max_samples) as f64;
@@ -74,8 +74,8 @@ fn run(estimator: &str, reconstruction: &str, replicates: &str, log_samples: &st
 }
 
 /// What is called `name`.
-fn named<T: Copy>(known: &[(&str, T)], name: &str) -> T {
-    known.iter().find(|known| known.0 == name).expect("a known name").1
+fn named<T: Copy>(known: &[T], name_of: fn(T) -> &'static str, name: &str) -> T {
+    known.iter().copied().find(|known| name_of(*known) == name).expect("a known name")
 }
 
 const GIB: f64 = (1_u64 << 30) as f64;

@@ -40,15 +40,12 @@ impl Request {
         let given = |name: &str| words.iter().any(|word| word == name);
         let number = |key: &str| words.iter().find_map(|word| word.strip_prefix(key));
         let switch = |key: &str| {
-            let mut names = Switch::NAMES.iter();
-            let named = names.find(|(name, _)| given(&format!("{key}={name}")));
-            named.map_or(Switch::Auto, |named| named.1)
+            let mut all = Switch::ALL.into_iter();
+            let named = all.find(|switch| given(&format!("{key}={}", switch.name())));
+            named.unwrap_or_default()
         };
-        let mut estimators: Vec<EstimatorKind> = EstimatorKind::NAMES
-            .iter()
-            .filter(|(name, _)| given(name))
-            .map(|named| named.1)
-            .collect();
+        let all = EstimatorKind::ALL.into_iter();
+        let mut estimators: Vec<EstimatorKind> = all.filter(|kind| given(kind.name())).collect();
         if estimators.is_empty() {
             estimators = vec![EstimatorKind::Path, EstimatorKind::Bidirectional];
         }

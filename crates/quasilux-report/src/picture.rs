@@ -166,7 +166,7 @@ fn method(report: &Report, samples: &RangeInclusive<u64>) -> String {
         run.settings.randomization.name(),
         run.replicates,
         span(samples),
-        brief(100.0 * run.confidence, 4),
+        brief(100.0 * run.settings.confidence, 4),
     )
 }
 

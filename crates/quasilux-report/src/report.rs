@@ -133,8 +133,6 @@ pub struct Run {
     pub threads: usize,
     /// Memory in bytes that the whole program should take up to the tolerance.
     pub expected_bytes: Option<u64>,
-    /// Confidence level of all intervals.
-    pub confidence: f64,
     /// Whether every sensor point, or every average, reached the wanted tolerance.
     pub tolerance_reached: bool,
     /// What surveys and pilots decided before the first sample.
@@ -186,7 +184,6 @@ impl Report {
                 earlier_rays: facts.earlier_rays,
                 threads: facts.threads,
                 expected_bytes: facts.expected_bytes,
-                confidence: estimates.confidence,
                 tolerance_reached: estimates.tolerance_reached,
                 decisions: estimates.decisions.clone(),
                 convergence: estimates.convergence,

@@ -175,7 +175,7 @@ fn run_facts(report: &Report) -> String {
     let from = least.filter(|least| *least < run.samples);
     format!(
         "{} % confidence, {} of {}{}, {}, {} s on {}",
-        brief(100.0 * run.confidence, 4),
+        brief(100.0 * run.settings.confidence, 4),
         plural(replicates, "replicate"),
         from.map(|least| format!("{} to ", count(least))).unwrap_or_default(),
         plural(run.samples, "sample"),

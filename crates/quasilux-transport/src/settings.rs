@@ -1,9 +1,11 @@
 //! What a simulation is asked to do.
 
 use quasilux_sampling::{Randomization, Sequence};
+use serde::{Deserialize, Serialize};
 
 /// How illuminance is estimated: a closed set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum EstimatorKind {
     /// Photons from the lights are counted by the sensors.
     Photon,
@@ -19,13 +21,9 @@ pub enum EstimatorKind {
 }
 
 impl EstimatorKind {
-    /// All estimators that are built, with their names in project files and on the command line.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("photon", Self::Photon),
-        ("path", Self::Path),
-        ("bidirectional", Self::Bidirectional),
-        ("bidirectional-map", Self::BidirectionalMap),
-    ];
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Photon, Self::Path, Self::Bidirectional, Self::BidirectionalMap];
 
     /// The name in project files, on the command line and in results.
     #[must_use]
@@ -40,7 +38,8 @@ impl EstimatorKind {
 }
 
 /// Whether a measure is taken that may lower the error and never changes the mean: a closed set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Switch {
     /// Where pilot photons or a survey of the scene say that it pays.
     #[default]
@@ -52,9 +51,8 @@ pub enum Switch {
 }
 
 impl Switch {
-    /// All of them with their names in project files.
-    pub const NAMES: [(&'static str, Self); 3] =
-        [("auto", Self::Auto), ("on", Self::On), ("off", Self::Off)];
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::On, Self::Off];
 
     /// The name in project files and results.
     #[must_use]
@@ -68,7 +66,8 @@ impl Switch {
 }
 
 /// What has to reach the tolerance: a closed set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ToleranceOn {
     /// The illuminance at every sensor point.
     #[default]
@@ -78,9 +77,8 @@ pub enum ToleranceOn {
 }
 
 impl ToleranceOn {
-    /// All of them with their names in project files and on the command line.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("points", Self::Points), ("summary", Self::Summary)];
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Points, Self::Summary];
 
     /// The name in project files, on the command line and in results.
     #[must_use]
@@ -92,14 +90,44 @@ impl ToleranceOn {
     }
 }
 
+/// What the photons in an element of the illumination map say about its illuminance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reconstruction {
+    /// It is the same all over the element.
+    Constant,
+    /// It is linear in the element; neighbours need not meet.
+    Linear,
+}
+
+impl Reconstruction {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Constant, Self::Linear];
+
+    /// The name in project files and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::Linear => "linear",
+        }
+    }
+}
+
 /// What a simulation is asked to do. No field refers to threads or time: the result is a function
 /// of the scene and this.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// As a document (serde) they have the names of their fields, their values the names that users
+/// write. A sequence is there by its name alone: the number of points that Hammersley's must know
+/// is `max_samples`, which a reader has to fill in ([`Sequence::with_points`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Settings {
     /// How illuminance is estimated.
     pub estimator: EstimatorKind,
     /// The point set behind all coordinates. One with a fixed number of points needs the same
     /// number in `max_samples`, and only that ends the run.
+    #[serde(with = "sequence_by_name")]
     pub sequence: Sequence,
     /// How replicates are made independent.
     pub randomization: Randomization,
@@ -125,9 +153,11 @@ pub struct Settings {
     pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_samples: Option<u64>,
     /// Limit on the number of rays: the run ends with the last checkpoint, past the first, that
     /// takes no more.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_rays: Option<u64>,
     /// Whether photons for the illumination map leave lit places instead of point-like lights,
     /// where there are any and not too many facets times lights.
@@ -150,6 +180,7 @@ pub struct Settings {
     /// balance of Voloboy, Dmitriev and Kopylov (2003): later events, which quasi-random points do
     /// least for, are left out. [`EstimatorKind::Bidirectional`] finds their light by its
     /// correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_dimensions: Option<u32>,
     /// How many plane mirrors, one after the other, images of point-like lights are followed
     /// through; `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay
@@ -232,26 +263,74 @@ impl Default for Settings {
     }
 }
 
-/// What the photons in an element of the illumination map say about its illuminance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reconstruction {
-    /// It is the same all over the element.
-    Constant,
-    /// It is linear in the element; neighbours need not meet.
-    Linear,
+/// A sequence as its name, read back without a number of points.
+mod sequence_by_name {
+    use quasilux_sampling::Sequence;
+    use serde::de::{Deserialize, Deserializer, Error};
+    use serde::ser::{Serialize, Serializer};
+    use std::borrow::Cow;
+
+    pub(super) fn serialize<S: Serializer>(
+        sequence: &Sequence,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        sequence.name().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Sequence, D::Error> {
+        let name = Cow::<str>::deserialize(deserializer)?;
+        let all = Sequence::all_for(0);
+        all.into_iter().find(|sequence| sequence.name() == name).ok_or_else(|| {
+            let expected = all.map(Sequence::name).join(", ");
+            D::Error::custom(format_args!("unknown sequence \"{name}\"; expected {expected}"))
+        })
+    }
 }
 
-impl Reconstruction {
-    /// All of them, with their names in project files.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("constant", Self::Constant), ("linear", Self::Linear)];
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{from_str, to_string, to_value};
 
-    /// The name in project files and in results.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Constant => "constant",
-            Self::Linear => "linear",
+    #[test]
+    fn settings_come_back() {
+        let settings = Settings {
+            sequence: Sequence::Hammersley { points: 77 },
+            max_samples: Some(77),
+            seed: u64::MAX,
+            rel_tol: 0.1 + 0.2,
+            abs_tol_lx: 0.7,
+            tolerance_on: ToleranceOn::Summary,
+            confidence: 0.99,
+            max_rays: Some(1 << 60),
+            map_element_m: Some(1.0 / 3.0),
+            map_photons: 7,
+            map_dimensions: Some(9),
+            connections: Switch::Off,
+            ..Settings::default()
+        };
+        for settings in [settings, Settings::default()] {
+            let text = to_string(&settings).unwrap();
+            let read: Settings = from_str(&text).unwrap();
+            let sequence = read.sequence.with_points(settings.max_samples.unwrap_or(0));
+            assert_eq!(Settings { sequence, ..read }, settings);
+            let unknown = text.replacen('{', "{\"no_setting\":1,", 1);
+            assert!(from_str::<Settings>(&unknown).is_err());
+            let unknown = text.replace("\"hammersley\"", "\"halten\"").replace("sobol", "sobel");
+            assert!(from_str::<Settings>(&unknown).is_err(), "{unknown}");
+        }
+    }
+
+    #[test]
+    fn documents_have_the_names_that_users_write() {
+        assert!(EstimatorKind::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
+        assert!(Switch::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
+        assert!(ToleranceOn::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
+        assert!(Reconstruction::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
+        for randomization in Randomization::ALL {
+            assert_eq!(to_value(randomization).unwrap(), randomization.name());
         }
     }
 }

@@ -9,7 +9,6 @@ use crate::container::{self, Contents};
 use crate::digest::SceneIdentity;
 use crate::exit::CliError;
 use crate::project::{Project, read_bounded};
-use crate::record::SettingsRecord;
 use crate::results;
 use quasilux_report::json;
 use quasilux_transport::Settings;
@@ -31,7 +30,7 @@ pub(crate) struct Heading {
     pub(crate) project: PathBuf,
     pub(crate) project_absolute: PathBuf,
     pub(crate) scene: SceneIdentity,
-    pub(crate) settings: SettingsRecord,
+    pub(crate) settings: Settings,
 }
 
 /// A checkpoint that was read.
@@ -97,7 +96,7 @@ impl CheckpointWriter {
             project: file.to_owned(),
             project_absolute: std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
             scene: project.identity.clone(),
-            settings: SettingsRecord::new(settings),
+            settings: settings.clone(),
         };
         Ok(Self { path: path.to_owned(), heading: json::text(&heading), before: Before::Foreign })
     }

@@ -18,7 +18,6 @@ mod names;
 mod plan;
 mod print;
 mod project;
-mod record;
 mod results;
 mod watcher;
 

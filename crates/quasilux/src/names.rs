@@ -1,38 +1,29 @@
-//! Names of estimators, sequences and randomisations.
+//! Names of estimators, sequences and other settings out of closed sets.
 
 use crate::exit::CliError;
 use quasilux_sampling::Sequence;
 use quasilux_scene::{LoadError, SimulationSection, Spanned, nearest};
 
-/// The sequences by name. Without the number of points those that need it are left out.
-pub(crate) fn sequences(points: Option<u64>) -> Vec<(&'static str, Sequence)> {
-    let all =
-        points.map_or_else(|| Sequence::ALL.to_vec(), |points| Sequence::all_for(points).to_vec());
-    all.into_iter().map(|sequence| (sequence.name(), sequence)).collect()
+/// The sequences that can be named. Without the number of points those that need it are left out.
+pub(crate) fn sequences(points: Option<u64>) -> Vec<Sequence> {
+    points.map_or_else(|| Sequence::ALL.to_vec(), |points| Sequence::all_for(points).to_vec())
 }
 
-/// Why a known name is not in a list of sequences.
-fn lacks_points(name: &str) -> Option<String> {
-    let needs = Sequence::all_for(0).into_iter().filter(|kind| kind.points().is_some());
-    needs
-        .map(Sequence::name)
-        .find(|known| *known == name)
-        .map(|name| format!("{name} must know the number of points ahead: give --samples"))
-}
-
-/// The value that a name given on the command line stands for; `what` says where it was given.
+/// The one of `known` that a name given on the command line stands for; `what` says where it was
+/// given.
 pub(crate) fn on_command_line<T: Copy>(
     what: &str,
     name: &str,
-    known: &[(&str, T)],
+    known: &[T],
+    name_of: fn(T) -> &'static str,
 ) -> Result<T, CliError> {
-    if let Some((_, value)) = known.iter().find(|(other, _)| *other == name) {
-        return Ok(*value);
+    if let Some(value) = find(name, known, name_of) {
+        return Ok(value);
     }
     if let Some(reason) = lacks_points(name) {
         return Err(CliError::new(format!("{what}: {reason}")));
     }
-    let list: Vec<&str> = known.iter().map(|(other, _)| *other).collect();
+    let list: Vec<&str> = known.iter().copied().map(name_of).collect();
     let nearest = nearest(name, list.iter().copied())
         .map(|nearest| format!(", did you mean \"{nearest}\""))
         .unwrap_or_default();
@@ -40,22 +31,38 @@ pub(crate) fn on_command_line<T: Copy>(
     Err(CliError::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
 }
 
-/// The value that a name in a project file stands for; `None` without a name.
-pub(crate) fn in_project<T: Copy>(
+/// Takes over the one of `known` that a name in a project file stands for, if there is a name;
+/// `what` says what it names.
+pub(crate) fn take_from_project<T: Copy>(
+    setting: &mut T,
     section: &SimulationSection,
-    key: &str,
     name: &Option<Spanned<String>>,
-    known: &[(&str, T)],
-) -> Result<Option<T>, LoadError> {
+    what: &str,
+    known: &[T],
+    name_of: fn(T) -> &'static str,
+) -> Result<(), LoadError> {
     let Some(name) = name else {
-        return Ok(None);
+        return Ok(());
     };
-    if let Some((_, value)) = known.iter().find(|(other, _)| *other == name.value) {
-        return Ok(Some(*value));
+    if let Some(value) = find(&name.value, known, name_of) {
+        *setting = value;
+        return Ok(());
     }
     if let Some(reason) = lacks_points(&name.value) {
-        return Err(section.error_at(name, format!("{key}: {reason}")));
+        return Err(section.error_at(name, format!("{what}: {reason}")));
     }
-    let list: Vec<&str> = known.iter().map(|(other, _)| *other).collect();
-    Err(section.unknown_name(name, key, &list))
+    let list: Vec<&str> = known.iter().copied().map(name_of).collect();
+    Err(section.unknown_name(name, what, &list))
+}
+
+fn find<T: Copy>(name: &str, known: &[T], name_of: fn(T) -> &'static str) -> Option<T> {
+    known.iter().copied().find(|value| name_of(*value) == name)
+}
+
+/// Why a known name is not in a list of sequences.
+fn lacks_points(name: &str) -> Option<String> {
+    let sequence = find(name, &Sequence::all_for(0), Sequence::name)?;
+    sequence
+        .points()
+        .map(|_| format!("{name} must know the number of points ahead: give --samples"))
 }

@@ -8,8 +8,7 @@ use crate::build::{self, BUILD, VERSION};
 use crate::container::{self, Contents};
 use crate::digest::{BYTES, SceneIdentity, hex, sha256_hex};
 use crate::exit::CliError;
-use crate::project::{Project, read_bounded};
-use crate::record::SettingsRecord;
+use crate::project::{Project, kept_settings, read_bounded};
 use quasilux_report::json;
 use quasilux_scene::project::{RENAMED_KEYS, RenamedKey};
 use quasilux_transport::{Decisions, Settings};
@@ -34,7 +33,7 @@ pub(crate) struct Plan {
     scene: SceneIdentity,
     /// Indices per replicate.
     pub(crate) samples: u64,
-    settings: SettingsRecord,
+    settings: Settings,
     decisions: DecisionsRecord,
     /// Of all the above but for the project's path.
     pub(crate) sha256: String,
@@ -102,7 +101,7 @@ impl Plan {
             project: path.to_owned(),
             scene: project.identity.clone(),
             samples,
-            settings: SettingsRecord::new(settings),
+            settings: settings.clone(),
             decisions,
             sha256: String::new(),
         };
@@ -134,10 +133,7 @@ impl Plan {
                 project.name
             )));
         }
-        let settings = self.settings.settings(name)?;
-        let checked = quasilux_transport::check(&project.loaded.scene, &settings);
-        checked.map_err(|error| CliError::new(format!("{name}: {error}")))?;
-        Ok(settings)
+        kept_settings(&self.settings, name, project)
     }
 
     /// Refuses sums that come from other decisions of surveys and pilots, which stand at their

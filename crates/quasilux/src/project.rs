@@ -3,8 +3,8 @@
 use crate::arguments::SimulationArguments;
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
-use crate::names::{self, in_project};
-use quasilux_sampling::Randomization;
+use crate::names::{self, take_from_project as take};
+use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::{Files, LoadError, Loaded, SimulationSection, Spanned, load};
 use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 use std::cell::RefCell;
@@ -101,25 +101,22 @@ fn names_in_section(
     // A sequence that is overruled needs no number of points.
     let points = arguments.samples.or(arguments.sequence.as_ref().map(|_| 1));
     let sequences = names::sequences(points);
-    let given = in_project(section, "estimator", &section.estimator, &EstimatorKind::NAMES)?;
-    settings.estimator = given.unwrap_or(settings.estimator);
-    let given = in_project(section, "sequence", &section.sequence, &sequences)?;
-    settings.sequence = given.unwrap_or(settings.sequence);
-    let given =
-        in_project(section, "randomization", &section.randomization, &Randomization::NAMES)?;
-    settings.randomization = given.unwrap_or(settings.randomization);
-    let given = in_project(section, "tolerance_on", &section.tolerance_on, &ToleranceOn::NAMES)?;
-    settings.tolerance_on = given.unwrap_or(settings.tolerance_on);
-    let given =
-        in_project(section, "reconstruction", &section.map_reconstruction, &Reconstruction::NAMES)?;
-    settings.map_reconstruction = given.unwrap_or(settings.map_reconstruction);
-    let given = in_project(section, "importance", &section.importance, &Switch::NAMES)?;
-    settings.importance = given.unwrap_or(settings.importance);
-    let given = in_project(section, "connections", &section.connections, &Switch::NAMES)?;
-    settings.connections = given.unwrap_or(settings.connections);
-    let given = in_project(section, "first shot", &section.first_shot, &Switch::NAMES)?;
-    settings.first_shot = given.unwrap_or(settings.first_shot);
-    Ok(())
+    let to = settings;
+    let from = section;
+    let all = &EstimatorKind::ALL;
+    take(&mut to.estimator, from, &from.estimator, "estimator", all, EstimatorKind::name)?;
+    take(&mut to.sequence, from, &from.sequence, "sequence", &sequences, Sequence::name)?;
+    let (name, all) = (&from.randomization, &Randomization::ALL);
+    take(&mut to.randomization, from, name, "randomization", all, Randomization::name)?;
+    let (name, all) = (&from.tolerance_on, &ToleranceOn::ALL);
+    take(&mut to.tolerance_on, from, name, "tolerance_on", all, ToleranceOn::name)?;
+    let (name, all) = (&from.map_reconstruction, &Reconstruction::ALL);
+    take(&mut to.map_reconstruction, from, name, "reconstruction", all, Reconstruction::name)?;
+    let take_switch =
+        |to: &mut Switch, name, what| take(to, from, name, what, &Switch::ALL, Switch::name);
+    take_switch(&mut to.importance, &from.importance, "importance")?;
+    take_switch(&mut to.connections, &from.connections, "connections")?;
+    take_switch(&mut to.first_shot, &from.first_shot, "first shot")
 }
 
 /// Takes over the numbers and truth values of the project file.
@@ -150,15 +147,17 @@ fn take_arguments(
     arguments: &SimulationArguments,
 ) -> Result<(), CliError> {
     if let Some(name) = &arguments.estimator {
-        settings.estimator = names::on_command_line("--estimator", name, &EstimatorKind::NAMES)?;
+        let all = &EstimatorKind::ALL;
+        settings.estimator = names::on_command_line("--estimator", name, all, EstimatorKind::name)?;
     }
     if let Some(name) = &arguments.sequence {
         let known = names::sequences(arguments.samples);
-        settings.sequence = names::on_command_line("--sequence", name, &known)?;
+        settings.sequence = names::on_command_line("--sequence", name, &known, Sequence::name)?;
     }
     if let Some(name) = &arguments.tolerance_on {
-        let known = &ToleranceOn::NAMES;
-        settings.tolerance_on = names::on_command_line("--tolerance-on", name, known)?;
+        let all = &ToleranceOn::ALL;
+        settings.tolerance_on =
+            names::on_command_line("--tolerance-on", name, all, ToleranceOn::name)?;
     }
     settings.rel_tol = arguments.rel_tol.unwrap_or(settings.rel_tol);
     settings.abs_tol_lx = arguments.abs_tol.unwrap_or(settings.abs_tol_lx);
@@ -167,6 +166,23 @@ fn take_arguments(
     settings.max_samples = arguments.samples;
     settings.max_rays = arguments.rays;
     Ok(())
+}
+
+/// The settings in a plan or checkpoint, checked against the scene; `file` is what messages call
+/// it.
+///
+/// # Errors
+/// When the settings make no sense together or for the scene.
+pub(crate) fn kept_settings(
+    settings: &Settings,
+    file: &str,
+    project: &Project,
+) -> Result<Settings, CliError> {
+    let sequence = settings.sequence.with_points(settings.max_samples.unwrap_or(0));
+    let settings = Settings { sequence, ..settings.clone() };
+    let checked = quasilux_transport::check(&project.loaded.scene, &settings);
+    checked.map_err(|error| CliError::new(format!("{file}: {error}")))?;
+    Ok(settings)
 }
 
 /// Refuses limits that cannot end the run, and runs that nothing can end.

@@ -7,18 +7,18 @@
 //! listed, `terms_lx` in each point and `average_terms_lx` in each summary, the last of them with
 //! `"bounces": "rest"`; in `cameras` the files of each camera, the paths of each pixel in each
 //! replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a run
-//! repeatable (`build`, `scene_sha256`, `randomization`, `seed`, `rel_tol`, `abs_tol_lx`,
-//! `tolerance_on`, `max_bounces`, `map_element_m`, `map_elements`, `map_adaptive`,
-//! `map_reconstruction`, `map_photons`, `map_dimensions` where it is given, `image_depth`,
-//! `importance`, `connections`, `first_shot`), `decisions`, what pilots made of those (photons
-//! connected for each path (`connected_photons`), whether photons follow `importance` and leave lit
-//! places, sides of elements of the map that paths end on, photons for each path that look for
-//! light which paths cannot find; `null` where there are none), `prediction` (see `prediction.rs`),
-//! `flux_cut_lm`, the flux that `max_bounces` cut, and `dimension_counts`: how many photons and
-//! paths used 0, 1, 2, .. coordinates, in one list each, all of more than 1023 together at its end,
-//! `photons`, how many began in all, `null` where none did, and `mean_events`, surfaces that a
-//! `photon` came to on average. A point that reached its tolerance before others has its own number
-//! of `samples`. Where it was asked for, `explain` says which coordinates carry the variance.
+//! repeatable: `build`, `scene_sha256`, and all [`Settings`] by the names of their fields, but for
+//! limits: a run that was stopped at some number of samples writes what one that was asked for this
+//! number writes. `replicates` counts those that differ. Then `decisions`, what pilots made of the
+//! settings (photons connected for each path (`connected_photons`), whether photons follow
+//! `importance` and leave lit places, sides of elements of the map that paths end on, photons for
+//! each path that look for light which paths cannot find; `null` where there are none),
+//! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
+//! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
+//! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
+//! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
+//! tolerance before others has its own number of `samples`. Where it was asked for, `explain` says
+//! which coordinates carry the variance.
 
 mod camera;
 mod explanation;
@@ -31,8 +31,8 @@ use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
-use quasilux_transport::{Decisions, DimensionHistogram, Dimensions};
-use serde::{Serialize, Serializer};
+use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, Settings};
+use serde::Serialize;
 use terms::TermEntry;
 
 /// Name and version of the document's format.
@@ -116,49 +116,22 @@ struct RunEntry<'a> {
     build: &'a str,
     #[serde(skip_serializing_if = "str::is_empty")]
     scene_sha256: &'a str,
-    estimator: &'static str,
-    sequence: &'a str,
-    randomization: &'a str,
-    seed: u64,
-    replicates: u32,
+    #[serde(flatten)]
+    settings: Settings,
     samples: u64,
     rays: u64,
-    #[serde(serialize_with = "finite_or_null")]
     seconds: f64,
     threads: usize,
-    confidence: f64,
-    #[serde(serialize_with = "finite_or_null")]
-    rel_tol: f64,
-    abs_tol_lx: f64,
-    tolerance_on: &'static str,
     tolerance_reached: bool,
     prediction: PredictionEntry,
-    max_bounces: Option<u32>,
-    #[serde(skip_serializing_if = "is_zero")]
-    list_terms: u32,
-    first_shot: &'static str,
-    map_element_m: Option<f64>,
-    map_elements: u64,
-    map_adaptive: bool,
-    map_reconstruction: &'static str,
-    map_photons: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    map_dimensions: Option<u32>,
-    image_depth: Option<u32>,
-    importance: &'a str,
-    connections: &'a str,
     decisions: DecisionsEntry,
     mean_dimension: MeanDimensionEntry,
     dimension_counts: DimensionCountsEntry<'a>,
     photons: Option<u64>,
     mean_events: MeanEventsEntry,
-    #[serde(serialize_with = "finite_or_null")]
     flux_emitted_lm: f64,
-    #[serde(serialize_with = "finite_or_null")]
     flux_absorbed_lm: f64,
-    #[serde(serialize_with = "finite_or_null")]
     flux_lost_lm: f64,
-    #[serde(serialize_with = "finite_or_null")]
     flux_cut_lm: f64,
     invalid_contributions: u64,
 }
@@ -273,33 +246,18 @@ impl<'a> RunEntry<'a> {
             version: &run.version,
             build: &run.build,
             scene_sha256: &run.scene_sha256,
-            estimator: run.settings.estimator.name(),
-            sequence: run.settings.sequence.name(),
-            randomization: run.settings.randomization.name(),
-            seed: run.settings.seed,
-            replicates: run.replicates,
+            settings: Settings {
+                replicates: run.replicates,
+                max_samples: None,
+                max_rays: None,
+                ..run.settings.clone()
+            },
             samples: run.samples,
             rays: run.rays,
             seconds: run.seconds,
             threads: run.threads,
-            confidence: run.confidence,
-            rel_tol: run.settings.rel_tol,
-            abs_tol_lx: run.settings.abs_tol_lx,
-            tolerance_on: run.settings.tolerance_on.name(),
             tolerance_reached: run.tolerance_reached,
             prediction: PredictionEntry::new(run),
-            max_bounces: run.settings.max_bounces,
-            list_terms: run.settings.list_terms,
-            first_shot: run.settings.first_shot.name(),
-            map_element_m: run.settings.map_element_m,
-            map_elements: run.settings.map_elements,
-            map_adaptive: run.settings.map_adaptive,
-            map_reconstruction: run.settings.map_reconstruction.name(),
-            map_photons: run.settings.map_photons,
-            map_dimensions: run.settings.map_dimensions,
-            image_depth: run.settings.image_depth,
-            importance: run.settings.importance.name(),
-            connections: run.settings.connections.name(),
             decisions: DecisionsEntry::new(&run.decisions),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
@@ -330,15 +288,6 @@ fn mean_events(dimensions: &Dimensions) -> Option<f64> {
     (photons > 0).then(|| photon_events as f64 / photons as f64)
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-fn is_zero(number: &u32) -> bool {
-    *number == 0
-}
-
-fn finite_or_null<S: Serializer>(x: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    x.is_finite().then_some(*x).serialize(serializer)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -364,8 +313,9 @@ mod tests {
         assert_order(&text, &point);
         assert_order(&text, &["average_lx", "minimum_lx", "maximum_lx", "uniformity"]);
         let run = &text[text.find("\"run\"").expect("a run")..];
-        assert_order(run, &["version", "estimator", "sequence", "replicates", "samples", "rays"]);
-        assert_order(run, &["rays", "seconds", "threads", "confidence", "tolerance_reached"]);
+        assert_order(run, &["version", "estimator", "sequence", "confidence", "replicates"]);
+        assert_order(run, &["replicates", "samples", "rays", "seconds", "threads"]);
+        assert_order(run, &["threads", "tolerance_reached", "prediction", "decisions"]);
         assert_order(run, &["tolerance_reached", "mean_dimension", "photon", "path"]);
         assert_order(run, &["path", "flux_emitted_lm", "flux_absorbed_lm", "flux_lost_lm"]);
         assert_order(run, &["flux_lost_lm", "flux_cut_lm", "invalid_contributions"]);

@@ -27,16 +27,6 @@ pub enum L2Measure {
     Mixture,
 }
 
-impl L2Measure {
-    /// Every measure by name.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("l2-star", Self::Star),
-        ("centred", Self::Centred),
-        ("wrap-around", Self::WrapAround),
-        ("mixture", Self::Mixture),
-    ];
-}
-
 /// The discrepancy. Of N random points it falls like N^-1/2, of good ones like N^-1 (log
 /// N)^(d-1)/2.
 ///

@@ -41,12 +41,6 @@ impl Randomization {
     pub const ALL: [Self; 4] =
         [Self::None, Self::CranleyPattersonRotation, Self::DigitalShift, Self::Owen];
 
-    /// Every randomisation by the name that users write.
-    pub const NAMES: [(&'static str, Self); 4] = {
-        let [a, b, c, d] = Self::ALL;
-        [(a.name(), a), (b.name(), b), (c.name(), c), (d.name(), d)]
-    };
-
     /// The name that users write.
     #[must_use]
     pub const fn name(self) -> &'static str {

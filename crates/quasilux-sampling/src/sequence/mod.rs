@@ -50,12 +50,6 @@ impl Sequence {
     /// The sequences that need no number of points.
     pub const ALL: [Self; 4] = [Self::Sobol, Self::Halton, Self::Faure4, Self::Independent];
 
-    /// The sequences that need no number of points, by the name that users write.
-    pub const NAMES: [(&'static str, Self); 4] = {
-        let [a, b, c, d] = Self::ALL;
-        [(a.name(), a), (b.name(), b), (c.name(), c), (d.name(), d)]
-    };
-
     /// Every sequence, Hammersley's for that number of points.
     #[must_use]
     pub const fn all_for(points: u64) -> [Self; 5] {
@@ -72,6 +66,15 @@ impl Sequence {
             Self::Hammersley { .. } => "hammersley",
             Self::Faure4 => "faure4",
             Self::Independent => "random",
+        }
+    }
+
+    /// The same sequence for another number of points, where it is made for one.
+    #[must_use]
+    pub const fn with_points(self, points: u64) -> Self {
+        match self {
+            Self::Hammersley { .. } => Self::Hammersley { points },
+            Self::Sobol | Self::Halton | Self::Faure4 | Self::Independent => self,
         }
     }
 

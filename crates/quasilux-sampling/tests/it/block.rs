@@ -8,7 +8,7 @@ use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
 fn blocks_equal_random_access() {
     let mut lengths = [0, 1, 7, 31, 32, 33, 255, 256, 257, 1000].into_iter().cycle();
     for sequence in Sequence::all_for(12_345) {
-        for (_, randomization) in Randomization::NAMES {
+        for randomization in Randomization::ALL {
             let points = PointSet::new(sequence, randomization, stream_key(3, 0, 0));
             for dimension in [0, 1, 3, 4, 100, 1023, 1024, 5000, u32::MAX] {
                 for step in 0..10 {
@@ -32,7 +32,7 @@ fn blocks_equal_random_access() {
 #[test]
 fn lists_equal_random_access() {
     for sequence in Sequence::all_for(12_345) {
-        for (_, randomization) in Randomization::NAMES {
+        for randomization in Randomization::ALL {
             let points = PointSet::new(sequence, randomization, stream_key(3, 0, 0));
             for dimension in [0, 1, 4, 1023, 1024, u32::MAX] {
                 for count in [0, 1, 33, 256, 600] {

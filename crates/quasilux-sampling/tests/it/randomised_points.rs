@@ -14,7 +14,8 @@ fn table() -> Vec<String> {
     let mut lines = Vec::new();
     for sequence in Sequence::all_for(20_000) {
         let name = sequence.name();
-        for (randomization_name, randomization) in Randomization::NAMES {
+        for randomization in Randomization::ALL {
+            let randomization_name = randomization.name();
             let points = PointSet::new(sequence, randomization, stream_key(2026, 3, 1));
             for index in INDICES {
                 let bits =

@@ -8,6 +8,20 @@ use quasilux_scene::{Quantity, Scene, SensorShape};
 /// Settings that cannot work for this scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CheckError {
+    /// A setting that means nothing.
+    #[error("{setting} is out of range: expected {expected}")]
+    OutOfRange {
+        /// Name of the setting.
+        setting: &'static str,
+        /// What it can be.
+        expected: &'static str,
+    },
+    /// The points of a sequence that must know how many there are have to be those of the run.
+    #[error("{sequence} must know the number of points ahead: give max_samples the same number")]
+    OtherNumberOfPoints {
+        /// Name of the sequence.
+        sequence: &'static str,
+    },
     /// Photon counting reads sensor points from the map of the surface they lie on.
     #[error(
         "sensor \"{sensor}\", point {point}: the estimator \"photon\" can only read points that \
@@ -88,12 +102,38 @@ pub enum CheckError {
 /// # Errors
 /// See [`CheckError`].
 pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
+    check_ranges(settings)?;
     let flux_lm = scene.flux_lm();
     if !(flux_lm > 0.0 && flux_lm.is_finite()) {
         return Err(CheckError::Dark);
     }
     check_switches(settings)?;
     if settings.estimator == EstimatorKind::Photon { check_photon_sensors(scene) } else { Ok(()) }
+}
+
+/// Whether each number is one that a setting can have.
+fn check_ranges(settings: &Settings) -> Result<(), CheckError> {
+    let expect = |setting, in_range: bool, expected| {
+        if in_range { Ok(()) } else { Err(CheckError::OutOfRange { setting, expected }) }
+    };
+    let is_tolerance = |x: f64| x >= 0.0 && x.is_finite();
+    let is_length = |x: f64| x > 0.0 && x.is_finite();
+    let at_least_1 = "a number of at least 1";
+    let confidence = settings.confidence;
+    expect("rel_tol", is_tolerance(settings.rel_tol), "a share of at least 0")?;
+    expect("abs_tol_lx", is_tolerance(settings.abs_tol_lx), "an illuminance of at least 0")?;
+    expect("confidence", confidence > 0.0 && confidence < 1.0, "a share between 0 and 1")?;
+    expect("replicates", settings.replicates > 0, at_least_1)?;
+    expect("max_samples", settings.max_samples != Some(0), at_least_1)?;
+    expect("max_rays", settings.max_rays != Some(0), at_least_1)?;
+    expect("map_element_m", settings.map_element_m.is_none_or(is_length), "a length above 0")?;
+    expect("map_elements", settings.map_elements > 0, at_least_1)?;
+    expect("map_photons", settings.map_photons > 0, at_least_1)?;
+    let sequence = settings.sequence;
+    if sequence.points().is_some() && sequence.points() != settings.max_samples {
+        return Err(CheckError::OtherNumberOfPoints { sequence: sequence.name() });
+    }
+    Ok(())
 }
 
 /// Whether each switch that is on has something to switch.

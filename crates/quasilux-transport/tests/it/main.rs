@@ -28,6 +28,7 @@ mod measured_odd;
 mod mirrored_light;
 mod narrow_lobes;
 mod photon_orders;
+mod ranges;
 mod scenes;
 mod selection;
 mod snapshots;

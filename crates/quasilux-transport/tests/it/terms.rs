@@ -30,7 +30,7 @@ fn run(scene: &Scene, settings: &Settings) -> Estimates {
 fn terms_of_a_furnace_are_powers() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
     all_walls_emit(&mut scene, 100.0);
-    for estimator in EstimatorKind::NAMES.map(|named| named.1) {
+    for estimator in EstimatorKind::ALL {
         scene.sensors = match estimator {
             EstimatorKind::Photon => vec![level_grid(DVec3::ONE, [2.0, 1.0], [1, 1])],
             _ => vec![points(

@@ -25,10 +25,8 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
         let project = &project.name;
         return Err(CliError::new(format!("{name}: {project} is another scene now: {change}")));
     }
-    let settings = heading.settings.settings(&name)?;
+    let settings = project::kept_settings(&heading.settings, &name, &project)?;
     let scene = &project.loaded.scene;
-    let checked = quasilux_transport::check(scene, &settings);
-    checked.map_err(|error| CliError::new(format!("{name}: {error}")))?;
     if settings.sequence.points().is_some() && arguments.time.is_some() {
         return Err(CliError::new(format!(
             "{name}: {} needs all of its points: --time cannot end the run before",

@@ -110,10 +110,10 @@ fn legend(curves: &[Curve]) -> Vec<Vec<LegendEntry>> {
         }
     }
     let mut randomizations = vec![heading("randomisation")];
-    randomizations.extend(Randomization::NAMES.into_iter().map(|(name, kind)| {
+    randomizations.extend(Randomization::ALL.into_iter().map(|kind| {
         let dash = dash(kind, Sequence::Sobol);
         let stroke = Stroke { colour: [0x55; 3], width_px: 1.6, dash };
-        LegendEntry { text: name.to_owned(), stroke: Some(stroke) }
+        LegendEntry { text: kind.name().to_owned(), stroke: Some(stroke) }
     }));
     randomizations.push(LegendEntry { text: GUIDES_NAME.to_owned(), stroke: Some(GUIDE) });
     vec![sequences, randomizations]

@@ -35,9 +35,10 @@ pub(crate) fn points(arguments: &PointsArguments) -> Result<Exit, CliError> {
 }
 
 fn list_or_draw(name: &str, arguments: &PointsArguments) -> Result<(), CliError> {
-    let sequence = names::on_command_line("sequence", name, &names::sequences(Some(arguments.n)))?;
-    let randomization =
-        names::on_command_line("--randomization", &arguments.randomization, &Randomization::NAMES)?;
+    let all = Sequence::all_for(arguments.n);
+    let sequence = names::on_command_line("sequence", name, &all, Sequence::name)?;
+    let (name, all) = (&arguments.randomization, Randomization::ALL);
+    let randomization = names::on_command_line("--randomization", name, &all, Randomization::name)?;
     let points = PointSet::new(sequence, randomization, stream_key(arguments.seed, 0, 0));
     if let Some(path) = &arguments.svg {
         let (drawing, facts) = drawing(&points, arguments)?;

@@ -28,12 +28,12 @@ impl Setup {
         let sequences = Sequence::all_for(MIN).into_iter().enumerate();
         sequences
             .flat_map(|(number, sequence)| {
-                Randomization::NAMES
+                Randomization::ALL
                     .into_iter()
-                    .filter(move |(_, kind)| {
+                    .filter(move |kind| {
                         sequence != Sequence::Independent || *kind == Randomization::None
                     })
-                    .map(move |(_, randomization)| Self { number, sequence, randomization })
+                    .map(move |randomization| Self { number, sequence, randomization })
             })
             .collect()
     }

@@ -1,0 +1,45 @@
+//! Settings out of range: numbers that mean nothing are refused before a run.
+
+use crate::element_size::room_with_points;
+use quasilux_sampling::Sequence;
+use quasilux_transport::{CheckError, Settings, check};
+
+#[test]
+fn numbers_that_mean_nothing_are_refused() {
+    let scene = room_with_points();
+    let good = Settings::default();
+    assert_eq!(check(&scene, &good), Ok(()));
+    let bad = [
+        ("rel_tol", Settings { rel_tol: f64::NAN, ..good.clone() }),
+        ("rel_tol", Settings { rel_tol: -0.01, ..good.clone() }),
+        ("abs_tol_lx", Settings { abs_tol_lx: f64::INFINITY, ..good.clone() }),
+        ("confidence", Settings { confidence: 1.0, ..good.clone() }),
+        ("confidence", Settings { confidence: f64::NAN, ..good.clone() }),
+        ("replicates", Settings { replicates: 0, ..good.clone() }),
+        ("max_samples", Settings { max_samples: Some(0), ..good.clone() }),
+        ("max_rays", Settings { max_rays: Some(0), ..good.clone() }),
+        ("map_element_m", Settings { map_element_m: Some(0.0), ..good.clone() }),
+        ("map_elements", Settings { map_elements: 0, ..good.clone() }),
+        ("map_photons", Settings { map_photons: 0, ..good.clone() }),
+    ];
+    for (name, settings) in bad {
+        let refused = check(&scene, &settings);
+        assert!(
+            matches!(refused, Err(CheckError::OutOfRange { setting, .. }) if setting == name),
+            "{name}: {refused:?}"
+        );
+    }
+}
+
+#[test]
+fn the_points_of_hammersley_are_those_of_the_run() {
+    let scene = room_with_points();
+    let run = |points, max_samples| {
+        let sequence = Sequence::Hammersley { points };
+        check(&scene, &Settings { sequence, max_samples, ..Settings::default() })
+    };
+    assert_eq!(run(64, Some(64)), Ok(()));
+    let refusal = CheckError::OtherNumberOfPoints { sequence: "hammersley" };
+    assert_eq!(run(64, Some(63)), Err(refusal.clone()));
+    assert_eq!(run(64, None), Err(refusal));
+}
