@@ -10,6 +10,7 @@ use crate::number::{FigureText, brief, count, figure_text};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
 use quasilux_transport::{Settings, ToleranceOn};
 use std::fmt::Write;
+use unicode_width::UnicodeWidthStr;
 
 /// Whether the table may use colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -138,9 +139,9 @@ impl Column {
     /// A column of figures, their plus-minus signs one below the other.
     fn figures(header: &str, unit: &str, figures: impl Iterator<Item = Figure>) -> Self {
         let texts: Vec<FigureText> = figures.map(figure_text).collect();
-        let value_width = texts.iter().map(|t| width(&t.value)).max().unwrap_or(0);
+        let value_width = texts.iter().map(|t| t.value.width()).max().unwrap_or(0);
         let half_width_width =
-            texts.iter().flat_map(|t| &t.half_width).map(|h| width(h)).max().unwrap_or(0);
+            texts.iter().flat_map(|t| &t.half_width).map(|h| h.width()).max().unwrap_or(0);
         let cells = texts.iter().map(|t| {
             let half_width = t.half_width.as_ref().map_or_else(
                 || " ".repeat(if half_width_width > 0 { 3 + half_width_width } else { 0 }),
@@ -153,9 +154,9 @@ impl Column {
 
     /// Pads all cells on the right to the width of the widest.
     fn align(&mut self) {
-        let widest = self.cells.iter().map(|c| width(c)).max().unwrap_or(0);
+        let widest = self.cells.iter().map(|c| c.width()).max().unwrap_or(0);
         for cell in &mut self.cells {
-            let padding = widest - width(cell);
+            let padding = widest - cell.width();
             cell.extend(std::iter::repeat_n(' ', padding));
         }
     }
@@ -235,26 +236,6 @@ fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// Columns that a text takes on a terminal: combining marks none, East Asian wide characters two
-/// (Unicode Standard Annex 11, by blocks).
-fn width(text: &str) -> usize {
-    text.chars()
-        .map(|c| match u32::from(c) {
-            0x0300..=0x036f | 0x200b..=0x200f | 0xfe00..=0xfe0f => 0,
-            0x1100..=0x115f
-            | 0x2e80..=0xa4cf
-            | 0xac00..=0xd7a3
-            | 0xf900..=0xfaff
-            | 0xfe30..=0xfe6f
-            | 0xff00..=0xff60
-            | 0xffe0..=0xffe6
-            | 0x1f300..=0x1faff
-            | 0x20000..=0x3fffd => 2,
-            _ => 1,
-        })
-        .sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,7 +243,7 @@ mod tests {
 
     /// Terminal columns at which `needle` begins in a line.
     fn positions(line: &str, needle: &str) -> Vec<usize> {
-        line.match_indices(needle).map(|(at, _)| width(&line[..at])).collect()
+        line.match_indices(needle).map(|(at, _)| line[..at].width()).collect()
     }
 
     #[test]

@@ -1,50 +1,63 @@
-//! An OBJ file, line by line, before `tobj` reads it.
+//! The statements of an OBJ file, line by line: positions, faces, objects and materials.
 //!
-//! `tobj` reports no lines, loses the name of a material that no MTL file defines, stops at bytes
-//! that are not UTF-8 and at trailing comments, and trusts indices. So each statement is checked
-//! here and written again in the form that it reads without fail: vertices first, faces with
-//! absolute position indices alone. Format: Wavefront, Object Files (.obj), Advanced Visualizer
-//! manual, appendix B1 (1995).
+//! Normals, texture coordinates, lines, points and all statements of free-form surfaces are left
+//! out. A face may come before its vertices. Format: Wavefront, Object Files (.obj), Advanced
+//! Visualizer manual, appendix B1 (1995).
 
 use crate::LoadError;
+use glam::DVec3;
 use quasilux_text::Position;
 use std::borrow::Cow;
-use std::collections::HashSet;
-use std::fmt::Write;
+use std::collections::HashMap;
+use std::ops::Range;
 
-/// The checked statements of an OBJ file.
+/// The statements of an OBJ file that say anything about its surfaces.
 #[derive(Debug, Default)]
 pub(super) struct ObjLines {
-    /// The same geometry in plain statements.
-    pub(super) text: String,
-    /// Files of `mtllib` statements with their places, in order.
-    pub(super) libraries: Vec<(String, Position)>,
+    /// Vertices in order.
+    pub(super) positions: Vec<DVec3>,
+    /// Indices into `positions`: those of each face, one face after the other.
+    pub(super) corners: Vec<u32>,
+    /// Faces of three corners or more, in order.
+    pub(super) faces: Vec<Face>,
+    /// Names of objects with faces, in order; neighbours differ.
+    pub(super) objects: Vec<String>,
     /// Material names of `usemtl` statements, in order of first use.
     pub(super) materials: Vec<String>,
-    /// The line of each face in `text`, in order.
-    pub(super) face_lines: Vec<usize>,
+    /// Files of `mtllib` statements with their places, in order.
+    pub(super) libraries: Vec<(String, Position)>,
     /// Faces of fewer than three corners, left out.
     pub(super) thin_faces: u64,
 }
 
+/// A face.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Face {
+    /// The line that it begins in, from 1.
+    pub(super) line: usize,
+    /// Its part of `corners`.
+    pub(super) corners: Range<usize>,
+    /// Index into `objects`.
+    pub(super) object: usize,
+    /// Index into `materials`; `None` before the first `usemtl`.
+    pub(super) material: Option<usize>,
+}
+
+/// The name of an object where the file gives none.
+const UNNAMED: &str = "unnamed_object";
+
 /// The words of a statement, each with its column counted in bytes from 0.
 type Words<'a> = std::iter::Peekable<std::vec::IntoIter<(usize, &'a str)>>;
 
-struct Reader<'a> {
-    file: &'a str,
-    line: usize,
-    statement: &'a str,
-}
-
-/// Checks and rewrites an OBJ file.
+/// Reads an OBJ file.
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
     refuse_binary(file, bytes)?;
     let text = String::from_utf8_lossy(bytes);
-    let mut rewriter = Rewriter::default();
+    let mut reader = Reader::default();
     for Statement { line, text } in statements_of(&text) {
-        rewriter.add(&Reader { file, line, statement: &text })?;
+        reader.add(&StatementReader { file, line, statement: &text })?;
     }
-    rewriter.finish(file)
+    reader.finish(file)
 }
 
 fn refuse_binary(file: &str, bytes: &[u8]) -> Result<(), LoadError> {
@@ -56,41 +69,36 @@ fn refuse_binary(file: &str, bytes: &[u8]) -> Result<(), LoadError> {
     Err(LoadError::new(file, place, "binary data; expected an OBJ file, which is text"))
 }
 
-/// Statements so far: vertices in the result's text, all others behind them at the end.
+/// What was read so far, and the state that statements change.
 #[derive(Default)]
-struct Rewriter {
+struct Reader {
     lines: ObjLines,
-    others: String,
-    /// The highest index of each face.
-    highest: Vec<u64>,
-    known_materials: HashSet<String>,
-    vertices: u64,
+    object: Option<String>,
+    material: Option<usize>,
+    material_of: HashMap<String, usize>,
 }
 
-impl Rewriter {
-    fn add(&mut self, reader: &Reader<'_>) -> Result<(), LoadError> {
+impl Reader {
+    fn add(&mut self, reader: &StatementReader<'_>) -> Result<(), LoadError> {
         let mut words = words_of(reader.statement);
         let Some((_, keyword)) = words.next() else {
             return Ok(());
         };
         let name = rest(reader.statement);
         match keyword {
-            "v" => {
-                self.lines.text.push_str(&reader.vertex(words)?);
-                self.vertices += 1;
-            }
-            "f" | "fo" => self.add_face(&reader.face(words, self.vertices)?, reader.line),
-            "o" | "g" => {
-                let _ = writeln!(self.others, "o {name}");
-            }
+            "v" => self.lines.positions.push(reader.position(words)?),
+            "f" | "fo" => self.add_face(reader, words)?,
+            "o" | "g" => self.object = Some(name.to_owned()).filter(|name| !name.is_empty()),
             "usemtl" if name.is_empty() => {
                 return Err(reader.error(0, "usemtl names no material; expected a name"));
             }
             "usemtl" => {
-                if self.known_materials.insert(name.to_owned()) {
-                    self.lines.materials.push(name.to_owned());
-                }
-                let _ = writeln!(self.others, "usemtl {name}");
+                let materials = &mut self.lines.materials;
+                let material = *self.material_of.entry(name.to_owned()).or_insert_with(|| {
+                    materials.push(name.to_owned());
+                    materials.len() - 1
+                });
+                self.material = Some(material);
             }
             "mtllib" => self.lines.libraries.push((name.to_owned(), reader.place(0))),
             _ => {}
@@ -98,31 +106,50 @@ impl Rewriter {
         Ok(())
     }
 
-    fn add_face(&mut self, corners: &[u64], line: usize) {
-        if corners.len() < 3 {
-            self.lines.thin_faces += 1;
-            return;
+    fn add_face(
+        &mut self,
+        reader: &StatementReader<'_>,
+        words: Words<'_>,
+    ) -> Result<(), LoadError> {
+        let lines = &mut self.lines;
+        let start = lines.corners.len();
+        for (at, word) in words {
+            lines.corners.push(reader.corner(at, word, lines.positions.len())?);
         }
-        self.others.push('f');
-        for corner in corners {
-            let _ = write!(self.others, " {corner}");
+        if lines.corners.len() < start + 3 {
+            lines.corners.truncate(start);
+            lines.thin_faces += 1;
+            return Ok(());
         }
-        self.others.push('\n');
-        self.highest.push(corners.iter().copied().max().unwrap_or(0));
-        self.lines.face_lines.push(line);
+        let object = self.object.as_deref().unwrap_or(UNNAMED);
+        if lines.objects.last().is_none_or(|last| last != object) {
+            lines.objects.push(object.to_owned());
+        }
+        lines.faces.push(Face {
+            line: reader.line,
+            corners: start..lines.corners.len(),
+            object: lines.objects.len() - 1,
+            material: self.material,
+        });
+        Ok(())
     }
 
+    /// Refuses faces with vertices that never came.
     fn finish(self, file: &str) -> Result<ObjLines, LoadError> {
-        let Self { mut lines, others, highest, vertices, .. } = self;
-        if let Some(face) = highest.iter().position(|&highest| highest > vertices) {
-            let place = Some(Position { line: lines.face_lines[face], column: 1 });
-            let message = format!(
-                "a face refers to vertex {}; expected 1 to {vertices}, the vertices of the file",
-                highest[face]
-            );
-            return Err(LoadError::new(file, place, message));
+        let lines = self.lines;
+        let vertices = lines.positions.len();
+        for face in &lines.faces {
+            let highest = lines.corners[face.corners.clone()].iter().max();
+            if let Some(highest) = highest.filter(|highest| **highest as usize >= vertices) {
+                let place = Some(Position { line: face.line, column: 1 });
+                let message = format!(
+                    "a face refers to vertex {}; expected 1 to {vertices}, the vertices of the \
+                     file",
+                    u64::from(*highest) + 1
+                );
+                return Err(LoadError::new(file, place, message));
+            }
         }
-        lines.text.push_str(&others);
         Ok(lines)
     }
 }
@@ -167,7 +194,14 @@ fn rest(statement: &str) -> &str {
     statement.split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim())
 }
 
-impl Reader<'_> {
+/// Reads the words of one statement.
+struct StatementReader<'a> {
+    file: &'a str,
+    line: usize,
+    statement: &'a str,
+}
+
+impl StatementReader<'_> {
     fn place(&self, at: usize) -> Position {
         let before = self.statement.get(..at).unwrap_or_default();
         Position { line: self.line, column: before.chars().count() + 1 }
@@ -177,47 +211,40 @@ impl Reader<'_> {
         LoadError::new(self.file, Some(self.place(at)), message)
     }
 
-    /// A `v` statement; a weight or a colour after the coordinates is left out.
-    fn vertex(&self, mut words: Words<'_>) -> Result<String, LoadError> {
-        let mut statement = "v".to_owned();
-        for axis in ["x", "y", "z"] {
-            let expected = "expected v with three finite coordinates in metres";
+    /// The position of a `v` statement; a weight or a colour after it is left out.
+    fn position(&self, mut words: Words<'_>) -> Result<DVec3, LoadError> {
+        let expected = "expected v with three finite coordinates in metres";
+        let mut coordinate = |axis: &str| {
             let (at, word) = words.next().ok_or_else(|| {
                 self.error(self.statement.len(), format!("the vertex has no {axis}; {expected}"))
             })?;
-            if !word.parse().is_ok_and(f64::is_finite) {
-                let message = format!("{axis} of the vertex is \"{}\"; {expected}", short(word));
-                return Err(self.error(at, message));
-            }
-            statement.push(' ');
-            statement.push_str(word);
-        }
-        statement.push('\n');
-        Ok(statement)
+            word.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| {
+                let word = short(word);
+                self.error(at, format!("{axis} of the vertex is \"{word}\"; {expected}"))
+            })
+        };
+        Ok(DVec3::new(coordinate("x")?, coordinate("y")?, coordinate("z")?))
     }
 
-    /// The position indices of an `f` statement, counted from 1; not above `u32::MAX`.
-    fn face(&self, words: Words<'_>, vertices: u64) -> Result<Vec<u64>, LoadError> {
-        words
-            .map(|(at, word)| {
-                let first = word.split('/').next().unwrap_or_default();
-                let index = match first.parse::<i64>() {
-                    Ok(n) if n > 0 => Some(n.unsigned_abs()),
-                    Ok(n) if n < 0 => vertices.checked_sub(n.unsigned_abs()).map(|n| n + 1),
-                    _ => None,
-                };
-                index.filter(|&n| n <= u64::from(u32::MAX)).ok_or_else(|| {
-                    self.error(
-                        at,
-                        format!(
-                            "the face's corner is \"{}\"; expected the number of a vertex, 1 to \
-                             {vertices} or -{vertices} to -1 here",
-                            short(word)
-                        ),
-                    )
-                })
-            })
-            .collect()
+    /// The position index of a corner of an `f` statement, counted from 0. One that is counted from
+    /// the start may be that of a vertex to come.
+    fn corner(&self, at: usize, word: &str, vertices: usize) -> Result<u32, LoadError> {
+        let first = word.split('/').next().unwrap_or_default();
+        let index = match first.parse::<i64>() {
+            Ok(n) if n > 0 => Some(n.unsigned_abs() - 1),
+            Ok(n) if n < 0 => (vertices as u64).checked_sub(n.unsigned_abs()),
+            _ => None,
+        };
+        index.and_then(|index| u32::try_from(index).ok()).ok_or_else(|| {
+            self.error(
+                at,
+                format!(
+                    "the face's corner is \"{}\"; expected the number of a vertex, 1 to \
+                     {vertices} or -{vertices} to -1 here",
+                    short(word)
+                ),
+            )
+        })
     }
 }
 
@@ -231,15 +258,32 @@ mod tests {
     use super::*;
 
     #[test]
-    fn statements_come_out_plain() {
+    fn statements_are_read() {
         let text = "# head\nmtllib a b.mtl\no desk#1 # comment\nusemtl wood grain\n\
                     v 0 0 0 1 # w\nv 1 0 0 0.5 0.5 0.5\nvt 0 0\nv 0 1 \\\n 0\n\
                     f 1/1/1 2//2 -1\nf 1 2\nl 1 2\n";
         let lines = read("a.obj", text.as_bytes()).unwrap();
-        assert_eq!(lines.text, "v 0 0 0\nv 1 0 0\nv 0 1 0\no desk#1\nusemtl wood grain\nf 1 2 3\n");
+        assert_eq!(lines.positions, [DVec3::ZERO, DVec3::X, DVec3::Y]);
+        assert_eq!(lines.corners, [0, 1, 2]);
+        let face = Face { line: 10, corners: 0..3, object: 0, material: Some(0) };
+        assert_eq!(lines.faces, [face]);
+        assert_eq!(lines.objects, ["desk#1"]);
         assert_eq!(lines.libraries, [("a b.mtl".to_owned(), Position { line: 2, column: 1 })]);
         assert_eq!(lines.materials, ["wood grain"]);
-        assert_eq!((lines.face_lines, lines.thin_faces), (vec![10], 1));
+        assert_eq!(lines.thin_faces, 1);
+    }
+
+    #[test]
+    fn objects_and_materials_last_until_others_come() {
+        let text = "f 1 2 3\nusemtl a\nf 1 2 3\no first\no second\nf 1 2 3\nusemtl b\n\
+                    g second\nf 1 2 3\nusemtl a\ng\nf 3 2 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+        let lines = read("a.obj", text.as_bytes()).unwrap();
+        let objects: Vec<&str> =
+            lines.faces.iter().map(|face| lines.objects[face.object].as_str()).collect();
+        assert_eq!(objects, [UNNAMED, UNNAMED, "second", "second", UNNAMED]);
+        assert_eq!(lines.objects.len(), 3, "{:?}", lines.objects);
+        let materials: Vec<Option<usize>> = lines.faces.iter().map(|face| face.material).collect();
+        assert_eq!(materials, [None, Some(0), Some(0), Some(1), Some(0)]);
     }
 
     #[test]
