@@ -33,6 +33,9 @@ pub fn kitchen() -> Option<Scene> {
 }
 
 /// Nine kitchens side by side, each turned by another angle about a slanted axis.
+///
+/// # Panics
+/// Where the kitchen has no triangles.
 pub fn kitchens(kitchen: &Scene) -> Scene {
     let [low, high] = bounds(&kitchen.corners).expect("a kitchen has triangles");
     let axis = DVec3::new(0.2, 1.0, 0.3).normalize();

@@ -18,6 +18,9 @@ const MIN_EXPECTED: f64 = 5.0;
 ///
 /// The expected counts add up to the number of samples. Cells with less than five expected samples
 /// are pooled; what was observed where (almost) nothing is expected, gives 0.
+///
+/// # Panics
+/// With fewer than two cells after pooling.
 pub fn chi_square_test(cells: &[CellCount]) -> f64 {
     let mut pool = CellCount { observed: 0, expected: 0.0 };
     let mut statistic = 0.0;

@@ -8,6 +8,9 @@ pub fn normal_cdf(z: f64) -> f64 {
 }
 
 /// The `z` below which lies the probability `p`, 0 < p < 1.
+///
+/// # Panics
+/// Where the probability is 0, 1 or not between them.
 pub fn normal_quantile(p: f64) -> f64 {
     assert!(p > 0.0 && p < 1.0, "normal_quantile({p})");
     bisect(-40.0, 40.0, |z| normal_cdf(z) < p)
@@ -21,6 +24,9 @@ pub fn student_t_cdf(t: f64, degrees_of_freedom: f64) -> f64 {
 }
 
 /// The two-sided quantile: |t| exceeds it with probability `1 - confidence`.
+///
+/// # Panics
+/// Where the confidence is 0, 1 or not between them.
 pub fn student_t_quantile(confidence: f64, degrees_of_freedom: f64) -> f64 {
     assert!(confidence > 0.0 && confidence < 1.0, "student_t_quantile({confidence})");
     let tail = 0.5 * (1.0 - confidence);
@@ -30,6 +36,9 @@ pub fn student_t_quantile(confidence: f64, degrees_of_freedom: f64) -> f64 {
 
 /// The probability that samples as far from `expected` arise by chance if that is their mean
 /// (two-sided, one less degree of freedom than samples).
+///
+/// # Panics
+/// With fewer than two samples.
 pub fn student_t_test(samples: &[f64], expected: f64) -> f64 {
     let n = samples.len() as f64;
     assert!(samples.len() > 1, "a t-test needs two samples");

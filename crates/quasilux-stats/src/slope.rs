@@ -2,6 +2,9 @@
 
 /// The slope of the straight line through `points` (x, y) with the least sum of squares; for an
 /// order of convergence, give logarithms of the number of samples and of the error.
+///
+/// # Panics
+/// With fewer than two points.
 pub fn least_squares_slope(points: &[[f64; 2]]) -> f64 {
     assert!(points.len() > 1, "a slope needs two points");
     let n = points.len() as f64;

@@ -8,6 +8,9 @@ const TINY: f64 = 1e-300;
 const ENOUGH_TERMS: usize = 100_000;
 
 /// The regularised upper incomplete gamma function Q(a, x), for a > 0 and x >= 0.
+///
+/// # Panics
+/// Where the parameters are out of range.
 pub fn gamma_q(a: f64, x: f64) -> f64 {
     assert!(a > 0.0 && x >= 0.0, "gamma_q({a}, {x})");
     if x == 0.0 {
@@ -35,6 +38,9 @@ pub fn gamma_q(a: f64, x: f64) -> f64 {
 }
 
 /// The regularised incomplete beta function I_x(a, b), for a, b > 0 and 0 <= x <= 1.
+///
+/// # Panics
+/// Where the parameters are out of range.
 pub fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     assert!(a > 0.0 && b > 0.0 && (0.0..=1.0).contains(&x), "incomplete_beta({a}, {b}, {x})");
     if x == 0.0 || x == 1.0 {
