@@ -8,8 +8,8 @@
 #[path = "../tests/damage/mod.rs"]
 mod damage;
 
-use damage::{Outcome, examine, seeds};
-use quasilux_stats::damage::examine_damaged;
+use damage::{examine, seeds};
+use quasilux_stats::damage::{Outcomes, examine_damaged};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -21,12 +21,7 @@ fn main() -> ExitCode {
     let count = arguments.first().copied().unwrap_or(200_000);
     let first = arguments.get(1).copied().unwrap_or(0);
     let seeds = seeds();
-    let (mut read, mut max_bytes) = (0_u64, 0);
-    for index in first..first + count {
-        let Outcome { is_read, peak_bytes } = examine_damaged(&seeds, index, examine);
-        read += u64::from(is_read);
-        max_bytes = max_bytes.max(peak_bytes);
-    }
+    let Outcomes { read, max_bytes } = examine_damaged(&seeds, first..first + count, examine);
     println!(
         "{count} damaged files of {} seeds: {read} load, {} are refused; at most {max_bytes} bytes \
          allocated at one time",

@@ -9,13 +9,9 @@
 #[path = "../tests/damage/large.rs"]
 mod large;
 
-use peak_alloc::PeakAlloc;
 use quasilux_bsdf::read_bsdf_named;
 use std::path::Path;
 use std::process::ExitCode;
-
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -30,15 +26,15 @@ fn main() -> ExitCode {
         if let Some(folder) = arguments.get(1) {
             std::fs::write(Path::new(folder).join(name), &bytes).expect("a folder to write to");
         }
-        ALLOCATOR.reset_peak_usage();
-        let before = ALLOCATOR.current_usage();
-        read_bsdf_named(name, &bytes).expect("a surface");
-        let peak = ALLOCATOR.peak_usage();
+        let allocated = allocation_counter::measure(|| {
+            read_bsdf_named(name, &bytes).expect("a surface");
+        });
+        let (peak, size) = (allocated.bytes_max as f64, bytes.len() as f64);
         println!(
             "| {name} | {:.1} | {:.2} | {:.1} |",
-            bytes.len() as f64 / 1e6,
-            peak as f64 / f64::from(1 << 30),
-            (peak - before) as f64 / bytes.len() as f64,
+            size / 1e6,
+            (size + peak) / f64::from(1 << 30),
+            peak / size,
         );
     }
     ExitCode::SUCCESS

@@ -1,14 +1,12 @@
 //! Any bytes give a surface or an error with its position, in memory bounded by their number.
-//!
-//! A binary of its own, with one test: it counts what the whole process allocates.
 
 mod damage;
 #[path = "damage/large.rs"]
 mod large;
 
-use damage::{Outcome, examine, seeds};
+use damage::{examine, seeds};
 use large::surface;
-use quasilux_stats::damage::examine_damaged;
+use quasilux_stats::damage::{Outcome, Outcomes, examine_damaged};
 
 /// Damaged files: those that load are looked at from all sides, which takes long.
 /// `examples/mutate.rs` runs any number of them.
@@ -20,12 +18,7 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
     for file in seeds.files() {
         examine(file);
     }
-    let (mut read, mut max_bytes) = (0, 0);
-    for index in 0..FILES {
-        let Outcome { is_read, peak_bytes } = examine_damaged(&seeds, index, examine);
-        read += u64::from(is_read);
-        max_bytes = max_bytes.max(peak_bytes);
-    }
+    let Outcomes { read, max_bytes } = examine_damaged(&seeds, 0..FILES, examine);
     println!(
         "{read} of {FILES} damaged files load, the others are refused; at most {max_bytes} bytes \
          allocated at one time"

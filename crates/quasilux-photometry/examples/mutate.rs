@@ -8,8 +8,8 @@
 #[path = "../tests/damage/mod.rs"]
 mod damage;
 
-use damage::{Format, Outcome, examine};
-use quasilux_stats::damage::examine_damaged;
+use damage::{Format, examine};
+use quasilux_stats::damage::{Outcomes, examine_damaged};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -33,13 +33,8 @@ fn main() -> ExitCode {
 fn run(format: Format, indices: std::ops::Range<u64>) {
     let seeds = format.seeds();
     let count = indices.end - indices.start;
-    let (mut read, mut max_bytes) = (0_u64, 0);
-    for index in indices {
-        let Outcome { is_read, peak_bytes } =
-            examine_damaged(&seeds, index, |bytes| examine(format, bytes));
-        read += u64::from(is_read);
-        max_bytes = max_bytes.max(peak_bytes);
-    }
+    let Outcomes { read, max_bytes } =
+        examine_damaged(&seeds, indices, |bytes| examine(format, bytes));
     println!(
         "{format:?}: {count} damaged files of {} seeds: {read} load, {} are refused; \
          at most {max_bytes} bytes allocated at one time",

@@ -1,11 +1,9 @@
 //! Any bytes give a luminaire or an error with its position, in memory bounded by their number.
-//!
-//! A binary of its own, with one test: it counts what the whole process allocates.
 
 mod damage;
 
-use damage::{Format, Outcome, examine};
-use quasilux_stats::damage::examine_damaged;
+use damage::{Format, examine};
+use quasilux_stats::damage::{Outcome, Outcomes, examine_damaged};
 
 /// Damaged files of each format. `examples/mutate.rs` runs any number of them.
 const FILES: u64 = 100_000;
@@ -17,13 +15,8 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
         for file in seeds.files() {
             examine(format, file);
         }
-        let (mut read, mut max_bytes) = (0, 0);
-        for index in 0..FILES {
-            let Outcome { is_read, peak_bytes } =
-                examine_damaged(&seeds, index, |bytes| examine(format, bytes));
-            read += u64::from(is_read);
-            max_bytes = max_bytes.max(peak_bytes);
-        }
+        let Outcomes { read, max_bytes } =
+            examine_damaged(&seeds, 0..FILES, |bytes| examine(format, bytes));
         println!(
             "{format:?}: {read} of {FILES} damaged files load, the others are refused; at most \
              {max_bytes} bytes allocated at one time"

@@ -1,26 +1,14 @@
 //! Damaged files of measured surfaces, and what must hold of the reader's answer to any bytes.
 //!
 //! The bounded run of the test suite, the full run (`examples/mutate.rs`) and the fuzz target
-//! (`fuzz/`) share this module, its allocator included: memory is that of the whole process, so one
-//! thread only may read at a time.
+//! (`fuzz/`) share this module. Memory is counted for each thread by itself
+//! (`allocation-counter`), so that any number of files can be read side by side.
 
 mod surface;
 
-use peak_alloc::PeakAlloc;
 use quasilux_bsdf::{max_bsdf_memory_bytes, read_bsdf_named};
-use quasilux_stats::damage::{Seeds, SplitMix64, check_message};
+use quasilux_stats::damage::{Outcome, Seeds, SplitMix64, check_message};
 use std::path::{Path, PathBuf};
-
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
-
-/// What became of one file.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Outcome {
-    pub(crate) is_read: bool,
-    /// The most memory that was allocated at one time while reading.
-    pub(crate) peak_bytes: usize,
-}
 
 /// Files made up for the purpose.
 pub(crate) fn samples() -> Seeds {
@@ -45,10 +33,11 @@ fn published(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
 /// Reads any bytes and checks the answer: no more memory than stated, messages with a position in
 /// the file, and a surface whose samples and densities are numbers that fit each other.
 pub(crate) fn examine(bytes: &[u8]) -> Outcome {
-    let before = ALLOCATOR.current_usage();
-    ALLOCATOR.reset_peak_usage();
-    let answer = read_bsdf_named(surface::name(bytes), bytes);
-    let peak_bytes = ALLOCATOR.peak_usage() - before;
+    let mut answer = None;
+    let allocated =
+        allocation_counter::measure(|| answer = Some(read_bsdf_named(surface::name(bytes), bytes)));
+    let answer = answer.expect("the reader was called");
+    let peak_bytes = allocated.bytes_max as usize;
     let max = max_bsdf_memory_bytes(bytes.len());
     assert!(peak_bytes <= max, "{peak_bytes} bytes for a file of {}, over {max}", bytes.len());
     match &answer {

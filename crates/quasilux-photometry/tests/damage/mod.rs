@@ -1,20 +1,16 @@
 //! Damaged luminaire files, and what must hold of a reader's answer to any bytes.
 //!
 //! The bounded run of the test suite, the full run (`examples/mutate.rs`) and the fuzz targets
-//! (`fuzz/`) share this module, its allocator included: memory is that of the whole process, so one
-//! thread only may read at a time.
+//! (`fuzz/`) share this module. Memory is counted for each thread by itself
+//! (`allocation-counter`), so that any number of files can be read side by side.
 
 mod samples;
 
-use peak_alloc::PeakAlloc;
 use quasilux_photometry::{
     ParseError, Parsed, max_read_memory_bytes, read_ies, read_ldt, read_tm33,
 };
-use quasilux_stats::damage::{Seeds, SplitMix64, check_message};
+use quasilux_stats::damage::{Outcome, Seeds, SplitMix64, check_message};
 use std::path::{Path, PathBuf};
-
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 /// A format and its reader.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +18,6 @@ pub(crate) enum Format {
     Ies,
     Ldt,
     Tm33,
-}
-
-/// What became of one file.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Outcome {
-    pub(crate) is_read: bool,
-    /// The most memory that was allocated at one time while reading.
-    pub(crate) peak_bytes: usize,
 }
 
 impl Format {
@@ -77,10 +65,10 @@ fn published(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
 /// Reads any bytes and checks the answer: no more memory than stated, messages with a position in
 /// the file, and a luminaire whose samples and densities are numbers that fit each other.
 pub(crate) fn examine(format: Format, bytes: &[u8]) -> Outcome {
-    let before = ALLOCATOR.current_usage();
-    ALLOCATOR.reset_peak_usage();
-    let answer = format.read(bytes);
-    let peak_bytes = ALLOCATOR.peak_usage() - before;
+    let mut answer = None;
+    let allocated = allocation_counter::measure(|| answer = Some(format.read(bytes)));
+    let answer = answer.expect("the reader was called");
+    let peak_bytes = allocated.bytes_max as usize;
     let max = max_read_memory_bytes(bytes.len());
     assert!(peak_bytes <= max, "{peak_bytes} bytes for a file of {}, over {max}", bytes.len());
     match &answer {

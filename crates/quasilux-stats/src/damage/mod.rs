@@ -9,6 +9,11 @@ mod random;
 pub use mutator::mutate;
 pub use random::SplitMix64;
 
+use std::ops::Range;
+use std::panic::RefUnwindSafe;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+
 /// Published files above this length are left out: most of the time would go into a few of them.
 const MAX_SEED_BYTES: usize = 4000;
 
@@ -49,15 +54,65 @@ impl Seeds {
     }
 }
 
-/// Calls `examine` with damaged file number `index`, and names the file where that panics.
+/// What became of one file.
+#[derive(Clone, Copy, Debug)]
+pub struct Outcome {
+    /// Whether it was read.
+    pub is_read: bool,
+    /// The most memory in bytes that was allocated at one time while reading.
+    pub peak_bytes: usize,
+}
+
+/// What became of many files.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Outcomes {
+    /// How many were read.
+    pub read: u64,
+    /// The most memory in bytes that was allocated at one time while reading one.
+    pub max_bytes: usize,
+}
+
+impl Outcomes {
+    fn add(&mut self, other: Self) {
+        self.read += other.read;
+        self.max_bytes = self.max_bytes.max(other.max_bytes);
+    }
+}
+
+/// Calls `examine` with the damaged files of these numbers, on all processors, and names the file
+/// where that panics.
 ///
 /// # Panics
 /// Where `examine` panics.
-pub fn examine_damaged<T>(
+pub fn examine_damaged(
     seeds: &Seeds,
-    index: u64,
-    examine: impl Fn(&[u8]) -> T + std::panic::RefUnwindSafe,
-) -> T {
+    indices: Range<u64>,
+    examine: impl Fn(&[u8]) -> Outcome + RefUnwindSafe + Sync,
+) -> Outcomes {
+    let next = AtomicU64::new(indices.start);
+    let work = || {
+        let mut all = Outcomes::default();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= indices.end {
+                return all;
+            }
+            let Outcome { is_read, peak_bytes } = examine_one(seeds, index, &examine);
+            all.add(Outcomes { read: u64::from(is_read), max_bytes: peak_bytes });
+        }
+    };
+    thread::scope(|scope| {
+        let threads = thread::available_parallelism().map_or(1, usize::from);
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let mut all = Outcomes::default();
+        for worker in workers {
+            all.add(worker.join().expect("no damaged file makes a reader panic"));
+        }
+        all
+    })
+}
+
+fn examine_one<T>(seeds: &Seeds, index: u64, examine: impl Fn(&[u8]) -> T + RefUnwindSafe) -> T {
     let bytes = seeds.damaged(index);
     std::panic::catch_unwind(|| examine(&bytes)).unwrap_or_else(|_| {
         panic!("file {index}:\n{}", String::from_utf8_lossy(&bytes).escape_debug())
