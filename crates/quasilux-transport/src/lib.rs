@@ -18,7 +18,9 @@
 //! - `path`: path tracing from sensors and cameras
 //! - `estimator`: the estimators of sensor values, and the selection between them
 //! - `explain`: where the variance comes from
-//! - `run`: a run from start to result
+//! - `run`: a run from start to result, in one piece or in parts
+//!
+//! Beside them: `codec`, states of a run as bytes; `context`, the scene made ready; `settings`.
 
 mod bsdf;
 mod codec;

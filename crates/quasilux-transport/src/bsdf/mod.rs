@@ -1,5 +1,5 @@
 //! BSDFs, a closed set of one file a kind: their value, albedo, sampling and pdf. A new one gets a
-//! file here, a variant of [`Bsdf`] and its match arms.
+//! file here, a variant of [`Bsdf`] with its match arms, and one of `quasilux_scene::Bsdf`.
 //!
 //! Directions are local: z is the geometric normal of the side that `wo` is on, so `wo.z > 0`, and
 //! `wi.z < 0` means transmitted; x and y are those of [`Frame`]. Both point away from the surface.

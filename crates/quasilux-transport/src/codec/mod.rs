@@ -1,5 +1,6 @@
 //! What a run has summed so far, as bytes in the postcard format, for checkpoints and for parts of
-//! a run.
+//! a run. Here are the bytes alone: the order of a state is made in `run::simulate`, `stats::watch`
+//! and by each estimator.
 //!
 //! All that grows with a run is integers, so the bytes of a run that was interrupted lead to the
 //! same bits, and the sums of several index ranges add up to those of all of them, in any order.

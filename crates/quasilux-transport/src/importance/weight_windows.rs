@@ -7,7 +7,8 @@
 //! Monte Carlo calculations", Nuclear Technology/Fusion 5(1), 1984). W is in inverse proportion to
 //! the importance of a photon that leaves, in the mean square over its next step, so that rays
 //! times variance are least; a photon at its light has the mean importance of those that leave
-//! where it lands.
+//! where it lands. Here is the rule ([`Split`]), which photons without windows obey too;
+//! `photon::trace` draws the number of children and makes them.
 
 use crate::codec::Writer;
 use crate::importance::cells::Regions;

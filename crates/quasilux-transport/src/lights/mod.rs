@@ -3,12 +3,12 @@
 //! `pointlike` and `images`.
 
 mod area_luminaires;
-mod emitters;
+mod emitting_facets;
 pub(crate) mod images;
 mod pointlike;
 
 pub(crate) use area_luminaires::AreaLuminaires;
-pub(crate) use emitters::Emitters;
+pub(crate) use emitting_facets::Emitters;
 pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
 
 use crate::lights::images::LightPathClass;

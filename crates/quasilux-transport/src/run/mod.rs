@@ -1,7 +1,8 @@
-//! A run from its start to its result: the loop over checkpoints, parts, checkpoints, pictures.
+//! A run from its start to its result: the loop over checkpoints ([`simulate`]), how far it has
+//! come ([`course`]), parts of a run on several machines ([`parts`]), pictures ([`pixels`]).
 
 pub(crate) mod check;
-pub(crate) mod checkpoint;
+pub(crate) mod course;
 pub(crate) mod memory;
 pub(crate) mod parts;
 pub(crate) mod pixels;

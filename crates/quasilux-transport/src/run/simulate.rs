@@ -1,10 +1,11 @@
-//! From a scene to estimates: the loop over checkpoints.
+//! From a scene to estimates: the loop over checkpoints, which ends when the tolerance or a limit
+//! is reached, or the observer stops it.
 
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
 use crate::estimator::{Estimator, new_estimator};
 use crate::run::check::{caveats, is_biased};
-use crate::run::checkpoint::Course;
+use crate::run::course::Course;
 use crate::run::pixels::add_pictures;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};

@@ -1,4 +1,5 @@
-//! What a simulation knows at a checkpoint: figures of each replicate, nothing summarised yet.
+//! What a simulation knows at a checkpoint: figures of each replicate, and the confidence intervals
+//! of points, averages and pictures that follow from them.
 
 use crate::stats::decisions::Decisions;
 use crate::stats::interval::{Interval, t_quantile_for};

@@ -1,9 +1,10 @@
 //! Exact sums, confidence intervals, and when a run may stop.
 //!
-//! [`tally`] holds the sums, [`interval`] and [`minimum`] the intervals, [`sequential`] what
-//! looking several times costs them, [`schedule`] and [`tolerance`] the decision to stop,
-//! [`convergence`] the prediction of the end, [`efficiency`] the choice between estimators,
-//! [`observer`] and [`watch`] the way out of a run.
+//! [`tally`] holds the sums, [`interval`] and [`minimum`] how intervals are made, [`estimates`]
+//! those of sensor values, [`sequential`] what looking several times costs them, [`schedule`] and
+//! [`tolerance`] what the decision to stop needs (`run::simulate` takes it), [`convergence`] the
+//! prediction of the end, [`efficiency`] the choice between estimators, [`observer`] and [`watch`]
+//! the way out of a run.
 
 pub mod convergence;
 pub(crate) mod decisions;
