@@ -79,6 +79,13 @@ pub(crate) enum Stream {
     /// Places in the cells of a group that photons are connected to, in dimensions that photons
     /// leave alone.
     ConnectionPlaces(u64),
+    /// Photons of the witness.
+    WitnessPhotons,
+    /// Places in cells that photons of the witness are joined to, in dimensions that photons leave
+    /// alone.
+    WitnessPlaces,
+    /// Paths of the witness from one sensor point, numbered through all sensors.
+    WitnessPaths(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
     /// Paths through one pixel of one camera.
@@ -104,6 +111,9 @@ impl Stream {
             Self::ConnectedPhotons(group) => (1 << 62) + 2 + 2 * group,
             Self::CellPhotons => u64::MAX - 64,
             Self::ConnectionPlaces(group) => (1 << 62) + 3 + 2 * group,
+            Self::WitnessPhotons => u64::MAX - 66,
+            Self::WitnessPlaces => u64::MAX - 67,
+            Self::WitnessPaths(point) => (1 << 61) + point,
             Self::Paths(point) => 2 + point,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }
@@ -112,9 +122,11 @@ impl Stream {
     /// The sequence of its points in a run with this one.
     pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
         match (self, of_run) {
-            (Self::ConnectionPlaces(_), Sequence::Independent) => Sequence::Independent,
+            (Self::ConnectionPlaces(_) | Self::WitnessPlaces, Sequence::Independent) => {
+                Sequence::Independent
+            }
             // Their dimensions are high ones, where other sequences are no good.
-            (Self::ConnectionPlaces(_), _) => Sequence::Sobol,
+            (Self::ConnectionPlaces(_) | Self::WitnessPlaces, _) => Sequence::Sobol,
             // A plan has its own number of photons.
             (
                 Self::PlanPhotons
@@ -124,7 +136,9 @@ impl Stream {
                 | Self::CausticPhotons
                 | Self::ConnectedPhotons(_)
                 | Self::CellPhotons
-                | Self::Survey(_),
+                | Self::Survey(_)
+                | Self::WitnessPhotons
+                | Self::WitnessPaths(_),
                 Sequence::Hammersley { .. },
             ) => Sequence::Halton,
             _ => of_run,

@@ -7,6 +7,7 @@ pub(crate) mod path_estimator;
 pub(crate) mod photon_estimator;
 pub(crate) mod pilot;
 pub(crate) mod selection;
+pub(crate) mod witness;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;

@@ -318,6 +318,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
             direct_lx: self.direct_lx(),
             resolved: self.resolved(&missed_lobes),
             missed_lobes,
+            contradicted: vec![false; self.targets.len()],
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
         };

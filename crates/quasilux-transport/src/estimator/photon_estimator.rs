@@ -144,23 +144,9 @@ impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
     }
 }
 
-impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
-    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
-            let end = piece.end;
-            let Some(counts) = self.count(PhotonOrder::CoherentWaves, piece, watch) else {
-                return false;
-            };
-            self.photons += counts;
-            self.samples = end;
-            if !watch.keep(|out| self.put(out)) {
-                return false;
-            }
-        }
-        true
-    }
-
-    fn estimates(&self) -> Estimates {
+impl<S: Spectrum> PhotonEstimator<'_, S> {
+    /// The figures of all targets as if of one sensor.
+    fn figures(&self) -> SensorEstimates {
         let photon_lm = self.context.lights.flux_lm / self.samples as f64;
         // One row a replicate, from the quanta of each counter.
         let read = |quanta: &dyn Fn(&Counters, usize) -> u64| -> Vec<Vec<f64>> {
@@ -193,10 +179,38 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
         let resolved = found(&replicate_lx);
         let samples = vec![self.samples; direct_lx.len()];
         let missed_lobes = vec![false; direct_lx.len()];
-        let all =
-            SensorEstimates { replicate_lx, direct_lx, resolved, missed_lobes, samples, terms };
+        let contradicted = missed_lobes.clone();
+        SensorEstimates {
+            replicate_lx,
+            direct_lx,
+            resolved,
+            missed_lobes,
+            contradicted,
+            samples,
+            terms,
+        }
+    }
+}
+
+impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
+            let end = piece.end;
+            let Some(counts) = self.count(PhotonOrder::CoherentWaves, piece, watch) else {
+                return false;
+            };
+            self.photons += counts;
+            self.samples = end;
+            if !watch.keep(|out| self.put(out)) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn estimates(&self) -> Estimates {
         Estimates {
-            sensors: by_sensor(self.scene, &all),
+            sensors: by_sensor(self.scene, &self.figures()),
             samples: self.samples,
             rays: self.plan.rays + self.photons.rays,
             flux: self.photons.balance(self.context.lights.flux_lm),

@@ -79,6 +79,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             direct_lx,
             resolved,
             missed_lobes,
+            contradicted,
             samples,
             terms: own,
         } = sensor;
@@ -88,7 +89,8 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
         let is_term =
             |term: &TermEstimates| are_rows(&term.replicate_lx) && term.resolved.len() == points;
         are_rows(replicate_lx)
-            && [direct_lx.len(), resolved.len(), missed_lobes.len(), samples.len()] == [points; 4]
+            && [direct_lx.len(), samples.len()] == [points; 2]
+            && [resolved, missed_lobes, contradicted].iter().all(|flags| flags.len() == points)
             && own.len() == terms
             && own.iter().all(is_term)
     };
@@ -118,6 +120,7 @@ mod tests {
                 direct_lx: vec![0.5; 2],
                 resolved: vec![true; 2],
                 missed_lobes: vec![false; 2],
+                contradicted: vec![false; 2],
                 samples: vec![16; 2],
                 terms: vec![term; terms],
             };

@@ -5,6 +5,7 @@
 //! every landing met an element of its own, cells of surveys as if all were there.
 
 use crate::estimator::control_variate::MAX_PHOTONS;
+use crate::estimator::witness;
 use crate::importance::{MAX_NODES, Node};
 use crate::path::frozen_map;
 use crate::path::sections::PathSums;
@@ -122,7 +123,7 @@ fn point_bytes(settings: &Settings) -> u64 {
     let values = 1 + u64::from(settings.list_terms);
     let sums = size_of::<PathSums>() as u64 + 2 * values * size_of::<Sum>() as u64;
     let replicates = u64::from(settings.effective_replicates());
-    replicates.saturating_mul(sums + values * VALUE_BYTES)
+    replicates.saturating_mul(sums + values * VALUE_BYTES).saturating_add(witness::POINT_BYTES)
 }
 
 /// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`]

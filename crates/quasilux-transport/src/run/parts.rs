@@ -8,6 +8,7 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
+use crate::estimator::witness::Witness;
 use crate::estimator::{Estimator, new_estimator};
 use crate::run::pixels::add_pictures;
 use crate::run::simulate::{Look, look};
@@ -170,8 +171,11 @@ fn put_together<'p, S: Spectrum>(
             .map_err(|error| MergeError::Part { part: part.number, error })?;
     }
     estimator.complete_at(samples);
+    let mut witness = Witness::new(&context, scene, settings);
+    let miss_probability = 1.0 - settings.confidence;
     let Look { mut estimates, .. } =
-        look(&context, scene, settings, estimator.as_ref(), 1.0 - settings.confidence);
+        look(&context, scene, settings, estimator.as_ref(), &mut witness, miss_probability);
+    drop(witness);
     estimates.decisions = decisions;
     drop(estimator);
     add_pictures(&context, scene, settings, &mut estimates, watch);

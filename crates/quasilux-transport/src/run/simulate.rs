@@ -3,6 +3,7 @@
 
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
+use crate::estimator::witness::{self, Witness};
 use crate::estimator::{Estimator, new_estimator};
 use crate::run::check::{caveats, is_biased};
 use crate::run::course::Course;
@@ -86,7 +87,9 @@ fn run<S: Spectrum>(
     observer: &mut dyn Observer,
 ) -> Result<Estimates, StateError> {
     let mut watch = Watch::new(observer);
-    watch.limit_rays(settings.max_rays);
+    let mut witness = Witness::new(context, scene, settings);
+    let own_share = if witness.is_some() { 1.0 / (1.0 + witness::SHARE) } else { 1.0 };
+    watch.limit_rays(settings.max_rays.map(|most| (own_share * most as f64) as u64));
     let mut estimator = new_estimator(context, scene, settings, &mut watch);
     let first = estimator.first_checkpoint();
     // Without sensors there is nothing to wait for.
@@ -107,7 +110,7 @@ fn run<S: Spectrum>(
         }
     }
     let steps = Steps { context, scene, settings, decisions: &decisions };
-    steps.advance_to_the_end(estimator.as_mut(), &mut course, &mut watch);
+    steps.advance_to_the_end(estimator.as_mut(), &mut witness, &mut course, &mut watch);
     drop(estimator);
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     // The last checkpoint may have come from a state.
@@ -130,6 +133,7 @@ impl<S: Spectrum> Steps<'_, '_, S> {
     fn advance_to_the_end(
         &self,
         estimator: &mut (dyn Estimator + '_),
+        witness: &mut Option<Witness<'_, S>>,
         course: &mut Course,
         watch: &mut Watch<'_>,
     ) {
@@ -145,7 +149,7 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             }
             let miss_probability = stopping.miss_probability;
             let Look { mut estimates, standing } =
-                look(context, scene, settings, &*estimator, miss_probability);
+                look(context, scene, settings, &*estimator, witness, miss_probability);
             estimates.decisions = decisions.clone();
             let is_look = stopping.may_end && course.schedule.is_look();
             let is_enough = is_look && standing.may_end;
@@ -214,11 +218,15 @@ pub(crate) fn look<S: Spectrum>(
     scene: &Scene,
     settings: &Settings,
     estimator: &(dyn Estimator + '_),
+    witness: &mut Option<Witness<'_, S>>,
     miss_probability: f64,
 ) -> Look {
     let mut estimates = estimator.estimates();
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
+    if let Some(witness) = witness {
+        hear(witness, &mut estimates);
+    }
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
     estimates.warnings.extend(context.warning.clone());
@@ -250,6 +258,17 @@ pub(crate) fn look<S: Spectrum>(
     Look { estimates, standing }
 }
 
+/// Withdraws the intervals that the witness contradicts.
+fn hear<S: Spectrum>(witness: &mut Witness<'_, S>, estimates: &mut Estimates) {
+    witness.look(estimates.rays);
+    estimates.rays += witness.rays();
+    let mut contradicted = witness.contradicts(&estimates.sensors).into_iter();
+    for sensor in &mut estimates.sensors {
+        let points = sensor.resolved.len();
+        sensor.withdraw(contradicted.by_ref().take(points).collect());
+    }
+}
+
 /// What a reader must know of the values of this checkpoint.
 fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -259,11 +278,19 @@ fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
             estimates.invalid_contributions
         ));
     }
-    if estimates.unresolved_points > 0 {
+    let contradicted = estimates.sensors.iter().flat_map(|sensor| &sensor.contradicted);
+    let contradicted = contradicted.filter(|contradicted| **contradicted).count() as u64;
+    if contradicted > 0 {
         warnings.push(format!(
-            "at {} sensor points light may be that was not found: they may be dark or light may be \
-             hard to find, and their values have no interval",
-            estimates.unresolved_points
+            "at {contradicted} sensor points photons or paths that were traced apart from the \
+             estimate found more light than it: their values are too low, and have no interval"
+        ));
+    }
+    let unresolved = estimates.unresolved_points - contradicted.min(estimates.unresolved_points);
+    if unresolved > 0 {
+        warnings.push(format!(
+            "at {unresolved} sensor points light may be that was not found: they may be dark or \
+             light may be hard to find, and their values have no interval"
         ));
     }
     warnings

@@ -302,6 +302,7 @@ mod tests {
                     direct_lx: Vec::new(),
                     resolved: vec![true; 2],
                     missed_lobes: vec![false; 2],
+                    contradicted: vec![false; 2],
                     samples,
                     terms: Vec::new(),
                 }],

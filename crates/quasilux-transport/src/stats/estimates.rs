@@ -62,6 +62,9 @@ pub struct SensorEstimates {
     /// Whether too few paths met where narrow lobes are bright: such points are not resolved,
     /// either, but more paths are sure to help.
     pub missed_lobes: Vec<bool>,
+    /// Whether photons or paths of the witness found more light than the estimate, beyond chance:
+    /// such points are not resolved, either.
+    pub contradicted: Vec<bool>,
     /// Indices per replicate behind each point: fewer than of others where it reached its tolerance
     /// before.
     pub samples: Vec<u64>,
@@ -208,6 +211,16 @@ fn mean(lx: &[f64]) -> f64 {
 }
 
 impl SensorEstimates {
+    /// Withdraws the intervals of the points that a witness contradicts.
+    pub(crate) fn withdraw(&mut self, contradicted: Vec<bool>) {
+        let terms = self.terms.iter_mut().map(|term| &mut term.resolved);
+        for resolved in terms.chain([&mut self.resolved]) {
+            let known = resolved.iter_mut().zip(&contradicted);
+            known.for_each(|(resolved, contradicted)| *resolved &= !contradicted);
+        }
+        self.contradicted = contradicted;
+    }
+
     /// The figures of some of its points.
     pub(crate) fn part(&self, points: Range<usize>) -> Self {
         let columns = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
@@ -222,6 +235,7 @@ impl SensorEstimates {
             direct_lx: self.direct_lx[points.clone()].to_vec(),
             resolved: self.resolved[points.clone()].to_vec(),
             missed_lobes: self.missed_lobes[points.clone()].to_vec(),
+            contradicted: self.contradicted[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),
         }

@@ -7,8 +7,9 @@ use crate::stats::interval::Interval;
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
 const MIN_TRIES: f64 = (1 << 14) as f64;
-/// The same where narrow lobes were missed: that more paths will meet them is certain.
-const MIN_TRIES_OF_LOBES: f64 = (1 << 20) as f64;
+/// The same where narrow lobes were missed, or where a witness found more light: that more paths
+/// will meet them is certain.
+const MIN_TRIES_OF_MISSED: f64 = (1 << 20) as f64;
 
 /// How all targets stand at a checkpoint, in the order of their sensors.
 pub(crate) struct Standing {
@@ -34,7 +35,7 @@ impl Standing {
         let is_wanted = settings.has_tolerance() && replicates >= 2;
         let tries = estimates.samples as f64 * f64::from(replicates);
         let had_a_chance =
-            |missed: bool| tries >= if missed { MIN_TRIES_OF_LOBES } else { MIN_TRIES };
+            |missed: bool| tries >= if missed { MIN_TRIES_OF_MISSED } else { MIN_TRIES };
         let mut standing = Self {
             relative_widths: Vec::new(),
             excess: Vec::new(),
@@ -59,17 +60,20 @@ impl Standing {
             standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
             match settings.tolerance_on {
                 ToleranceOn::Points => {
-                    let known = figures.resolved.iter().zip(&figures.missed_lobes);
-                    for (point, (resolved, missed)) in points.iter().zip(known) {
+                    for (number, point) in points.iter().enumerate() {
                         let excess = excess_of(point);
-                        let done = *resolved && excess.is_some_and(|excess| excess <= 1.0);
-                        standing.add(excess, done, !resolved && had_a_chance(*missed));
+                        let resolved = figures.resolved[number];
+                        let missed = figures.missed_lobes[number] || figures.contradicted[number];
+                        let done = resolved && excess.is_some_and(|excess| excess <= 1.0);
+                        standing.add(excess, done, !resolved && had_a_chance(missed));
                     }
                 }
                 ToleranceOn::Summary => {
                     let excess = excess_of(&estimates.found_average(sensor));
+                    let misses =
+                        [&figures.missed_lobes, &figures.contradicted].map(|of| of.contains(&true));
                     let done = excess.is_some_and(|excess| excess <= 1.0)
-                        && (unresolved == 0 || had_a_chance(figures.missed_lobes.contains(&true)));
+                        && (unresolved == 0 || had_a_chance(misses.contains(&true)));
                     points.iter().for_each(|_| standing.add(excess, done, false));
                 }
             }

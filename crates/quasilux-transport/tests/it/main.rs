@@ -36,3 +36,4 @@ mod spotlight;
 mod states;
 mod terms;
 mod traps;
+mod witness;

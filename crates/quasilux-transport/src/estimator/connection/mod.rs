@@ -56,6 +56,8 @@ mod view;
 
 pub(crate) use light_vertices::LightVertexConnections;
 pub(crate) use pilot::{ConnectionPilots, PathsAlone};
+pub(super) use receiver_element::ReceiverElement;
+pub(super) use view::View;
 
 use crate::codec::Writer;
 use crate::importance::WeightWindows;

@@ -20,7 +20,7 @@ const BESIDE: f64 = 1.0;
 const CLOSE: f64 = 4.0;
 
 /// A target, as photons see it.
-pub(super) struct ReceiverElement {
+pub(in crate::estimator) struct ReceiverElement {
     centre: DVec3,
     normal: DVec3,
     /// No place that photons are connected to is further from the centre.
@@ -49,7 +49,7 @@ pub(super) struct ConnectionPoint {
 }
 
 impl ReceiverElement {
-    pub(super) fn new<S: Spectrum>(world: &World<S>, target: &Target) -> Self {
+    pub(in crate::estimator) fn new<S: Spectrum>(world: &World<S>, target: &Target) -> Self {
         // Rays leave a hair in front of a sensor.
         let hairs_m = 2.0 * world.hair_m();
         match target {

@@ -8,23 +8,23 @@ use quasilux_bvh::RayQuery;
 use std::f64::consts::FRAC_1_PI;
 
 /// The straight way from a sensor to a landing, if nothing stands in it.
-pub(super) struct View {
+pub(in crate::estimator) struct View {
     from: RayOrigin,
     facet: u32,
     way: DVec3,
     square_m2: f64,
     /// Density in m^-2 of the first hits of paths from the sensor.
-    pub(super) pdf_m2: f64,
+    pub(in crate::estimator) pdf_m2: f64,
     /// Whether the sensor looks at the side that the photon did not come from.
-    pub(super) behind: bool,
+    pub(in crate::estimator) behind: bool,
     /// What the place in the sensor's cell counts.
-    pub(super) weight: f64,
+    pub(in crate::estimator) weight: f64,
 }
 
 impl View {
     /// How a target sees a landing; `None` where one of them turns its back on the other. `in_cell`
     /// chooses the place in a target that is a cell.
-    pub(super) fn new<S: Spectrum>(
+    pub(in crate::estimator) fn new<S: Spectrum>(
         world: &World<S>,
         element: &ReceiverElement,
         at: &Interaction,
@@ -45,7 +45,7 @@ impl View {
     }
 
     /// The ray that asks whether anything stands in the way.
-    pub(super) fn shadow_ray(&self) -> RayQuery {
+    pub(in crate::estimator) fn shadow_ray(&self) -> RayQuery {
         let distance_m = self.square_m2.sqrt();
         self.from.shadow_ray(self.way / distance_m, distance_m, self.facet)
     }
