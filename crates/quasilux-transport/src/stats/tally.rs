@@ -22,7 +22,16 @@ const MAX_COUNTED: f64 = (1_u64 << 56) as f64;
 pub(crate) fn checked_quanta(contribution: f64, per_unit: f64) -> Option<i64> {
     let quanta = contribution * per_unit;
     let is_valid = (0.0..=MAX_COUNTED).contains(&quanta);
-    is_valid.then(|| quanta.round_ties_even() as i64)
+    is_valid.then(|| round_positive(quanta) as i64)
+}
+
+/// The nearest integer, the even one of two, of a number from 0 to 2^63: without the call that
+/// `round_ties_even` is where processors of the base instruction set are compiled for.
+#[inline]
+fn round_positive(x: f64) -> f64 {
+    /// From here on every number is an integer, so sums with it are rounded to integers.
+    const INTEGERS: f64 = (1_u64 << 52) as f64;
+    if x < INTEGERS { (x + INTEGERS) - INTEGERS } else { x }
 }
 
 /// The size of one step of a tally: a power of two, in the unit of the contributions.
@@ -127,6 +136,14 @@ mod tests {
         sum.add_signed(-1.0, quantum);
         sum.add(3.0, quantum);
         assert_eq!((sum.invalid, quantum.value(sum)), (4, 2.0));
+    }
+
+    #[test]
+    fn rounding_is_to_the_nearest_and_to_even() {
+        let large = (1_u64 << 52) as f64;
+        for x in [0.0, 0.49, 0.5, 0.51, 1.5, 2.5, 1e9 + 0.5, large - 0.5, large + 1.0, 9e18] {
+            assert_eq!(round_positive(x), x.round_ties_even(), "{x}");
+        }
     }
 
     #[test]
