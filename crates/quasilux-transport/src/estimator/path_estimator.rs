@@ -17,6 +17,7 @@ use crate::estimator::selection::{Decision, decide};
 use crate::path::end::{EndPilots, PathEnd, Prepared};
 use crate::path::lobes;
 use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
+use crate::path::specular_hits::{self, SpecularHits};
 use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticMap;
 use crate::photon::counts::PhotonCounts;
@@ -70,6 +71,7 @@ pub(crate) struct PathEstimator<'a, S> {
     invalid_points: u64,
     /// Targets to which light that is sampled may come straight.
     samples_direct: Vec<bool>,
+    specular_hits: SpecularHits,
     /// What each target showed before the maps last changed.
     last_lx: Vec<Option<f64>>,
 }
@@ -129,6 +131,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             contribution: Costs::default(),
             invalid_points,
             samples_direct,
+            specular_hits: SpecularHits::new(scene, &context.world),
         }
     }
 
@@ -313,17 +316,23 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let replicates = self.replicates as usize;
         let missed_lobes = self.missed_lobes();
         let of_lobes = lobes::warning(missed_lobes.iter().filter(|missed| **missed).count());
+        let replicate_lx: Vec<Vec<f64>> = (0..replicates).map(|r| self.replicate_lx(r)).collect();
+        let missed_hits = self.missed_hits(&replicate_lx);
+        let of_hits = specular_hits::warning(missed_hits.iter().filter(|missed| **missed).count());
+        let missed: Vec<bool> =
+            missed_lobes.into_iter().zip(missed_hits).map(|(a, b)| a || b).collect();
         let all = SensorEstimates {
-            replicate_lx: (0..replicates).map(|r| self.replicate_lx(r)).collect(),
+            replicate_lx,
             direct_lx: self.direct_lx(),
-            resolved: self.resolved(&missed_lobes),
-            missed_lobes,
+            resolved: self.resolved(&missed),
+            missed,
             contradicted: vec![false; self.targets.len()],
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
         };
         let of_paths = cutoff::warning(work.endless, "paths", "values");
-        let warnings = photons.warning().into_iter().chain(of_paths).chain(of_lobes).collect();
+        let warnings =
+            photons.warning().into_iter().chain(of_paths).chain(of_lobes).chain(of_hits).collect();
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,

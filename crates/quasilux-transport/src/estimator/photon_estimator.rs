@@ -178,17 +178,9 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
         let terms = terms.collect();
         let resolved = found(&replicate_lx);
         let samples = vec![self.samples; direct_lx.len()];
-        let missed_lobes = vec![false; direct_lx.len()];
-        let contradicted = missed_lobes.clone();
-        SensorEstimates {
-            replicate_lx,
-            direct_lx,
-            resolved,
-            missed_lobes,
-            contradicted,
-            samples,
-            terms,
-        }
+        let missed = vec![false; direct_lx.len()];
+        let contradicted = missed.clone();
+        SensorEstimates { replicate_lx, direct_lx, resolved, missed, contradicted, samples, terms }
     }
 }
 

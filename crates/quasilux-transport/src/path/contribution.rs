@@ -17,6 +17,8 @@ pub(crate) struct PathContribution<S> {
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
     pub(crate) endless: bool,
+    /// Emitting facets that it met coming from specular surfaces.
+    pub(crate) specular_hits: u64,
     /// The glossy surfaces that it came to.
     pub(crate) lobes: Lobes,
 }

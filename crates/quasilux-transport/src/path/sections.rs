@@ -29,6 +29,8 @@ pub(crate) struct PathSums {
     /// Paths that came to a surface that reflects.
     pub(crate) reflected: u64,
     pub(crate) lobes: LobeSums,
+    /// Emitting facets that paths met coming from specular surfaces.
+    pub(crate) specular_hits: u64,
 }
 
 /// What paths cost.
@@ -137,6 +139,7 @@ impl PathSums {
         self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
         self.lobes.add(found.lobes, quantum);
+        self.specular_hits += found.specular_hits;
         self.add_terms(found, quantum);
     }
 
@@ -159,6 +162,7 @@ impl AddAssign for PathSums {
         self.indirect += other.indirect;
         self.reflected += other.reflected;
         self.lobes += &other.lobes;
+        self.specular_hits += other.specular_hits;
         self.terms.resize(self.terms.len().max(other.terms.len()), Sum::default());
         for (sum, found) in self.terms.iter_mut().zip(other.terms) {
             *sum += found;
@@ -196,6 +200,7 @@ impl Sums for PathSums {
         self.indirect.checked_add(&other.indirect)?;
         add_count(&mut self.reflected, other.reflected)?;
         self.lobes.checked_add(&other.lobes)?;
+        add_count(&mut self.specular_hits, other.specular_hits)?;
         if self.terms.is_empty() {
             // Before its first path a target has none.
             self.terms.clone_from(&other.terms);

@@ -368,6 +368,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             let shared =
                 |pdf| emitters.weight_of_direction(&context.world, at, self.direction, pdf);
             let weight = self.pdf_sr.map_or(1.0, shared);
+            self.found.specular_hits += u64::from(bounces > 0 && self.pdf_sr.is_none());
             self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
         }
     }

@@ -78,7 +78,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             replicate_lx,
             direct_lx,
             resolved,
-            missed_lobes,
+            missed,
             contradicted,
             samples,
             terms: own,
@@ -90,7 +90,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             |term: &TermEstimates| are_rows(&term.replicate_lx) && term.resolved.len() == points;
         are_rows(replicate_lx)
             && [direct_lx.len(), samples.len()] == [points; 2]
-            && [resolved, missed_lobes, contradicted].iter().all(|flags| flags.len() == points)
+            && [resolved, missed, contradicted].iter().all(|flags| flags.len() == points)
             && own.len() == terms
             && own.iter().all(is_term)
     };
@@ -119,7 +119,7 @@ mod tests {
                 replicate_lx: vec![vec![1.0; 2]; rows],
                 direct_lx: vec![0.5; 2],
                 resolved: vec![true; 2],
-                missed_lobes: vec![false; 2],
+                missed: vec![false; 2],
                 contradicted: vec![false; 2],
                 samples: vec![16; 2],
                 terms: vec![term; terms],

@@ -301,7 +301,7 @@ mod tests {
                     replicate_lx: Vec::new(),
                     direct_lx: Vec::new(),
                     resolved: vec![true; 2],
-                    missed_lobes: vec![false; 2],
+                    missed: vec![false; 2],
                     contradicted: vec![false; 2],
                     samples,
                     terms: Vec::new(),

@@ -59,9 +59,9 @@ pub struct SensorEstimates {
     pub direct_lx: Vec<f64>,
     /// Whether light was found wherever it was looked for; points without have no interval.
     pub resolved: Vec<bool>,
-    /// Whether too few paths met where narrow lobes are bright: such points are not resolved,
-    /// either, but more paths are sure to help.
-    pub missed_lobes: Vec<bool>,
+    /// Whether too few paths met light that is rare and bright, of narrow lobes or of facets over
+    /// mirrors: such points are not resolved, either, but more paths are sure to help.
+    pub missed: Vec<bool>,
     /// Whether photons or paths of the witness found more light than the estimate, beyond chance:
     /// such points are not resolved, either.
     pub contradicted: Vec<bool>,
@@ -234,7 +234,7 @@ impl SensorEstimates {
             replicate_lx: columns(&self.replicate_lx),
             direct_lx: self.direct_lx[points.clone()].to_vec(),
             resolved: self.resolved[points.clone()].to_vec(),
-            missed_lobes: self.missed_lobes[points.clone()].to_vec(),
+            missed: self.missed[points.clone()].to_vec(),
             contradicted: self.contradicted[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),

@@ -7,8 +7,8 @@ use crate::stats::interval::Interval;
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
 const MIN_TRIES: f64 = (1 << 14) as f64;
-/// The same where narrow lobes were missed, or where a witness found more light: that more paths
-/// will meet them is certain.
+/// The same where rare and bright light was missed, or where a witness found more light: that more
+/// paths will meet them is certain.
 const MIN_TRIES_OF_MISSED: f64 = (1 << 20) as f64;
 
 /// How all targets stand at a checkpoint, in the order of their sensors.
@@ -63,7 +63,7 @@ impl Standing {
                     for (number, point) in points.iter().enumerate() {
                         let excess = excess_of(point);
                         let resolved = figures.resolved[number];
-                        let missed = figures.missed_lobes[number] || figures.contradicted[number];
+                        let missed = figures.missed[number] || figures.contradicted[number];
                         let done = resolved && excess.is_some_and(|excess| excess <= 1.0);
                         standing.add(excess, done, !resolved && had_a_chance(missed));
                     }
@@ -71,7 +71,7 @@ impl Standing {
                 ToleranceOn::Summary => {
                     let excess = excess_of(&estimates.found_average(sensor));
                     let misses =
-                        [&figures.missed_lobes, &figures.contradicted].map(|of| of.contains(&true));
+                        [&figures.missed, &figures.contradicted].map(|of| of.contains(&true));
                     let done = excess.is_some_and(|excess| excess <= 1.0)
                         && (unresolved == 0 || had_a_chance(misses.contains(&true)));
                     points.iter().for_each(|_| standing.add(excess, done, false));

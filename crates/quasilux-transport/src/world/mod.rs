@@ -170,6 +170,11 @@ impl<S: Spectrum> World<S> {
         &self.bsdfs[facet.material as usize]
     }
 
+    /// Whether light is reflected or refracted to single directions anywhere.
+    pub(crate) fn has_specular_facets(&self) -> bool {
+        self.facets.iter().any(|facet| self.bsdf_of(facet).is_specular())
+    }
+
     /// Luminous flux that a facet does not absorb, at most, over what meets it:
     /// [`quasilux_scene::Bsdf::most_kept`].
     pub(crate) fn most_kept_by(&self, facet: &Facet) -> f64 {

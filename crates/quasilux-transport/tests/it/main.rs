@@ -18,6 +18,7 @@ mod explain;
 mod few;
 mod first_shot;
 mod furnace;
+mod glints;
 mod hall;
 mod images;
 mod map_dimensions;

@@ -4,6 +4,7 @@
 use super::PathEstimator;
 use crate::path::lobes::LobeSums;
 use crate::spectrum::Spectrum;
+use crate::stats::interval::Interval;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Whether too few paths of each target were where narrow lobes are bright.
@@ -19,9 +20,22 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         .collect()
     }
 
+    /// Whether too few paths of each target met emitting facets over specular surfaces.
+    pub(super) fn missed_hits(&self, replicate_lx: &[Vec<f64>]) -> Vec<bool> {
+        let own = self.sums.chunks_exact(self.replicates as usize).enumerate();
+        own.map(|(target, own)| {
+            let hits = own.iter().map(|sums| sums.specular_hits).sum();
+            let paths = self.samples_of(target) * u64::from(self.replicates);
+            let values = replicate_lx.iter().map(|row| row[target]);
+            let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
+            self.specular_hits.are_missed(hits, paths, standard_error_lx.unwrap_or_default())
+        })
+        .collect()
+    }
+
     /// Whether the paths of each target found light where they came to surfaces that reflect, and
-    /// met lobes.
-    pub(super) fn resolved(&self, missed_lobes: &[bool]) -> Vec<bool> {
+    /// missed none that is rare and bright.
+    pub(super) fn resolved(&self, missed: &[bool]) -> Vec<bool> {
         self.sums
             .chunks_exact(self.replicates as usize)
             .zip(&self.samples_direct)
@@ -34,7 +48,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
                         .as_ref()
                         .is_some_and(|light_vertices| light_vertices.found(target));
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
-                !missed_lobes[target]
+                !missed[target]
                     && (found_indirect || !reflected)
                     && (found_direct || found_indirect || !samples_direct)
             })

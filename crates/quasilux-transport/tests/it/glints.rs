@@ -1,0 +1,113 @@
+//! Small bright area lights seen in mirrors beside ordinary light: paths meet them by chance, and
+//! no interval may be narrower than what one hit more would count.
+
+use crate::images::add_panel;
+use crate::scenes::{diffuse, mirror, point_light, points, room};
+use glam::DVec3;
+use quasilux_scene::light::AreaLight;
+use quasilux_scene::{Light, Scene};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
+
+const SIZE: DVec3 = DVec3::new(5.0, 4.0, 3.0);
+const MIRROR: f64 = 0.9;
+const EDGE_M: f64 = 0.03;
+const LUMINANCE_CD_M2: f64 = 4e5;
+
+/// A room with a mirror on the wall x = 0, a light in the middle, and nine sensors that look at the
+/// mirror.
+fn mirrored_room() -> Scene {
+    let mut scene = room(SIZE, diffuse(0.5));
+    let corner = DVec3::new(1e-3, 0.1, 0.1);
+    add_panel(
+        &mut scene,
+        corner,
+        DVec3::Y * (SIZE.y - 0.2),
+        DVec3::Z * (SIZE.z - 0.2),
+        mirror(MIRROR),
+    );
+    scene.lights.push(point_light(0.5 * SIZE, 150.0));
+    let places: Vec<(DVec3, DVec3)> = places().map(|at| (at, DVec3::NEG_X)).collect();
+    scene.sensors.push(points("probes", &places));
+    scene
+}
+
+fn places() -> impl Iterator<Item = DVec3> {
+    (0..9).map(|i| DVec3::new(1.0, 0.8 + 1.2 * f64::from(i % 3), 0.6 + 0.9 * f64::from(i / 3)))
+}
+
+/// Adds a small light that faces the mirror, at `at`.
+fn add_light(scene: &mut Scene, at: DVec3) {
+    let first = scene.mesh.triangles.len() as u32;
+    let (u, v) = (DVec3::Z * EDGE_M, DVec3::Y * EDGE_M);
+    add_panel(scene, at - 0.5 * (u + v), u, v, diffuse(0.0));
+    let material = scene.mesh.material_of[first as usize];
+    let triangles = vec![first, first + 1];
+    let area_m2 = EDGE_M * EDGE_M;
+    let luminance_cd_m2 = LUMINANCE_CD_M2;
+    scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
+}
+
+fn run(scene: &Scene, seed: u64, max_samples: u64) -> Estimates {
+    let settings = Settings {
+        estimator: EstimatorKind::Path,
+        rel_tol: 0.02,
+        max_samples: Some(max_samples),
+        seed,
+        ..Settings::default()
+    };
+    simulate(scene, &settings, &mut ())
+}
+
+/// What comes over the mirror has a closed form: the image of a small source, `r L A cos cos /
+/// d^2`, on top of what there is without it. Sixteen places of the light.
+#[test]
+fn intervals_know_of_glints_that_were_not_seen() {
+    let without = run(&mirrored_room(), 1, 1 << 12).point_intervals(0);
+    let (mut missed, mut kept) = (0, 0);
+    for seed in 0..16 {
+        let mut scene = mirrored_room();
+        let place = |step: f64| (f64::from(seed as u32) * step).fract();
+        let at = DVec3::new(
+            2.5 + 2.0 * place(0.618),
+            0.5 + 3.0 * place(0.7549),
+            0.5 + 2.0 * place(0.5698),
+        );
+        add_light(&mut scene, at);
+        let found = run(&scene, seed, 256);
+        let image = DVec3::new(-at.x, at.y, at.z);
+        for (point, place) in places().enumerate() {
+            let way = place - image;
+            let cosine = way.x / way.length();
+            let of_source_cd = MIRROR * LUMINANCE_CD_M2 * EDGE_M * EDGE_M;
+            let glint_lx = of_source_cd * cosine * cosine / way.length_squared();
+            let least_lx = without[point].value + 0.95 * glint_lx;
+            let interval = found.point_intervals(0)[point];
+            missed += usize::from(interval.value < 0.9 * least_lx);
+            kept += usize::from(interval.half_width.is_some());
+            let allowed_lx = interval.half_width.map(|half_width_lx| 3.0 * half_width_lx);
+            let holds = allowed_lx.is_none_or(|allowed_lx| interval.value + allowed_lx > least_lx);
+            assert!(holds, "seed {seed}, point {point}: {interval:?}, {least_lx} lx at least");
+        }
+    }
+    println!("{missed} of 144 values are too low, {kept} have an interval");
+    assert!(missed > 16, "{missed}");
+}
+
+/// Where one hit counts less than the half-width, values keep their intervals.
+#[test]
+fn a_large_dim_panel_in_the_mirror_is_no_glint() {
+    let mut scene = mirrored_room();
+    let first = scene.mesh.triangles.len() as u32;
+    let corner = DVec3::new(4.5, 0.5, 0.5);
+    add_panel(&mut scene, corner, DVec3::Z * 2.0, DVec3::Y * 3.0, diffuse(0.0));
+    let material = scene.mesh.material_of[first as usize];
+    let light = AreaLight {
+        material,
+        triangles: vec![first, first + 1],
+        area_m2: 6.0,
+        luminance_cd_m2: 100.0,
+    };
+    scene.lights.push(Light::Area(light));
+    let found = run(&scene, 1, 1 << 12);
+    assert!(found.tolerance_reached, "{:?}", found.warnings);
+}
