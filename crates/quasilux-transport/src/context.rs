@@ -88,6 +88,10 @@ pub(crate) enum Stream {
     WitnessPaths(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
+    /// Eye subpaths from one sensor point, numbered through all sensors.
+    EyeSubpaths(u64),
+    /// Light subpaths for the same sensor point.
+    LightSubpaths(u64),
     /// Paths through one pixel of one camera.
     Pixel {
         /// Number of the camera.
@@ -115,6 +119,8 @@ impl Stream {
             Self::WitnessPlaces => u64::MAX - 67,
             Self::WitnessPaths(point) => (1 << 61) + point,
             Self::Paths(point) => 2 + point,
+            Self::EyeSubpaths(point) => (1 << 60) + 2 * point,
+            Self::LightSubpaths(point) => (1 << 60) + 2 * point + 1,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }
     }
@@ -138,7 +144,9 @@ impl Stream {
                 | Self::CellPhotons
                 | Self::Survey(_)
                 | Self::WitnessPhotons
-                | Self::WitnessPaths(_),
+                | Self::WitnessPaths(_)
+                | Self::EyeSubpaths(_)
+                | Self::LightSubpaths(_),
                 Sequence::Hammersley { .. },
             ) => Sequence::Halton,
             _ => of_run,

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EstimatorKind {
+    /// The ways of [`Self::Bidirectional`], beside bidirectional paths that share no pilot with
+    /// them: these take over the sensor points where the two disagree.
+    Auto,
     /// Photons from the lights are counted by the sensors.
     Photon,
     /// Paths from the sensors with next-event estimation.
@@ -22,13 +25,20 @@ pub enum EstimatorKind {
 
 impl EstimatorKind {
     /// All of them.
-    pub const ALL: [Self; 4] =
-        [Self::Photon, Self::Path, Self::Bidirectional, Self::BidirectionalMap];
+    pub const ALL: [Self; 5] =
+        [Self::Auto, Self::Photon, Self::Path, Self::Bidirectional, Self::BidirectionalMap];
+
+    /// Whether pilots select between paths alone, on a frozen map and beside connected photons.
+    #[must_use]
+    pub fn is_selected_by_pilots(self) -> bool {
+        matches!(self, Self::Auto | Self::Bidirectional)
+    }
 
     /// The name in project files, on the command line and in results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Auto => "auto",
             Self::Photon => "photon",
             Self::Path => "path",
             Self::Bidirectional => "bidirectional",
@@ -236,7 +246,7 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            estimator: EstimatorKind::Path,
+            estimator: EstimatorKind::Auto,
             sequence: Sequence::Sobol,
             randomization: Randomization::Owen,
             rel_tol: 0.01,

@@ -27,7 +27,8 @@ impl<'a> Forecast<'a> {
     pub(crate) fn bytes(&self, samples: Option<u64>) -> u64 {
         let thread_bytes = match self.settings.estimator {
             EstimatorKind::Path => PATH_THREAD_BYTES,
-            EstimatorKind::Photon
+            EstimatorKind::Auto
+            | EstimatorKind::Photon
             | EstimatorKind::Bidirectional
             | EstimatorKind::BidirectionalMap => PHOTON_THREAD_BYTES,
         };

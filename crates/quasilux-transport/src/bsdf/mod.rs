@@ -34,6 +34,7 @@ use mirror::Mirror;
 use plastic::Plastic;
 use quasilux_sampling::Sampler;
 use quasilux_scene::{Rgb, bsdf as scene};
+use std::f64::consts::FRAC_1_PI;
 use translucent::Translucent;
 
 /// A material as a laboratory would measure it.
@@ -273,6 +274,20 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Conductor(conductor) => conductor.evaluate(wo, wi),
             Self::Plastic(plastic) => plastic.evaluate(wo, wi),
             Self::Measured(measured) => measured.evaluate(wo, wi, front, mode),
+        }
+    }
+
+    /// The density in sr^-1 that partition weights of bidirectional paths take for `wi` after `wo`,
+    /// whichever side each of them is on: that of [`Self::sample`], but where frames of the two
+    /// sides differ that of a Lambertian surface, so that it is a function of the two directions
+    /// alone.
+    pub(crate) fn partition_pdf_sr(&self, wo: DVec3, wi: DVec3) -> f64 {
+        match self {
+            Self::Diffuse(diffuse) => diffuse.pdf_sr(wi),
+            Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => 0.0,
+            Self::Conductor(conductor) => conductor.pdf_sr(wo, wi),
+            Self::Plastic(plastic) => plastic.pdf_sr(wo, wi),
+            Self::Translucent(_) | Self::Measured(_) => FRAC_1_PI * wi.z.abs(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Estimators of sensor values, and the selection between them by pilots.
 
+pub(crate) mod auto;
 pub(crate) mod connection;
 pub(crate) mod control_variate;
 pub(crate) mod exact;
@@ -11,6 +12,7 @@ pub(crate) mod witness;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
+use crate::estimator::auto::AutoEstimator;
 use crate::estimator::path_estimator::PathEstimator;
 use crate::estimator::photon_estimator::PhotonEstimator;
 use crate::settings::{EstimatorKind, Settings};
@@ -67,6 +69,9 @@ pub(crate) trait Estimator {
         false
     }
 
+    /// After a checkpoint that did not end the run: chooses anew how each target is estimated.
+    fn adapt(&mut self) {}
+
     /// Indices per replicate of the first checkpoint: enough to plan by, little work.
     fn first_checkpoint(&self) -> u64;
 }
@@ -80,6 +85,7 @@ pub(crate) fn new_estimator<'a, S: Spectrum>(
 ) -> Box<dyn Estimator + 'a> {
     match settings.estimator {
         EstimatorKind::Photon => Box::new(PhotonEstimator::new(context, scene, settings)),
+        EstimatorKind::Auto => Box::new(AutoEstimator::new(context, scene, settings, watch)),
         EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
             Box::new(PathEstimator::new(context, scene, settings, watch))
         }

@@ -47,6 +47,8 @@ pub(crate) struct PathEstimator<'a, S> {
     caustics: Option<CausticMap<S>>,
     /// Photons that find a part of the light.
     light_vertices: Option<LightVertexConnections>,
+    /// Whether each path is an eye subpath that is connected to a light subpath of its own.
+    is_bidirectional: bool,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -57,7 +59,9 @@ pub(crate) struct PathEstimator<'a, S> {
     samples: u64,
     /// Targets that get more paths, in order.
     growing: Vec<usize>,
-    /// Of each target that gets no more, the indices that it has.
+    /// The index that each target begins with; `None` before it does.
+    begins: Vec<Option<u64>>,
+    /// Of each target that gets no more, the index that it ends before.
     ends: Vec<Option<u64>>,
     /// Paths that are over since then, in the order of `sums`.
     done: u64,
@@ -76,6 +80,15 @@ pub(crate) struct PathEstimator<'a, S> {
     last_lx: Vec<Option<f64>>,
 }
 
+/// What comes before the first path.
+struct Plan<S> {
+    light_vertices: Option<LightVertexConnections>,
+    prepared: Prepared<S>,
+    /// Rays of surveys and pilots.
+    rays: u64,
+    is_bidirectional: bool,
+}
+
 /// What was traced.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Costs {
@@ -84,11 +97,41 @@ struct Costs {
 }
 
 impl<'a, S: Spectrum> PathEstimator<'a, S> {
+    /// Paths as the settings say, alone or with what pilots select for them.
     pub(crate) fn new(
         context: &'a Context<'a, S>,
         scene: &'a Scene,
         settings: &Settings,
         watch: &mut Watch<'_>,
+    ) -> Self {
+        Self::built(context, scene, settings, |request| {
+            let Decision { light_vertices, frozen, photons, rays } =
+                decide(context, request, watch);
+            let pilots = EndPilots { frozen, photons };
+            let prepared = PathEnd::prepare(context, settings, request.targets, pilots, watch);
+            Plan { light_vertices, prepared, rays, is_bidirectional: false }
+        })
+    }
+
+    /// Bidirectional paths, which need no survey and no pilot.
+    pub(crate) fn bidirectional(
+        context: &'a Context<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+    ) -> Self {
+        Self::built(context, scene, settings, |_| Plan {
+            light_vertices: None,
+            prepared: Prepared { end: PathEnd::Nothing, counts: PhotonCounts::default() },
+            rays: 0,
+            is_bidirectional: true,
+        })
+    }
+
+    fn built(
+        context: &'a Context<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+        plan: impl FnOnce(&Request<'_>) -> Plan<S>,
     ) -> Self {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
@@ -101,26 +144,25 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             invalid_points += 1;
         }
         let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
-        let caustics = CausticMap::new(context, settings, &targets);
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
         let request = Request { settings, replicates, targets: &targets, exact: &exact, quantum };
-        let Decision { light_vertices, frozen, photons, rays } = decide(context, &request, watch);
+        let Plan { light_vertices, prepared, rays, is_bidirectional } = plan(&request);
         work.rays += rays;
-        let pilots = EndPilots { frozen, photons };
-        let Prepared { end, counts: photons } =
-            PathEnd::prepare(context, settings, &targets, pilots, watch);
+        let Prepared { end, counts: photons } = prepared;
         Self {
             context,
             scene,
+            caustics: CausticMap::new(context, settings, &targets),
             exact,
             end,
-            caustics,
             light_vertices,
+            is_bidirectional,
             replicates,
             last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             growing: (0..targets.len()).collect(),
+            begins: vec![Some(0); targets.len()],
             ends: vec![None; targets.len()],
             targets,
             first: 0,
@@ -133,6 +175,13 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             samples_direct,
             specular_hits: SpecularHits::new(scene, &context.world),
         }
+    }
+
+    /// The same for no target: they begin one by one ([`Self::begin`]).
+    pub(crate) fn without_targets(mut self) -> Self {
+        self.begins.fill(None);
+        self.keep_to_ends();
+        self
     }
 
     /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing
@@ -159,10 +208,12 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
     fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
         let target = self.growing[(number / u64::from(self.replicates)) as usize];
         let replicate = (number % u64::from(self.replicates)) as u32;
+        let points = |stream: fn(u64) -> Stream| self.context.points(replicate, stream(target as u64));
         Section {
             number: number as usize,
             target: self.targets[target],
-            points: self.context.points(replicate, Stream::Paths(target as u64)),
+            points: points(if self.is_bidirectional { Stream::EyeSubpaths } else { Stream::Paths }),
+            light_points: self.is_bidirectional.then(|| points(Stream::LightSubpaths)),
             rest: self.end.rest(self.context, replicate, target),
             caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
             partition: self
@@ -175,6 +226,45 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
 }
 
 impl<S: Spectrum> PathEstimator<'_, S> {
+    /// Lets some targets begin with the next index.
+    pub(crate) fn begin(&mut self, targets: &[bool]) {
+        for (begin, _) in self.begins.iter_mut().zip(targets).filter(|(_, begins)| **begins) {
+            begin.get_or_insert(self.samples);
+        }
+        self.keep_to_ends();
+    }
+
+    /// Whether each target has begun.
+    pub(crate) fn begun(&self) -> Vec<bool> {
+        self.begins.iter().map(Option::is_some).collect()
+    }
+
+    /// Indices that each target has.
+    pub(crate) fn samples_of_all(&self) -> Vec<u64> {
+        (0..self.targets.len()).map(|target| self.samples_of(target)).collect()
+    }
+
+    /// Whether each target gets no more.
+    pub(crate) fn are_over(&self) -> Vec<bool> {
+        self.ends.iter().map(Option::is_some).collect()
+    }
+
+    /// Indices so far.
+    pub(crate) fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// All rays, those of surveys and pilots too.
+    pub(crate) fn all_rays(&self) -> u64 {
+        let Costs { work, photons } = self.costs();
+        work.rays + photons.rays
+    }
+
+    /// Rays of the paths and of the photons that come with them.
+    pub(crate) fn sampling_rays(&self) -> u64 {
+        self.contribution.work.rays + self.contribution.photons.rays + self.shared.work.rays
+    }
+
     /// Where the pair `number` of a growing target and a replicate has its sums.
     fn place(&self, number: usize) -> usize {
         let replicates = self.replicates as usize;
@@ -184,7 +274,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// Leaves targets that have an end at that, with what else is done for each of them alone;
     /// other paths and photons stay what they are.
     fn keep_to_ends(&mut self) {
-        self.growing.retain(|&target| self.ends[target].is_none());
+        let grows = |&target: &usize| self.begins[target].is_some() && self.ends[target].is_none();
+        self.growing = (0..self.targets.len()).filter(grows).collect();
         if let Some(caustics) = &mut self.caustics {
             caustics.freeze_converged(&self.ends);
         }
@@ -195,7 +286,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Indices that a target has.
     fn samples_of(&self, target: usize) -> u64 {
-        self.ends[target].unwrap_or(self.samples)
+        let begin = self.begins[target].unwrap_or(self.samples);
+        self.ends[target].unwrap_or(self.samples) - begin
     }
 
     /// Mean of a sum over the paths of a target in one replicate.
@@ -392,7 +484,8 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn freeze_converged(&mut self, done: &[bool]) -> bool {
-        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
+        let begun = self.begins.iter().zip(done).map(|(begin, done)| *done && begin.is_some());
+        for (end, _) in self.ends.iter_mut().zip(begun).filter(|(_, done)| *done) {
             end.get_or_insert(self.samples);
         }
         self.keep_to_ends();

@@ -16,7 +16,7 @@ use crate::estimator::control_variate::{MapPilot, Outcome, PathPilot, PathTrial}
 use crate::estimator::pilot::{ErrorTarget, PilotCost, Request, Sample, Trial};
 use crate::path::frozen_map::TracedMap;
 use crate::photon::counts::PhotonCounts;
-use crate::settings::{EstimatorKind, Settings};
+use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::Watch;
 use quasilux_sampling::Sequence;
@@ -48,7 +48,7 @@ pub(crate) fn decide<S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Decision<S> {
     let settings = request.settings;
-    let is_possible = settings.estimator == EstimatorKind::Bidirectional
+    let is_possible = settings.estimator.is_selected_by_pilots()
         && settings.max_bounces != Some(0)
         && !request.targets.is_empty();
     if !is_possible {

@@ -184,7 +184,10 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
         EstimatorKind::Photon => {
             look_into(&PhotonSource::new(&context, scene, settings), &ledger, settings).explanation
         }
-        EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
+        EstimatorKind::Auto
+        | EstimatorKind::Path
+        | EstimatorKind::Bidirectional
+        | EstimatorKind::BidirectionalMap => {
             let walk = PathSource::new(&context, scene, settings);
             let Look { explanation, means_lx } = look_into(&walk, &ledger, settings);
             let beside = walk.beside(&means_lx).map(|walk| Beside {

@@ -72,6 +72,11 @@ impl<'a> AreaLuminaires<'a> {
         self.0.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
     }
 
+    /// About what all of them give, see [`AreaLuminaire::importance_lx`].
+    pub(crate) fn importance_lx(&self, position: DVec3, side: Option<DVec3>) -> f64 {
+        self.0.iter().map(|light| light.importance_lx(position, side)).sum()
+    }
+
     /// An estimate of what all of them give: what one place on one of them offers. `weights` is
     /// working space.
     pub(crate) fn light_sample<S: Spectrum>(

@@ -67,13 +67,21 @@ impl Emitters {
         EmitterPoint { facet, position: world.facets[facet as usize].point(weights) }
     }
 
-    /// What one point on the lights gives, weighted against the direction in which the path goes
-    /// on; `None` from behind either.
+    /// Density in m^-2 of [`Self::sample_point`] where the luminance is this.
+    pub(crate) fn pdf_m2(&self, emitted_cd_m2: f64) -> f64 {
+        emitted_cd_m2 / self.by_flux.total()
+    }
+
+    /// What one point on the lights gives, weighted against other techniques, `None` from behind
+    /// either. Of a direction and of what a steradian of the light's luminance gives along it in
+    /// lx, `beside_sr` is the density of these in sr^-1: that of the direction in which the path
+    /// goes on.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         world: &World<S>,
         vertex: &Vertex<'_, S>,
         u: [f64; 2],
+        beside_sr: impl FnOnce(DVec3, f64) -> f64,
     ) -> Option<LightSample<S>> {
         let place = self.sample_point(world, u);
         let facet = &world.facets[place.facet as usize];
@@ -85,9 +93,10 @@ impl Emitters {
         if cos <= 0.0 || cos_light <= 0.0 {
             return None;
         }
-        // L cos / (pdf of the light's point + pdf of the direction), the weight multiplied out.
+        // L cos / (pdf of the light's point + pdf of the others), the weight multiplied out.
         let pdf_light = self.pdf_sr(facet.emitted_cd_m2, distance_m, cos_light);
-        let illuminance_lx = facet.emitted_cd_m2 * cos / (pdf_light + vertex.pdf_sr(direction));
+        let lx_sr = facet.emitted_cd_m2 * cos;
+        let illuminance_lx = lx_sr / (pdf_light + beside_sr(direction, lx_sr));
         let light = vertex.weight(direction) * illuminance_lx;
         let light_sample = LightSample { direction, distance_m, facet: place.facet, light };
         (light.luminance() != 0.0).then_some(light_sample)

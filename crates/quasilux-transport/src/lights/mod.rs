@@ -94,6 +94,26 @@ impl<'a> Lights<'a> {
         self.fluxes_lm[number]
     }
 
+    /// The density in m^-2 with which photons land straight from the point-like lights, or from the
+    /// luminaires with an area as if these were points, on the side `n` of a place, or on both; as
+    /// if nothing stood in the way.
+    pub(crate) fn landings_m2(
+        &self,
+        from_area_luminaires: bool,
+        position: DVec3,
+        n: DVec3,
+        takes_both_sides: bool,
+    ) -> f64 {
+        let lx = if from_area_luminaires {
+            let side = (!takes_both_sides).then_some(n);
+            self.area_luminaires.importance_lx(position, side)
+        } else {
+            let incidences = self.pointlikes.unshadowed(position, n, takes_both_sides);
+            incidences.map(|incidence| incidence.illuminance_lx).sum()
+        };
+        lx / self.flux_lm
+    }
+
     /// How many coordinates lead a photon out: its light and direction, and its place where facets
     /// emit. The place on a luminaire with an area comes after its direction and matters less.
     pub(crate) fn leading_dimensions(&self) -> u32 {

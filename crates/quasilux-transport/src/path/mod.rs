@@ -3,11 +3,13 @@
 pub(crate) mod contribution;
 pub(crate) mod end;
 pub(crate) mod frozen_map;
+pub(crate) mod light_subpath;
 pub(crate) mod lobes;
 pub(crate) mod partition;
 pub(crate) mod sections;
 pub(crate) mod specular_hits;
 pub(crate) mod start;
+pub(crate) mod subpath_weights;
 pub(crate) mod trace;
 pub(crate) mod vertex_record;
 pub(crate) mod wave;

@@ -19,6 +19,9 @@ use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
 use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Range};
 
+/// Part of a power of two between the light subpaths of neighbours: the golden section.
+const PAIRING: f64 = 0.618_033_988_749_894_9;
+
 /// What the paths of one target in one replicate found, in all.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PathSums {
@@ -53,6 +56,8 @@ pub(crate) struct Section<'g, S> {
     pub(crate) caustics: Option<CausticLookup<'g, S>>,
     /// What photons that are connected to the target leave to the paths.
     pub(crate) partition: Option<&'g Partition>,
+    /// The points of light subpaths, one for each path; `None` for plain paths.
+    pub(crate) light_points: Option<PointSet>,
     pub(crate) indices: Range<u64>,
 }
 
@@ -127,9 +132,25 @@ impl<S: Spectrum> Section<'_, S> {
                 rest: &self.rest,
                 caustics: self.caustics,
                 partition: self.partition,
+                light_subpath: self.light_subpath(index),
                 sampler,
             }
         })
+    }
+
+    /// The sampler of the light subpath that comes with the eye subpath `index`.
+    ///
+    /// At one index two point sets have the same digits, permuted. The light subpaths are therefore
+    /// those of another index, by an affine map in whole numbers of each power of two up to the
+    /// next: both have all points of a balanced set there, and nothing in common.
+    fn light_subpath(&self, index: u64) -> Option<Sampler<'_>> {
+        let first = (index + 1).next_power_of_two() / 2;
+        let odd = (first as f64 * PAIRING) as u64 | 1;
+        let of_light = match first {
+            0 => 0,
+            _ => first + (odd.wrapping_mul(index - first).wrapping_add(odd / 3)) % first,
+        };
+        self.light_points.as_ref().map(|points| Sampler::new(points, of_light))
     }
 }
 

@@ -18,6 +18,8 @@ pub(crate) struct Start<'p, S> {
     pub(crate) caustics: Option<CausticLookup<'p, S>>,
     /// What photons leave to it.
     pub(crate) partition: Option<&'p Partition>,
+    /// The coordinates of a light subpath that it is connected to; `None` for plain paths.
+    pub(crate) light_subpath: Option<Sampler<'p>>,
     pub(crate) sampler: Sampler<'p>,
 }
 

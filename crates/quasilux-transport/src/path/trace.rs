@@ -12,6 +12,7 @@
 //!
 //! Read on at `direct_light` for next-event estimation, at `map_end` for ends on maps.
 
+mod connect;
 mod direct_light;
 mod map_end;
 
@@ -21,9 +22,11 @@ use crate::cutoff::Gain;
 use crate::lights::images::ImageSamples;
 use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
+use crate::path::light_subpath::{LightSubpaths, scattered};
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
 use crate::path::start::{Measurement, Start};
+use crate::path::subpath_weights::SubpathWeights;
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
 use crate::purpose::Purpose;
@@ -32,6 +35,7 @@ use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{LightSample, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
+use connect::Connection;
 use glam::DVec3;
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
@@ -39,7 +43,7 @@ use quasilux_sampling::warp::sample_cosine_hemisphere;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Bounces after which a path goes on for certain; after later ones by survival.
-const CERTAIN_BOUNCES: u32 = 2;
+pub(crate) const CERTAIN_BOUNCES: u32 = 2;
 
 /// A path that is over.
 pub(crate) struct PathResult<S> {
@@ -59,6 +63,8 @@ pub(crate) struct Path<'p, S> {
     rest: &'p Rest<'p, S>,
     caustics: Option<CausticLookup<'p, S>>,
     partition: Option<&'p Partition>,
+    /// What its vertex weighs beside those of a light subpath, if it has one.
+    subpath: Option<SubpathWeights>,
     /// The parts that it is to find of the light at its first surface.
     weights_of_paths: PartitionWeights,
     sampler: Sampler<'p>,
@@ -90,6 +96,8 @@ pub(crate) struct PathWork<S> {
     light_samples: Vec<LightSample<S>>,
     images: ImageSamples<S>,
     weights: Vec<f64>,
+    pub(crate) light_subpaths: LightSubpaths<S>,
+    connections: Vec<Connection<S>>,
 }
 
 /// How a path goes on from a surface: factors on what the next surface sends.
@@ -120,7 +128,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, measurement, rest, caustics, partition, mut sampler } = start;
+        let Start { from, measurement, rest, caustics, partition, light_subpath, mut sampler } =
+            start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -135,6 +144,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             rest,
             caustics,
             partition,
+            subpath: light_subpath.map(|_| SubpathWeights::SENSOR),
             weights_of_paths: PartitionWeights::ALL,
             sampler,
             from,
@@ -159,6 +169,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
             }
             path.sample_direct_emitters(context, &vertex, work);
             path.sample_direct_area_luminaires(context, &vertex, work);
+            path.connect(context, &vertex, work);
+            let cos = n.dot(direction);
+            path.subpath = path.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
         }
         path
     }
@@ -199,6 +212,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) -> bool {
         self.add_arrived();
         self.flights += 1;
+        if let (Some(subpath), Some(at)) = (&mut self.subpath, at) {
+            *subpath = subpath.arrived(at.distance_m, at.n.dot(self.direction).abs());
+        }
         let before = self.found.indirect;
         if let Some(at) = at {
             self.add_emitted(context, bounces, at);
@@ -281,6 +297,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 },
             );
         }
+        self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;
         self.from =
             if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
@@ -367,7 +384,14 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &context.lights.emitters) {
             let shared =
                 |pdf| emitters.weight_of_direction(&context.world, at, self.direction, pdf);
-            let weight = self.pdf_sr.map_or(1.0, shared);
+            let weight = match self.subpath {
+                None => self.pdf_sr.map_or(1.0, shared),
+                Some(subpath) => {
+                    let cos = at.n.dot(self.direction).abs();
+                    let emission = emitted_cd_m2 * cos / context.lights.flux_lm;
+                    subpath.of_hit(emitters.pdf_m2(emitted_cd_m2), emission)
+                }
+            };
             self.found.specular_hits += u64::from(bounces > 0 && self.pdf_sr.is_none());
             self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
         }

@@ -38,7 +38,12 @@ impl<S: Spectrum> PathWave<S> {
         context: &Context<'_, S>,
         starts: impl Iterator<Item = Start<'p, S>>,
     ) -> Vec<Path<'p, S>> {
-        let mut paths = Vec::with_capacity(WAVE as usize);
+        let starts: Vec<Start<'p, S>> = starts.collect();
+        if starts.iter().any(|start| start.light_subpath.is_some()) {
+            let samplers = starts.iter().map(|start| start.light_subpath.clone());
+            self.work.light_subpaths.trace(context, samplers);
+        }
+        let mut paths = Vec::with_capacity(starts.len());
         self.receivers.clear();
         for (number, start) in (0..).zip(starts) {
             let vertex = start.vertex_that_tests_pointlikes();
@@ -62,7 +67,8 @@ impl<S: Spectrum> PathWave<S> {
 
     /// How many rays were traced since this was asked last.
     pub(crate) fn take_rays(&mut self) -> u64 {
-        take(&mut self.rays) + take(&mut self.work.shadows.rays)
+        let PathWork { shadows, light_subpaths, .. } = &mut self.work;
+        take(&mut self.rays) + take(&mut shadows.rays) + take(&mut light_subpaths.rays)
     }
 
     /// Gives the starts that want it the direct light of the point-like lights.

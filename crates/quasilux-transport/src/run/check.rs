@@ -138,10 +138,8 @@ fn check_ranges(settings: &Settings) -> Result<(), CheckError> {
 
 /// Whether each switch that is on has something to switch.
 fn check_switches(settings: &Settings) -> Result<(), CheckError> {
-    let ends_on_map = matches!(
-        settings.estimator,
-        EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap
-    );
+    let ends_on_map = settings.estimator.is_selected_by_pilots()
+        || settings.estimator == EstimatorKind::BidirectionalMap;
     if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }
@@ -150,7 +148,7 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
     }
     let has_map = match settings.estimator {
         EstimatorKind::Path | EstimatorKind::Photon => false,
-        EstimatorKind::Bidirectional => settings.connections() != Some(true),
+        EstimatorKind::Auto | EstimatorKind::Bidirectional => settings.connections() != Some(true),
         EstimatorKind::BidirectionalMap => true,
     };
     if settings.map_dimensions.is_some() && !has_map {
@@ -161,7 +159,7 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
     }
     let is_steerable = match settings.estimator {
         EstimatorKind::Path => false,
-        EstimatorKind::Bidirectional => settings.connections() != Some(false),
+        EstimatorKind::Auto | EstimatorKind::Bidirectional => settings.connections() != Some(false),
         EstimatorKind::Photon | EstimatorKind::BidirectionalMap => true,
     };
     if settings.importance == Switch::On && !is_steerable {
@@ -172,7 +170,7 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         };
         return Err(CheckError::NothingToGuide { estimator: settings.estimator.name(), why });
     }
-    if settings.connections == Switch::On && settings.estimator != EstimatorKind::Bidirectional {
+    if settings.connections == Switch::On && !settings.estimator.is_selected_by_pilots() {
         return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
     }
     Ok(())
@@ -253,7 +251,7 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 )
             }));
         }
-        EstimatorKind::Path | EstimatorKind::Bidirectional => {}
+        EstimatorKind::Auto | EstimatorKind::Path | EstimatorKind::Bidirectional => {}
     }
     caveats
 }

@@ -76,10 +76,11 @@ impl MemoryNeed {
         };
         let maps = match settings.estimator {
             EstimatorKind::BidirectionalMap => u64::from(settings.effective_replicates()),
-            EstimatorKind::Bidirectional if settings.connections() != Some(true) => 1,
-            EstimatorKind::Photon | EstimatorKind::Path | EstimatorKind::Bidirectional => {
-                return need;
-            }
+            kind if kind.is_selected_by_pilots() && settings.connections() != Some(true) => 1,
+            EstimatorKind::Auto
+            | EstimatorKind::Photon
+            | EstimatorKind::Path
+            | EstimatorKind::Bidirectional => return need,
         };
         let channels = if is_grey(scene) { f64::CHANNELS } else { Rgb::CHANNELS } as u64;
         let moments = if settings.map_reconstruction == Reconstruction::Linear { 3 } else { 1 };
@@ -88,7 +89,7 @@ impl MemoryNeed {
         let full = |sides: u64, layers: u64| {
             product([sides, moments, channels, layers, COUNTER_BYTES, maps])
         };
-        if settings.estimator == EstimatorKind::Bidirectional {
+        if settings.estimator.is_selected_by_pilots() {
             // Frozen before the first sample.
             let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
             let layers = frozen_map::layers(settings.max_bounces, settings.list_terms, sides);
@@ -149,7 +150,7 @@ fn cells_bytes(settings: &Settings, points: u64) -> u64 {
     let photons = settings.estimator != EstimatorKind::Path;
     let guides =
         if photons && settings.importance != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
-    if settings.estimator != EstimatorKind::Bidirectional || settings.connections() == Some(false) {
+    if !settings.estimator.is_selected_by_pilots() || settings.connections() == Some(false) {
         return guides;
     }
     let slots = 1 + u64::from(settings.list_terms.max(1));

@@ -281,6 +281,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
             from: self.context.world.ray_origin_of_sensor(self.view.position, direction),
             measurement: Measurement::Luminance { direction },
             rest: &Rest::Path,
+            light_subpath: None,
             sampler,
         }
     }

@@ -156,6 +156,9 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             if is_look && !is_enough {
                 course.is_adaptive = estimator.freeze_converged(&standing.done);
             }
+            if !is_enough {
+                estimator.adapt();
+            }
             course.record(&mut estimates, &standing, settings);
             let control = watch.checkpoint(&estimates, standing.largest());
             course.last = Some(estimates);

@@ -44,6 +44,8 @@ pub struct Estimates {
     /// Sensor points where light may be that no path or photon has found: their value is what was
     /// found, and nothing is known of its error.
     pub unresolved_points: u64,
+    /// Sensor points that bidirectional paths took over, with [`crate::EstimatorKind::Auto`].
+    pub relieved_points: u64,
     /// Whether values may be biased beyond what their intervals say.
     pub biased: bool,
     /// What a reader of the results must know.
@@ -219,6 +221,27 @@ impl SensorEstimates {
             known.for_each(|(resolved, contradicted)| *resolved &= !contradicted);
         }
         self.contradicted = contradicted;
+    }
+
+    /// Takes the figures of some points from another estimate of the same sensor.
+    pub(crate) fn replace(&mut self, points: &[bool], other: &Self) {
+        fn take<T: Clone>(to: &mut [T], from: &[T], points: &[bool]) {
+            let taken = to.iter_mut().zip(from).zip(points).filter(|(_, taken)| **taken);
+            taken.for_each(|((to, from), _)| to.clone_from(from));
+        }
+        let rows = |to: &mut [Vec<f64>], from: &[Vec<f64>]| {
+            to.iter_mut().zip(from).for_each(|(to, from)| take(to, from, points));
+        };
+        rows(&mut self.replicate_lx, &other.replicate_lx);
+        take(&mut self.direct_lx, &other.direct_lx, points);
+        take(&mut self.resolved, &other.resolved, points);
+        take(&mut self.missed, &other.missed, points);
+        take(&mut self.contradicted, &other.contradicted, points);
+        take(&mut self.samples, &other.samples, points);
+        for (to, from) in self.terms.iter_mut().zip(&other.terms) {
+            rows(&mut to.replicate_lx, &from.replicate_lx);
+            take(&mut to.resolved, &from.resolved, points);
+        }
     }
 
     /// The figures of some of its points.

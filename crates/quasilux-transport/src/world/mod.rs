@@ -386,6 +386,11 @@ impl RayOrigin {
         self.position
     }
 
+    /// The facet that rays from here never hit, if any.
+    pub(crate) fn facet(&self) -> Option<u32> {
+        (self.facet != u32::MAX).then_some(self.facet)
+    }
+
     /// The ray from here along a unit vector.
     pub(crate) fn query(&self, direction: DVec3) -> RayQuery {
         RayQuery { ray: Ray::new(self.position, direction), excluded: [self.facet, RayQuery::NONE] }

@@ -91,6 +91,29 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         }
     }
 
+    /// The density of [`Self::pdf_sr`] that partition weights take.
+    pub(crate) fn partition_pdf_sr(&self, direction: DVec3) -> f64 {
+        match &self.surface {
+            None => self.pdf_sr(direction),
+            Some(Surface { bsdf, frame, wo, .. }) => {
+                bsdf.partition_pdf_sr(*wo, frame.to_local(direction))
+            }
+        }
+    }
+
+    /// The density in sr^-1 that they take for light that arrives from `direction` and goes on
+    /// toward the start of the path; 0 at the start, where none goes on.
+    pub(crate) fn reverse_pdf_sr(&self, direction: DVec3) -> f64 {
+        self.surface.as_ref().map_or(0.0, |Surface { bsdf, frame, wo, .. }| {
+            bsdf.partition_pdf_sr(frame.to_local(direction), *wo)
+        })
+    }
+
+    /// The geometric normal on the side of the path.
+    pub(crate) fn n(&self) -> DVec3 {
+        self.n
+    }
+
     /// Where a ray leaves from along `direction`.
     pub(crate) fn ray_origin(&self, direction: DVec3) -> RayOrigin {
         let behind = self.surface.and_then(|surface| surface.behind);

@@ -120,6 +120,14 @@ impl<S: Spectrum> ShadowQueue<S> {
         self.questions.push(Question { who, light, shadow_rays, mirrors, max_panes });
     }
 
+    /// Notes that `who` gets this light, which was reflected `bounces` times, if nothing at all
+    /// stands in the way of the ray.
+    pub(crate) fn ask_connection(&mut self, who: u32, light: S, bounces: u32, ray: RayQuery) {
+        self.shadow_rays.push(ray);
+        let question = Question { who, light, shadow_rays: 1, mirrors: bounces, max_panes: 0 };
+        self.questions.push(question);
+    }
+
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
     /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {

@@ -156,7 +156,8 @@ impl LightVertexConnections {
         let photons = self.connection.photons();
         let mut counts = PhotonCounts::default();
         let mut counted = PhotonCounts::default();
-        if let Some((_, coarse)) = &mut self.coarse {
+        let is_needed = self.ends.iter().any(Option::is_none);
+        if let (Some((_, coarse)), true) = (&mut self.coarse, is_needed) {
             let each = self.connection.cell_photons;
             let photons = self.samples * each..samples * each;
             counted = coarse.grow(context, &self.connection, photons, watch)?;

@@ -20,6 +20,7 @@
 mod receiver;
 
 use crate::context::{Context, Stream};
+use crate::estimator::auto;
 use crate::estimator::connection::ReceiverElement;
 use crate::path::end::Rest;
 use crate::path::sections::{Piece, Section, trace_sections};
@@ -89,6 +90,8 @@ impl<'a, S: Spectrum> Witness<'a, S> {
         if !is_of_use {
             return None;
         }
+        let has_paths = settings.estimator == EstimatorKind::Path
+            || settings.estimator == EstimatorKind::Auto && auto::is_possible(context, settings);
         let element = |target: &Target| ReceiverElement::new(&context.world, target);
         let none = || Testimony {
             sums: vec![Sum::default(); targets.len() * BATCHES as usize],
@@ -98,7 +101,7 @@ impl<'a, S: Spectrum> Witness<'a, S> {
             elements: targets.iter().map(element).collect(),
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
             photons: none(),
-            paths: (settings.estimator != EstimatorKind::Path).then(none),
+            paths: (!has_paths).then(none),
             context,
             targets,
         })
@@ -191,6 +194,7 @@ impl<'a, S: Spectrum> Witness<'a, S> {
             rest: Rest::Path,
             caustics: None,
             partition: None,
+            light_points: None,
             indices: indices.clone(),
         };
         let sections = WAVE.div_ceil(length) as usize;

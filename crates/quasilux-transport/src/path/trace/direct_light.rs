@@ -4,11 +4,13 @@
 use super::{Path, PathWork};
 use crate::context::Context;
 use crate::lights::images::ImageQuery;
+use crate::path::subpath_weights::product;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::LightSample;
+use glam::DVec3;
 use quasilux_sampling::Sampler;
 
 impl<S: Spectrum> Path<'_, S> {
@@ -26,6 +28,7 @@ impl<S: Spectrum> Path<'_, S> {
         self.sample_direct_pointlikes(context, &vertex, work);
         self.sample_direct_images(context, &vertex, work);
         self.sample_direct_emitters(context, &vertex, work);
+        self.connect(context, &vertex, work);
     }
 
     /// Asks for the light of point-like lights in mirrors.
@@ -59,7 +62,16 @@ impl<S: Spectrum> Path<'_, S> {
         if let Some(emitters) = &context.lights.emitters {
             let place = Purpose::AreaLight { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            self.ask(emitters.light_sample(&context.world, vertex, u), vertex, work);
+            let (subpath, flux_lm) = (self.subpath, context.lights.flux_lm);
+            let beside_sr = |direction: DVec3, lx_sr: f64| match subpath {
+                None => vertex.pdf_sr(direction),
+                Some(weights) => {
+                    let to_eye = weights.towards(vertex.reverse_pdf_sr(direction));
+                    vertex.partition_pdf_sr(direction) + product(lx_sr / flux_lm, to_eye)
+                }
+            };
+            let light_sample = emitters.light_sample(&context.world, vertex, u, beside_sr);
+            self.ask(light_sample, vertex, work);
         }
     }
 
@@ -74,7 +86,9 @@ impl<S: Spectrum> Path<'_, S> {
         if !lights.is_empty() {
             let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            self.ask(lights.light_sample(vertex, u, &mut work.weights), vertex, work);
+            let light_sample = lights.light_sample(vertex, u, &mut work.weights);
+            let light_sample = self.beside_landings(context, true, vertex, light_sample);
+            self.ask(light_sample, vertex, work);
         }
     }
 
@@ -91,8 +105,27 @@ impl<S: Spectrum> Path<'_, S> {
             // A single light is no choice, and takes no coordinate.
             let draw = || context.draw(&mut self.sampler, choice, Sampler::next_1d);
             let u = (lights.len() > 1).then(draw).unwrap_or_default();
-            self.ask(lights.light_sample(vertex, u, &mut work.light_samples), vertex, work);
+            let light_sample = lights.light_sample(vertex, u, &mut work.light_samples);
+            let light_sample = self.beside_landings(context, false, vertex, light_sample);
+            self.ask(light_sample, vertex, work);
         }
+    }
+
+    /// The part of it that light subpaths leave.
+    fn beside_landings(
+        &self,
+        context: &Context<'_, S>,
+        is_of_area: bool,
+        vertex: &Vertex<'_, S>,
+        light_sample: Option<LightSample<S>>,
+    ) -> Option<LightSample<S>> {
+        light_sample.map(|light_sample| {
+            let share = self.weight_beside_landings(vertex, light_sample.direction, || {
+                let (position, both) = (vertex.position(), vertex.takes_both_sides());
+                context.lights.landings_m2(is_of_area, position, vertex.n(), both)
+            });
+            LightSample { light: light_sample.light * share, ..light_sample }
+        })
     }
 
     fn ask(

@@ -1,0 +1,217 @@
+//! The estimator `auto`: what pilots select, watched and relieved by bidirectional paths.
+//!
+//! Three estimators work side by side. The *selected* one is that of `bidirectional`: paths alone,
+//! on a frozen map or beside connected photons, guided or not, as a survey and pilots find best for
+//! the whole run. The *probe* traces a few bidirectional paths for every sensor point
+//! ([`crate::path::subpath_weights`]): no survey, no pilot and no guide enters them, and none of
+//! their contributions exceeds that of the same way in plain path tracing, or that of a plain
+//! photon which is connected to the sensor. The *relief* traces bidirectional paths in full for
+//! the sensor points that it takes over:
+//!
+//! - where the probe finds more light than the selected estimator, by more than chance allows: that
+//!   one misses light. Its interval is withdrawn at once.
+//! - where the probe promises the wanted error for half the rays or less.
+//!
+//! A point that is taken over begins anew: no sample of the decision enters its value. So the worst
+//! case is that of bidirectional paths, whatever pilots saw, and the rays before.
+//!
+//! The probe is a function of scene, settings and the number of samples; it is traced again where a
+//! run goes on or parts are merged. Where photons would show light that bidirectional paths must
+//! not count twice (images of point-like lights, caustics by density), there is neither probe nor
+//! relief.
+
+mod takeover;
+
+use crate::codec::{Reader, StateError, Writer};
+use crate::context::Context;
+use crate::estimator::Estimator;
+use crate::estimator::path_estimator::PathEstimator;
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::stats::decisions::Decisions;
+use crate::stats::estimates::Estimates;
+use crate::stats::watch::Watch;
+use quasilux_scene::Scene;
+use std::ops::Range;
+use takeover::{Stage, Takeover};
+
+/// Part of the rays of the run that the probe may take.
+const SHARE_OF_PROBE: f64 = 0.1;
+
+/// The selected estimator, the probe and the relief.
+pub(crate) struct AutoEstimator<'a, S> {
+    selected: PathEstimator<'a, S>,
+    bidirectional: Option<Bidirectional<'a, S>>,
+}
+
+struct Bidirectional<'a, S> {
+    probe: PathEstimator<'a, S>,
+    relief: PathEstimator<'a, S>,
+}
+
+/// Whether bidirectional paths find all light of a scene, and none of it twice.
+pub(crate) fn is_possible<S: Spectrum>(context: &Context<'_, S>, settings: &Settings) -> bool {
+    context.images.is_empty()
+        && context.hides.is_none()
+        && settings.max_bounces != Some(0)
+        && settings.effective_replicates() > 1
+}
+
+impl<'a, S: Spectrum> AutoEstimator<'a, S> {
+    pub(crate) fn new(
+        context: &'a Context<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Self {
+        let bidirectional = || Bidirectional {
+            probe: PathEstimator::bidirectional(context, scene, settings),
+            relief: PathEstimator::bidirectional(context, scene, settings).without_targets(),
+        };
+        let is_possible = is_possible(context, settings) && !scene.sensors.is_empty();
+        Self {
+            bidirectional: is_possible.then(bidirectional),
+            selected: PathEstimator::new(context, scene, settings, watch),
+        }
+    }
+
+    /// Traces the probe that belongs to the rays of the others so far.
+    fn probe(&mut self) {
+        let Some(Bidirectional { probe, relief }) = &mut self.bidirectional else { return };
+        let rays = self.selected.all_rays() + relief.sampling_rays();
+        let mut nobody = ();
+        let mut watch = Watch::new(&mut nobody);
+        loop {
+            let so_far = probe.samples();
+            let next = (2 * so_far).max(1);
+            let rays_of_next = probe.sampling_rays() as f64 * next as f64 / so_far.max(1) as f64;
+            // Nobody stops it.
+            if rays_of_next > SHARE_OF_PROBE * rays as f64 || !probe.advance(next, &mut watch) {
+                return;
+            }
+        }
+    }
+
+    fn probe_rays(&self) -> u64 {
+        self.bidirectional.as_ref().map_or(0, |own| own.probe.sampling_rays())
+    }
+
+    /// How each sensor point stands that the relief has not taken over.
+    fn takeovers(&self, selected: &Estimates) -> Vec<Takeover> {
+        let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
+            return Vec::new();
+        };
+        let rays = [self.selected.sampling_rays(), probe.sampling_rays()];
+        let estimates = [&selected.sensors, &probe.estimates().sensors].map(Vec::as_slice);
+        let stages = Stage::of_all(&self.selected.are_over(), &relief.begun());
+        takeover::all(estimates, rays, &stages)
+    }
+}
+
+impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        if let Some(Bidirectional { relief, .. }) = &self.bidirectional {
+            watch.surround(|_| (), |after| relief.put(after));
+        }
+        if !self.selected.advance(samples, watch) {
+            return false;
+        }
+        if let Some(Bidirectional { relief, .. }) = &mut self.bidirectional {
+            let selected = &self.selected;
+            watch.surround(|before| selected.put(before), |_| ());
+            if !relief.advance(samples, watch) {
+                return false;
+            }
+        }
+        watch.surround(|_| (), |_| ());
+        let before = self.probe_rays();
+        self.probe();
+        watch.tick(0, 0, self.probe_rays() - before)
+    }
+
+    fn decisions(&self) -> Decisions {
+        self.selected.decisions()
+    }
+
+    fn put(&self, out: &mut Writer) {
+        self.selected.put(out);
+        self.bidirectional.iter().for_each(|own| own.relief.put(out));
+    }
+
+    fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.selected.merge_from(coming, from)?;
+        self.bidirectional.as_mut().map_or(Ok(()), |own| own.relief.merge_from(coming, from))
+    }
+
+    fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
+        self.selected.trace_part(part, samples, watch)
+    }
+
+    fn put_shared(&self, out: &mut Writer) {
+        Estimator::put_shared(&self.selected, out);
+    }
+
+    fn merge_shared(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        Estimator::merge_shared(&mut self.selected, from)
+    }
+
+    fn put_part(&self, out: &mut Writer) {
+        self.selected.put_part(out);
+    }
+
+    fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.selected.merge_part(from)
+    }
+
+    fn complete_at(&mut self, samples: u64) {
+        self.selected.complete_at(samples);
+        self.probe();
+    }
+
+    fn estimates(&self) -> Estimates {
+        let mut estimates = self.selected.estimates();
+        let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
+            return estimates;
+        };
+        let takeovers = self.takeovers(&estimates);
+        let mut contradicted = takeovers.iter().map(|takeover| *takeover == Takeover::MissesLight);
+        for sensor in &mut estimates.sensors {
+            let points = sensor.resolved.len();
+            sensor.withdraw(contradicted.by_ref().take(points).collect());
+        }
+        let of_relief = relief.estimates();
+        let mut is_relieved = relief.samples_of_all().into_iter().map(|samples| samples > 0);
+        for (sensor, relieved) in estimates.sensors.iter_mut().zip(&of_relief.sensors) {
+            let points = sensor.resolved.len();
+            let taken: Vec<bool> = is_relieved.by_ref().take(points).collect();
+            sensor.replace(&taken, relieved);
+        }
+        estimates.rays += of_relief.rays + probe.estimates().rays;
+        estimates.invalid_contributions += of_relief.invalid_contributions;
+        estimates.biased |= of_relief.biased;
+        estimates.dimensions.path.merge(&of_relief.dimensions.path);
+        estimates.relieved_points = relief.begun().iter().filter(|begun| **begun).count() as u64;
+        estimates.warnings.extend(of_relief.warnings);
+        estimates
+    }
+
+    fn freeze_converged(&mut self, done: &[bool]) -> bool {
+        if let Some(Bidirectional { relief, .. }) = &mut self.bidirectional {
+            relief.freeze_converged(done);
+        }
+        self.selected.freeze_converged(done)
+    }
+
+    fn adapt(&mut self) {
+        let takeovers = self.takeovers(&self.selected.estimates());
+        if let Some(Bidirectional { relief, .. }) = &mut self.bidirectional {
+            let taken: Vec<bool> = takeovers.into_iter().map(Takeover::is_due).collect();
+            relief.begin(&taken);
+            self.selected.freeze_converged(&relief.begun());
+        }
+    }
+
+    fn first_checkpoint(&self) -> u64 {
+        self.selected.first_checkpoint()
+    }
+}

@@ -1,0 +1,87 @@
+//! When bidirectional paths take a sensor point over from the selected estimator.
+
+use crate::stats::estimates::SensorEstimates;
+use crate::stats::interval::{Interval, t_quantile_for};
+
+/// Probability that the probe contradicts any sensor point at one look by chance.
+const FALSE_ALARM: f64 = 1e-3;
+/// The probe must promise the same error for this part of the rays: its variance is known within
+/// 40 % or so, from 16 replicates.
+const WORTHWHILE: f64 = 0.5;
+
+/// How the probe judges the selected estimator at a sensor point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Takeover {
+    /// It goes on.
+    No,
+    /// The probe found more light than it.
+    MissesLight,
+    /// Bidirectional paths need fewer rays.
+    Pays,
+}
+
+impl Takeover {
+    pub(super) fn is_due(self) -> bool {
+        self != Self::No
+    }
+}
+
+/// How far a sensor point is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// The selected estimator works at it.
+    Open,
+    /// It has reached its tolerance.
+    Converged,
+    /// Bidirectional paths have taken it over.
+    TakenOver,
+}
+
+impl Stage {
+    /// Of all sensor points.
+    pub(super) fn of_all(converged: &[bool], taken_over: &[bool]) -> Vec<Self> {
+        let stage = |(converged, taken_over): (&bool, &bool)| match (converged, taken_over) {
+            (_, true) => Self::TakenOver,
+            (true, false) => Self::Converged,
+            (false, false) => Self::Open,
+        };
+        converged.iter().zip(taken_over).map(stage).collect()
+    }
+}
+
+/// Of all sensor points, from the figures of the selected estimator and those of the probe, and the
+/// rays that each took.
+pub(super) fn all(
+    [selected, probe]: [&[SensorEstimates]; 2],
+    rays: [u64; 2],
+    stages: &[Stage],
+) -> Vec<Takeover> {
+    let values = |sensor: usize, point: usize| {
+        [selected, probe].map(|of| {
+            let rows = of[sensor].replicate_lx.iter();
+            Interval::of_mean(rows.map(|row| row[point]), Some(1.0))
+        })
+    };
+    let points = selected.iter().enumerate().flat_map(|(sensor, figures)| {
+        (0..figures.resolved.len()).map(move |point| values(sensor, point))
+    });
+    let replicates = selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
+    let of_each = FALSE_ALARM / stages.len().max(1) as f64;
+    let Some(t) = t_quantile_for(replicates, 2.0 * of_each) else {
+        return vec![Takeover::No; stages.len()];
+    };
+    let judged = points.zip(stages).map(|([own, probed], stage)| {
+        let [Some(own_error), Some(error)] = [own.half_width, probed.half_width] else {
+            return Takeover::No;
+        };
+        let misses = probed.value - own.value > t * libm::hypot(own_error, error);
+        let cost = |error: f64, rays: u64| error * error * rays as f64;
+        let pays = error > 0.0 && cost(error, rays[1]) < WORTHWHILE * cost(own_error, rays[0]);
+        match stage {
+            Stage::Open | Stage::Converged if misses => Takeover::MissesLight,
+            Stage::Open if pays => Takeover::Pays,
+            _ => Takeover::No,
+        }
+    });
+    judged.collect()
+}

@@ -1,0 +1,175 @@
+//! Light subpaths: photons that leave every surface they come to a vertex that eye subpaths are
+//! connected to (Lafortune and Willems 1993, Veach and Guibas 1994).
+//!
+//! They leave the lights by flux, scatter as the surfaces do and end by Russian roulette: nothing
+//! guides them.
+
+use crate::bsdf::{Bsdf, TransportMode};
+use crate::context::Context;
+use crate::cutoff::{Gain, MAX_EVENTS};
+use crate::lights::images::LightPathClass;
+use crate::lights::{Emission, Emitted};
+use crate::path::subpath_weights::SubpathWeights;
+use crate::path::trace::{CERTAIN_BOUNCES, russian_roulette_factor};
+use crate::spectrum::Spectrum;
+use crate::world::frame::Frame;
+use crate::world::{Interaction, RayOrigin};
+use glam::DVec3;
+use quasilux_bvh::{Hit, RayQuery};
+use quasilux_sampling::Sampler;
+
+/// A surface that a light subpath came to and that scatters into more than finitely many
+/// directions.
+pub(crate) struct LightVertex<S> {
+    pub(crate) at: Interaction,
+    pub(crate) frame: Frame,
+    /// Unit direction that the light came from, in that frame.
+    pub(crate) wo: DVec3,
+    /// Flux that arrives with each subpath, in lm.
+    pub(crate) flux_lm: S,
+    /// Surfaces before this one.
+    pub(crate) bounces: u32,
+    pub(crate) weights: SubpathWeights,
+}
+
+/// A light subpath on its way.
+struct LightSubpath<'p, S> {
+    sampler: Sampler<'p>,
+    start: Emission,
+    flux_lm: S,
+    path_class: LightPathClass,
+    weights: SubpathWeights,
+    gain: Gain,
+}
+
+/// Working space of light subpaths that are traced together.
+#[derive(Default)]
+pub(crate) struct LightSubpaths<S> {
+    /// Vertices of each, in the order of the starts.
+    pub(crate) vertices: Vec<Vec<LightVertex<S>>>,
+    queries: Vec<RayQuery>,
+    hits: Vec<Option<Hit>>,
+    arrivals: Vec<Option<Interaction>>,
+    /// Rays traced so far.
+    pub(crate) rays: u64,
+}
+
+impl<S: Spectrum> LightSubpaths<S> {
+    /// Traces a subpath for each sampler to its end, in place of those before; of those without a
+    /// sampler nothing.
+    pub(crate) fn trace<'p>(
+        &mut self,
+        context: &Context<'_, S>,
+        samplers: impl Iterator<Item = Option<Sampler<'p>>>,
+    ) {
+        self.vertices.iter_mut().for_each(Vec::clear);
+        let mut travelling = Vec::new();
+        for (number, sampler) in samplers.enumerate() {
+            if number == self.vertices.len() {
+                self.vertices.push(Vec::new());
+            }
+            let subpath = sampler.and_then(|sampler| LightSubpath::new(context, sampler));
+            travelling.extend(subpath.map(|subpath| (number, subpath)));
+        }
+        for bounces in 0..MAX_EVENTS {
+            if travelling.is_empty() || context.max_bounces.is_some_and(|most| bounces >= most) {
+                return;
+            }
+            self.queries.clear();
+            let query = |start: &Emission| start.from.query(start.direction);
+            self.queries.extend(travelling.iter().map(|(_, subpath)| query(&subpath.start)));
+            context.world.trace_all(&self.queries, &mut self.hits, &mut self.arrivals);
+            self.rays += self.queries.len() as u64;
+            let mut arrivals = self.arrivals.iter();
+            travelling.retain_mut(|(number, subpath)| {
+                let at = arrivals.next().and_then(Option::as_ref);
+                let own = &mut self.vertices[*number];
+                at.is_some_and(|at| subpath.arrive(context, bounces, at, own))
+            });
+        }
+    }
+}
+
+impl<'p, S: Spectrum> LightSubpath<'p, S> {
+    fn new(context: &Context<'_, S>, mut sampler: Sampler<'p>) -> Option<Self> {
+        let Context { lights, world, purposes, .. } = context;
+        let Emitted { emission, path_class } = lights.emit(world, *purposes, &mut sampler)?;
+        let emitters = lights.emitters.as_ref();
+        let weights = match emission.from.facet().zip(emitters) {
+            Some((facet, emitters)) => {
+                let facet = &world.facets[facet as usize];
+                let cos = facet.front_normal.dot(emission.direction);
+                let per_m2_sr = facet.emitted_cd_m2 * cos / lights.flux_lm;
+                SubpathWeights::of_emission(per_m2_sr, emitters.pdf_m2(facet.emitted_cd_m2), cos)
+            }
+            // Known where it lands.
+            None => SubpathWeights::SENSOR,
+        };
+        let flux_lm = S::white() * lights.flux_lm;
+        Some(Self { sampler, start: emission, flux_lm, path_class, weights, gain: Gain::NONE })
+    }
+
+    /// What happens where its flight after `bounces` surfaces ends; whether it goes on.
+    fn arrive(
+        &mut self,
+        context: &Context<'_, S>,
+        bounces: u32,
+        at: &Interaction,
+        vertices: &mut Vec<LightVertex<S>>,
+    ) -> bool {
+        let (world, bsdf, frame) =
+            (&context.world, context.world.bsdf(at), context.world.frame(at));
+        let wo = frame.to_local(-self.start.direction);
+        self.weights = match self.path_class {
+            LightPathClass::Found => self.weights.arrived(at.distance_m, wo.z),
+            class => SubpathWeights::of_landing(context.lights.landings_m2(
+                class == LightPathClass::Straight,
+                at.position,
+                at.n,
+                bsdf.transmits(),
+            )),
+        };
+        let albedo = bsdf.albedo(wo, at.front, TransportMode::Importance);
+        let left = (self.flux_lm * albedo).max_channel();
+        // What is not a number is left to the eye subpaths, which show it.
+        if !(left > 0.0 && left.is_finite()) {
+            return false;
+        }
+        if !bsdf.is_specular() {
+            let (at, flux_lm, weights) = (*at, self.flux_lm, self.weights);
+            vertices.push(LightVertex { at, frame, wo, flux_lm, bounces, weights });
+        }
+        let albedo = left / self.flux_lm.max_channel();
+        if !self.gain.grow(albedo, bounces) {
+            return false;
+        }
+        let survival = if bounces < CERTAIN_BOUNCES { 1.0 } else { albedo };
+        let factor = russian_roulette_factor(survival, &mut self.sampler);
+        if factor == 0.0 {
+            return false;
+        }
+        let next = bsdf.sample(wo, at.front, TransportMode::Importance, &mut self.sampler);
+        let Some(next) = next else { return false };
+        self.weights = scattered(self.weights, bsdf, wo, next.wi);
+        self.path_class = LightPathClass::Found;
+        self.flux_lm = self.flux_lm * next.weight * factor;
+        let from: RayOrigin =
+            if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
+        self.start = Emission { from, direction: frame.to_world(next.wi) };
+        true
+    }
+}
+
+/// The weights of a subpath, light or eye, that goes on from `wo` to `wi`.
+pub(crate) fn scattered<S: Spectrum>(
+    weights: SubpathWeights,
+    bsdf: &Bsdf<S>,
+    wo: DVec3,
+    wi: DVec3,
+) -> SubpathWeights {
+    if bsdf.is_specular() {
+        return weights.mirrored(wi.z.abs());
+    }
+    let [pdf_sr, reverse_pdf_sr] = [bsdf.partition_pdf_sr(wo, wi), bsdf.partition_pdf_sr(wi, wo)];
+    weights.scattered(wi.z.abs(), pdf_sr, reverse_pdf_sr)
+}
