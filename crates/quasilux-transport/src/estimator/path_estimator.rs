@@ -208,7 +208,8 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
     fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
         let target = self.growing[(number / u64::from(self.replicates)) as usize];
         let replicate = (number % u64::from(self.replicates)) as u32;
-        let points = |stream: fn(u64) -> Stream| self.context.points(replicate, stream(target as u64));
+        let points =
+            |stream: fn(u64) -> Stream| self.context.points(replicate, stream(target as u64));
         Section {
             number: number as usize,
             target: self.targets[target],

@@ -11,7 +11,7 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
-use crate::lights::pointlike::LightCentre;
+use crate::lights::pointlike::{LightCentre, defensive};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
@@ -72,9 +72,9 @@ impl<'a> AreaLuminaires<'a> {
         self.0.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
     }
 
-    /// About what all of them give, see [`AreaLuminaire::importance_lx`].
-    pub(crate) fn importance_lx(&self, position: DVec3, side: Option<DVec3>) -> f64 {
-        self.0.iter().map(|light| light.importance_lx(position, side)).sum()
+    /// About what one of them gives, see [`AreaLuminaire::importance_lx`].
+    pub(crate) fn importance_lx(&self, index: usize, position: DVec3, side: Option<DVec3>) -> f64 {
+        self.0[index].importance_lx(position, side)
     }
 
     /// An estimate of what all of them give: what one place on one of them offers. `weights` is
@@ -88,11 +88,14 @@ impl<'a> AreaLuminaires<'a> {
         let (position, side) = (vertex.position(), vertex.only_side());
         weights.clear();
         weights.extend(self.0.iter().map(|light| light.importance_lx(position, side)));
-        let Some(choice) = choose_weights(u[0], weights.iter().copied()) else {
-            return LightSample::without_choice(weights.iter().sum());
+        let total = weights.iter().sum();
+        let Some(choice) = choose_weights(u[0], defensive(weights.iter().copied(), total)) else {
+            return LightSample::without_choice(total);
         };
+        let importance_lx = weights[choice.index];
         let light_sample = self.0[choice.index].light_sample(vertex, [choice.u_remapped, u[1]])?;
-        Some(LightSample { light: light_sample.light * (1.0 / choice.pdf), ..light_sample })
+        let light = light_sample.light * (1.0 / choice.pdf);
+        Some(LightSample { light, illuminance_lx: importance_lx, ..light_sample })
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their
@@ -143,7 +146,8 @@ impl AreaLuminaire<'_> {
         let ratio = share / shape.pdf_silhouette(centre_direction, &place);
         let intensity_cd = self.luminaire.intensity_cd(-direction);
         let illuminance_lx = intensity_cd * ratio * cos / (distance_m * distance_m);
-        LightSample::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
+        let light = vertex.weight(direction) * illuminance_lx;
+        LightSample::unless_dark(direction, distance_m, light, illuminance_lx)
     }
 }
 

@@ -98,7 +98,8 @@ impl Emitters {
         let lx_sr = facet.emitted_cd_m2 * cos;
         let illuminance_lx = lx_sr / (pdf_light + beside_sr(direction, lx_sr));
         let light = vertex.weight(direction) * illuminance_lx;
-        let light_sample = LightSample { direction, distance_m, facet: place.facet, light };
+        let facet = place.facet;
+        let light_sample = LightSample { direction, distance_m, facet, light, illuminance_lx };
         (light.luminance() != 0.0).then_some(light_sample)
     }
 

@@ -38,6 +38,8 @@ pub(crate) struct Lights<'a> {
 
 /// A photon that has just left its light.
 pub(crate) struct Emitted {
+    /// Number of the light.
+    pub(crate) light: usize,
     pub(crate) emission: Emission,
     pub(crate) path_class: LightPathClass,
 }
@@ -94,22 +96,24 @@ impl<'a> Lights<'a> {
         self.fluxes_lm[number]
     }
 
-    /// The density in m^-2 with which photons land straight from the point-like lights, or from the
-    /// luminaires with an area as if these were points, on the side `n` of a place, or on both; as
-    /// if nothing stood in the way.
+    /// The density in m^-2 with which photons of one light land straight on the side `n` of a place,
+    /// or on both, as if nothing stood in the way; of a luminaire with an area about that, of
+    /// emitting facets 0.
     pub(crate) fn landings_m2(
         &self,
-        from_area_luminaires: bool,
+        number: usize,
         position: DVec3,
         n: DVec3,
         takes_both_sides: bool,
     ) -> f64 {
-        let lx = if from_area_luminaires {
+        let pointlikes = self.pointlikes.len();
+        let lx = if number < pointlikes {
+            self.pointlikes.illuminance_lx(number, position, n, takes_both_sides)
+        } else if self.area_luminaires.get(number - pointlikes).is_some() {
             let side = (!takes_both_sides).then_some(n);
-            self.area_luminaires.importance_lx(position, side)
+            self.area_luminaires.importance_lx(number - pointlikes, position, side)
         } else {
-            let incidences = self.pointlikes.unshadowed(position, n, takes_both_sides);
-            incidences.map(|incidence| incidence.illuminance_lx).sum()
+            0.0
         };
         lx / self.flux_lm
     }
@@ -161,7 +165,8 @@ impl<'a> Lights<'a> {
             };
             let from = world.ray_origin_of_light(position, direction);
             let path_class = LightPathClass::Shown(number as u32);
-            return Some(Emitted { emission: Emission { from, direction }, path_class });
+            let emission = Emission { from, direction };
+            return Some(Emitted { light: number, emission, path_class });
         }
         if let Some(luminaire) = self.area_luminaires.get(number - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
@@ -169,6 +174,7 @@ impl<'a> Lights<'a> {
             let direction = luminaire.world_from_luminaire * towards;
             let from = world.ray_origin_of_light(place_m(luminaire, &place), direction);
             return Some(Emitted {
+                light: number,
                 emission: Emission { from, direction },
                 path_class: LightPathClass::Straight,
             });
@@ -178,6 +184,7 @@ impl<'a> Lights<'a> {
         let local = DVec3::from_array(sample_cosine_hemisphere(more()));
         let direction = Frame::around(n).to_world(local);
         let from = world.ray_origin_on_front(place.facet, place.position);
-        Some(Emitted { emission: Emission { from, direction }, path_class: LightPathClass::Found })
+        let emission = Emission { from, direction };
+        Some(Emitted { light: number, emission, path_class: LightPathClass::Found })
     }
 }

@@ -86,9 +86,25 @@ impl<'a> PointLikes<'a> {
         }
     }
 
+    /// The illuminance in lx by one of them on the side `n` of a place, or on both, as if nothing
+    /// stood in the way.
+    pub(crate) fn illuminance_lx(
+        &self,
+        index: usize,
+        place: DVec3,
+        n: DVec3,
+        takes_both_sides: bool,
+    ) -> f64 {
+        let cos = |direction: DVec3| {
+            let cos = n.dot(direction);
+            if takes_both_sides { cos.abs() } else { cos }
+        };
+        let incidence = Incidence::with_cosine(self.0[index], place, cos);
+        incidence.map_or(0.0, |incidence| incidence.illuminance_lx)
+    }
+
     /// An estimate of what all of them give from one light, chosen with `u` in proportion to what
-    /// it would give unshadowed: its only variance comes from shadows. `light_samples` is working
-    /// space.
+    /// it would give unshadowed, but for a [`defensive`] share. `light_samples` is working space.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
@@ -98,12 +114,31 @@ impl<'a> PointLikes<'a> {
         light_samples.clear();
         light_samples.extend(self.0.iter().filter_map(|light| light_sample(light, vertex)));
         let weights = light_samples.iter().map(|light_sample| light_sample.light.luminance());
-        let Some(choice) = choose_weights(u, weights.clone()) else {
-            return LightSample::without_choice(weights.sum());
+        let total: f64 = weights.clone().sum();
+        let Some(choice) = choose_weights(u, defensive(weights, total)) else {
+            return LightSample::without_choice(total);
         };
         let chosen = light_samples[choice.index];
         Some(LightSample { light: chosen.light * (1.0 / choice.pdf), ..chosen })
     }
+}
+
+/// Share of choices among lights that trusts no weight. A bright lamp behind a wall would else take
+/// all of them from a weak one that is seen.
+const DEFENSIVE_SHARE: f64 = 0.1;
+
+/// Weights of this sum, each with its part of the defensive share: no light that gives anything is
+/// chosen with less than `DEFENSIVE_SHARE / n` of n.
+pub(super) fn defensive(
+    weights: impl Iterator<Item = f64> + Clone,
+    total: f64,
+) -> impl Iterator<Item = f64> + Clone {
+    let count = weights.clone().filter(|weight| *weight > 0.0).count().max(1);
+    let each = DEFENSIVE_SHARE * total / count as f64;
+    let more = move |weight: f64| {
+        if weight > 0.0 { (1.0 - DEFENSIVE_SHARE) * weight + each } else { weight }
+    };
+    weights.map(more)
 }
 
 /// Light of a point-like light at a place, unless something stands in the way.
@@ -144,7 +179,8 @@ fn light_sample<S: Spectrum>(light: &Light, vertex: &Vertex<'_, S>) -> Option<Li
     let cos = |direction| vertex.cos(direction);
     let Incidence { direction, distance_m, illuminance_lx, .. } =
         Incidence::with_cosine(light, vertex.position(), cos)?;
-    LightSample::unless_dark(direction, distance_m, vertex.weight(direction) * illuminance_lx)
+    let light = vertex.weight(direction) * illuminance_lx;
+    LightSample::unless_dark(direction, distance_m, light, illuminance_lx)
 }
 
 /// Luminous intensity in cd along a unit direction.

@@ -37,6 +37,8 @@ struct LightSubpath<'p, S> {
     sampler: Sampler<'p>,
     start: Emission,
     flux_lm: S,
+    /// Number of its light, and whether it comes straight from it.
+    light: usize,
     path_class: LightPathClass,
     weights: SubpathWeights,
     gain: Gain,
@@ -93,7 +95,8 @@ impl<S: Spectrum> LightSubpaths<S> {
 impl<'p, S: Spectrum> LightSubpath<'p, S> {
     fn new(context: &Context<'_, S>, mut sampler: Sampler<'p>) -> Option<Self> {
         let Context { lights, world, purposes, .. } = context;
-        let Emitted { emission, path_class } = lights.emit(world, *purposes, &mut sampler)?;
+        let Emitted { light, emission, path_class } =
+            lights.emit(world, *purposes, &mut sampler)?;
         let emitters = lights.emitters.as_ref();
         let weights = match emission.from.facet().zip(emitters) {
             Some((facet, emitters)) => {
@@ -106,7 +109,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             None => SubpathWeights::SENSOR,
         };
         let flux_lm = S::white() * lights.flux_lm;
-        Some(Self { sampler, start: emission, flux_lm, path_class, weights, gain: Gain::NONE })
+        let gain = Gain::NONE;
+        Some(Self { sampler, start: emission, flux_lm, light, path_class, weights, gain })
     }
 
     /// What happens where its flight after `bounces` surfaces ends; whether it goes on.
@@ -122,8 +126,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let wo = frame.to_local(-self.start.direction);
         self.weights = match self.path_class {
             LightPathClass::Found => self.weights.arrived(at.distance_m, wo.z),
-            class => SubpathWeights::of_landing(context.lights.landings_m2(
-                class == LightPathClass::Straight,
+            _ => SubpathWeights::of_landing(context.lights.landings_m2(
+                self.light,
                 at.position,
                 at.n,
                 bsdf.transmits(),

@@ -177,7 +177,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         source: Source<'_>,
     ) -> Option<Beginning> {
         let lights = &context.lights;
-        let Emitted { emission, path_class } = match source {
+        let Emitted { emission, path_class, .. } = match source {
             Source::Lights => lights.emit(&context.world, context.purposes, &mut self.sampler)?,
             Source::LitCells(cells) => match cells.draw(context, &mut self.sampler)? {
                 Drawn::Place(place) => return Some(Beginning::IfLit(place)),

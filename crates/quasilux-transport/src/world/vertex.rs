@@ -109,11 +109,6 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         })
     }
 
-    /// The geometric normal on the side of the path.
-    pub(crate) fn n(&self) -> DVec3 {
-        self.n
-    }
-
     /// Where a ray leaves from along `direction`.
     pub(crate) fn ray_origin(&self, direction: DVec3) -> RayOrigin {
         let behind = self.surface.and_then(|surface| surface.behind);

@@ -21,6 +21,8 @@ pub(crate) struct LightSample<S> {
     pub(crate) facet: u32,
     /// The part of an estimate of what the path finds that hangs on the visibility.
     pub(crate) light: S,
+    /// Illuminance in lx that the light gives to the place, about what photons of it bring there.
+    pub(crate) illuminance_lx: f64,
 }
 
 /// Somebody who asks for light at a place.
@@ -56,8 +58,14 @@ struct Question<S> {
 
 impl<S: Spectrum> LightSample<S> {
     /// The offer of a place in the open; `None` where it is nothing.
-    pub(crate) fn unless_dark(direction: DVec3, distance_m: f64, light: S) -> Option<Self> {
-        let light_sample = Self { direction, distance_m, facet: RayQuery::NONE, light };
+    pub(crate) fn unless_dark(
+        direction: DVec3,
+        distance_m: f64,
+        light: S,
+        illuminance_lx: f64,
+    ) -> Option<Self> {
+        let facet = RayQuery::NONE;
+        let light_sample = Self { direction, distance_m, facet, light, illuminance_lx };
         // What is not a number counts: the tally must refuse it.
         (light.luminance() != 0.0).then_some(light_sample)
     }
@@ -70,6 +78,7 @@ impl<S: Spectrum> LightSample<S> {
             distance_m: 0.0,
             facet: RayQuery::NONE,
             light: S::white() * f64::NAN,
+            illuminance_lx: 0.0,
         })
     }
 }

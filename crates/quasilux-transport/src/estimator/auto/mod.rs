@@ -102,7 +102,8 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
             return Vec::new();
         };
         let rays = [self.selected.sampling_rays(), probe.sampling_rays()];
-        let estimates = [&selected.sensors, &probe.estimates().sensors].map(Vec::as_slice);
+        let probed = probe.estimates();
+        let estimates = [&selected.sensors, &probed.sensors].map(Vec::as_slice);
         let stages = Stage::of_all(&self.selected.are_over(), &relief.begun());
         takeover::all(estimates, rays, &stages)
     }

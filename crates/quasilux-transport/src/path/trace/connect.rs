@@ -47,8 +47,7 @@ impl<S: Spectrum> Path<'_, S> {
             }
             return;
         };
-        let Connection { vertex: number, direction, distance_m, light } =
-            connections[choice.index];
+        let Connection { vertex: number, direction, distance_m, light } = connections[choice.index];
         let end = &own[number];
         let ray = vertex.ray_origin(direction).shadow_ray(direction, distance_m, end.at.facet);
         shadows.ask_connection(self.number, light * (1.0 / choice.pdf), end.bounces + 1, ray);
@@ -60,13 +59,13 @@ impl<S: Spectrum> Path<'_, S> {
         &self,
         vertex: &Vertex<'_, S>,
         direction: DVec3,
-        landings_m2: impl FnOnce() -> f64,
+        landings_m2: f64,
     ) -> f64 {
         match self.subpath {
             None | Some(SubpathWeights::SENSOR) => 1.0,
             Some(weights) => {
                 let to_eye = weights.towards(vertex.reverse_pdf_sr(direction));
-                of_connection(product(landings_m2(), to_eye), 0.0)
+                of_connection(product(landings_m2, to_eye), 0.0)
             }
         }
     }

@@ -87,7 +87,7 @@ impl<S: Spectrum> Path<'_, S> {
             let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
             let light_sample = lights.light_sample(vertex, u, &mut work.weights);
-            let light_sample = self.beside_landings(context, true, vertex, light_sample);
+            let light_sample = self.beside_landings(context, vertex, light_sample);
             self.ask(light_sample, vertex, work);
         }
     }
@@ -106,7 +106,7 @@ impl<S: Spectrum> Path<'_, S> {
             let draw = || context.draw(&mut self.sampler, choice, Sampler::next_1d);
             let u = (lights.len() > 1).then(draw).unwrap_or_default();
             let light_sample = lights.light_sample(vertex, u, &mut work.light_samples);
-            let light_sample = self.beside_landings(context, false, vertex, light_sample);
+            let light_sample = self.beside_landings(context, vertex, light_sample);
             self.ask(light_sample, vertex, work);
         }
     }
@@ -115,15 +115,12 @@ impl<S: Spectrum> Path<'_, S> {
     fn beside_landings(
         &self,
         context: &Context<'_, S>,
-        is_of_area: bool,
         vertex: &Vertex<'_, S>,
         light_sample: Option<LightSample<S>>,
     ) -> Option<LightSample<S>> {
         light_sample.map(|light_sample| {
-            let share = self.weight_beside_landings(vertex, light_sample.direction, || {
-                let (position, both) = (vertex.position(), vertex.takes_both_sides());
-                context.lights.landings_m2(is_of_area, position, vertex.n(), both)
-            });
+            let landings_m2 = light_sample.illuminance_lx / context.lights.flux_lm;
+            let share = self.weight_beside_landings(vertex, light_sample.direction, landings_m2);
             LightSample { light: light_sample.light * share, ..light_sample }
         })
     }
