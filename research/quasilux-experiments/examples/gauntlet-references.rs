@@ -8,7 +8,7 @@
 
 use quasilux_brute::{Limits, solve_until};
 use quasilux_experiments::gauntlet::{
-    Face, Lamp, Parallelogram, Place, Reference, Room, RoomReferences, Shine, Surface, room,
+    Face, Hint, Lamp, Parallelogram, Place, Reference, Room, RoomReferences, Shine, Surface, room,
 };
 use std::time::Instant;
 

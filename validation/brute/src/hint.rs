@@ -10,17 +10,33 @@ pub struct Hint {
     v: DVec3,
     /// Along the normal, as long as the area.
     area: DVec3,
+    /// Places between these corners of a box look there.
+    within: [DVec3; 2],
 }
+
+/// Places on the sides of the box belong to it.
+const MARGIN_M: f64 = 1e-6;
 
 impl Hint {
     /// The parallelogram with edges `u` and `v` from a corner, in m; either side may be looked at.
     #[must_use]
     pub fn new(corner: DVec3, u: DVec3, v: DVec3) -> Self {
-        Self { corner, u, v, area: u.cross(v) }
+        let within = [DVec3::NEG_INFINITY, DVec3::INFINITY];
+        Self { corner, u, v, area: u.cross(v), within }
     }
 
-    /// Whether some of it is above the horizon of a place, and not seen edge-on.
+    /// The same for places in a box alone.
+    #[must_use]
+    pub fn from_within(self, low: DVec3, high: DVec3) -> Self {
+        Self { within: [low - MARGIN_M, high + MARGIN_M], ..self }
+    }
+
+    /// Whether a place looks there: some of it is above its horizon, and not seen edge-on.
     pub(crate) fn is_seen(&self, position: DVec3, normal: DVec3) -> bool {
+        let [low, high] = self.within;
+        if position.cmplt(low).any() || position.cmpgt(high).any() {
+            return false;
+        }
         let to = self.corner - position;
         let height = to.dot(normal);
         let (du, dv) = (self.u.dot(normal), self.v.dot(normal));

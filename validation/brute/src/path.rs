@@ -109,8 +109,9 @@ impl<'a> World<'a> {
 
     fn vertex(&self, position: DVec3, normal: DVec3, beta: f64, bounces: u32) -> Vertex {
         let hints = &self.scene.hints;
-        let seen = (0..hints.len()).filter(|&h| hints[h].is_seen(position, normal)).collect();
-        let hint_share = self.scene.share_of_hints(bounces);
+        let seen: Vec<usize> =
+            (0..hints.len()).filter(|&h| hints[h].is_seen(position, normal)).collect();
+        let hint_share = if seen.is_empty() { 0.0 } else { self.scene.share_of_hints(bounces) };
         Vertex { position, normal, beta, bounces, hint_share, hints: seen }
     }
 
@@ -118,7 +119,7 @@ impl<'a> World<'a> {
     fn sample(&self, vertex: &Vertex, random: &mut Random) -> DVec3 {
         let choice = random.uniform();
         let uv = [random.uniform(), random.uniform()];
-        if choice < vertex.hint_share && !vertex.hints.is_empty() {
+        if choice < vertex.hint_share {
             let number = (choice / vertex.hint_share * vertex.hints.len() as f64) as usize;
             let hint = &self.scene.hints[vertex.hints[number.min(vertex.hints.len() - 1)]];
             return hint.sample(vertex.position, uv);
@@ -133,7 +134,7 @@ impl<'a> World<'a> {
     /// Its density in solid angle.
     fn pdf(&self, vertex: &Vertex, direction: DVec3) -> f64 {
         let cosine = direction.dot(vertex.normal).max(0.0) * FRAC_1_PI;
-        if vertex.hints.is_empty() {
+        if vertex.hint_share == 0.0 {
             return cosine;
         }
         let pdf = |&number: &usize| self.scene.hints[number].pdf(vertex.position, direction);
@@ -192,14 +193,23 @@ impl<'a> World<'a> {
         if reflectance == 0.0 || !(is_front || two_sided) {
             return None;
         }
-        let [least, most] = SURVIVAL;
-        let survival = if bounces <= SURE_BOUNCES { 1.0 } else { reflectance.clamp(least, most) };
+        let position = arrival.ray.origin + arrival.ray.direction * arrival.hit.distance_m;
+        let normal = if is_front { front } else { -front };
+        let mut vertex = self.vertex(position, normal, beta * reflectance, bounces);
+        let survival = if bounces <= SURE_BOUNCES {
+            1.0
+        } else {
+            // Weights of cosine directions grow by 1 / (1 - share): the square of the reflectance
+            // keeps the second moment of long paths finite.
+            vertex.hint_share = vertex.hint_share.min(1.0 - reflectance * reflectance);
+            let [least, most] = SURVIVAL;
+            (reflectance / (1.0 - vertex.hint_share)).clamp(least, most)
+        };
         if random.uniform() >= survival {
             return None;
         }
-        let position = arrival.ray.origin + arrival.ray.direction * arrival.hit.distance_m;
-        let normal = if is_front { front } else { -front };
-        Some(self.vertex(position, normal, beta * reflectance / survival, bounces))
+        vertex.beta /= survival;
+        Some(vertex)
     }
 
     /// Next-event estimation of point lights: of all, or of one in proportion to what it gives

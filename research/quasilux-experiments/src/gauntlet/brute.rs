@@ -7,7 +7,10 @@ use quasilux_brute as brute;
 /// The same room, with the places to look at.
 pub(super) fn brute_scene(room: &Room) -> brute::Scene {
     let [hint_share, late_hint_share] = room.hint_shares;
-    let hint = |it: &super::Parallelogram| brute::Hint::new(it.corner, it.u, it.v);
+    let hint = |it: &super::Hint| {
+        let super::Parallelogram { corner, u, v } = it.shape;
+        brute::Hint::new(corner, u, v).from_within(it.low, it.high)
+    };
     let sensor = |it: &super::Place| brute::Sensor { position: it.position, normal: it.normal };
     brute::Scene {
         triangles: room.faces.iter().flat_map(triangles).collect(),

@@ -22,12 +22,11 @@ mod shell;
 mod trial;
 
 pub use references::{Reference, RoomReferences, references};
-pub use room::{Face, Lamp, Parallelogram, Parameter, Place, Room, Shine, Surface};
+pub use room::{Face, Hint, Lamp, Parallelogram, Parameter, Place, Room, Shine, Surface};
 
 use crate::outcome::{Options, Outcome};
 use dice::Dice;
 use quasilux_transport::EstimatorKind;
-use rayon::prelude::*;
 use std::time::Duration;
 use trial::Trial;
 

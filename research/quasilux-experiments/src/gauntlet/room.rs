@@ -20,7 +20,7 @@ pub struct Room {
     /// Sensor points.
     pub places: Vec<Place>,
     /// Where light comes from that is hard to find: for a reference that is told, nothing else.
-    pub hints: Vec<Parallelogram>,
+    pub hints: Vec<Hint>,
     /// The shares of directions that such a reference sends there, at first and after bounces.
     pub hint_shares: [f64; 2],
 }
@@ -97,8 +97,19 @@ pub struct Parallelogram {
     pub v: DVec3,
 }
 
-/// A room with nothing in it.
+/// Where to look, and from where it helps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hint {
+    /// What to look at.
+    pub shape: Parallelogram,
+    /// The low corner of the box that it is for.
+    pub low: DVec3,
+    /// The high one.
+    pub high: DVec3,
+}
+
 impl Room {
+    /// A room with nothing in it.
     pub(super) fn empty() -> Self {
         Self {
             number: 0,
@@ -171,10 +182,6 @@ impl Room {
         };
         let rows = (0..10).map(row).collect();
         self.lamps.push(Lamp { position, shine: Shine::Table { aim: DVec3::NEG_Z, rows } });
-    }
-
-    pub(super) fn add_hint(&mut self, corner: DVec3, u: DVec3, v: DVec3) {
-        self.hints.push(Parallelogram { corner, u, v });
     }
 
     /// Adds a panel with edges `u` and `v` that shines along `u x v`.

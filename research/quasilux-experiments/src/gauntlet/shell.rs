@@ -1,6 +1,6 @@
 //! Boxes with openings, that rooms are made of.
 
-use super::room::{Parallelogram, Room, Surface};
+use super::room::{Hint, Parallelogram, Room, Surface};
 use glam::DVec3;
 
 /// A side of a box.
@@ -78,6 +78,15 @@ impl Opening {
         Block { low, high }
     }
 
+    /// The same with a margin along both axes, cut to a block.
+    pub(super) fn widened(&self, margins_m: [f64; 2], block: Block) -> Self {
+        let others = self.side.others();
+        let cut = |k: usize, value: f64| value.clamp(block.low[others[k]], block.high[others[k]]);
+        let low = [0, 1].map(|k| cut(k, self.low[k] - margins_m[k]));
+        let high = [0, 1].map(|k| cut(k, self.high[k] + margins_m[k]));
+        Self { side: self.side, low, high }
+    }
+
     /// Where light of a point that comes through the hole in `plane_m` lands in a plane of the same
     /// axis, cut to a box.
     pub(super) fn spot(&self, light: DVec3, plane_m: f64, on_m: f64, block: Block) -> Self {
@@ -97,10 +106,6 @@ impl Opening {
 impl Block {
     pub(super) fn new(low: [f64; 3], high: [f64; 3]) -> Self {
         Self { low: DVec3::from_array(low), high: DVec3::from_array(high) }
-    }
-
-    pub(super) fn size(&self) -> DVec3 {
-        self.high - self.low
     }
 
     /// Without a margin along all sides.
@@ -178,8 +183,15 @@ impl Room {
         self.add_face(cell, surface);
     }
 
-    pub(super) fn add_hints(&mut self, hints: impl IntoIterator<Item = Parallelogram>) {
-        let has_area = |hint: &Parallelogram| hint.u.cross(hint.v).length() > 1e-12;
-        self.hints.extend(hints.into_iter().filter(has_area));
+    /// Adds places to look at from within a block; those that were cut to nothing are left out.
+    pub(super) fn add_hints(
+        &mut self,
+        from: Block,
+        shapes: impl IntoIterator<Item = Parallelogram>,
+    ) {
+        let has_area = |shape: &Parallelogram| shape.u.cross(shape.v).length() > 1e-12;
+        let Block { low, high } = from;
+        let hint = |shape| Hint { shape, low, high };
+        self.hints.extend(shapes.into_iter().filter(has_area).map(hint));
     }
 }

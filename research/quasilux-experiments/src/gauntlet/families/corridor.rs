@@ -7,6 +7,14 @@ use glam::DVec3;
 
 const HEIGHT_M: f64 = 2.5;
 
+/// A corner from `low` on, at the end of a leg.
+struct Bend {
+    leg: Block,
+    low: DVec3,
+    width: f64,
+    along_x: bool,
+}
+
 /// Legs along x and y in turn, a corner between each two, open toward each other.
 pub(super) fn corridor(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
@@ -32,7 +40,7 @@ pub(super) fn corridor(dice: &mut Dice) -> Room {
         add_places(&mut room, dice, last, bends);
         if leg < bends {
             let from = if along_x { at + DVec3::X * length } else { at + DVec3::Y * length };
-            add_corner(&mut room, from, width, along_x, walls);
+            add_corner(&mut room, Bend { leg: last, low: from, width, along_x }, walls);
             at = if along_x { from + DVec3::Y * width } else { from + DVec3::X * width };
         }
     }
@@ -42,29 +50,22 @@ pub(super) fn corridor(dice: &mut Dice) -> Room {
         DVec3::new(0.5 * (last.low.x + last.high.x), last.high.y - 0.6, 2.0)
     };
     room.add_lamp(lamp, dice.log("lamp cd", 100.0, 10_000.0));
-    room.hint_shares = [0.5, 0.35];
+    room.hint_shares = [0.6, 0.3];
     room
 }
 
-/// Where two legs meet, and its openings as hints.
-fn add_corner(room: &mut Room, low: DVec3, width: f64, from_x: bool, walls: Surface) {
+/// Where two legs meet, and what to look at from the first: the way on, and the wall that it lights.
+fn add_corner(room: &mut Room, bend: Bend, walls: Surface) {
+    let Bend { leg, low, width, along_x } = bend;
     let corner = Block { low, high: low + DVec3::new(width, width, HEIGHT_M) };
-    let sides = if from_x { [Side::LowX, Side::HighY] } else { [Side::LowY, Side::HighX] };
+    let sides = if along_x { [Side::LowX, Side::HighY] } else { [Side::LowY, Side::HighX] };
     room.add_shell(corner, walls, &sides.map(Opening::all));
-    let up = DVec3::Z * HEIGHT_M;
-    let beyond = if from_x {
-        [low + DVec3::Y * width, DVec3::X * width]
-    } else {
-        [low + DVec3::X * width, DVec3::Y * width]
-    };
-    let facing = if from_x {
-        [low + DVec3::X * width, DVec3::Y * width]
-    } else {
-        [low + DVec3::Y * width, DVec3::X * width]
-    };
-    for [corner, u] in [beyond, facing] {
-        room.add_hints([Parallelogram { corner, u, v: up }]);
-    }
+    let across = if along_x { [DVec3::X, DVec3::Y] } else { [DVec3::Y, DVec3::X] };
+    let [along, aside] = across.map(|axis| axis * width);
+    let v = DVec3::Z * HEIGHT_M;
+    let beyond = Parallelogram { corner: low + aside, u: along, v };
+    let facing = Parallelogram { corner: low + along, u: aside, v };
+    room.add_hints(Block { low: leg.low, high: corner.high }, [beyond, facing]);
 }
 
 /// Two in the first legs, three in the only other one of a single bend.

@@ -37,7 +37,10 @@ pub(super) fn cove(dice: &mut Dice) -> Room {
     let reach = 0.1 + 4.0 * depth;
     let above = Opening { side: Side::HighZ, low: [0.0, 0.3], high: [reach, 5.7] };
     let behind = Opening { side: Side::LowX, low: [0.3, bottom], high: [5.7, 3.0] };
-    room.add_hints([above.at(3.0), behind.at(0.0)]);
-    room.hint_shares = [0.4, 0.2];
+    let mouth = Opening { side: Side::HighX, low: [0.3, 3.0 - gap], high: [5.7, 3.0] };
+    let lip_m = 0.12 + depth;
+    let out = Block { low: DVec3::new(lip_m + 0.01, 0.0, 0.0), high: block.high };
+    room.add_hints(out, [above.at(3.0), behind.at(0.0), mouth.at(lip_m)]);
+    room.hint_shares = [0.5, 0.3];
     room
 }

@@ -10,7 +10,7 @@ const WALL_M: f64 = 4.0;
 const HEIGHT_M: f64 = 2.6;
 const DEPTH_M: f64 = 4.0;
 
-/// Two rooms, a hole through a wall, and where the light of a lamp beyond lands.
+/// Two rooms, and a hole through the wall between them.
 fn add_rooms(room: &mut Room, hole: Opening, wall_m: f64, lamp: DVec3, walls: [Surface; 2]) {
     let dark = Block::new([0.0; 3], [WALL_M, DEPTH_M, HEIGHT_M]);
     let start = WALL_M + wall_m;
@@ -18,19 +18,35 @@ fn add_rooms(room: &mut Room, hole: Opening, wall_m: f64, lamp: DVec3, walls: [S
     room.add_shell(dark, walls[0], &[hole]);
     room.add_shell(lit, walls[1], &[Opening { side: Side::LowX, ..hole }]);
     room.add_tunnel(hole.tunnel(WALL_M, start), 0, walls[0]);
-    room.add_hints([hole.at(WALL_M), hole.spot(lamp, start, 0.0, dark).at(0.0)]);
-    // A lamp above the hole lights the floor behind it.
-    let reach = |z: f64| lamp.x + (start - lamp.x) * lamp.z / (lamp.z - z);
-    if lamp.z > hole.low[1] {
-        let far = if lamp.z > hole.high[1] { reach(hole.high[1]) } else { f64::NEG_INFINITY };
-        let [far, near] = [far, reach(hole.low[1])].map(|x| x.clamp(0.0, WALL_M));
-        let across = |y: f64, x: f64| lamp.y + (y - lamp.y) * (lamp.x - x) / (lamp.x - start);
-        let sides = [far, near].map(|x| [across(hole.low[0], x), across(hole.high[0], x)]);
-        let low = sides[0][0].min(sides[1][0]).clamp(0.0, DEPTH_M);
-        let high = sides[0][1].max(sides[1][1]).clamp(0.0, DEPTH_M);
-        let spot = Opening { side: Side::LowZ, low: [far, low], high: [near, high] };
-        room.add_hints([spot.at(0.0)]);
+    // Where light lands that comes straight through the hole, of the lamp and of the walls beyond.
+    let of_lamp = hole.spot(lamp, start, 0.0, dark).at(0.0);
+    let reach = [0, 1].map(|k| (hole.high[k] - hole.low[k]) * WALL_M / wall_m);
+    let of_walls = hole.widened(reach, dark).at(0.0);
+    room.add_hints(dark, [hole.at(WALL_M), of_lamp, of_walls]);
+    let aside = 0.5 * reach[0];
+    let floor = Opening {
+        side: Side::LowZ,
+        low: [0.0, (hole.low[0] - aside).max(0.0)],
+        high: [WALL_M, (hole.high[0] + aside).min(DEPTH_M)],
+    };
+    room.add_hints(dark, [floor.at(0.0)]);
+    add_spot_on_floor(room, hole, lamp, start, dark);
+}
+
+/// A lamp above the hole lights the floor behind it.
+fn add_spot_on_floor(room: &mut Room, hole: Opening, lamp: DVec3, start: f64, dark: Block) {
+    if lamp.z <= hole.low[1] {
+        return;
     }
+    let reach = |z: f64| lamp.x + (start - lamp.x) * lamp.z / (lamp.z - z);
+    let far = if lamp.z > hole.high[1] { reach(hole.high[1]) } else { f64::NEG_INFINITY };
+    let [far, near] = [far, reach(hole.low[1])].map(|x| x.clamp(0.0, WALL_M));
+    let across = |y: f64, x: f64| lamp.y + (y - lamp.y) * (lamp.x - x) / (lamp.x - start);
+    let sides = [far, near].map(|x| [across(hole.low[0], x), across(hole.high[0], x)]);
+    let low = sides[0][0].min(sides[1][0]).clamp(0.0, DEPTH_M);
+    let high = sides[0][1].max(sides[1][1]).clamp(0.0, DEPTH_M);
+    let spot = Opening { side: Side::LowZ, low: [far, low], high: [near, high] };
+    room.add_hints(dark, [spot.at(0.0)]);
 }
 
 /// A door that stands open by a hair.
@@ -45,7 +61,7 @@ pub(super) fn door(dice: &mut Dice) -> Room {
     room.add_lamp(lamp, dice.log("lamp cd", 100.0, 10_000.0));
     room.scatter(dice, DVec3::new(0.3, 0.3, 0.3), DVec3::new(3.5, 3.7, 2.3), 6);
     room.add_place(DVec3::new(0.0, 2.0, 1.0), DVec3::X);
-    room.hint_shares = [0.5, 0.2];
+    room.hint_shares = [0.6, 0.3];
     room
 }
 
@@ -62,7 +78,7 @@ pub(super) fn keyhole(dice: &mut Dice) -> Room {
     let night = DVec3::new(0.4, 3.5, 0.4);
     room.add_lamp(night, dice.log("night light cd", 0.03, 3.0));
     room.scatter(dice, DVec3::new(0.3, 0.3, 0.3), DVec3::new(3.5, 3.1, 2.3), 7);
-    room.hint_shares = [0.5, 0.2];
+    room.hint_shares = [0.6, 0.3];
     room
 }
 
@@ -79,13 +95,14 @@ pub(super) fn decades(dice: &mut Dice) -> Room {
     room.add_solid(table, Surface::Grey(0.5));
     room.add_lamp(lamp, dice.log("lamp cd", 10.0, 1000.0));
     let spot = Opening { side: Side::HighZ, low: [5.8, 0.8], high: [6.2, 1.2] };
-    room.add_hints([spot.at(0.8)]);
+    let lit = Block::new([4.1, 0.0, 0.0], [8.1, DEPTH_M, HEIGHT_M]);
+    room.add_hints(lit, [spot.at(0.8)]);
     room.add_place(DVec3::new(6.0, 1.0, 0.8), DVec3::Z);
     room.add_place(DVec3::new(6.25, 1.25, 0.8), DVec3::Z);
     room.add_place(DVec3::new(7.5, 3.5, 0.0), DVec3::Z);
     room.add_place(DVec3::new(5.0, 3.0, 1.5), DVec3::NEG_X);
     room.add_place(DVec3::new(6.0, 1.0, 0.3), DVec3::NEG_Z);
     room.scatter(dice, DVec3::new(0.3, 0.3, 0.3), DVec3::new(3.5, 3.7, 2.3), 4);
-    room.hint_shares = [0.5, 0.2];
+    room.hint_shares = [0.6, 0.3];
     room
 }

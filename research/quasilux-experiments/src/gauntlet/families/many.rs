@@ -64,6 +64,7 @@ fn add_partitions(room: &mut Room, counts: [u32; 2], door: f64, walls: Surface) 
 
 fn add_hint(room: &mut Room, from_first: u32, hole: Opening, plane_m: f64) {
     if from_first == 0 {
-        room.add_hints([hole.at(plane_m)]);
+        let first = Block::new([0.0; 3], [CELL_M, CELL_M, HEIGHT_M]);
+        room.add_hints(first, [hole.at(plane_m)]);
     }
 }

@@ -31,8 +31,8 @@ pub(super) fn baffle(dice: &mut Dice) -> Room {
     room.add_panel(panel, dice.log("panel cd/m2", 100.0, 3000.0));
     room.scatter(dice, DVec3::new(2.2, 0.5, 0.4), DVec3::new(4.6, 3.5, 2.4), 5);
     room.scatter(dice, DVec3::new(0.3, 0.5, 0.4), DVec3::new(1.3, 3.5, 2.4), 2);
-    room.add_hints([light.image(mirror.corner, DVec3::X)]);
-    room.hint_shares = [0.4, 0.2];
+    room.add_hints(block, [light.image(mirror.corner, DVec3::X)]);
+    room.hint_shares = [0.5, 0.3];
     room
 }
 
@@ -81,7 +81,9 @@ pub(super) fn periscope(dice: &mut Dice) -> Room {
         low: [1.8 - margin, low_m - margin].map(|low| low.max(0.0)),
         high: [1.8 + side + margin, low_m + side + margin].map(|high| high.min(2.6)),
     };
-    room.add_hints([twice, hole(low_m).at(4.0), spot.at(0.0)]);
-    room.hint_shares = [0.6, 0.3];
+    room.add_hints(lower, [twice, hole(low_m).at(4.0), spot.at(0.0)]);
+    let in_shaft = Block { low: DVec3::new(4.0, 0.0, 0.0), high: shaft.high };
+    room.add_hints(in_shaft, [twice, once, hole(high_m).at(4.0)]);
+    room.hint_shares = [0.7, 0.3];
     room
 }

@@ -29,8 +29,8 @@ pub(super) fn beam(dice: &mut Dice) -> Room {
         low: [target.y - radius, target.z - radius].map(|low| low.max(0.0)),
         high: [(target.y + radius).min(5.0), (target.z + radius).min(2.8)],
     };
-    room.add_hints([spot.at(0.0)]);
-    room.hint_shares = [0.4, 0.2];
+    room.add_hints(block, [spot.at(0.0)]);
+    room.hint_shares = [0.5, 0.3];
     room
 }
 
@@ -58,8 +58,16 @@ pub(super) fn tube(dice: &mut Dice) -> Room {
     room.scatter(dice, DVec3::new(0.4, 0.4, 0.4), DVec3::new(1.6, 3.6, 2.6), 3);
     let mouth = Opening { side: Side::HighZ, low: [2.0, 1.5], high: [2.0 + side, 1.5 + side] };
     let spot = mouth.spot(lamp, tube.high.z, 3.0, block);
-    room.add_hints([mouth.at(tube.high.z), spot.at(3.0)]);
-    room.hint_shares = [0.4, 0.2];
+    let wider = mouth.widened([6.0 * (spot.high[0] - mouth.high[0]); 2], block);
+    // From all but the tube; a place that belongs to two of the boxes has its hints twice.
+    let above = Block { low: DVec3::new(0.0, 0.0, tube.high.z + 0.01), high: block.high };
+    let below = Block { low: block.low, high: DVec3::new(5.0, 4.0, tube.high.z + 0.01) };
+    let right = Block { low: below.low.with_x(tube.high.x + 0.01), high: below.high };
+    let left = Block { low: below.low, high: below.high.with_x(low.x - 0.01) };
+    for from in [above, right, left] {
+        room.add_hints(from, [mouth.at(tube.high.z), spot.at(3.0), wider.at(3.0)]);
+    }
+    room.hint_shares = [0.5, 0.3];
     room
 }
 

@@ -33,8 +33,8 @@ pub(super) fn louvres(dice: &mut Dice) -> Room {
     }
     let inner = block.inset(0.4);
     room.scatter(dice, inner.low, inner.high, 7);
-    room.add_hints([window.at(0.0)]);
-    room.hint_shares = [0.6, 0.2];
+    room.add_hints(block, [window.at(0.0)]);
+    room.hint_shares = [0.6, 0.3];
     room
 }
 
@@ -56,8 +56,14 @@ pub(super) fn slit(dice: &mut Dice) -> Room {
     let inner = block.inset(0.4);
     room.scatter(dice, inner.low, inner.high, 7);
     room.add_place(DVec3::new(1.0, 1.9 + 0.5 * width, 0.0), DVec3::Z);
-    room.add_hints([slit.at(0.0)]);
-    room.hint_shares = [0.5, 0.2];
+    // Light that comes straight through lands in strips on the far wall and on the floor.
+    let reach = width * SIZE_M[0] / wall;
+    let far = slit.widened([reach, 1.0], block);
+    let low = [0.0, (1.9 - 0.5 * reach).max(0.0)];
+    let high = [SIZE_M[0], (1.9 + width + 0.5 * reach).min(SIZE_M[1])];
+    let floor = Opening { side: Side::LowZ, low, high };
+    room.add_hints(block, [slit.at(0.0), far.at(SIZE_M[0]), floor.at(0.0)]);
+    room.hint_shares = [0.6, 0.3];
     room
 }
 
@@ -80,7 +86,7 @@ pub(super) fn shaft(dice: &mut Dice) -> Room {
     room.add_place(DVec3::new(2.5 + 0.5 * side, 1.6 + 0.5 * side, 0.0), DVec3::Z);
     // What the sky sees of the floor straight down, in the middle of its light.
     let floor = Opening { side: Side::LowZ, low: [2.2, 1.3], high: [2.8 + side, 1.9 + side] };
-    room.add_hints([mouth.at(SIZE_M[2]), floor.at(0.0)]);
-    room.hint_shares = [0.5, 0.2];
+    room.add_hints(block, [mouth.at(SIZE_M[2]), floor.at(0.0)]);
+    room.hint_shares = [0.6, 0.3];
     room
 }
