@@ -1,8 +1,17 @@
 //! Parameters of a room, from a hash of its number.
 
-use super::room::Parameter;
 use glam::DVec3;
 use std::f64::consts::TAU;
+use std::fmt;
+
+/// A number that makes one room of a family differ from another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// What it is, with its unit.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+}
 
 /// Draws what a room is made of, and remembers what has a name.
 pub(super) struct Dice {
@@ -79,6 +88,12 @@ impl Dice {
         let (sin, cos) = libm::sincos(TAU * self.unit());
         let radius = (1.0 - z * z).sqrt();
         DVec3::new(radius * cos, radius * sin, z).normalize()
+    }
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.name, (self.value * 1e6).round() / 1e6)
     }
 }
 

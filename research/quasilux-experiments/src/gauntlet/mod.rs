@@ -21,8 +21,9 @@ mod scene;
 mod shell;
 mod trial;
 
+pub use dice::Parameter;
 pub use references::{Reference, RoomReferences, references};
-pub use room::{Face, Hint, Lamp, Parallelogram, Parameter, Place, Room, Shine, Surface};
+pub use room::{Face, Hint, Lamp, Parallelogram, Place, Room, Shine, Surface};
 
 use crate::outcome::{Options, Outcome};
 use dice::Dice;

@@ -1,8 +1,7 @@
 //! What a hard room is: quadrilaterals, lamps, places and where to look.
 
-use super::dice::Dice;
+use super::dice::{Dice, Parameter};
 use glam::DVec3;
-use std::fmt;
 
 /// A room of the gauntlet, lengths in m.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,15 +22,6 @@ pub struct Room {
     pub hints: Vec<Hint>,
     /// The shares of directions that such a reference sends there, at first and after bounces.
     pub hint_shares: [f64; 2],
-}
-
-/// A number that makes one room of a family differ from another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
-    /// What it is, with its unit.
-    pub name: &'static str,
-    /// Its value.
-    pub value: f64,
 }
 
 /// A flat quadrilateral, its front where its corners run counter-clockwise.
@@ -206,12 +196,6 @@ impl Parallelogram {
     pub(super) fn image(&self, place: DVec3, n: DVec3) -> Self {
         let turned = |v: DVec3| v - n * (2.0 * v.dot(n));
         Self { corner: place + turned(self.corner - place), u: turned(self.u), v: turned(self.v) }
-    }
-}
-
-impl fmt::Display for Parameter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.name, (self.value * 1e6).round() / 1e6)
     }
 }
 

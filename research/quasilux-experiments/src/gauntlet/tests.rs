@@ -3,7 +3,7 @@
 use super::brute::brute_scene;
 use super::*;
 use quasilux_brute::{Limits, solve_until};
-use quasilux_transport::{Settings, simulate};
+use quasilux_transport::{Settings, check, simulate};
 
 /// The same room without any reflection but that of mirrors.
 fn black(number: u64) -> Room {

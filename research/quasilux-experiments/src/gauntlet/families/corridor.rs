@@ -54,7 +54,7 @@ pub(super) fn corridor(dice: &mut Dice) -> Room {
     room
 }
 
-/// Where two legs meet, and what to look at from the first: the way on, and the wall that it lights.
+/// Where two legs meet, and what to look at: the way in from the first, the way on from within.
 fn add_corner(room: &mut Room, bend: Bend, walls: Surface) {
     let Bend { leg, low, width, along_x } = bend;
     let corner = Block { low, high: low + DVec3::new(width, width, HEIGHT_M) };
@@ -63,9 +63,10 @@ fn add_corner(room: &mut Room, bend: Bend, walls: Surface) {
     let across = if along_x { [DVec3::X, DVec3::Y] } else { [DVec3::Y, DVec3::X] };
     let [along, aside] = across.map(|axis| axis * width);
     let v = DVec3::Z * HEIGHT_M;
-    let beyond = Parallelogram { corner: low + aside, u: along, v };
-    let facing = Parallelogram { corner: low + along, u: aside, v };
-    room.add_hints(Block { low: leg.low, high: corner.high }, [beyond, facing]);
+    let way_in = Parallelogram { corner: low, u: aside, v };
+    let way_on = Parallelogram { corner: low + aside, u: along, v };
+    room.add_hints(leg, [way_in]);
+    room.add_hints(corner, [way_on]);
 }
 
 /// Two in the first legs, three in the only other one of a single bend.

@@ -59,6 +59,13 @@ pub(super) fn door(dice: &mut Dice) -> Room {
     let lamp = dice.within(DVec3::new(5.0, 0.7, 1.5), DVec3::new(7.5, 3.3, 2.3));
     add_rooms(&mut room, hole, wall, lamp, walls);
     room.add_lamp(lamp, dice.log("lamp cd", 100.0, 10_000.0));
+    // The gap reaches down to the floor, which is brightest there.
+    let dark = Block::new([0.0; 3], [WALL_M, DEPTH_M, HEIGHT_M]);
+    for reach in [0.1, 0.5] {
+        let low = [WALL_M - reach, 1.8 - 0.5 * reach];
+        let floor = Opening { side: Side::LowZ, low, high: [WALL_M, 1.8 + gap + 0.5 * reach] };
+        room.add_hints(dark, [floor.at(0.0)]);
+    }
     room.scatter(dice, DVec3::new(0.3, 0.3, 0.3), DVec3::new(3.5, 3.7, 2.3), 6);
     room.add_place(DVec3::new(0.0, 2.0, 1.0), DVec3::X);
     room.hint_shares = [0.6, 0.3];
