@@ -79,9 +79,9 @@ impl<'a> World<'a> {
         let mut lx = 0.0;
         loop {
             if vertex.bounces > 0 {
-                lx += self.from_points(&vertex, random);
+                lx += self.light_of_points(&vertex, random);
             }
-            lx += self.from_emitters(&vertex, random);
+            lx += self.light_of_emitters(&vertex, random);
             let direction = self.sample(&vertex, random);
             let cos = direction.dot(vertex.normal);
             if cos <= 0.0 {
@@ -214,7 +214,7 @@ impl<'a> World<'a> {
 
     /// Next-event estimation of point lights: of all, or of one in proportion to what it gives
     /// without shadows.
-    fn from_points(&self, vertex: &Vertex, random: &mut Random) -> f64 {
+    fn light_of_points(&self, vertex: &Vertex, random: &mut Random) -> f64 {
         let lights = &self.scene.lights;
         if lights.len() <= ASK_ALL {
             return lights.iter().map(|light| self.lit_by(vertex, light)).sum();
@@ -249,7 +249,7 @@ impl<'a> World<'a> {
     }
 
     /// Next-event estimation of emitting triangles, weighed against directions of the mixture.
-    fn from_emitters(&self, vertex: &Vertex, random: &mut Random) -> f64 {
+    fn light_of_emitters(&self, vertex: &Vertex, random: &mut Random) -> f64 {
         if self.emitters.is_empty() {
             return 0.0;
         }

@@ -34,13 +34,14 @@ pub(super) fn cove(dice: &mut Dice) -> Room {
         }
     }
     room.scatter(dice, DVec3::new(0.8, 0.4, 0.3), DVec3::new(4.6, 5.6, 2.0), 8);
-    let reach = 0.1 + 4.0 * depth;
-    let above = Opening { side: Side::HighZ, low: [0.0, 0.3], high: [reach, 5.7] };
-    let behind = Opening { side: Side::LowX, low: [0.3, bottom], high: [5.7, 3.0] };
-    let mouth = Opening { side: Side::HighX, low: [0.3, 3.0 - gap], high: [5.7, 3.0] };
     let lip_m = 0.12 + depth;
+    let mouth = Opening { side: Side::HighX, low: [0.3, 3.0 - gap], high: [5.7, 3.0] };
+    let ceiling = [1.5 * gap, 1.0].map(|reach| {
+        let high = [lip_m + reach, 5.7];
+        Opening { side: Side::HighZ, low: [lip_m, 0.3], high }.at(3.0)
+    });
     let out = Block { low: DVec3::new(lip_m + 0.01, 0.0, 0.0), high: block.high };
-    room.add_hints(out, [above.at(3.0), behind.at(0.0), mouth.at(lip_m)]);
+    room.add_hints(out, [mouth.at(lip_m), ceiling[0], ceiling[1]]);
     room.hint_shares = [0.5, 0.3];
     room
 }
