@@ -152,7 +152,7 @@ impl Room {
         for number in 0..count {
             let mut position = dice.within(low, high);
             let mut normal = dice.normal();
-            if number % 3 == 0 {
+            if number.is_multiple_of(3) {
                 (position.z, normal) = (low.z.min(0.0), DVec3::Z);
             }
             self.add_place(position, normal);

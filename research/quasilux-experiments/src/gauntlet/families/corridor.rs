@@ -25,7 +25,7 @@ pub(super) fn corridor(dice: &mut Dice) -> Room {
     let mut last = Block { low: at, high: at };
     for leg in 0..=bends {
         let length = dice.between(2.0, 6.0);
-        let along_x = leg % 2 == 0;
+        let along_x = leg.is_multiple_of(2);
         let ends = if along_x { [Side::LowX, Side::HighX] } else { [Side::LowY, Side::HighY] };
         let reach =
             if along_x { DVec3::new(length, width, 0.0) } else { DVec3::new(width, length, 0.0) };
@@ -44,7 +44,7 @@ pub(super) fn corridor(dice: &mut Dice) -> Room {
             at = if along_x { from + DVec3::Y * width } else { from + DVec3::X * width };
         }
     }
-    let lamp = if bends % 2 == 0 {
+    let lamp = if bends.is_multiple_of(2) {
         DVec3::new(last.high.x - 0.6, 0.5 * (last.low.y + last.high.y), 2.0)
     } else {
         DVec3::new(0.5 * (last.low.x + last.high.x), last.high.y - 0.6, 2.0)
