@@ -8,7 +8,8 @@
 
 use quasilux_brute::{Limits, solve_until};
 use quasilux_experiments::gauntlet::{
-    Face, Hint, Lamp, Parallelogram, Place, Reference, Room, RoomReferences, Shine, Surface, room,
+    Face, Lamp, Lookout, Parallelogram, Reference, Room, RoomReferences, SensorPlace, Shine,
+    Surface, room,
 };
 use std::time::Instant;
 

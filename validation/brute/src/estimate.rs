@@ -1,7 +1,7 @@
 //! Means and errors from independent batches.
 
 use crate::path::World;
-use crate::random::Random;
+use crate::random::Xoshiro;
 use crate::scene::Scene;
 use rayon::prelude::*;
 
@@ -37,7 +37,7 @@ pub struct Limits {
 /// A batch of one sensor.
 #[derive(Clone)]
 struct Batch {
-    random: Random,
+    random: Xoshiro,
     sum_lx: f64,
     largest_lx: f64,
     paths: u64,
@@ -55,7 +55,7 @@ struct Batches {
 #[must_use]
 pub fn solve(scene: &Scene, paths_per_sensor: u64, seed: u64) -> Vec<Estimate> {
     let world = World::new(scene);
-    let mut all = Batches::of(&world, seed);
+    let mut all = Batches::start(&world, seed);
     let paths = paths_per_sensor.div_ceil(BATCHES);
     all.iter_mut().for_each(|batches| batches.trace(&world, paths));
     all.iter().map(Batches::estimate).collect()
@@ -70,7 +70,7 @@ pub fn solve_until(
     mut may_go_on: impl FnMut() -> bool,
 ) -> Vec<Estimate> {
     let world = World::new(scene);
-    let mut all = Batches::of(&world, seed);
+    let mut all = Batches::start(&world, seed);
     let mut paths = FIRST_PATHS;
     loop {
         let is_open = |batches: &Batches| {
@@ -98,11 +98,11 @@ pub fn direct_point_lx(scene: &Scene) -> Vec<f64> {
 }
 
 impl Batches {
-    fn of(world: &World, seed: u64) -> Vec<Self> {
+    fn start(world: &World, seed: u64) -> Vec<Self> {
         let sensors = world.scene.sensors.iter().enumerate();
         let own = |(sensor, place)| {
             let batch = |batch: u64| Batch {
-                random: Random::new(seed, sensor as u64 * BATCHES + batch),
+                random: Xoshiro::new(seed, sensor as u64 * BATCHES + batch),
                 sum_lx: 0.0,
                 largest_lx: 0.0,
                 paths: 0,

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A parallelogram that directions may be drawn through, uniform in area.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hint {
+pub struct Lookout {
     corner: DVec3,
     u: DVec3,
     v: DVec3,
@@ -17,7 +17,7 @@ pub struct Hint {
 /// Places on the sides of the box belong to it.
 const MARGIN_M: f64 = 1e-6;
 
-impl Hint {
+impl Lookout {
     /// The parallelogram with edges `u` and `v` from a corner, in m; either side may be looked at.
     #[must_use]
     pub fn new(corner: DVec3, u: DVec3, v: DVec3) -> Self {

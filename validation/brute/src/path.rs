@@ -1,7 +1,7 @@
 //! One path from a sensor, with next-event estimation.
 
 use crate::light::PointLight;
-use crate::random::Random;
+use crate::random::Xoshiro;
 use crate::scene::{Scene, Sensor};
 use crate::tree::{Hit, Tree};
 use crate::triangle::{Ray, Surface, Triangle};
@@ -74,7 +74,7 @@ impl<'a> World<'a> {
     }
 
     /// What one path finds, in lx, without what point lights give to the sensor directly.
-    pub(crate) fn path_lx(&self, sensor: &Sensor, random: &mut Random) -> f64 {
+    pub(crate) fn path_lx(&self, sensor: &Sensor, random: &mut Xoshiro) -> f64 {
         let mut vertex = self.vertex(sensor.position, sensor.normal, PI, 0);
         let mut lx = 0.0;
         loop {
@@ -116,7 +116,7 @@ impl<'a> World<'a> {
     }
 
     /// A direction of the mixture; it may go below the horizon, where there is nothing.
-    fn sample(&self, vertex: &Vertex, random: &mut Random) -> DVec3 {
+    fn sample(&self, vertex: &Vertex, random: &mut Xoshiro) -> DVec3 {
         let choice = random.uniform();
         let uv = [random.uniform(), random.uniform()];
         if choice < vertex.hint_share {
@@ -182,7 +182,7 @@ impl<'a> World<'a> {
         arrival: &Arrival,
         beta: f64,
         bounces: u32,
-        random: &mut Random,
+        random: &mut Xoshiro,
     ) -> Option<Vertex> {
         let triangle = &self.scene.triangles[arrival.hit.triangle];
         let Surface::Grey { reflectance, two_sided } = triangle.surface else {
@@ -214,7 +214,7 @@ impl<'a> World<'a> {
 
     /// Next-event estimation of point lights: of all, or of one in proportion to what it gives
     /// without shadows.
-    fn light_of_points(&self, vertex: &Vertex, random: &mut Random) -> f64 {
+    fn light_of_points(&self, vertex: &Vertex, random: &mut Xoshiro) -> f64 {
         let lights = &self.scene.lights;
         if lights.len() <= ASK_ALL {
             return lights.iter().map(|light| self.lit_by(vertex, light)).sum();
@@ -249,7 +249,7 @@ impl<'a> World<'a> {
     }
 
     /// Next-event estimation of emitting triangles, weighed against directions of the mixture.
-    fn light_of_emitters(&self, vertex: &Vertex, random: &mut Random) -> f64 {
+    fn light_of_emitters(&self, vertex: &Vertex, random: &mut Xoshiro) -> f64 {
         if self.emitters.is_empty() {
             return 0.0;
         }

@@ -2,11 +2,11 @@
 
 /// A generator of its own for each batch.
 #[derive(Clone, Debug)]
-pub struct Random {
+pub struct Xoshiro {
     state: [u64; 4],
 }
 
-impl Random {
+impl Xoshiro {
     /// The generator of a seed and the number of a stream.
     #[must_use]
     pub fn new(seed: u64, stream: u64) -> Self {

@@ -1,6 +1,6 @@
 //! What there is.
 
-use crate::hint::Hint;
+use crate::hint::Lookout;
 use crate::light::PointLight;
 use crate::triangle::Triangle;
 use glam::DVec3;
@@ -15,7 +15,7 @@ pub struct Scene {
     /// Where light is asked for.
     pub sensors: Vec<Sensor>,
     /// Where to look for it.
-    pub hints: Vec<Hint>,
+    pub hints: Vec<Lookout>,
     /// The share of directions that go to the hints, from the sensor; at least 0, less than 1.
     pub hint_share: f64,
     /// The same after many bounces; it goes down to it by a third each time.

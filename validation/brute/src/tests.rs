@@ -93,7 +93,7 @@ fn a_lamp_in_a_cube_gives_what_its_flux_says() {
     let mut scene = cube(1.0, 0.5, 0.0);
     let candela = Candela::Constant(10.0);
     scene.lights.push(PointLight { position: DVec3::splat(0.5), aim: DVec3::X, candela });
-    let mut random = Random::new(3, 0);
+    let mut random = Xoshiro::new(3, 0);
     let place = |_| up(random.uniform(), random.uniform(), 0.0);
     scene.sensors = (0..4000).map(place).collect();
     let found = solve(&scene, 64, 1);
@@ -116,7 +116,7 @@ fn a_mirror_shows_a_second_light_with_hints_and_without() {
     let plain = solve(&scene, 40_000, 1)[0];
     assert_near(&plain, wanted_lx, 0.01);
     let corner = DVec3::new(-3.0, -1.0, 1.0);
-    scene.hints.push(Hint::new(corner, DVec3::X * 2.0, DVec3::Y * 2.0));
+    scene.hints.push(Lookout::new(corner, DVec3::X * 2.0, DVec3::Y * 2.0));
     (scene.hint_share, scene.late_hint_share) = (0.5, 0.1);
     let hinted = solve(&scene, 40_000, 1)[0];
     assert_near(&hinted, wanted_lx, 0.01);
@@ -145,9 +145,9 @@ fn hints_do_not_change_the_mean() {
     let mut scene = cube(2.0, 0.5, 10.0);
     scene.sensors = vec![up(0.3, 0.9, 0.4)];
     scene.hints = vec![
-        Hint::new(DVec3::new(0.5, 0.5, 1.5), DVec3::X, DVec3::Y * 0.2),
-        Hint::new(DVec3::new(0.4, 0.4, 1.0), DVec3::X, DVec3::new(0.0, 0.3, 0.4)),
-        Hint::new(DVec3::new(2.0, 0.0, 0.0), DVec3::Y * 2.0, DVec3::Z),
+        Lookout::new(DVec3::new(0.5, 0.5, 1.5), DVec3::X, DVec3::Y * 0.2),
+        Lookout::new(DVec3::new(0.4, 0.4, 1.0), DVec3::X, DVec3::new(0.0, 0.3, 0.4)),
+        Lookout::new(DVec3::new(2.0, 0.0, 0.0), DVec3::Y * 2.0, DVec3::Z),
     ];
     (scene.hint_share, scene.late_hint_share) = (0.6, 0.3);
     assert_near(&solve(&scene, 60_000, 1)[0], PI * 10.0 / 0.5, 0.02);

@@ -7,11 +7,12 @@ use quasilux_brute as brute;
 /// The same room, with the places to look at.
 pub(super) fn brute_scene(room: &Room) -> brute::Scene {
     let [hint_share, late_hint_share] = room.hint_shares;
-    let hint = |it: &super::Hint| {
+    let hint = |it: &super::Lookout| {
         let super::Parallelogram { corner, u, v } = it.shape;
-        brute::Hint::new(corner, u, v).from_within(it.low, it.high)
+        brute::Lookout::new(corner, u, v).from_within(it.low, it.high)
     };
-    let sensor = |it: &super::Place| brute::Sensor { position: it.position, normal: it.normal };
+    let sensor =
+        |it: &super::SensorPlace| brute::Sensor { position: it.position, normal: it.normal };
     brute::Scene {
         triangles: room.faces.iter().flat_map(triangles).collect(),
         lights: room.lamps.iter().map(light).collect(),

@@ -21,7 +21,7 @@ pub(super) struct Count {
 
 impl Count {
     /// Counts the runs of an estimator, of one family unless it is `None`.
-    pub(super) fn of(trials: &[Trial], estimator: EstimatorKind, family: Option<&str>) -> Self {
+    pub(super) fn new(trials: &[Trial], estimator: EstimatorKind, family: Option<&str>) -> Self {
         let is_own = |trial: &&Trial| {
             trial.estimator == estimator && family.is_none_or(|family| trial.family == family)
         };

@@ -23,7 +23,7 @@ mod trial;
 
 pub use dice::Parameter;
 pub use references::{Reference, RoomReferences, references};
-pub use room::{Face, Hint, Lamp, Parallelogram, Place, Room, Shine, Surface};
+pub use room::{Face, Lamp, Lookout, Parallelogram, Room, SensorPlace, Shine, Surface};
 
 use crate::outcome::{Options, Outcome};
 use dice::Dice;

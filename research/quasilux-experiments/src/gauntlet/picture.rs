@@ -36,7 +36,7 @@ fn lines(trials: &[Trial], value: fn(&Count) -> f64) -> Vec<Line> {
     let line = |number: usize| {
         let names = super::families::ALL.iter().map(|family| family.name).enumerate();
         let point = |(at, name): (usize, &str)| {
-            let share = value(&Count::of(trials, ESTIMATORS[number], Some(name)));
+            let share = value(&Count::new(trials, ESTIMATORS[number], Some(name)));
             share.is_finite().then_some([at as f64, share])
         };
         Line { points: names.filter_map(point).collect(), stroke: stroke(number) }

@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 /// A coverage below this is refused: 95 % is promised, of few intervals, and of points of one run,
 /// which are not independent.
-const LEAST_COVERAGE: f64 = 0.9;
+const MIN_COVERAGE: f64 = 0.9;
 
 /// One line a point of a run, one a run that was refused.
 pub(super) fn csv(trials: &[Trial]) -> String {
@@ -52,7 +52,7 @@ pub(super) fn csv(trials: &[Trial]) -> String {
 /// What the default estimator is held to.
 pub(super) fn claims(trials: &[Trial]) -> Vec<Claim> {
     let estimator = ESTIMATORS[0];
-    let count = Count::of(trials, estimator, None);
+    let count = Count::new(trials, estimator, None);
     let Count { lies, covered, largest_sigmas, .. } = count;
     let intervals = count.intervals();
     let name = estimator.name();
@@ -71,10 +71,10 @@ pub(super) fn claims(trials: &[Trial]) -> Vec<Claim> {
             format!(
                 "{covered} of them cover the reference, {:.1} %, and {:.0} % or more are to",
                 100.0 * coverage,
-                100.0 * LEAST_COVERAGE
+                100.0 * MIN_COVERAGE
             ),
             [coverage],
-            coverage >= LEAST_COVERAGE,
+            coverage >= MIN_COVERAGE,
         ),
     ]
 }
@@ -122,7 +122,7 @@ pub(super) fn markdown(
 }
 
 fn row(trials: &[Trial], family: Option<&str>, estimator: EstimatorKind) -> String {
-    let count = Count::of(trials, estimator, family);
+    let count = Count::new(trials, estimator, family);
     if count.runs == 0 {
         return String::new();
     }

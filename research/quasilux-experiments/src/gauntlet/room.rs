@@ -17,9 +17,9 @@ pub struct Room {
     /// Point lights.
     pub lamps: Vec<Lamp>,
     /// Sensor points.
-    pub places: Vec<Place>,
+    pub places: Vec<SensorPlace>,
     /// Where light comes from that is hard to find: for a reference that is told, nothing else.
-    pub hints: Vec<Hint>,
+    pub hints: Vec<Lookout>,
     /// The shares of directions that such a reference sends there, at first and after bounces.
     pub hint_shares: [f64; 2],
 }
@@ -69,7 +69,7 @@ pub enum Shine {
 
 /// A sensor point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct SensorPlace {
     /// Where it is.
     pub position: DVec3,
     /// Unit normal.
@@ -89,7 +89,7 @@ pub struct Parallelogram {
 
 /// Where to look, and from where it helps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hint {
+pub struct Lookout {
     /// What to look at.
     pub shape: Parallelogram,
     /// The low corner of the box that it is for.
@@ -144,7 +144,7 @@ impl Room {
     }
 
     pub(super) fn add_place(&mut self, position: DVec3, normal: DVec3) {
-        self.places.push(Place { position, normal });
+        self.places.push(SensorPlace { position, normal });
     }
 
     /// Adds sensor points in the air of a box, and one of three on its floor.

@@ -1,6 +1,6 @@
 //! Boxes with openings, that rooms are made of.
 
-use super::room::{Hint, Parallelogram, Room, Surface};
+use super::room::{Lookout, Parallelogram, Room, Surface};
 use glam::DVec3;
 
 /// A side of a box.
@@ -191,7 +191,7 @@ impl Room {
     ) {
         let has_area = |shape: &Parallelogram| shape.u.cross(shape.v).length() > 1e-12;
         let Block { low, high } = from;
-        let hint = |shape| Hint { shape, low, high };
+        let hint = |shape| Lookout { shape, low, high };
         self.hints.extend(shapes.into_iter().filter(has_area).map(hint));
     }
 }
