@@ -55,7 +55,7 @@ const MAY_USE: [(&str, &[&str]); 13] = [
 ];
 
 /// What every crate may use in its tests.
-const TEST_TOOLS: [&str; 2] = ["quasilux-stats", "quasilux-corpus"];
+const TEST_TOOLS: [&str; 3] = ["quasilux-stats", "quasilux-corpus", "quasilux-brute"];
 
 /// Crates that the table does not know, and arrows that it does not allow.
 pub(crate) fn violations(manifests: &[(String, Table)]) -> Vec<Violation> {
@@ -78,6 +78,12 @@ pub(crate) fn violations(manifests: &[(String, Table)]) -> Vec<Violation> {
         }
     }
     violations
+}
+
+/// What a crate asks for of ours that is to share nothing with the others.
+pub(crate) fn arrows_of_the_independent(manifest: &Table) -> Vec<Violation> {
+    let told = |(section, used)| format!("the reference must not use {used} ({section})");
+    arrows(manifest).into_iter().map(told).collect()
 }
 
 /// Crates whose row in the table of the page `ARCHITECTURE.md` is missing or says something else.
@@ -169,6 +175,12 @@ mod tests {
     #[test]
     fn the_test_tool_is_rejected_outside_tests() {
         assert_eq!(checked("quasilux-scene", "[dependencies]\nquasilux-stats = '1'").len(), 1);
+    }
+
+    #[test]
+    fn a_reference_that_shares_code_is_rejected() {
+        let sections = "[dependencies]\nquasilux-bvh.workspace = true\nglam = '1'";
+        assert_eq!(arrows_of_the_independent(&sections.parse().unwrap()).len(), 1);
     }
 
     #[test]

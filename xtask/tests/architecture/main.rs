@@ -42,10 +42,11 @@ fn manifests() -> Vec<(String, toml::Table)> {
 fn rust_files() -> Vec<RustFile> {
     let root = workspace();
     let mut files = Vec::new();
-    let mut folders: Vec<PathBuf> = ["crates", "research", "xtask", "benches", "fuzz"]
-        .iter()
-        .map(|name| root.join(name))
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        ["crates", "research", "validation", "xtask", "benches", "fuzz"]
+            .iter()
+            .map(|name| root.join(name))
+            .collect();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else {
             continue;
@@ -73,6 +74,13 @@ fn assert_none(violations: &[Violation]) {
 fn crate_arrows_are_those_of_the_table() {
     let manifests = manifests();
     assert_none(&arrows::violations(&manifests));
+}
+
+#[test]
+fn the_brute_force_reference_shares_no_code() {
+    let manifest = workspace().join("validation/brute/Cargo.toml");
+    let manifest = fs::read_to_string(manifest).unwrap().parse().unwrap();
+    assert_none(&arrows::arrows_of_the_independent(&manifest));
 }
 
 #[test]

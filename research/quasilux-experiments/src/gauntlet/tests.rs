@@ -1,0 +1,72 @@
+//! Rooms, references and a short run.
+
+use super::brute::brute_scene;
+use super::*;
+use quasilux_brute::{Limits, solve_until};
+use quasilux_transport::{Settings, check, simulate};
+
+/// The same room without any reflection but that of mirrors.
+fn black(number: u64) -> Room {
+    let mut room = room(number);
+    for face in &mut room.faces {
+        if let Surface::Grey(reflectance) = &mut face.surface {
+            *reflectance = 0.0;
+        }
+    }
+    room
+}
+
+#[test]
+fn rooms_follow_from_their_numbers() {
+    for number in 0..4 * families() {
+        let made = room(number);
+        assert_eq!(made, room(number));
+        assert!((6..=10).contains(&made.places.len()), "{}: {}", made.family, made.places.len());
+        assert!(!made.parameters.is_empty());
+        assert_ne!(made.digest(), room(number + families()).digest());
+        let scene = made.scene();
+        assert!(check(&scene, &Settings::default()).is_ok(), "{}", made.family);
+    }
+}
+
+/// One room of each family without interreflection: what comes straight from lights, or over
+/// mirrors, by both programs. 5 standard errors of both; seeds 1. An error of 5 % at a well-lit
+/// point would be noticed.
+#[test]
+fn both_programs_agree_on_direct_light_in_each_family() {
+    for number in 0..families() {
+        let room = black(number);
+        let limits = Limits { relative_error: 0.01, paths: 1 << 14 };
+        let known = solve_until(&brute_scene(&room), limits, 1, || true);
+        let settings =
+            Settings { rel_tol: 0.01, max_samples: Some(1 << 10), ..Settings::default() };
+        let estimates = simulate(&room.scene(), &settings, &mut ());
+        for (point, known) in estimates.point_intervals(0).iter().zip(known) {
+            let error = 0.5 * point.half_width.unwrap_or(f64::INFINITY) + known.standard_error_lx;
+            let distance = (point.value - known.lx).abs();
+            let family = room.family;
+            assert!(distance <= 5.0 * error + 1e-6 * known.lx, "{family}: {point:?}, {known:?}");
+        }
+    }
+}
+
+/// Two easy rooms, paths and photons at a tenth of a second each.
+#[test]
+fn easy_rooms_are_passed() {
+    let mut effort = Effort { rooms: 2, seeds: 1, seed: 1, limit: Duration::from_millis(50) };
+    let known = |number| {
+        let room = room(number);
+        let limits = Limits { relative_error: 0.02, paths: 1 << 13 };
+        let points = solve_until(&brute_scene(&room), limits, 1, || true)
+            .into_iter()
+            .map(|it| Reference { lx: it.lx, standard_error_lx: it.standard_error_lx })
+            .collect();
+        RoomReferences { number, digest: room.digest(), points }
+    };
+    let outcome = outcome(&effort, vec![known(0), known(1)]);
+    assert!(outcome.passed, "{}", outcome.markdown);
+    effort.rooms = 1;
+    let stale = RoomReferences { digest: "0".to_owned(), ..known(0) };
+    let refused = super::outcome(&effort, vec![stale]);
+    assert!(!refused.passed && refused.markdown.contains("another generator"));
+}
