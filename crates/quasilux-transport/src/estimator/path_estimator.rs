@@ -16,7 +16,7 @@ use crate::estimator::pilot::Request;
 use crate::estimator::selection::{Decision, decide};
 use crate::path::end::{EndPilots, PathEnd, Prepared};
 use crate::path::lobes;
-use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
+use crate::path::sections::{PathScores, PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::path::specular_hits::{self, SpecularHits};
 use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticMap;
@@ -53,6 +53,8 @@ pub(crate) struct PathEstimator<'a, S> {
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     sums: Vec<PathSums>,
+    /// Of each target.
+    scores: Vec<PathScores>,
     /// The first index.
     first: u64,
     /// Indices of the last checkpoint.
@@ -161,6 +163,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
+            scores: vec![PathScores::default(); targets.len()],
             growing: (0..targets.len()).collect(),
             begins: vec![Some(0); targets.len()],
             ends: vec![None; targets.len()],
@@ -248,6 +251,21 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// Whether each target gets no more.
     pub(crate) fn are_over(&self) -> Vec<bool> {
         self.ends.iter().map(Option::is_some).collect()
+    }
+
+    /// Single contributions to a target.
+    pub(crate) fn scores_of(&self, target: usize) -> &PathScores {
+        &self.scores[target]
+    }
+
+    /// Paths of a target, of all replicates.
+    pub(crate) fn paths_of(&self, target: usize) -> u64 {
+        self.samples_of(target) * u64::from(self.replicates)
+    }
+
+    /// What scores are told in, in lx.
+    pub(crate) fn reference_lx(&self) -> f64 {
+        self.quantum.reference()
     }
 
     /// Indices so far.
@@ -412,8 +430,13 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let replicate_lx: Vec<Vec<f64>> = (0..replicates).map(|r| self.replicate_lx(r)).collect();
         let missed_hits = self.missed_hits(&replicate_lx);
         let of_hits = specular_hits::warning(missed_hits.iter().filter(|missed| **missed).count());
-        let missed: Vec<bool> =
-            missed_lobes.into_iter().zip(missed_hits).map(|(a, b)| a || b).collect();
+        let missed = missed_lobes.into_iter().zip(missed_hits).enumerate();
+        let missed: Vec<bool> = missed
+            .map(|(target, (lobes, hits))| {
+                let hides = || self.scores[target].paths.hide_their_tail(self.paths_of(target));
+                lobes || hits || hides()
+            })
+            .collect();
         let all = SensorEstimates {
             replicate_lx,
             direct_lx: self.direct_lx(),

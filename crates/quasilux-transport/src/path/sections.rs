@@ -13,6 +13,7 @@ use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticLookup;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
+use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
 use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
@@ -34,6 +35,16 @@ pub(crate) struct PathSums {
     pub(crate) lobes: LobeSums,
     /// Emitting facets that paths met coming from specular surfaces.
     pub(crate) specular_hits: u64,
+}
+
+/// Single contributions to one target, of all replicates.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct PathScores {
+    /// Of whole paths.
+    pub(crate) paths: Scores,
+    /// Of lights and light vertices that bidirectional paths saw, and of those that they did not.
+    pub(crate) seen: Scores,
+    pub(crate) blocked: Scores,
 }
 
 /// What paths cost.
@@ -67,6 +78,8 @@ pub(crate) struct Piece {
     pub(crate) first: usize,
     /// Of each section.
     pub(crate) sums: Vec<PathSums>,
+    /// The same, by single paths.
+    pub(crate) scores: Vec<PathScores>,
     pub(crate) work: WorkCounts,
 }
 
@@ -91,18 +104,21 @@ pub(crate) fn trace_and_visit<S: Spectrum>(
     let starts = sections.iter().flat_map(|section| section.starts(context));
     let mut paths = wave.trace(context, starts).into_iter();
     let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
+    let mut all_scores = Vec::with_capacity(sections.len());
     let mut add = |section: &Section<'_, S>| {
-        let mut sums = PathSums::default();
+        let (mut sums, mut scores) = (PathSums::default(), PathScores::default());
         for path in paths.by_ref().take(section.len()) {
             let mut path = path.end();
             sums.add(&path, quantum);
+            scores.add(&path.found, quantum);
             work.add(&path);
             look(&mut path);
         }
+        all_scores.push(scores);
         sums
     };
     let sums = sections.iter().map(&mut add).collect();
-    Piece { first: sections[0].number, sums, work }
+    Piece { first: sections[0].number, sums, scores: all_scores, work }
 }
 
 impl<S: Spectrum> Section<'_, S> {
@@ -174,6 +190,31 @@ impl PathSums {
     /// Contributions that are not in the sums.
     pub(crate) fn invalid(&self) -> u64 {
         self.direct.invalid + self.indirect.invalid
+    }
+}
+
+impl PathScores {
+    fn add<S: Spectrum>(&mut self, found: &PathContribution<S>, quantum: Quantum) {
+        self.paths.add((found.direct + found.indirect).luminance().abs(), quantum);
+        for light in &found.asked {
+            let of = if *light > 0.0 { &mut self.seen } else { &mut self.blocked };
+            of.add(light.abs(), quantum);
+        }
+    }
+
+    /// Adds those of other paths.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.paths.merge(&other.paths);
+        self.seen.merge(&other.seen);
+        self.blocked.merge(&other.blocked);
+    }
+}
+
+impl Sums for PathScores {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        self.paths.checked_add(&other.paths)?;
+        self.seen.checked_add(&other.seen)?;
+        self.blocked.checked_add(&other.blocked)
     }
 }
 

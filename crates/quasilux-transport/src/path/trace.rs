@@ -33,7 +33,7 @@ use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{LightSample, ShadowQueue};
+use crate::world::visibility::{Answer, LightSample, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
@@ -181,8 +181,19 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.from.query(self.direction)
     }
 
+    /// What became of light that the path asked for.
+    pub(crate) fn hear(&mut self, answer: &Answer<S>) {
+        if self.subpath.is_some() {
+            let light = answer.light.luminance();
+            self.found.asked.push(if answer.bounces.is_some() { light } else { -light });
+        }
+        if let Some(bounces) = answer.bounces {
+            self.receive(answer.light, bounces);
+        }
+    }
+
     /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
-    pub(crate) fn receive(&mut self, light: S, bounces: u32) {
+    fn receive(&mut self, light: S, bounces: u32) {
         if bounces == 0 {
             self.arrived +=
                 light * if self.bounces_asked == 1 { self.weights_of_paths.first } else { 1.0 };

@@ -9,7 +9,7 @@ use crate::path::start::Start;
 use crate::path::trace::{Path, PathWork};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use crate::world::visibility::Receiver;
+use crate::world::visibility::{Answer, Receiver};
 use quasilux_bvh::{Hit, RayQuery};
 use std::mem::take;
 
@@ -96,7 +96,7 @@ impl<S: Spectrum> PathWave<S> {
 
     /// Gives the paths the light that they asked for.
     fn answer(&mut self, context: &Context<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |who: u32, light: S, mirrors| paths[who as usize].receive(light, mirrors);
-        self.work.shadows.answer(&context.world, receive);
+        let receive = |answer: Answer<S>| paths[answer.who as usize].hear(&answer);
+        self.work.shadows.answer_all(&context.world, receive);
     }
 }

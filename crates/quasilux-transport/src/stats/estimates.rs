@@ -220,7 +220,16 @@ impl SensorEstimates {
             let known = resolved.iter_mut().zip(&contradicted);
             known.for_each(|(resolved, contradicted)| *resolved &= !contradicted);
         }
-        self.contradicted = contradicted;
+        let known = self.contradicted.iter_mut().zip(contradicted);
+        known.for_each(|(known, contradicted)| *known |= contradicted);
+    }
+
+    /// Withdraws the intervals of the points where light may hide that more paths would show.
+    pub(crate) fn withdraw_unseen(&mut self, unseen: impl Iterator<Item = bool>) {
+        for (point, _) in unseen.enumerate().filter(|(_, unseen)| *unseen) {
+            self.resolved[point] = false;
+            self.missed[point] = true;
+        }
     }
 
     /// Takes the figures of some points from another estimate of the same sensor.

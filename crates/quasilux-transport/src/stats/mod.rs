@@ -15,6 +15,7 @@ pub(crate) mod minimum;
 pub mod observer;
 pub(crate) mod picture;
 pub(crate) mod schedule;
+pub(crate) mod scores;
 pub(crate) mod sequential;
 pub(crate) mod tally;
 pub(crate) mod targets;

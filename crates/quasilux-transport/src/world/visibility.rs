@@ -56,6 +56,20 @@ struct Question<S> {
     max_panes: u32,
 }
 
+/// What becomes of light that somebody asked for.
+pub(crate) struct Answer<S> {
+    pub(crate) who: u32,
+    pub(crate) light: S,
+    /// Mirrors and panes on its way; `None` where something stands in it.
+    pub(crate) bounces: Option<u32>,
+}
+
+impl<S: Copy> Question<S> {
+    fn blocked(&self) -> Answer<S> {
+        Answer { who: self.who, light: self.light, bounces: None }
+    }
+}
+
 impl<S: Spectrum> LightSample<S> {
     /// The offer of a place in the open; `None` where it is nothing.
     pub(crate) fn unless_dark(
@@ -140,6 +154,15 @@ impl<S: Spectrum> ShadowQueue<S> {
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
     /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
+        self.answer_all(world, |Answer { who, light, bounces }| {
+            if let Some(bounces) = bounces {
+                receive(who, light, bounces);
+            }
+        });
+    }
+
+    /// The same, and tells of light that is blocked, too.
+    pub(crate) fn answer_all(&mut self, world: &World<S>, mut receive: impl FnMut(Answer<S>)) {
         self.rays += self.shadow_rays.len() as u64;
         if world.has_panes() {
             transmittances(world, &self.shadow_rays, &mut self.passages);
@@ -148,20 +171,25 @@ impl<S: Spectrum> ShadowQueue<S> {
                 let open = Some(Passage { transmitted: question.light, panes: 0 });
                 let own = passages.by_ref().take(question.shadow_rays as usize);
                 let passage = own.fold(open, |way, next| way.zip(*next).map(|(a, b)| a.and(b)));
-                if let Some(Passage { transmitted, panes }) = passage
-                    && panes <= question.max_panes
-                {
-                    receive(question.who, transmitted, question.mirrors + panes);
-                }
+                let passage = passage.filter(|passage| passage.panes <= question.max_panes);
+                receive(match passage {
+                    Some(Passage { transmitted, panes }) => Answer {
+                        who: question.who,
+                        light: transmitted,
+                        bounces: Some(question.mirrors + panes),
+                    },
+                    None => question.blocked(),
+                });
             }
         } else {
             world.are_visible(&self.shadow_rays, &mut self.visible);
             let mut visible = self.visible.iter();
             for question in &self.questions {
                 let own = visible.by_ref().take(question.shadow_rays as usize);
-                if own.filter(|visible| !**visible).count() == 0 {
-                    receive(question.who, question.light, question.mirrors);
-                }
+                let is_blocked = own.filter(|visible| !**visible).count() > 0;
+                let blocked = question.blocked();
+                let bounces = (!is_blocked).then_some(question.mirrors);
+                receive(Answer { bounces, ..blocked });
             }
         }
         self.shadow_rays.clear();

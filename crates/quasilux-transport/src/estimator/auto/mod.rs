@@ -21,6 +21,7 @@
 //! relief.
 
 mod takeover;
+mod unseen;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
@@ -30,11 +31,16 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
+use crate::stats::interval::Interval;
+use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
 use takeover::{Stage, Takeover};
+use unseen::{Tests, Unseen};
 
+/// Standard errors in a half-width, about.
+const CONFIDENT: f64 = 2.0;
 /// Part of the rays of the run that the probe may take.
 const SHARE_OF_PROBE: f64 = 0.1;
 
@@ -47,6 +53,14 @@ pub(crate) struct AutoEstimator<'a, S> {
 struct Bidirectional<'a, S> {
     probe: PathEstimator<'a, S>,
     relief: PathEstimator<'a, S>,
+}
+
+impl<S: Spectrum> Bidirectional<'_, S> {
+    /// The state of the relief, and how far the probe is, whose paths are traced again.
+    fn put(&self, out: &mut Writer) {
+        self.relief.put(out);
+        out.value(&self.probe.samples());
+    }
 }
 
 /// Whether bidirectional paths find all light of a scene, and none of it twice.
@@ -75,8 +89,60 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         }
     }
 
-    /// Traces the probe that belongs to the rays of the others so far.
+    /// Traces the probe that belongs to the rays of the others so far, and more where light may
+    /// hide behind openings.
     fn probe(&mut self) {
+        self.trace_share_of_probe();
+        if self.selected.samples() < MIN_SAMPLES {
+            return;
+        }
+        while self.bidirectional.is_some() && self.unseen(&self.pooled()).wants_more {
+            let Some(Bidirectional { probe, .. }) = &mut self.bidirectional else { return };
+            let mut nobody = ();
+            let next = (2 * probe.samples()).max(1);
+            if !probe.advance(next, &mut Watch::new(&mut nobody)) {
+                return;
+            }
+        }
+    }
+
+    /// Where light may hide behind openings, beside these estimates.
+    fn unseen(&self, estimates: &Estimates) -> Unseen {
+        let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
+            return Unseen { points: Vec::new(), wants_more: false };
+        };
+        let errors = estimates.sensors.iter().flat_map(|sensor| {
+            (0..sensor.resolved.len()).map(|point| {
+                let rows = sensor.replicate_lx.iter();
+                Interval::of_mean(rows.map(|row| row[point]), Some(CONFIDENT))
+            })
+        });
+        let tests = errors.enumerate().map(|(target, interval)| {
+            let mut scores = probe.scores_of(target).clone();
+            scores.merge(relief.scores_of(target));
+            let paths = [probe, relief].map(|of| of.paths_of(target)).iter().sum();
+            let half_width = interval.half_width.unwrap_or(0.0) / probe.reference_lx();
+            Tests { scores, paths, half_width }
+        });
+        Unseen::new(&tests.collect::<Vec<Tests>>())
+    }
+
+    /// The values of the selected estimator, and of the relief where that has taken over.
+    fn pooled(&self) -> Estimates {
+        let mut estimates = self.selected.estimates();
+        if let Some(Bidirectional { relief, .. }) = &self.bidirectional {
+            let of_relief = relief.estimates();
+            let mut is_relieved = relief.samples_of_all().into_iter().map(|samples| samples > 0);
+            for (sensor, relieved) in estimates.sensors.iter_mut().zip(&of_relief.sensors) {
+                let points = sensor.resolved.len();
+                let taken: Vec<bool> = is_relieved.by_ref().take(points).collect();
+                sensor.replace(&taken, relieved);
+            }
+        }
+        estimates
+    }
+
+    fn trace_share_of_probe(&mut self) {
         let Some(Bidirectional { probe, relief }) = &mut self.bidirectional else { return };
         let rays = self.selected.all_rays() + relief.sampling_rays();
         let mut nobody = ();
@@ -111,15 +177,15 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
 
 impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        if let Some(Bidirectional { relief, .. }) = &self.bidirectional {
-            watch.surround(|_| (), |after| relief.put(after));
+        if let Some(bidirectional) = &self.bidirectional {
+            watch.surround(|_| (), |after| bidirectional.put(after));
         }
         if !self.selected.advance(samples, watch) {
             return false;
         }
-        if let Some(Bidirectional { relief, .. }) = &mut self.bidirectional {
+        if let Some(Bidirectional { relief, probe }) = &mut self.bidirectional {
             let selected = &self.selected;
-            watch.surround(|before| selected.put(before), |_| ());
+            watch.surround(|before| selected.put(before), |after| after.value(&probe.samples()));
             if !relief.advance(samples, watch) {
                 return false;
             }
@@ -136,12 +202,21 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn put(&self, out: &mut Writer) {
         self.selected.put(out);
-        self.bidirectional.iter().for_each(|own| own.relief.put(out));
+        self.bidirectional.iter().for_each(|own| own.put(out));
     }
 
     fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.selected.merge_from(coming, from)?;
-        self.bidirectional.as_mut().map_or(Ok(()), |own| own.relief.merge_from(coming, from))
+        let Some(Bidirectional { probe, relief }) = &mut self.bidirectional else { return Ok(()) };
+        relief.merge_from(coming, from)?;
+        let probed: u64 = from.value()?;
+        if probed > self.selected.samples().max(unseen::MAX_TESTS) {
+            return Err(StateError::Unfit("the samples of the probe"));
+        }
+        let mut nobody = ();
+        // Nobody stops it.
+        let _ = probe.advance(probed, &mut Watch::new(&mut nobody));
+        Ok(())
     }
 
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
@@ -170,23 +245,19 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
     }
 
     fn estimates(&self) -> Estimates {
-        let mut estimates = self.selected.estimates();
+        let mut estimates = self.pooled();
         let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
             return estimates;
         };
-        let takeovers = self.takeovers(&estimates);
+        let takeovers = self.takeovers(&self.selected.estimates());
         let mut contradicted = takeovers.iter().map(|takeover| *takeover == Takeover::MissesLight);
+        let mut unseen = self.unseen(&estimates).points.into_iter();
         for sensor in &mut estimates.sensors {
             let points = sensor.resolved.len();
             sensor.withdraw(contradicted.by_ref().take(points).collect());
+            sensor.withdraw_unseen(unseen.by_ref().take(points));
         }
         let of_relief = relief.estimates();
-        let mut is_relieved = relief.samples_of_all().into_iter().map(|samples| samples > 0);
-        for (sensor, relieved) in estimates.sensors.iter_mut().zip(&of_relief.sensors) {
-            let points = sensor.resolved.len();
-            let taken: Vec<bool> = is_relieved.by_ref().take(points).collect();
-            sensor.replace(&taken, relieved);
-        }
         estimates.rays += of_relief.rays + probe.estimates().rays;
         estimates.invalid_contributions += of_relief.invalid_contributions;
         estimates.biased |= of_relief.biased;
@@ -205,8 +276,14 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn adapt(&mut self) {
         let takeovers = self.takeovers(&self.selected.estimates());
+        let mut unseen = self.unseen(&self.pooled()).points;
+        if self.selected.samples() < MIN_SAMPLES {
+            unseen.fill(false);
+        }
         if let Some(Bidirectional { relief, .. }) = &mut self.bidirectional {
-            let taken: Vec<bool> = takeovers.into_iter().map(Takeover::is_due).collect();
+            let due = takeovers.into_iter().zip(unseen);
+            let taken: Vec<bool> =
+                due.map(|(takeover, unseen)| takeover.is_due() || unseen).collect();
             relief.begin(&taken);
             self.selected.freeze_converged(&relief.begun());
         }

@@ -6,7 +6,7 @@
 
 use super::PathEstimator;
 use crate::path::end::{GrowingMaps, PathEnd};
-use crate::path::sections::{PathSums, Piece, WorkCounts};
+use crate::path::sections::{PathScores, PathSums, Piece, WorkCounts};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
@@ -105,6 +105,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             let replicates = self.replicates as usize;
             for target in &self.growing {
                 self.sums[target * replicates..][..replicates].fill(PathSums::default());
+                self.scores[*target] = PathScores::default();
             }
         }
         self.first..samples
@@ -113,10 +114,11 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// Adds the sums of pieces and returns their work.
     fn add(&mut self, pieces: Vec<Piece>) -> WorkCounts {
         let mut counts = WorkCounts::default();
-        for Piece { first, sums, work } in pieces {
-            for (number, found) in (first..).zip(sums) {
+        for Piece { first, sums, scores, work } in pieces {
+            for (number, (found, scores)) in (first..).zip(sums.into_iter().zip(scores)) {
                 let place = self.place(number);
                 self.sums[place] += found;
+                self.scores[place / self.replicates as usize].merge(&scores);
             }
             counts += work;
         }

@@ -101,6 +101,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     pub(super) fn put_own(&self, out: &mut Writer) {
         self.contribution.put(out);
         self.sums.as_slice().put(out);
+        self.scores.as_slice().put(out);
         self.light_vertices.iter().for_each(|light_vertices| light_vertices.put(out));
     }
 
@@ -108,6 +109,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     pub(super) fn take_in_own(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.contribution.merge_from(from)?;
         self.sums.as_mut_slice().merge_from(from)?;
+        self.scores.as_mut_slice().merge_from(from)?;
         self.light_vertices
             .iter_mut()
             .try_for_each(|light_vertices| light_vertices.merge_from(from))
