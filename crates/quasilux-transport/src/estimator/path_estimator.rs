@@ -433,8 +433,11 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let missed = missed_lobes.into_iter().zip(missed_hits).enumerate();
         let missed: Vec<bool> = missed
             .map(|(target, (lobes, hits))| {
-                let hides = || self.scores[target].paths.hide_their_tail(self.paths_of(target));
-                lobes || hits || hides()
+                let of_paths = &self.scores[target].paths;
+                let hides = || of_paths.hide_their_tail(self.paths_of(target));
+                let photons = self.light_vertices.as_ref();
+                let photons_hide = || photons.is_some_and(|own| own.hides_its_tail(target));
+                lobes || hits || hides() || photons_hide()
             })
             .collect();
         let all = SensorEstimates {

@@ -9,6 +9,9 @@ const FALSE_ALARM: f64 = 1e-3;
 /// 40 % or so, from 16 replicates.
 const WORTHWHILE: f64 = 0.5;
 
+/// The same where the selected estimator saw too little of its own tail to know its variance.
+const WORTHWHILE_FOR_A_TAIL: f64 = 8.0;
+
 /// How the probe judges the selected estimator at a sensor point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Takeover {
@@ -63,20 +66,22 @@ pub(super) fn all(
         })
     };
     let points = selected.iter().enumerate().flat_map(|(sensor, figures)| {
-        (0..figures.resolved.len()).map(move |point| values(sensor, point))
+        let missed = figures.missed.iter().enumerate();
+        missed.map(move |(point, missed)| (values(sensor, point), *missed))
     });
     let replicates = selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
     let of_each = FALSE_ALARM / stages.len().max(1) as f64;
     let Some(t) = t_quantile_for(replicates, 2.0 * of_each) else {
         return vec![Takeover::No; stages.len()];
     };
-    let judged = points.zip(stages).map(|([own, probed], stage)| {
+    let judged = points.zip(stages).map(|(([own, probed], hides_tail), stage)| {
         let [Some(own_error), Some(error)] = [own.half_width, probed.half_width] else {
             return Takeover::No;
         };
         let misses = probed.value - own.value > t * libm::hypot(own_error, error);
         let cost = |error: f64, rays: u64| error * error * rays as f64;
-        let pays = error > 0.0 && cost(error, rays[1]) < WORTHWHILE * cost(own_error, rays[0]);
+        let worthwhile = if hides_tail { WORTHWHILE_FOR_A_TAIL } else { WORTHWHILE };
+        let pays = error > 0.0 && cost(error, rays[1]) < worthwhile * cost(own_error, rays[0]);
         match stage {
             Stage::Open | Stage::Converged if misses => Takeover::MissesLight,
             Stage::Open if pays => Takeover::Pays,

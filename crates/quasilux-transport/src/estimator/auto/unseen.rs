@@ -6,15 +6,13 @@
 //! so no more than `3 c / n` can be missing. Where that is less than the half-width of a sensor
 //! point, n paths are enough; else the point has no interval.
 //!
-//! That would take n = c / half-width however small an opening is. All sensor points together look
-//! for openings: where none of their paths saw light of that size in [`MAX_TESTS`] tries, openings
-//! must be less than about `1e-5` of what paths meet, and are given up. Where one did, each sensor
-//! point has to see it for itself.
+//! All sensor points where the paths of one are not enough look for the same openings, so what
+//! counts for them is the number of paths from all of them together.
 
 use crate::path::sections::PathScores;
 
-/// Paths of all such sensor points together that look for openings.
-pub(super) const MAX_TESTS: u64 = 1 << 18;
+/// Paths of all such sensor points together that may be spent on this beyond their share of a run.
+pub(super) const MAX_TESTS: u64 = 1 << 20;
 /// Of no event among n, the mean number is less than this with 95 %.
 const RULE_OF_THREE: f64 = 3.0;
 
@@ -26,7 +24,7 @@ pub(super) struct Tests {
     pub(super) half_width: f64,
 }
 
-/// What is known of light behind openings.
+/// What is not known of light behind openings.
 pub(super) struct Unseen {
     /// The sensor points where some may be missing.
     pub(super) points: Vec<bool>,
@@ -36,24 +34,36 @@ pub(super) struct Unseen {
 
 impl Unseen {
     pub(super) fn new(tests: &[Tests]) -> Self {
-        let is_open = |test: &Tests| {
-            let missing = RULE_OF_THREE * test.scores.blocked.typical() / test.paths.max(1) as f64;
-            missing > test.half_width
-        };
-        let open: Vec<bool> = tests.iter().map(is_open).collect();
-        let own = || tests.iter().zip(&open).filter(|(_, open)| **open).map(|(test, _)| test);
-        let tried: u64 = own().map(|test| test.paths).sum();
-        let seen: u64 = own().map(Tests::seen).sum();
-        let is_settled = seen == 0 && tried >= MAX_TESTS;
-        let wants_more = own().next().is_some() && tried < MAX_TESTS;
-        let points = if is_settled { vec![false; open.len()] } else { open };
-        Self { points, wants_more }
+        if std::env::var("QDBG").is_ok() {
+            for t in tests {
+                eprintln!(
+                    "blocked {:.3e} n {} hw {:.3e} need {:.2e}",
+                    t.scores.blocked.typical(),
+                    t.paths,
+                    t.half_width,
+                    t.needed_paths()
+                );
+            }
+            eprintln!("--");
+        }
+        let needed: Vec<f64> = tests.iter().map(Tests::needed_paths).collect();
+        let open =
+            || tests.iter().zip(&needed).filter(|(own, needed)| own.paths as f64 <= **needed);
+        let together: u64 = open().map(|(own, _)| own.paths).sum();
+        let points = tests
+            .iter()
+            .zip(&needed)
+            .map(|(own, needed)| own.paths as f64 <= *needed && together as f64 <= *needed);
+        let reachable = |needed: &f64| *needed <= MAX_TESTS as f64;
+        let wants_more = open().any(|(_, needed)| together as f64 <= *needed && reachable(needed));
+        Self { points: points.collect(), wants_more }
     }
 }
 
 impl Tests {
-    /// How often it saw light as large as what was blocked.
-    fn seen(&self) -> u64 {
-        self.scores.seen.count_from(self.scores.blocked.typical())
+    /// Paths after which openings that none of them met are too small to matter.
+    fn needed_paths(&self) -> f64 {
+        let blocked = RULE_OF_THREE * self.scores.blocked.typical();
+        if blocked > 0.0 { blocked / self.half_width } else { 0.0 }
     }
 }

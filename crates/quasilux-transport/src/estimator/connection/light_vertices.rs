@@ -13,6 +13,7 @@ use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
 use crate::spectrum::Spectrum;
+use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
 use crate::stats::watch::Watch;
@@ -35,6 +36,8 @@ pub(crate) struct LightVertexConnections {
     pub(super) quantum: Quantum,
     /// By group of targets and replicate; sums of target t of a group begin at `t * terms`.
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
+    /// Single connections to each target of a group, in all replicates.
+    scores: Vec<Mutex<Vec<Scores>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
     coarse: Option<(Vec<CellTransfer>, CellTally)>,
     /// Rays that it took to find out what targets see.
@@ -65,6 +68,9 @@ impl LightVertexConnections {
             replicates.clone().map(|_| zeros()).collect()
         };
         let sums = elements.chunks(GROUP).map(of_group).collect();
+        let no_scores =
+            |group: &[ReceiverElement]| Mutex::new(vec![Scores::default(); group.len()]);
+        let scores = elements.chunks(GROUP).map(no_scores).collect();
         let mut rays = 0;
         let coarse = (connection.cell_photons > 0).then(|| {
             let look = |group: &[ReceiverElement]| {
@@ -86,6 +92,7 @@ impl LightVertexConnections {
             terms,
             quantum,
             sums,
+            scores,
             coarse,
             rays,
             replicates,
@@ -170,7 +177,8 @@ impl LightVertexConnections {
             let receiver = |r: u32| {
                 let points = context.points(r, Stream::ConnectionPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
-                ConnectionReceiver::new(context, &self.connection, group, points, sums)
+                let into = (sums, &self.scores[number as usize]);
+                ConnectionReceiver::new(context, &self.connection, group, points, into)
             };
             let batch = PhotonBatch {
                 stream: Stream::ConnectedPhotons(number),
@@ -267,6 +275,13 @@ impl LightVertexConnections {
         (0..self.terms).any(|term| self.found_term(target, term))
     }
 
+    /// Whether too few connections make the variance of a target.
+    pub(crate) fn hides_its_tail(&self, target: usize) -> bool {
+        let samples = self.ends[target].unwrap_or(self.samples) * self.connection.photons();
+        let scores = lock(&self.scores[target / GROUP]);
+        scores[target % GROUP].hide_their_tail(samples * self.replicates.len() as u64)
+    }
+
     /// Contributions that are not in the sums.
     pub(crate) fn invalid(&self) -> u64 {
         let lists = self.sums.iter().flatten();
@@ -282,6 +297,7 @@ impl LightVertexConnections {
 impl Stored for LightVertexConnections {
     fn put(&self, out: &mut Writer) {
         self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
+        self.scores.iter().for_each(|scores| lock(scores).as_slice().put(out));
         if let Some((_, coarse)) = &self.coarse {
             coarse.put(out);
         }
@@ -293,6 +309,10 @@ impl Stored for LightVertexConnections {
             .iter()
             .flatten()
             .try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
+        let scores = self.scores.iter();
+        scores
+            .map(|scores| lock(scores).as_mut_slice().merge_from(from))
+            .collect::<Result<(), _>>()?;
         self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))?;
         let length = self.replicates.len() * (1 + self.terms);
         let settled: Vec<Option<Vec<f64>>> = from.value()?;

@@ -63,7 +63,7 @@ use crate::codec::Writer;
 use crate::importance::WeightWindows;
 use crate::path::partition::Partition;
 use crate::photon::trace::{Lead, Source};
-use crate::stats::tally::{Quantum, Sum};
+use crate::stats::tally::Quantum;
 use crate::world::Interaction;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -135,6 +135,6 @@ pub(crate) struct TallySettings {
 }
 
 /// The sums behind a mutex; a panic of another thread does not make them unusable.
-fn lock(sums: &Mutex<Vec<Sum>>) -> MutexGuard<'_, Vec<Sum>> {
+fn lock<T>(sums: &Mutex<Vec<T>>) -> MutexGuard<'_, Vec<T>> {
     sums.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -11,11 +11,13 @@ use crate::context::Context;
 use crate::importance::Density;
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::spectrum::Spectrum;
+use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::{PointSet, Sampler};
 use std::f64::consts::PI;
+use std::mem::take;
 use std::sync::Mutex;
 
 /// Rays that are traced together.
@@ -58,6 +60,9 @@ pub(super) struct ConnectionReceiver<'a, S> {
     /// Where what this wave found is added in the end.
     sums: &'a Mutex<Vec<Sum>>,
     own: Vec<Sum>,
+    /// The same by single connections, of each target.
+    scores: &'a Mutex<Vec<Scores>>,
+    own_scores: Vec<Scores>,
     /// Coordinates of the places in cells that photons are connected to.
     points: PointSet,
     photon: Option<Seen>,
@@ -104,7 +109,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         plan: &'a ConnectionPlan,
         group: Group<'a>,
         points: PointSet,
-        sums: &'a Mutex<Vec<Sum>>,
+        (sums, scores): (&'a Mutex<Vec<Sum>>, &'a Mutex<Vec<Scores>>),
     ) -> Self {
         Self {
             context,
@@ -112,6 +117,8 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
             group,
             sums,
             own: vec![Sum::default(); group.elements.len() * group.terms],
+            scores,
+            own_scores: vec![Scores::default(); group.elements.len()],
             points,
             photon: None,
             landings: [Density::default(); 2],
@@ -163,7 +170,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
                     self.shadow_rays.push(view.shadow_ray());
                     self.light_samples.push(light_sample);
                 }
-                _ => self.own[sum].add_signed(-light_sample.predicted_lx, self.group.quantum),
+                _ => self.add(sum, -light_sample.predicted_lx),
             }
         }
     }
@@ -180,12 +187,21 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
     fn answer(&mut self) {
         self.rays += self.shadow_rays.len() as u64;
         self.context.world.are_visible(&self.shadow_rays, &mut self.visible);
-        for (light_sample, visible) in self.light_samples.drain(..).zip(&self.visible) {
+        let (light_samples, visible) = (take(&mut self.light_samples), take(&mut self.visible));
+        for (light_sample, visible) in light_samples.iter().zip(&visible) {
             let lx = if *visible { light_sample.lx } else { 0.0 };
-            self.own[light_sample.sum]
-                .add_signed(lx - light_sample.predicted_lx, self.group.quantum);
+            self.add(light_sample.sum, lx - light_sample.predicted_lx);
         }
+        (self.light_samples, self.visible) = (light_samples, visible);
+        self.light_samples.clear();
         self.shadow_rays.clear();
+    }
+
+    /// Adds what one connection gives beyond its prediction.
+    fn add(&mut self, sum: usize, lx: f64) {
+        let quantum = self.group.quantum;
+        self.own[sum].add_signed(lx, quantum);
+        self.own_scores[sum / self.group.terms].add(lx.abs(), quantum);
     }
 }
 
@@ -222,6 +238,8 @@ impl<S: Spectrum> PhotonReceiver<S> for ConnectionReceiver<'_, S> {
         self.answer();
         let mut sums = lock(self.sums);
         sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
+        let mut scores = lock(self.scores);
+        scores.iter_mut().zip(&self.own_scores).for_each(|(scores, own)| scores.merge(own));
         ReceiverCounts { rays: self.rays, invalid: 0 }
     }
 }

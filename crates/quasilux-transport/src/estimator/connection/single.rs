@@ -12,6 +12,7 @@ use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::trace_photon;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
+use crate::stats::scores::Scores;
 use crate::stats::tally::Sum;
 use crate::world::Interaction;
 use quasilux_sampling::{PointSet, Sampler};
@@ -59,7 +60,9 @@ impl LightVertexConnections {
         }
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.elements.len() * group.terms]);
-        let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, &sums);
+        let scores = Mutex::new(vec![Scores::default(); group.elements.len()]);
+        let into = (&sums, &scores);
+        let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, into);
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish().rays;
         let sums = lock(&sums);
