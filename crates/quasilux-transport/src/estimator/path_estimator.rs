@@ -263,6 +263,16 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.samples_of(target) * u64::from(self.replicates)
     }
 
+    /// Whether photons are connected to the targets.
+    pub(crate) fn connects_photons(&self) -> bool {
+        self.light_vertices.is_some()
+    }
+
+    /// Paths of one index, of all targets and replicates.
+    pub(crate) fn paths_of_an_index(&self) -> u64 {
+        (self.sums.len() as u64).max(1)
+    }
+
     /// What scores are told in, in lx.
     pub(crate) fn reference_lx(&self) -> f64 {
         self.quantum.reference()

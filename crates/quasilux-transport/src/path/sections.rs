@@ -20,8 +20,9 @@ use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
 use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Range};
 
-/// Part of a power of two between the light subpaths of neighbours: the golden section.
-const PAIRING: f64 = 0.618_033_988_749_894_9;
+/// Odd numbers that mix the digits of indices: those of SplitMix64 (G. L. Steele, D. Lea, C. H.
+/// Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+const MIXING: [u64; 3] = [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9, 0x94d0_49bb_1331_11eb];
 
 /// What the paths of one target in one replicate found, in all.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -155,19 +156,29 @@ impl<S: Spectrum> Section<'_, S> {
     }
 
     /// The sampler of the light subpath that comes with the eye subpath `index`.
-    ///
-    /// At one index two point sets have the same digits, permuted. The light subpaths are therefore
-    /// those of another index, by an affine map in whole numbers of each power of two up to the
-    /// next: both have all points of a balanced set there, and nothing in common.
     fn light_subpath(&self, index: u64) -> Option<Sampler<'_>> {
-        let first = (index + 1).next_power_of_two() / 2;
-        let odd = (first as f64 * PAIRING) as u64 | 1;
-        let of_light = match first {
-            0 => 0,
-            _ => first + (odd.wrapping_mul(index - first).wrapping_add(odd / 3)) % first,
-        };
-        self.light_points.as_ref().map(|points| Sampler::new(points, of_light))
+        self.light_points.as_ref().map(|points| Sampler::new(points, partner(index)))
     }
+}
+
+/// The index of the light subpath that an eye subpath is connected to.
+///
+/// At one index two point sets have the same digits, permuted: subpaths of the same index would
+/// have as few pairs of directions as there are permutations. So each power of two of indices up to
+/// the next is mixed, by multiplications that carry digits up and shifts that carry them down: both
+/// subpaths have all points of a balanced set there, and nothing in common.
+fn partner(index: u64) -> u64 {
+    let first = (index + 1).next_power_of_two() / 2;
+    if first < 2 {
+        return index;
+    }
+    let (mask, half) = (first - 1, first.trailing_zeros().div_ceil(2));
+    let mut mixed = index - first;
+    for odd in MIXING {
+        mixed = mixed.wrapping_mul(odd).wrapping_add(odd >> 7) & mask;
+        mixed ^= mixed >> half;
+    }
+    first + mixed
 }
 
 impl PathSums {
@@ -271,5 +282,30 @@ impl Sums for PathSums {
         let fits = other.terms.is_empty() || other.terms.len() == self.terms.len();
         let mut terms = self.terms.iter_mut().zip(&other.terms);
         fits.then(|| terms.try_for_each(|(sum, more)| sum.checked_add(more)))?
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::partner;
+
+    /// Each power of two of indices up to the next keeps its indices, and the lowest digits of the
+    /// two indices are independent: of 4096 pairs, all 64 combinations of three digits come about
+    /// equally often. An affine map, whose lowest digits follow each other, fails.
+    #[test]
+    fn partners_are_all_indices_and_none_in_particular() {
+        for exponent in 0..13 {
+            let first = 1_u64 << exponent;
+            let mut partners: Vec<u64> = (first..2 * first).map(partner).collect();
+            partners.sort_unstable();
+            assert!(partners.into_iter().eq(first..2 * first), "{first}");
+        }
+        assert_eq!(partner(0), 0);
+        let mut counts = [0_u32; 64];
+        for index in 4096..8192_u64 {
+            counts[((index & 7) << 3 | partner(index) & 7) as usize] += 1;
+        }
+        // 64 each, with a standard deviation of 8.
+        assert!(counts.iter().all(|count| (24..104).contains(count)), "{counts:?}");
     }
 }

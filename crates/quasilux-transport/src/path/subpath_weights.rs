@@ -87,3 +87,227 @@ pub(crate) fn of_connection(to_eye: f64, to_light: f64) -> f64 {
 pub(crate) fn product(density: f64, weight: f64) -> f64 {
     if density > 0.0 { density * weight } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use std::f64::consts::{FRAC_1_PI, TAU};
+
+    /// Numbers that look random (Knuth's MMIX generator).
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+        }
+
+        fn direction(&mut self) -> DVec3 {
+            let (z, phi) = (2.0 * self.next() - 1.0, TAU * self.next());
+            let r = (1.0 - z * z).sqrt();
+            DVec3::new(r * phi.cos(), r * phi.sin(), z)
+        }
+    }
+
+    /// A way of light: the sensor point, diffuse surfaces, and a light that is a point or a facet.
+    struct Way {
+        positions: Vec<DVec3>,
+        normals: Vec<DVec3>,
+        is_point: bool,
+        flux_lm: f64,
+        /// Of the point, toward the last surface; or the luminance of the facet.
+        brightness: f64,
+        facets_lm: f64,
+    }
+
+    impl Way {
+        fn new(numbers: &mut Numbers, surfaces: usize, is_point: bool) -> Self {
+            let nodes = surfaces + 2;
+            // Distances over three decades.
+            let step = |numbers: &mut Numbers| {
+                numbers.direction() * 10.0_f64.powf(3.0 * numbers.next() - 2.0)
+            };
+            let mut positions = vec![DVec3::ZERO];
+            for node in 1..nodes {
+                let step = step(numbers);
+                positions.push(positions[node - 1] + step);
+            }
+            // Each looks at both of its neighbours.
+            let normals = (0..nodes).map(|node| {
+                let toward = |other: Option<&DVec3>| {
+                    other.map_or(DVec3::ZERO, |other| (*other - positions[node]).normalize())
+                };
+                let before = node.checked_sub(1).and_then(|before| positions.get(before));
+                let sum = toward(before) + toward(positions.get(node + 1));
+                (sum + 0.3 * numbers.direction() * sum.length()).normalize()
+            });
+            let normals = normals.collect();
+            let [flux_lm, brightness, facets_lm] =
+                [(); 3].map(|()| 10.0_f64.powf(4.0 * numbers.next()));
+            Self { positions, normals, is_point, flux_lm, brightness, facets_lm }
+        }
+
+        fn surfaces(&self) -> usize {
+            self.positions.len() - 2
+        }
+
+        fn distance_m(&self, a: usize, b: usize) -> f64 {
+            (self.positions[b] - self.positions[a]).length()
+        }
+
+        /// Cosine at a of the direction to b.
+        fn cos(&self, a: usize, b: usize) -> f64 {
+            let way = (self.positions[b] - self.positions[a]).normalize();
+            self.normals[a].dot(way).abs()
+        }
+
+        /// Density of b as a diffuse surface a draws it, in m^-2.
+        fn drawn_m2(&self, a: usize, b: usize) -> f64 {
+            let distance_m = self.distance_m(a, b);
+            self.cos(a, b) * FRAC_1_PI * self.cos(b, a) / (distance_m * distance_m)
+        }
+
+        fn light(&self) -> usize {
+            self.positions.len() - 1
+        }
+
+        /// Density with which a photon makes its light's place and the last surface, over that with
+        /// which this surface asks for the light.
+        fn landing_m2(&self) -> f64 {
+            let (light, last) = (self.light(), self.surfaces());
+            let distance_m = self.distance_m(light, last);
+            let geometry = self.cos(last, light) / (distance_m * distance_m);
+            match self.is_point {
+                true => self.brightness / self.flux_lm * geometry,
+                false => self.emission() * geometry / self.asked_m2(),
+            }
+        }
+
+        /// Density in m^-2 sr^-1 of photons that leave the facet.
+        fn emission(&self) -> f64 {
+            self.brightness * self.cos(self.light(), self.surfaces()) / self.flux_lm
+        }
+
+        fn asked_m2(&self) -> f64 {
+            self.brightness / self.facets_lm
+        }
+
+        /// Densities of all techniques, by the number of surfaces that the light subpath makes,
+        /// over that of the light's place as surfaces ask for it; last the eye subpath that runs
+        /// into the light.
+        fn densities(&self) -> Vec<f64> {
+            let surfaces = self.surfaces();
+            let by_eye = |last: usize| (0..last).map(|a| self.drawn_m2(a, a + 1)).product::<f64>();
+            let by_light = |first: usize| {
+                let drawn = (first..surfaces).map(|a| self.drawn_m2(a + 1, a)).product::<f64>();
+                self.landing_m2() * drawn
+            };
+            let connected = (0..=surfaces).map(|of_light| match of_light {
+                0 => by_eye(surfaces),
+                _ => by_eye(surfaces - of_light) * by_light(surfaces - of_light + 1),
+            });
+            let hit = by_eye(surfaces) * self.drawn_m2(surfaces, self.light()) / self.asked_m2();
+            connected.chain((!self.is_point).then_some(hit)).collect()
+        }
+
+        /// What paths carry to vertex `to` from `from`, by way of the surfaces between them.
+        fn carried(&self, start: SubpathWeights, nodes: &[usize]) -> SubpathWeights {
+            let arrive = |weights: SubpathWeights, a: usize, b: usize| {
+                weights.arrived(self.distance_m(a, b), self.cos(b, a))
+            };
+            let mut weights = start;
+            for at in 1..nodes.len() {
+                weights = arrive(weights, nodes[at - 1], nodes[at]);
+                if let Some(next) = nodes.get(at + 1) {
+                    let cos = self.cos(nodes[at], *next);
+                    let back = self.cos(nodes[at], nodes[at - 1]);
+                    weights = weights.scattered(cos, cos * FRAC_1_PI, back * FRAC_1_PI);
+                }
+            }
+            weights
+        }
+
+        /// Of the eye subpath at a surface, 0 for the sensor.
+        fn of_eye(&self, at: usize) -> SubpathWeights {
+            if at == 0 {
+                return SubpathWeights::SENSOR;
+            }
+            let cos = self.cos(0, 1);
+            let left = SubpathWeights::SENSOR.scattered(cos, cos * FRAC_1_PI, 0.0);
+            self.carried(left, &(0..=at).collect::<Vec<usize>>())
+        }
+
+        /// Of the light subpath at a surface.
+        fn of_light(&self, at: usize) -> SubpathWeights {
+            let (light, last) = (self.light(), self.surfaces());
+            let nodes: Vec<usize> = (at..=light).rev().collect();
+            if !self.is_point {
+                let cos = self.cos(light, last);
+                let start = SubpathWeights::of_emission(self.emission(), self.asked_m2(), cos);
+                return self.carried(start, &nodes);
+            }
+            let landed = SubpathWeights::of_landing(self.landing_m2());
+            if at == last {
+                return landed;
+            }
+            let cos = self.cos(last, last - 1);
+            let back = self.cos(last, light) * FRAC_1_PI;
+            self.carried(landed.scattered(cos, cos * FRAC_1_PI, back), &nodes[1..])
+        }
+
+        /// The weight of each technique as subpaths compute it.
+        fn weights(&self) -> Vec<f64> {
+            let (light, surfaces) = (self.light(), self.surfaces());
+            let back_sr = |at: usize, to: usize| match at {
+                0 => 0.0,
+                _ => self.cos(at, to) * FRAC_1_PI,
+            };
+            let connected = (0..=surfaces).map(|of_light| {
+                let at = surfaces - of_light;
+                let to_eye = self.of_eye(at).towards(back_sr(at, at.saturating_sub(1)));
+                if of_light == 0 {
+                    let hit = match self.is_point {
+                        true => 0.0,
+                        false => self.drawn_m2(at, light) / self.asked_m2(),
+                    };
+                    return of_connection(product(self.landing_m2(), to_eye), hit);
+                }
+                let next = at + 1;
+                let to_light = self.of_light(next).towards(back_sr(next, next + 1));
+                of_connection(
+                    product(self.drawn_m2(next, at), to_eye),
+                    product(self.drawn_m2(at, next), to_light),
+                )
+            });
+            let hit = || self.of_eye(light).of_hit(self.asked_m2(), self.emission());
+            connected.chain((!self.is_point).then(hit)).collect()
+        }
+    }
+
+    /// The bound of the module, on 4000 random ways of 0 to 6 surfaces whose techniques differ by
+    /// up to 40 decades: weights sum up to one, and weight over density is one over the sum of all
+    /// densities, so a contribution is no larger than that of plain paths, of plain photons, or of
+    /// any other technique. A weight that is 1e-6 off is seen.
+    #[test]
+    fn no_technique_exceeds_plain_paths_or_plain_photons() {
+        let mut numbers = Numbers(5);
+        for number in 0..4000 {
+            let way = Way::new(&mut numbers, number % 7, number % 2 == 0);
+            let (densities, weights) = (way.densities(), way.weights());
+            let sum: f64 = weights.iter().sum();
+            assert!((sum - 1.0).abs() < 1e-9, "{number}: weights {weights:?}");
+            let all: f64 = densities.iter().sum();
+            for (density, weight) in densities.iter().zip(&weights) {
+                let expected = density / all;
+                assert!(
+                    (weight - expected).abs() <= 1e-9 * expected.max(1e-12),
+                    "{number}: {weights:?}, densities {densities:?}"
+                );
+            }
+        }
+    }
+}

@@ -119,12 +119,18 @@ impl MemoryNeed {
     }
 }
 
+/// Scores of a sensor point: 128 counters each of paths, seen and blocked light and connections.
+const SCORES_BYTES: u64 = 4 * 128 * 8;
+
 /// A sensor point in all replicates.
 fn point_bytes(settings: &Settings) -> u64 {
     let values = 1 + u64::from(settings.list_terms);
     let sums = size_of::<PathSums>() as u64 + 2 * values * size_of::<Sum>() as u64;
     let replicates = u64::from(settings.effective_replicates());
-    replicates.saturating_mul(sums + values * VALUE_BYTES).saturating_add(witness::POINT_BYTES)
+    // Beside the selected estimator, a probe and a relief.
+    let estimators = if settings.estimator == EstimatorKind::Auto { 3 } else { 1 };
+    let own = replicates.saturating_mul(sums + values * VALUE_BYTES);
+    product([estimators, own.saturating_add(SCORES_BYTES)]).saturating_add(witness::POINT_BYTES)
 }
 
 /// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`]
@@ -180,7 +186,7 @@ mod tests {
 
     #[test]
     fn what_is_asked_for_is_paid_for() {
-        assert_eq!(with(|_| ()).total_bytes(None), 0);
+        assert_eq!(with(|settings| settings.estimator = EstimatorKind::Path).total_bytes(None), 0);
         let grown = |elements: u64, terms: u32| {
             with(|settings| {
                 settings.estimator = EstimatorKind::BidirectionalMap;

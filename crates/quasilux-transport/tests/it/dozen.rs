@@ -13,12 +13,13 @@
 use crate::dozen_scenes as scenes;
 use quasilux_scene::Scene;
 use quasilux_stats::{sidak, student_t_quantile};
+use quasilux_transport::trial::bidirectional_paths;
 use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, Switch, simulate};
 
 const REPLICATES: u32 = 32;
 /// Scenes of this module, and comparisons in each: every estimator without bias with every other,
 /// and paths with the map.
-const FAMILY: usize = 16 * 7;
+const FAMILY: usize = 16 * 11;
 const SIGNIFICANCE: f64 = 0.05;
 /// What the joint half-width may be, relative.
 const WIDEST: f64 = 0.003;
@@ -26,6 +27,8 @@ const WIDEST: f64 = 0.003;
 const STANDARD_ERROR: f64 = 0.00057;
 const MIN_SAMPLES: u64 = 1 << 9;
 const MAX_SAMPLES: u64 = 1 << 17;
+/// Of bidirectional paths in each replicate.
+const BIDIRECTIONAL_SAMPLES: u64 = 1 << 14;
 
 /// The mean of replicates.
 #[derive(Clone, Copy, Debug)]
@@ -78,8 +81,8 @@ impl Observer for UntilKnown {
     }
 }
 
-fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mean {
-    let settings = Settings {
+fn settings(estimator: EstimatorKind, connections: Switch) -> Settings {
+    Settings {
         estimator,
         replicates: REPLICATES,
         importance: Switch::Off,
@@ -87,7 +90,11 @@ fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mea
         max_samples: Some(MAX_SAMPLES),
         rel_tol: 0.0,
         ..Settings::default()
-    };
+    }
+}
+
+fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mean {
+    let settings = settings(estimator, connections);
     let is_map = estimator == EstimatorKind::BidirectionalMap;
     let estimates = simulate(scene, &settings, &mut UntilKnown);
     assert_eq!((estimates.invalid_contributions, estimates.biased), (0, is_map));
@@ -109,6 +116,29 @@ fn assert_agree(scene: &Scene) {
     for (number, (name, mean)) in found.iter().enumerate() {
         for (other, of_other) in &found[..number] {
             assert!(mean.agrees(of_other), "{name} and {other}: {found:?}");
+        }
+    }
+    let settings = settings(EstimatorKind::Auto, Switch::Off);
+    let settings = Settings { max_samples: Some(BIDIRECTIONAL_SAMPLES), ..settings };
+    if let Some(estimates) = bidirectional_paths(scene, &settings) {
+        let mean = Mean::new(&estimates);
+        eprintln!(
+            "BIDI z {:?}",
+            found
+                .iter()
+                .map(|(n, f)| (
+                    n,
+                    (mean.value_lx - f.value_lx)
+                        / mean.standard_error_lx.hypot(f.standard_error_lx),
+                    mean.relative_error()
+                ))
+                .collect::<Vec<_>>()
+        );
+        if std::env::var("ZONLY").is_ok() {
+            return;
+        }
+        for (other, of_other) in &found {
+            assert!(mean.agrees(of_other), "bidirectional paths and {other}: {mean:?}, {found:?}");
         }
     }
     let map = estimate(scene, EstimatorKind::BidirectionalMap, Switch::Off);

@@ -28,6 +28,7 @@ mod measured_known;
 mod measured_odd;
 mod mirrored_light;
 mod narrow_lobes;
+mod openings;
 mod photon_orders;
 mod ranges;
 mod scenes;

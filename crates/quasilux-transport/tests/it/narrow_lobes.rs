@@ -7,7 +7,7 @@ use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
 use quasilux_bsdf::{ScatteringMode, Side};
 use quasilux_scene::{Bsdf, Rgb, Scene, bsdf};
-use quasilux_transport::{Estimates, Scattering, Settings, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Scattering, Settings, simulate};
 
 const LAMP: DVec3 = DVec3::new(1.2, 1.0, 1.0);
 const PLACE: DVec3 = DVec3::new(0.6, 0.9, 0.2);
@@ -52,7 +52,8 @@ fn expected_lx(bsdf: &Bsdf) -> f64 {
 }
 
 fn run(scene: &Scene, samples: u64) -> Estimates {
-    let settings = Settings { rel_tol: 0.02, max_samples: Some(samples), ..Settings::default() };
+    let (estimator, max_samples) = (EstimatorKind::Path, Some(samples));
+    let settings = Settings { estimator, rel_tol: 0.02, max_samples, ..Settings::default() };
     simulate(scene, &settings, &mut ())
 }
 

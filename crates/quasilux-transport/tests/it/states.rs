@@ -4,6 +4,7 @@ use crate::adaptivity::screened;
 use crate::agreement::coloured_room_with_mirror;
 use crate::dozen_scenes::{closed, glass_ball};
 use crate::images::add_panel;
+use crate::openings::keyhole;
 use crate::scenes::{mirror, point_light, points};
 use glam::DVec3;
 use quasilux_scene::{Camera, Scene};
@@ -123,6 +124,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         ("on a frozen map", with_points.clone(), mapped),
         ("on maps that grow", with_points, grown),
         ("hidden light", caustics, of_hidden),
+        ("auto", keyhole(), settings(EstimatorKind::Auto)),
     ]
 }
 
@@ -190,6 +192,7 @@ fn points_that_are_done_stay_done() {
         ("hidden light", mirrored, settings(EstimatorKind::Path)),
         ("connected", screened(), light_vertices),
         ("on maps that grow", screened(), settings(EstimatorKind::BidirectionalMap)),
+        ("auto", screened(), Settings { rel_tol: 0.05, ..settings(EstimatorKind::Auto) }),
     ] {
         let whole = simulate(&scene, &settings, &mut ());
         let samples: Vec<u64> = whole.sensors.iter().flat_map(|s| s.samples.clone()).collect();
@@ -387,6 +390,7 @@ fn damage_is_no_panic() {
     for (estimator, times) in [
         (EstimatorKind::Photon, 45),
         (EstimatorKind::Path, 45),
+        (EstimatorKind::Auto, 24),
         (EstimatorKind::BidirectionalMap, 9),
     ] {
         let (scene, settings) = (closed(0.5), settings(estimator));

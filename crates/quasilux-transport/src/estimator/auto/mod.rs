@@ -44,6 +44,9 @@ const CONFIDENT: f64 = 2.0;
 /// Part of the rays of the run that the probe may take.
 const SHARE_OF_PROBE: f64 = 0.1;
 
+/// Paths of the probe between two moments when it can be stopped.
+const STEP_OF_PROBE: u64 = 1 << 16;
+
 /// The selected estimator, the probe and the relief.
 pub(crate) struct AutoEstimator<'a, S> {
     selected: PathEstimator<'a, S>,
@@ -61,6 +64,13 @@ impl<S: Spectrum> Bidirectional<'_, S> {
         self.relief.put(out);
         out.value(&self.probe.samples());
     }
+}
+
+/// Samples of the probe after the next step: twice as many, if they are not too many paths.
+fn next_of_probe<S: Spectrum>(probe: &PathEstimator<'_, S>) -> u64 {
+    let samples = probe.samples();
+    let most = (STEP_OF_PROBE / probe.paths_of_an_index()).max(1);
+    samples + samples.clamp(1, most)
 }
 
 /// Whether bidirectional paths find all light of a scene, and none of it twice.
@@ -90,20 +100,29 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
     }
 
     /// Traces the probe that belongs to the rays of the others so far, and more where light may
-    /// hide behind openings.
-    fn probe(&mut self) {
-        self.trace_share_of_probe();
-        if self.selected.samples() < MIN_SAMPLES {
-            return;
-        }
-        while self.bidirectional.is_some() && self.unseen(&self.pooled()).wants_more {
-            let Some(Bidirectional { probe, .. }) = &mut self.bidirectional else { return };
-            let mut nobody = ();
-            let next = (2 * probe.samples()).max(1);
-            if !probe.advance(next, &mut Watch::new(&mut nobody)) {
-                return;
+    /// hide behind openings; `false` when the observer stopped it.
+    fn probe(&mut self, watch: &mut Watch<'_>) -> bool {
+        while self.wants_probe() {
+            let Some(Bidirectional { probe, .. }) = &mut self.bidirectional else { break };
+            let (before, mut nobody) = (probe.sampling_rays(), ());
+            // Nobody stops it half-way.
+            let _ = probe.advance(next_of_probe(probe), &mut Watch::new(&mut nobody));
+            let rays = probe.sampling_rays() - before;
+            if !watch.tick(0, 0, rays) || !watch.keep(|out| self.put(out)) {
+                return false;
             }
         }
+        true
+    }
+
+    /// Whether the probe is to have twice the samples.
+    fn wants_probe(&self) -> bool {
+        let Some(Bidirectional { probe, relief }) = &self.bidirectional else { return false };
+        let rays = self.selected.all_rays() + relief.sampling_rays();
+        let next = next_of_probe(probe) as f64;
+        let rays_of_next = probe.sampling_rays() as f64 * next / probe.samples().max(1) as f64;
+        rays_of_next <= SHARE_OF_PROBE * rays as f64
+            || self.selected.samples() >= MIN_SAMPLES && self.unseen(&self.pooled()).wants_more
     }
 
     /// Where light may hide behind openings, beside these estimates.
@@ -142,26 +161,6 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         estimates
     }
 
-    fn trace_share_of_probe(&mut self) {
-        let Some(Bidirectional { probe, relief }) = &mut self.bidirectional else { return };
-        let rays = self.selected.all_rays() + relief.sampling_rays();
-        let mut nobody = ();
-        let mut watch = Watch::new(&mut nobody);
-        loop {
-            let so_far = probe.samples();
-            let next = (2 * so_far).max(1);
-            let rays_of_next = probe.sampling_rays() as f64 * next as f64 / so_far.max(1) as f64;
-            // Nobody stops it.
-            if rays_of_next > SHARE_OF_PROBE * rays as f64 || !probe.advance(next, &mut watch) {
-                return;
-            }
-        }
-    }
-
-    fn probe_rays(&self) -> u64 {
-        self.bidirectional.as_ref().map_or(0, |own| own.probe.sampling_rays())
-    }
-
     /// How each sensor point stands that the relief has not taken over.
     fn takeovers(&self, selected: &Estimates) -> Vec<Takeover> {
         let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
@@ -171,7 +170,7 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let probed = probe.estimates();
         let estimates = [&selected.sensors, &probed.sensors].map(Vec::as_slice);
         let stages = Stage::of_all(&self.selected.are_over(), &relief.begun());
-        takeover::all(estimates, rays, &stages)
+        takeover::all(estimates, rays, self.selected.connects_photons(), &stages)
     }
 }
 
@@ -191,9 +190,7 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
             }
         }
         watch.surround(|_| (), |_| ());
-        let before = self.probe_rays();
-        self.probe();
-        watch.tick(0, 0, self.probe_rays() - before)
+        self.probe(watch)
     }
 
     fn decisions(&self) -> Decisions {
@@ -241,7 +238,8 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn complete_at(&mut self, samples: u64) {
         self.selected.complete_at(samples);
-        self.probe();
+        let mut nobody = ();
+        let _ = self.probe(&mut Watch::new(&mut nobody));
     }
 
     fn estimates(&self) -> Estimates {

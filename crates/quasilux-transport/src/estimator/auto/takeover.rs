@@ -5,12 +5,12 @@ use crate::stats::interval::{Interval, t_quantile_for};
 
 /// Probability that the probe contradicts any sensor point at one look by chance.
 const FALSE_ALARM: f64 = 1e-3;
-/// The probe must promise the same error for this part of the rays: its variance is known within
-/// 40 % or so, from 16 replicates.
-const WORTHWHILE: f64 = 0.5;
-
-/// The same where the selected estimator saw too little of its own tail to know its variance.
-const WORTHWHILE_FOR_A_TAIL: f64 = 8.0;
+/// Bidirectional paths take over where they promise the same error for at most this many times the
+/// rays. Of plain paths they are the safe form; what connections of photons promise may hang on
+/// light that a survey or a pilot did not see, and what hides a tail promises nothing.
+const FOR_PATHS: f64 = 1.0;
+const FOR_CONNECTIONS: f64 = 4.0;
+const FOR_A_TAIL: f64 = 8.0;
 
 /// How the probe judges the selected estimator at a sensor point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +57,7 @@ impl Stage {
 pub(super) fn all(
     [selected, probe]: [&[SensorEstimates]; 2],
     rays: [u64; 2],
+    connects_photons: bool,
     stages: &[Stage],
 ) -> Vec<Takeover> {
     let values = |sensor: usize, point: usize| {
@@ -80,7 +81,11 @@ pub(super) fn all(
         };
         let misses = probed.value - own.value > t * libm::hypot(own_error, error);
         let cost = |error: f64, rays: u64| error * error * rays as f64;
-        let worthwhile = if hides_tail { WORTHWHILE_FOR_A_TAIL } else { WORTHWHILE };
+        let worthwhile = match (hides_tail, connects_photons) {
+            (true, _) => FOR_A_TAIL,
+            (false, true) => FOR_CONNECTIONS,
+            (false, false) => FOR_PATHS,
+        };
         let pays = error > 0.0 && cost(error, rays[1]) < worthwhile * cost(own_error, rays[0]);
         match stage {
             Stage::Open | Stage::Converged if misses => Takeover::MissesLight,

@@ -34,18 +34,6 @@ pub(super) struct Unseen {
 
 impl Unseen {
     pub(super) fn new(tests: &[Tests]) -> Self {
-        if std::env::var("QDBG").is_ok() {
-            for t in tests {
-                eprintln!(
-                    "blocked {:.3e} n {} hw {:.3e} need {:.2e}",
-                    t.scores.blocked.typical(),
-                    t.paths,
-                    t.half_width,
-                    t.needed_paths()
-                );
-            }
-            eprintln!("--");
-        }
         let needed: Vec<f64> = tests.iter().map(Tests::needed_paths).collect();
         let open =
             || tests.iter().zip(&needed).filter(|(own, needed)| own.paths as f64 <= **needed);
