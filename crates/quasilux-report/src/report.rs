@@ -137,6 +137,8 @@ pub struct Run {
     pub tolerance_reached: bool,
     /// What surveys and pilots decided before the first sample.
     pub decisions: Decisions,
+    /// Sensor points that bidirectional paths took over from what pilots selected.
+    pub relieved_points: u64,
     /// How half-widths shrank, and the cost that this predicts.
     pub convergence: Convergence,
     /// Numbers of coordinates that photons and paths used.
@@ -186,6 +188,7 @@ impl Report {
                 expected_bytes: facts.expected_bytes,
                 tolerance_reached: estimates.tolerance_reached,
                 decisions: estimates.decisions.clone(),
+                relieved_points: estimates.relieved_points,
                 convergence: estimates.convergence,
                 dimensions: estimates.dimensions.clone(),
                 flux: estimates.flux,

@@ -10,7 +10,8 @@
 //! repeatable: `build`, `scene_sha256`, and all [`Settings`] by the names of their fields, but for
 //! limits: a run that was stopped at some number of samples writes what one that was asked for this
 //! number writes. `replicates` counts those that differ. Then `decisions`, what pilots made of the
-//! settings (photons connected for each path (`connected_photons`), whether photons follow
+//! settings (what they `selected` and why, how many points bidirectional paths took over from that
+//! (`relieved_points`), photons connected for each path (`connected_photons`), whether photons follow
 //! `importance` and leave lit places, sides of elements of the map that paths end on, photons for
 //! each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
@@ -31,7 +32,7 @@ use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
-use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, Settings};
+use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, EstimatorKind, Settings};
 use serde::Serialize;
 use terms::TermEntry;
 
@@ -139,6 +140,10 @@ struct RunEntry<'a> {
 /// What `auto` came to, as in a plan.
 #[derive(Serialize)]
 struct DecisionsEntry {
+    /// What pilots selected, and why, in words.
+    selected: &'static str,
+    /// Sensor points that bidirectional paths took over from it.
+    relieved_points: u64,
     connected_photons: Option<u64>,
     importance: bool,
     first_shot: bool,
@@ -192,7 +197,9 @@ impl<'a> SensorEntry<'a> {
 }
 
 impl DecisionsEntry {
-    fn new(decisions: &Decisions) -> Self {
+    fn new(run: &Run) -> Self {
+        let (decisions, relieved_points) = (&run.decisions, run.relieved_points);
+        let selected = selected(run.settings.estimator, decisions);
         let Decisions {
             connected_photons,
             uses_importance: importance,
@@ -201,7 +208,35 @@ impl DecisionsEntry {
             caustic_photons,
             digest: _,
         } = *decisions;
-        Self { connected_photons, importance, first_shot, map_elements, caustic_photons }
+        Self {
+            selected,
+            relieved_points,
+            connected_photons,
+            importance,
+            first_shot,
+            map_elements,
+            caustic_photons,
+        }
+    }
+}
+
+/// What pilots selected, and why.
+fn selected(estimator: EstimatorKind, decisions: &Decisions) -> &'static str {
+    if !estimator.is_selected_by_pilots() {
+        return "nothing: the settings name the estimator";
+    }
+    match decisions {
+        Decisions { connected_photons: Some(_), uses_importance: true, .. } => {
+            "photons connected to the sensors and guided: the fewest rays by pilots, or light that \
+             paths missed"
+        }
+        Decisions { connected_photons: Some(_), .. } => {
+            "photons connected to the sensors: the fewest rays by pilots, or light that paths missed"
+        }
+        Decisions { map_elements: Some(_), .. } => {
+            "paths that end on a corrected map: the fewest rays by pilots"
+        }
+        _ => "paths alone: the fewest rays by pilots",
     }
 }
 
@@ -258,7 +293,7 @@ impl<'a> RunEntry<'a> {
             threads: run.threads,
             tolerance_reached: run.tolerance_reached,
             prediction: PredictionEntry::new(run),
-            decisions: DecisionsEntry::new(&run.decisions),
+            decisions: DecisionsEntry::new(run),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

@@ -253,6 +253,13 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.ends.iter().map(Option::is_some).collect()
     }
 
+    /// Whether few connections of photons make the variance of each target.
+    pub(crate) fn photons_hide_tails(&self) -> Vec<bool> {
+        let photons = self.light_vertices.as_ref();
+        let hides = |target| photons.is_some_and(|own| own.hides_its_tail(target));
+        (0..self.targets.len()).map(hides).collect()
+    }
+
     /// Single contributions to a target.
     pub(crate) fn scores_of(&self, target: usize) -> &PathScores {
         &self.scores[target]
@@ -261,11 +268,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// Paths of a target, of all replicates.
     pub(crate) fn paths_of(&self, target: usize) -> u64 {
         self.samples_of(target) * u64::from(self.replicates)
-    }
-
-    /// Whether photons are connected to the targets.
-    pub(crate) fn connects_photons(&self) -> bool {
-        self.light_vertices.is_some()
     }
 
     /// Paths of one index, of all targets and replicates.
@@ -444,10 +446,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let missed: Vec<bool> = missed
             .map(|(target, (lobes, hits))| {
                 let of_paths = &self.scores[target].paths;
-                let hides = || of_paths.hide_their_tail(self.paths_of(target));
-                let photons = self.light_vertices.as_ref();
-                let photons_hide = || photons.is_some_and(|own| own.hides_its_tail(target));
-                lobes || hits || hides() || photons_hide()
+                lobes || hits || of_paths.hide_their_tail(self.paths_of(target))
             })
             .collect();
         let all = SensorEstimates {

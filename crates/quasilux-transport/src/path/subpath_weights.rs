@@ -109,7 +109,7 @@ mod tests {
         fn direction(&mut self) -> DVec3 {
             let (z, phi) = (2.0 * self.next() - 1.0, TAU * self.next());
             let r = (1.0 - z * z).sqrt();
-            DVec3::new(r * phi.cos(), r * phi.sin(), z)
+            DVec3::new(r * libm::cos(phi), r * libm::sin(phi), z)
         }
     }
 
@@ -129,7 +129,7 @@ mod tests {
             let nodes = surfaces + 2;
             // Distances over three decades.
             let step = |numbers: &mut Numbers| {
-                numbers.direction() * 10.0_f64.powf(3.0 * numbers.next() - 2.0)
+                numbers.direction() * libm::exp10(3.0 * numbers.next() - 2.0)
             };
             let mut positions = vec![DVec3::ZERO];
             for node in 1..nodes {
@@ -147,7 +147,7 @@ mod tests {
             });
             let normals = normals.collect();
             let [flux_lm, brightness, facets_lm] =
-                [(); 3].map(|()| 10.0_f64.powf(4.0 * numbers.next()));
+                [(); 3].map(|()| libm::exp10(4.0 * numbers.next()));
             Self { positions, normals, is_point, flux_lm, brightness, facets_lm }
         }
 

@@ -57,10 +57,10 @@ impl Scores {
         let n = samples as f64;
         let mean = self.sum_of(|x| x) / n;
         let zeros = (n - self.sum_of(|_| 1.0)).max(0.0);
-        let central =
-            |power: i32| zeros * mean.powi(power) + self.sum_of(|x| (x - mean).abs().powi(power));
-        let square = central(2);
-        square > 0.0 && central(4) / (square * square) - 1.0 / n > MAX_VOV
+        let (of_zeros, squared) = (mean * mean, |x: f64| (x - mean) * (x - mean));
+        let square = zeros * of_zeros + self.sum_of(squared);
+        let fourth = zeros * of_zeros * of_zeros + self.sum_of(|x| squared(x) * squared(x));
+        square > 0.0 && fourth / (square * square) - 1.0 / n > MAX_VOV
     }
 
     /// The mean of scores where each is counted by its size, over the reference of the quantum; 0

@@ -188,10 +188,11 @@ fn points_that_are_done_stay_done() {
     };
     let own = settings(EstimatorKind::Bidirectional);
     let light_vertices = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
+    let of_map = settings(EstimatorKind::BidirectionalMap);
     for (name, scene, settings) in [
         ("hidden light", mirrored, settings(EstimatorKind::Path)),
         ("connected", screened(), light_vertices),
-        ("on maps that grow", screened(), settings(EstimatorKind::BidirectionalMap)),
+        ("on maps that grow", screened(), Settings { rel_tol: 0.1, ..of_map }),
         ("auto", screened(), Settings { rel_tol: 0.05, ..settings(EstimatorKind::Auto) }),
     ] {
         let whole = simulate(&scene, &settings, &mut ());
@@ -270,8 +271,10 @@ fn parts_make_the_same_run_however_it_is_cut() {
         }
         let plain = simulate(&scene, &settings, &mut ());
         let mut values = whole.sensors.iter().zip(&plain.sensors);
-        // Caustic light is read from photons so far: a run that stops on its way reads fewer.
-        assert!(name == "hidden light" || values.all(|(a, b)| a == b), "{name}");
+        // Caustic light is read from photons so far: a run that stops on its way reads fewer. And
+        // in parts bidirectional paths take nothing over.
+        let differs = matches!(name, "hidden light" | "auto");
+        assert!(differs || values.all(|(a, b)| a == b), "{name}");
     }
 }
 

@@ -10,7 +10,9 @@
 //!
 //! - where the probe finds more light than the selected estimator, by more than chance allows: that
 //!   one misses light. Its interval is withdrawn at once.
-//! - where the probe promises the wanted error for half the rays or less.
+//! - where the probe promises the wanted error for about as many rays, or for a few times as many
+//!   where the other way is known to hide tails ([`takeover`]).
+//! - where light may hide behind openings that only they look for ([`unseen`]).
 //!
 //! A point that is taken over begins anew: no sample of the decision enters its value. So the worst
 //! case is that of bidirectional paths, whatever pilots saw, and the rays before.
@@ -36,7 +38,7 @@ use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
-use takeover::{Stage, Takeover};
+use takeover::{Judged, Stage, Takeover, Way};
 use unseen::{Tests, Unseen};
 
 /// Standard errors in a half-width, about.
@@ -166,11 +168,19 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
             return Vec::new();
         };
-        let rays = [self.selected.sampling_rays(), probe.sampling_rays()];
-        let probed = probe.estimates();
-        let estimates = [&selected.sensors, &probed.sensors].map(Vec::as_slice);
         let stages = Stage::of_all(&self.selected.are_over(), &relief.begun());
-        takeover::all(estimates, rays, self.selected.connects_photons(), &stages)
+        let judged = Judged {
+            selected: &selected.sensors,
+            probe: &probe.estimates().sensors,
+            rays: [self.selected.sampling_rays(), probe.sampling_rays()],
+            way: match self.selected.decisions() {
+                Decisions { connected_photons: None, .. } => Way::Paths,
+                Decisions { uses_importance: true, .. } => Way::GuidedConnections,
+                _ => Way::Connections,
+            },
+            photons_hide_tails: self.selected.photons_hide_tails(),
+        };
+        takeover::all(&judged, &stages)
     }
 }
 

@@ -6,9 +6,11 @@ use crate::stats::interval::{Interval, t_quantile_for};
 /// Probability that the probe contradicts any sensor point at one look by chance.
 const FALSE_ALARM: f64 = 1e-3;
 /// Bidirectional paths take over where they promise the same error for at most this many times the
-/// rays. Of plain paths they are the safe form; what connections of photons promise may hang on
-/// light that a survey or a pilot did not see, and what hides a tail promises nothing.
+/// rays. Of plain paths they are the safe form. What connections of photons promise may hang on
+/// light that a survey or a pilot did not see, most of all where nothing guides the photons, and
+/// what hides a tail promises nothing.
 const FOR_PATHS: f64 = 1.0;
+const FOR_GUIDED_CONNECTIONS: f64 = 2.0;
 const FOR_CONNECTIONS: f64 = 4.0;
 const FOR_A_TAIL: f64 = 8.0;
 
@@ -52,14 +54,31 @@ impl Stage {
     }
 }
 
-/// Of all sensor points, from the figures of the selected estimator and those of the probe, and the
-/// rays that each took.
-pub(super) fn all(
-    [selected, probe]: [&[SensorEstimates]; 2],
-    rays: [u64; 2],
-    connects_photons: bool,
-    stages: &[Stage],
-) -> Vec<Takeover> {
+/// The selected estimator and the probe at a checkpoint.
+pub(super) struct Judged<'e> {
+    pub(super) selected: &'e [SensorEstimates],
+    pub(super) probe: &'e [SensorEstimates],
+    /// Rays that each of them took.
+    pub(super) rays: [u64; 2],
+    pub(super) way: Way,
+    /// Whether few connections make the variance of each sensor point.
+    pub(super) photons_hide_tails: Vec<bool>,
+}
+
+/// How the selected estimator works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// By paths, alone or on a map.
+    Paths,
+    /// By photons that are connected to the sensors, too.
+    Connections,
+    /// By such photons that are guided.
+    GuidedConnections,
+}
+
+/// Of all sensor points.
+pub(super) fn all(judged: &Judged<'_>, stages: &[Stage]) -> Vec<Takeover> {
+    let &Judged { selected, probe, rays, way, .. } = judged;
     let values = |sensor: usize, point: usize| {
         [selected, probe].map(|of| {
             let rows = of[sensor].replicate_lx.iter();
@@ -75,16 +94,18 @@ pub(super) fn all(
     let Some(t) = t_quantile_for(replicates, 2.0 * of_each) else {
         return vec![Takeover::No; stages.len()];
     };
-    let judged = points.zip(stages).map(|(([own, probed], hides_tail), stage)| {
+    let stages = stages.iter().zip(&judged.photons_hide_tails);
+    let takeovers = points.zip(stages).map(|(([own, probed], missed), (stage, hides_tail))| {
         let [Some(own_error), Some(error)] = [own.half_width, probed.half_width] else {
             return Takeover::No;
         };
         let misses = probed.value - own.value > t * libm::hypot(own_error, error);
         let cost = |error: f64, rays: u64| error * error * rays as f64;
-        let worthwhile = match (hides_tail, connects_photons) {
-            (true, _) => FOR_A_TAIL,
-            (false, true) => FOR_CONNECTIONS,
-            (false, false) => FOR_PATHS,
+        let worthwhile = match way {
+            _ if missed || *hides_tail => FOR_A_TAIL,
+            Way::Connections => FOR_CONNECTIONS,
+            Way::GuidedConnections => FOR_GUIDED_CONNECTIONS,
+            Way::Paths => FOR_PATHS,
         };
         let pays = error > 0.0 && cost(error, rays[1]) < worthwhile * cost(own_error, rays[0]);
         match stage {
@@ -93,5 +114,5 @@ pub(super) fn all(
             _ => Takeover::No,
         }
     });
-    judged.collect()
+    takeovers.collect()
 }

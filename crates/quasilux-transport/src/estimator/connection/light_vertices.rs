@@ -309,10 +309,8 @@ impl Stored for LightVertexConnections {
             .iter()
             .flatten()
             .try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
-        let scores = self.scores.iter();
-        scores
-            .map(|scores| lock(scores).as_mut_slice().merge_from(from))
-            .collect::<Result<(), _>>()?;
+        let mut scores = self.scores.iter();
+        scores.try_for_each(|scores| lock(scores).as_mut_slice().merge_from(from))?;
         self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))?;
         let length = self.replicates.len() * (1 + self.terms);
         let settled: Vec<Option<Vec<f64>>> = from.value()?;
