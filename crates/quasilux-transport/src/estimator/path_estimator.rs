@@ -25,6 +25,7 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
+use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{Target, by_sensor, targets};
 use crate::stats::watch::Watch;
@@ -446,7 +447,8 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let missed: Vec<bool> = missed
             .map(|(target, (lobes, hits))| {
                 let of_paths = &self.scores[target].paths;
-                lobes || hits || of_paths.hide_their_tail(self.paths_of(target))
+                let is_told = self.samples_of(target) >= MIN_SAMPLES;
+                lobes || hits || is_told && of_paths.hide_their_tail(self.paths_of(target))
             })
             .collect();
         let all = SensorEstimates {

@@ -70,6 +70,12 @@ impl Scores {
         if sum > 0.0 { self.sum_of(|x| x * x) / sum } else { 0.0 }
     }
 
+    /// How many are as large as this, over the reference of the quantum, or larger.
+    pub(crate) fn count_from(&self, score: f64) -> u64 {
+        let first = bin(score).unwrap_or(0);
+        self.counts.iter().skip(first).sum()
+    }
+
     fn sum_of(&self, of: impl Fn(f64) -> f64) -> f64 {
         let filled = self.counts.iter().enumerate().filter(|(_, count)| **count > 0);
         filled.map(|(bin, count)| *count as f64 * of(middle(bin))).sum()
@@ -132,6 +138,7 @@ mod tests {
     fn typical_scores_are_those_that_make_the_sum() {
         let mixed = scores((0..1000).map(|_| 0.001).chain([100.0]));
         assert!((mixed.typical() / 100.0 - 1.0).abs() < 0.2, "{}", mixed.typical());
+        assert_eq!([50.0, 1e-4, 1e3].map(|from| mixed.count_from(from)), [1, 1001, 0]);
     }
 
     #[test]

@@ -10,8 +10,6 @@ use std::ops::AddAssign;
 
 /// Quanta per unit of the reference, as a power of two: contributions down to 2^-80 of it count.
 const FINENESS: i32 = 80;
-/// Quanta of the reference, but for less than a factor of two.
-const REFERENCE: f64 = (1_u128 << FINENESS) as f64;
 /// Larger contributions, in quanta, are refused; 2^23 of the largest fit the sum.
 const MAX_CONTRIBUTION: f64 = (1_u128 << 104) as f64;
 
@@ -41,18 +39,20 @@ fn round_positive(x: f64) -> f64 {
 pub(crate) struct Quantum {
     size: f64,
     per_unit: f64,
+    reference: f64,
 }
 
 impl Quantum {
     /// The quantum for contributions that are about as large as `reference` (positive, finite).
     pub(crate) fn for_reference(reference: f64) -> Self {
         let exponent = (libm::ilogb(reference) - FINENESS).clamp(-1000, 1000);
-        Self { size: libm::ldexp(1.0, exponent), per_unit: libm::ldexp(1.0, -exponent) }
+        let [size, per_unit] = [exponent, -exponent].map(|exponent| libm::ldexp(1.0, exponent));
+        Self { size, per_unit, reference }
     }
 
-    /// A power of two near the reference that it was made for.
+    /// The reference that it was made for.
     pub(crate) fn reference(self) -> f64 {
-        self.size * REFERENCE
+        self.reference
     }
 
     /// The value of a sum.

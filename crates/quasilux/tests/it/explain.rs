@@ -43,7 +43,10 @@ fn terms_add_up_in_the_document() {
 fn the_explanation_stands_beside_the_results() {
     let folder = Folder::new("explain_run");
     write_room(&folder, "room", &Look::GREY);
-    let document = |more: &[&str]| folder.document("room.toml", "out", more, 0);
+    let document = |more: &[&str]| {
+        let more = [&["--estimator", "path"], more].concat();
+        folder.document("room.toml", "out", &more, 0)
+    };
     let [one, two] = ["1", "2"].map(|threads| document(&["--explain", "--threads", threads]));
     assert_eq!(without_seconds_and_threads(&one), without_seconds_and_threads(&two));
     let [mut plain, mut explained] = [document(&[]), one].map(|text| parsed(&text));
@@ -70,7 +73,7 @@ fn the_explanation_stands_beside_the_results() {
 fn the_explanation_is_printed() {
     let folder = Folder::new("explain_print");
     write_room(&folder, "room", &Look::GREY);
-    let run = folder.quasilux(&["run", "room.toml", "--explain"]);
+    let run = folder.quasilux(&["run", "room.toml", "--explain", "--estimator", "path"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     for words in ["coordinates", "direction from the sensor", "The sequence helps", "average"] {
         assert!(run.stdout.contains(words), "no {words} in {}", run.stdout);

@@ -149,8 +149,8 @@ fn checkpoints_of_other_scenes_and_versions_are_refused_by_name() {
     refused(&["run.ck"]);
     folder.write("run.ck", forged(&bytes, "quasilux-checkpoint/1", "quasilux-checkpoint/2"));
     refused(&["quasilux-checkpoint/2", "reads quasilux-checkpoint/1"]);
-    folder.write("run.ck", forged(&bytes, "\"estimator\": \"path\"", "\"estimator\": \"pith\""));
-    refused(&["run.ck", "pith"]);
+    folder.write("run.ck", forged(&bytes, "\"estimator\": \"auto\"", "\"estimator\": \"outo\""));
+    refused(&["run.ck", "outo"]);
     folder.write("run.ck", forged(&bytes, "\"seed\": 1,", "\"seed\": 2,"));
     refused(&["run.ck", "decide otherwise"]);
     std::fs::remove_file(folder.path("run.ck")).expect("it was written");

@@ -83,7 +83,7 @@ fn the_document_has_the_agreed_keys() {
     {
         assert_eq!(number(run, &format!("/{key}")), value, "{key}");
     }
-    for (key, value) in [("estimator", "path"), ("sequence", "sobol"), ("version", "0.1.0")] {
+    for (key, value) in [("estimator", "auto"), ("sequence", "sobol"), ("version", "0.1.0")] {
         assert_eq!(run[key], value);
     }
     assert_eq!(run["tolerance_reached"], true);

@@ -259,7 +259,11 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         };
         let takeovers = self.takeovers(&self.selected.estimates());
         let mut contradicted = takeovers.iter().map(|takeover| *takeover == Takeover::MissesLight);
-        let mut unseen = self.unseen(&estimates).points.into_iter();
+        let mut unseen = self.unseen(&estimates).points;
+        if self.selected.samples() < MIN_SAMPLES {
+            unseen.fill(false);
+        }
+        let mut unseen = unseen.into_iter();
         for sensor in &mut estimates.sensors {
             let points = sensor.resolved.len();
             sensor.withdraw(contradicted.by_ref().take(points).collect());

@@ -7,7 +7,8 @@
 //! point, n paths are enough; else the point has no interval.
 //!
 //! All sensor points where the paths of one are not enough look for the same openings, so what
-//! counts for them is the number of paths from all of them together.
+//! counts for them is the number of paths from all of them together, as long as none of them saw
+//! light of that size. Where one did, each of them has to see it for itself.
 
 use crate::path::sections::PathScores;
 
@@ -15,6 +16,9 @@ use crate::path::sections::PathScores;
 pub(super) const MAX_TESTS: u64 = 1 << 20;
 /// Of no event among n, the mean number is less than this with 95 %.
 const RULE_OF_THREE: f64 = 3.0;
+
+/// Light that was seen and is so large a part of what was blocked is of the same size.
+const SAME_SIZE: f64 = 1.0 / 16.0;
 
 /// What bidirectional paths of one sensor point asked for.
 pub(super) struct Tests {
@@ -38,17 +42,25 @@ impl Unseen {
         let open =
             || tests.iter().zip(&needed).filter(|(own, needed)| own.paths as f64 <= **needed);
         let together: u64 = open().map(|(own, _)| own.paths).sum();
+        let is_seen = open().any(|(own, _)| own.saw_such_light());
+        let is_short = |needed: f64| is_seen || together as f64 <= needed;
         let points = tests
             .iter()
             .zip(&needed)
-            .map(|(own, needed)| own.paths as f64 <= *needed && together as f64 <= *needed);
-        let reachable = |needed: &f64| *needed <= MAX_TESTS as f64;
-        let wants_more = open().any(|(_, needed)| together as f64 <= *needed && reachable(needed));
+            .map(|(own, needed)| own.paths as f64 <= *needed && is_short(*needed));
+        let is_reachable = |needed: f64| needed <= MAX_TESTS as f64;
+        let wants_more = !is_seen
+            && open().any(|(_, needed)| together as f64 <= *needed && is_reachable(*needed));
         Self { points: points.collect(), wants_more }
     }
 }
 
 impl Tests {
+    /// Whether it saw light as large as what was blocked.
+    fn saw_such_light(&self) -> bool {
+        self.scores.seen.count_from(SAME_SIZE * self.scores.blocked.typical()) > 0
+    }
+
     /// Paths after which openings that none of them met are too small to matter.
     fn needed_paths(&self) -> f64 {
         let blocked = RULE_OF_THREE * self.scores.blocked.typical();
