@@ -9,8 +9,9 @@ use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::LightPathClass;
 use crate::lights::{Emission, Emitted};
+use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::subpath_weights::SubpathWeights;
-use crate::path::trace::{CERTAIN_BOUNCES, russian_roulette_factor};
+
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::{Interaction, RayOrigin};

@@ -6,6 +6,7 @@ pub(crate) mod frozen_map;
 pub(crate) mod light_subpath;
 pub(crate) mod lobes;
 pub(crate) mod partition;
+pub(crate) mod russian_roulette;
 pub(crate) mod sections;
 pub(crate) mod specular_hits;
 pub(crate) mod start;

@@ -25,6 +25,7 @@ use crate::path::end::Rest;
 use crate::path::light_subpath::{LightSubpaths, scattered};
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
+use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::start::{Measurement, Start};
 use crate::path::subpath_weights::SubpathWeights;
 use crate::path::vertex_record::VertexRecord;
@@ -41,9 +42,6 @@ use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
 use std::f64::consts::{FRAC_1_PI, PI};
-
-/// Bounces after which a path goes on for certain; after later ones by survival.
-pub(crate) const CERTAIN_BOUNCES: u32 = 2;
 
 /// A path that is over.
 pub(crate) struct PathResult<S> {
@@ -407,9 +405,4 @@ impl<'p, S: Spectrum> Path<'p, S> {
             self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
         }
     }
-}
-
-/// Russian roulette: the factor on the weight, 0 or the reciprocal of the survival probability.
-pub(crate) fn russian_roulette_factor(survival: f64, sampler: &mut Sampler<'_>) -> f64 {
-    if sampler.choose_bool(survival) { 1.0 / survival.min(1.0) } else { 0.0 }
 }

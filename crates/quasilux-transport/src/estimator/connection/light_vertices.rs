@@ -4,7 +4,7 @@
 use super::cell_tally::CellTally;
 use super::cell_transfer::CellTransfer;
 use super::lock;
-use super::receiver::{ConnectionReceiver, Group};
+use super::receiver::{ConnectionReceiver, Group, Tallies};
 use super::receiver_element::ReceiverElement;
 use super::{ConnectionPlan, TallySettings};
 use crate::codec::{Reader, StateError, Stored, Writer};
@@ -177,7 +177,7 @@ impl LightVertexConnections {
             let receiver = |r: u32| {
                 let points = context.points(r, Stream::ConnectionPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
-                let into = (sums, &self.scores[number as usize]);
+                let into = Tallies { sums, scores: &self.scores[number as usize] };
                 ConnectionReceiver::new(context, &self.connection, group, points, into)
             };
             let batch = PhotonBatch {

@@ -52,6 +52,15 @@ pub(super) struct Group<'a> {
     pub(super) quantum: Quantum,
 }
 
+/// Where connections of all waves are added, by target.
+#[derive(Clone, Copy)]
+pub(super) struct Tallies<'a> {
+    /// In one replicate, each target's terms one after the other.
+    pub(super) sums: &'a Mutex<Vec<Sum>>,
+    /// By single connections, in all replicates.
+    pub(super) scores: &'a Mutex<Vec<Scores>>,
+}
+
 /// Connects the photons of one wave to all targets of a group.
 pub(super) struct ConnectionReceiver<'a, S> {
     context: &'a Context<'a, S>,
@@ -109,7 +118,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         plan: &'a ConnectionPlan,
         group: Group<'a>,
         points: PointSet,
-        (sums, scores): (&'a Mutex<Vec<Sum>>, &'a Mutex<Vec<Scores>>),
+        Tallies { sums, scores }: Tallies<'a>,
     ) -> Self {
         Self {
             context,

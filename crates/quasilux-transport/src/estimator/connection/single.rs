@@ -5,7 +5,7 @@ use super::cell_transfer::CellTransfer;
 use super::exitant_flux::ExitantFlux;
 use super::light_vertices::LightVertexConnections;
 use super::lock;
-use super::receiver::{ConnectionReceiver, Group, Seen};
+use super::receiver::{ConnectionReceiver, Group, Seen, Tallies};
 use crate::context::Context;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
@@ -61,7 +61,7 @@ impl LightVertexConnections {
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.elements.len() * group.terms]);
         let scores = Mutex::new(vec![Scores::default(); group.elements.len()]);
-        let into = (&sums, &scores);
+        let into = Tallies { sums: &sums, scores: &scores };
         let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, into);
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish().rays;

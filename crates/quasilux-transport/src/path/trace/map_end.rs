@@ -1,9 +1,10 @@
 //! Ends of a path on an illumination map, and records of the vertices where it might have ended.
 
-use super::{CERTAIN_BOUNCES, Onward, Path, russian_roulette_factor};
+use super::{Onward, Path};
 use crate::context::Context;
 use crate::path::end::{MapEnd, Rest};
 use crate::path::frozen_map::{FrozenEnd, bounces_left};
+use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::map::{IlluminationMap, MapPoint};
 use crate::purpose::Purpose;
