@@ -11,9 +11,9 @@
 //! limits: a run that was stopped at some number of samples writes what one that was asked for this
 //! number writes. `replicates` counts those that differ. Then `decisions`, what pilots made of the
 //! settings (what they `selected` and why, how many points bidirectional paths took over from that
-//! (`relieved_points`), photons connected for each path (`connected_photons`), whether photons follow
-//! `importance` and leave lit places, sides of elements of the map that paths end on, photons for
-//! each path that look for light which paths cannot find; `null` where there are none),
+//! (`relieved_points`), photons connected for each path (`connected_photons`), whether photons
+//! follow `importance` and leave lit places, sides of elements of the map that paths end on,
+//! photons for each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
 //! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
 //! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
@@ -231,7 +231,8 @@ fn selected(estimator: EstimatorKind, decisions: &Decisions) -> &'static str {
              paths missed"
         }
         Decisions { connected_photons: Some(_), .. } => {
-            "photons connected to the sensors: the fewest rays by pilots, or light that paths missed"
+            "photons connected to the sensors: the fewest rays by pilots, or light that paths \
+             missed"
         }
         Decisions { map_elements: Some(_), .. } => {
             "paths that end on a corrected map: the fewest rays by pilots"

@@ -96,8 +96,8 @@ impl<'a> Lights<'a> {
         self.fluxes_lm[number]
     }
 
-    /// The density in m^-2 with which photons of one light land straight on the side `n` of a place,
-    /// or on both, as if nothing stood in the way; of a luminaire with an area about that, of
+    /// The density in m^-2 with which photons of one light land straight on the side `n` of a
+    /// place, or on both, as if nothing stood in the way; of a luminaire with an area about that, of
     /// emitting facets 0.
     pub(crate) fn landings_m2(
         &self,
