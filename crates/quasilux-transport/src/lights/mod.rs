@@ -97,8 +97,8 @@ impl<'a> Lights<'a> {
     }
 
     /// The density in m^-2 with which photons of one light land straight on the side `n` of a
-    /// place, or on both, as if nothing stood in the way; of a luminaire with an area about that, of
-    /// emitting facets 0.
+    /// place, or on both, as if nothing stood in the way; of a luminaire with an area about that,
+    /// of emitting facets 0.
     pub(crate) fn landings_m2(
         &self,
         number: usize,

@@ -3,8 +3,8 @@
 //! Bidirectional paths ask for light that they then do not see, for something stands in the way:
 //! a wall, as a rule, and now and then a wall with a keyhole. Of n paths that asked for light of
 //! the size c behind something and never saw it, no more than 3 / n of the walls can be open (at
-//! 95 %), so no more than `3 c / n` can be missing. Where that is less than the half-width of a sensor
-//! point, n paths are enough; else the point has no interval.
+//! 95 %), so no more than `3 c / n` can be missing. Where that is less than the half-width of a
+//! sensor point, n paths are enough; else the point has no interval.
 //!
 //! All sensor points where the paths of one are not enough look for the same openings, so what
 //! counts for them is the number of paths from all of them together, as long as none of them saw
