@@ -26,7 +26,6 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
-use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{Target, by_sensor, targets};
 use crate::stats::watch::Watch;
@@ -378,14 +377,9 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let replicate_lx: Vec<Vec<f64>> = (0..replicates).map(|r| self.replicate_lx(r)).collect();
         let missed_hits = self.missed_hits(&replicate_lx);
         let of_hits = specular_hits::warning(missed_hits.iter().filter(|missed| **missed).count());
-        let missed = missed_lobes.into_iter().zip(missed_hits).enumerate();
-        let missed: Vec<bool> = missed
-            .map(|(target, (lobes, hits))| {
-                let of_paths = &self.scores[target].paths;
-                let is_told = self.samples_of(target) >= MIN_SAMPLES;
-                lobes || hits || is_told && of_paths.hide_their_tail(self.paths_of(target))
-            })
-            .collect();
+        let tails = self.hidden_tails(&replicate_lx);
+        let missed = missed_lobes.into_iter().zip(missed_hits).zip(tails);
+        let missed: Vec<bool> = missed.map(|((lobes, hits), tail)| lobes || hits || tail).collect();
         let all = SensorEstimates {
             replicate_lx,
             direct_lx: self.direct_lx(),

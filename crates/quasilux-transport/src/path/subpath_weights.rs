@@ -114,7 +114,7 @@ mod tests {
     }
 
     /// A way of light: the sensor point, diffuse surfaces, and a light that is a point or a facet.
-    struct Way {
+    struct Chain {
         positions: Vec<DVec3>,
         normals: Vec<DVec3>,
         is_point: bool,
@@ -124,7 +124,7 @@ mod tests {
         facets_lm: f64,
     }
 
-    impl Way {
+    impl Chain {
         fn new(numbers: &mut Numbers, surfaces: usize, is_point: bool) -> Self {
             let nodes = surfaces + 2;
             // Distances over three decades.
@@ -296,8 +296,8 @@ mod tests {
     fn no_technique_exceeds_plain_paths_or_plain_photons() {
         let mut numbers = Numbers(5);
         for number in 0..4000 {
-            let way = Way::new(&mut numbers, number % 7, number % 2 == 0);
-            let (densities, weights) = (way.densities(), way.weights());
+            let chain = Chain::new(&mut numbers, number % 7, number % 2 == 0);
+            let (densities, weights) = (chain.densities(), chain.weights());
             let sum: f64 = weights.iter().sum();
             assert!((sum - 1.0).abs() < 1e-9, "{number}: weights {weights:?}");
             let all: f64 = densities.iter().sum();

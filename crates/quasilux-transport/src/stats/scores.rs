@@ -22,6 +22,8 @@ use serde::{Deserialize, Serialize};
 const BINS: usize = 128;
 /// Octaves of them below the reference of the quantum.
 const OCTAVES_BELOW: i32 = 40;
+/// What a tail leaves in the spread of the mean matters from this part of the standard error on.
+const MATTERS: f64 = 1.0 / 3.0;
 /// Largest relative variance of the variance of scores whose spread can be trusted.
 const MAX_VOV: f64 = 0.1;
 
@@ -52,15 +54,17 @@ impl Scores {
         self.counts.iter_mut().zip(&other.counts).for_each(|(sum, more)| *sum += more);
     }
 
-    /// Whether too few scores make the variance of so many samples, zeros among them.
-    pub(crate) fn hide_their_tail(&self, samples: u64) -> bool {
+    /// Whether too few scores make the variance of so many samples, zeros among them, and the
+    /// spread of their mean is not small beside this standard error, over the reference.
+    pub(crate) fn hide_their_tail(&self, samples: u64, standard_error: f64) -> bool {
         let n = samples as f64;
         let mean = self.sum_of(|x| x) / n;
         let zeros = (n - self.sum_of(|_| 1.0)).max(0.0);
         let (of_zeros, squared) = (mean * mean, |x: f64| (x - mean) * (x - mean));
         let square = zeros * of_zeros + self.sum_of(squared);
         let fourth = zeros * of_zeros * of_zeros + self.sum_of(|x| squared(x) * squared(x));
-        square > 0.0 && fourth / (square * square) - 1.0 / n > MAX_VOV
+        let matters = square.sqrt() / n > MATTERS * standard_error;
+        square > 0.0 && matters && fourth / (square * square) - 1.0 / n > MAX_VOV
     }
 
     /// The mean of scores where each is counted by its size, over the reference of the quantum; 0
@@ -125,13 +129,15 @@ mod tests {
     #[test]
     fn few_large_scores_among_many_are_told() {
         let even = || (0..4096).map(|i| f64::from(i % 64));
-        assert!(!scores(even()).hide_their_tail(4096));
-        assert!(scores(even().chain([1e4])).hide_their_tail(4097));
-        assert!(!scores(even().chain((0..20).map(|_| 1e4))).hide_their_tail(4116));
+        assert!(!scores(even()).hide_their_tail(4096, 0.0));
+        let rare = scores(even().chain([1e4]));
+        // Its mean has a spread of 10^4 / 4097.
+        assert!(rare.hide_their_tail(4097, 6.0) && !rare.hide_their_tail(4097, 8.0));
+        assert!(!scores(even().chain((0..20).map(|_| 1e4))).hide_their_tail(4116, 0.0));
         // A tenth of all are equal, the others 0: the spread is well known.
-        assert!(!scores((0..400).map(|_| 1.0)).hide_their_tail(4000));
-        assert!(scores((0..4).map(|_| 1.0)).hide_their_tail(4000));
-        assert!(!Scores::default().hide_their_tail(1000));
+        assert!(!scores((0..400).map(|_| 1.0)).hide_their_tail(4000, 0.0));
+        assert!(scores((0..4).map(|_| 1.0)).hide_their_tail(4000, 0.0));
+        assert!(!Scores::default().hide_their_tail(1000, 0.0));
     }
 
     #[test]

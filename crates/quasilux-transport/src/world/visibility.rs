@@ -145,7 +145,7 @@ impl<S: Spectrum> ShadowQueue<S> {
 
     /// Notes that `who` gets this light, which was reflected `bounces` times, if nothing at all
     /// stands in the way of the ray.
-    pub(crate) fn ask_connection(&mut self, who: u32, light: S, bounces: u32, ray: RayQuery) {
+    pub(crate) fn push_connection(&mut self, who: u32, light: S, bounces: u32, ray: RayQuery) {
         self.shadow_rays.push(ray);
         let question = Question { who, light, shadow_rays: 1, mirrors: bounces, max_panes: 0 };
         self.questions.push(question);

@@ -38,7 +38,7 @@ use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
-use takeover::{Judged, Stage, Takeover, Way};
+use takeover::{Judged, PointState, SelectedKind, Takeover};
 use unseen::{Tests, Unseen};
 
 /// Standard errors in a half-width, about.
@@ -168,19 +168,19 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
             return Vec::new();
         };
-        let stages = Stage::of_all(&self.selected.are_over(), &relief.begun());
+        let states = PointState::of_all(&self.selected.are_over(), &relief.begun());
         let judged = Judged {
             selected: &selected.sensors,
             probe: &probe.estimates().sensors,
             rays: [self.selected.sampling_rays(), probe.sampling_rays()],
-            way: match self.selected.decisions() {
-                Decisions { connected_photons: None, .. } => Way::Paths,
-                Decisions { uses_importance: true, .. } => Way::GuidedConnections,
-                _ => Way::Connections,
+            kind: match self.selected.decisions() {
+                Decisions { connected_photons: None, .. } => SelectedKind::Paths,
+                Decisions { uses_importance: true, .. } => SelectedKind::GuidedConnections,
+                _ => SelectedKind::Connections,
             },
             photons_hide_tails: self.selected.photons_hide_tails(),
         };
-        takeover::all(&judged, &stages)
+        takeover::all(&judged, &states)
     }
 }
 

@@ -33,7 +33,7 @@ impl Takeover {
 
 /// How far a sensor point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum PointState {
     /// The selected estimator works at it.
     Open,
     /// It has reached its tolerance.
@@ -42,15 +42,15 @@ pub(super) enum Stage {
     TakenOver,
 }
 
-impl Stage {
+impl PointState {
     /// Of all sensor points.
     pub(super) fn of_all(converged: &[bool], taken_over: &[bool]) -> Vec<Self> {
-        let stage = |(converged, taken_over): (&bool, &bool)| match (converged, taken_over) {
+        let state = |(converged, taken_over): (&bool, &bool)| match (converged, taken_over) {
             (_, true) => Self::TakenOver,
             (true, false) => Self::Converged,
             (false, false) => Self::Open,
         };
-        converged.iter().zip(taken_over).map(stage).collect()
+        converged.iter().zip(taken_over).map(state).collect()
     }
 }
 
@@ -60,14 +60,14 @@ pub(super) struct Judged<'e> {
     pub(super) probe: &'e [SensorEstimates],
     /// Rays that each of them took.
     pub(super) rays: [u64; 2],
-    pub(super) way: Way,
+    pub(super) kind: SelectedKind,
     /// Whether few connections make the variance of each sensor point.
     pub(super) photons_hide_tails: Vec<bool>,
 }
 
 /// How the selected estimator works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum SelectedKind {
     /// By paths, alone or on a map.
     Paths,
     /// By photons that are connected to the sensors, too.
@@ -77,8 +77,8 @@ pub(super) enum Way {
 }
 
 /// Of all sensor points.
-pub(super) fn all(judged: &Judged<'_>, stages: &[Stage]) -> Vec<Takeover> {
-    let &Judged { selected, probe, rays, way, .. } = judged;
+pub(super) fn all(judged: &Judged<'_>, states: &[PointState]) -> Vec<Takeover> {
+    let &Judged { selected, probe, rays, kind, .. } = judged;
     let values = |sensor: usize, point: usize| {
         [selected, probe].map(|of| {
             let rows = of[sensor].replicate_lx.iter();
@@ -90,27 +90,27 @@ pub(super) fn all(judged: &Judged<'_>, stages: &[Stage]) -> Vec<Takeover> {
         missed.map(move |(point, missed)| (values(sensor, point), *missed))
     });
     let replicates = selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
-    let of_each = FALSE_ALARM / stages.len().max(1) as f64;
+    let of_each = FALSE_ALARM / states.len().max(1) as f64;
     let Some(t) = t_quantile_for(replicates, 2.0 * of_each) else {
-        return vec![Takeover::No; stages.len()];
+        return vec![Takeover::No; states.len()];
     };
-    let stages = stages.iter().zip(&judged.photons_hide_tails);
-    let takeovers = points.zip(stages).map(|(([own, probed], missed), (stage, hides_tail))| {
+    let states = states.iter().zip(&judged.photons_hide_tails);
+    let takeovers = points.zip(states).map(|(([own, probed], missed), (state, hides_tail))| {
         let [Some(own_error), Some(error)] = [own.half_width, probed.half_width] else {
             return Takeover::No;
         };
         let misses = probed.value - own.value > t * libm::hypot(own_error, error);
         let cost = |error: f64, rays: u64| error * error * rays as f64;
-        let worthwhile = match way {
+        let worthwhile = match kind {
             _ if missed || *hides_tail => FOR_A_TAIL,
-            Way::Connections => FOR_CONNECTIONS,
-            Way::GuidedConnections => FOR_GUIDED_CONNECTIONS,
-            Way::Paths => FOR_PATHS,
+            SelectedKind::Connections => FOR_CONNECTIONS,
+            SelectedKind::GuidedConnections => FOR_GUIDED_CONNECTIONS,
+            SelectedKind::Paths => FOR_PATHS,
         };
         let pays = error > 0.0 && cost(error, rays[1]) < worthwhile * cost(own_error, rays[0]);
-        match stage {
-            Stage::Open | Stage::Converged if misses => Takeover::MissesLight,
-            Stage::Open if pays => Takeover::Pays,
+        match state {
+            PointState::Open | PointState::Converged if misses => Takeover::MissesLight,
+            PointState::Open if pays => Takeover::Pays,
             _ => Takeover::No,
         }
     });

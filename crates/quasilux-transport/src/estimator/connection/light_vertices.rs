@@ -279,7 +279,7 @@ impl LightVertexConnections {
     pub(crate) fn hides_its_tail(&self, target: usize) -> bool {
         let samples = self.ends[target].unwrap_or(self.samples) * self.connection.photons();
         let scores = lock(&self.scores[target / GROUP]);
-        scores[target % GROUP].hide_their_tail(samples * self.replicates.len() as u64)
+        scores[target % GROUP].hide_their_tail(samples * self.replicates.len() as u64, 0.0)
     }
 
     /// Contributions that are not in the sums.

@@ -3,8 +3,10 @@
 
 use super::PathEstimator;
 use crate::path::lobes::LobeSums;
+use crate::path::sections::PathScores;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::Interval;
+use crate::stats::schedule::MIN_SAMPLES;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Whether too few paths of each target were where narrow lobes are bright.
@@ -31,6 +33,18 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             self.specular_hits.are_missed(hits, paths, standard_error_lx.unwrap_or_default())
         })
         .collect()
+    }
+
+    /// Whether few paths make the spread of each target, where half-widths count.
+    pub(super) fn hidden_tails(&self, replicate_lx: &[Vec<f64>]) -> Vec<bool> {
+        let hides = |(target, scores): (usize, &PathScores)| {
+            let values = replicate_lx.iter().map(|row| row[target]);
+            let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
+            let standard_error = standard_error_lx.unwrap_or_default() / self.quantum.reference();
+            self.samples_of(target) >= MIN_SAMPLES
+                && scores.paths.hide_their_tail(self.paths_of(target), standard_error)
+        };
+        self.scores.iter().enumerate().map(hides).collect()
     }
 
     /// Whether the paths of each target found light where they came to surfaces that reflect, and

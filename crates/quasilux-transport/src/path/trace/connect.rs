@@ -50,7 +50,7 @@ impl<S: Spectrum> Path<'_, S> {
         let Connection { vertex: number, direction, distance_m, light } = connections[choice.index];
         let end = &own[number];
         let ray = vertex.ray_origin(direction).shadow_ray(direction, distance_m, end.at.facet);
-        shadows.ask_connection(self.number, light * (1.0 / choice.pdf), end.bounces + 1, ray);
+        shadows.push_connection(self.number, light * (1.0 / choice.pdf), end.bounces + 1, ray);
     }
 
     /// The weight of light that it asks of a light that photons leave, and land here with this
