@@ -69,8 +69,11 @@ pub(crate) trait Estimator {
         false
     }
 
-    /// After a checkpoint that did not end the run: chooses anew how each target is estimated.
-    fn adapt(&mut self) {}
+    /// After a checkpoint that did not end the run: chooses anew how each target is estimated;
+    /// whether all that go on begin anew.
+    fn adapt(&mut self) -> bool {
+        false
+    }
 
     /// Indices per replicate of the first checkpoint: enough to plan by, little work.
     fn first_checkpoint(&self) -> u64;

@@ -159,6 +159,11 @@ impl History {
         Self { widths, samples: last.samples, rays: last.rays, ..self }
     }
 
+    /// Ends the chain of checkpoints: what comes is not comparable with it.
+    pub(crate) fn restart(&mut self) {
+        self.checkpoints.clear();
+    }
+
     /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one
     /// that has not begun begins here, and one that has is at its end: what others told stands for
     /// targets that had nothing before. `noise` is the variance of logarithms of half-widths by
@@ -194,10 +199,9 @@ impl History {
     fn change(&self, now: &[TargetWidth], noise: f64) -> Option<Change> {
         let (mut all, mut chosen, mut change) = (Moments::default(), Moments::default(), 0.0);
         for (before, now) in self.widths.iter().zip(now) {
-            let Some(log_before) = before.logarithm().filter(|_| before.samples == self.samples)
-            else {
-                continue;
-            };
+            // Targets that were taken over began later, and have fewer samples than the others.
+            let grew = 2 * before.samples > self.samples;
+            let Some(log_before) = before.logarithm().filter(|_| grew) else { continue };
             all.add(log_before);
             if let Some(log_now) = now.logarithm().filter(|_| now.samples > before.samples) {
                 chosen.add(log_before);

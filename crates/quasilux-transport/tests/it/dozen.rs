@@ -28,7 +28,7 @@ const STANDARD_ERROR: f64 = 0.00057;
 const MIN_SAMPLES: u64 = 1 << 9;
 const MAX_SAMPLES: u64 = 1 << 17;
 /// Of bidirectional paths in each replicate.
-const BIDIRECTIONAL_SAMPLES: u64 = 1 << 13;
+const BIDIRECTIONAL_SAMPLES: u64 = 1 << 14;
 
 /// The mean of replicates.
 #[derive(Clone, Copy, Debug)]

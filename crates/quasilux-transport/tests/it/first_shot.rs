@@ -132,17 +132,22 @@ fn the_balance_of_the_flux_is_whole() {
 #[test]
 fn bounces_are_counted_from_the_lights() {
     let [_, (name, scene), _] = rooms();
+    let mut compared = 0;
     for max_bounces in [Some(0), Some(1), Some(2), Some(3)] {
         let with =
             |first_shot, seed| run(&scene, Settings { max_bounces, ..map(first_shot, seed) });
         let (on, off) = (with(Switch::On, 1), with(Switch::Off, 2));
         for point in 0..9 {
             let [x, y] = [&on, &off].map(|estimates| estimates.point_intervals(0)[point]);
-            let allowed = 1.5 * (x.half_width.unwrap_or(0.0) + y.half_width.unwrap_or(0.0));
+            // What few paths found has no interval.
+            let Some((a, b)) = x.half_width.zip(y.half_width) else { continue };
+            let allowed = 1.5 * (a + b);
+            compared += 1;
             let found = format!("{name}, {max_bounces:?}, point {point}: {x:?} and {y:?}");
             assert!((x.value - y.value).abs() <= allowed + 1e-9 * x.value, "{found}");
         }
     }
+    assert!(compared > 24, "{compared} of 36 points have intervals");
 }
 
 #[test]

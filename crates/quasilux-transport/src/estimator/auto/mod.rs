@@ -286,19 +286,19 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         self.selected.freeze_converged(done)
     }
 
-    fn adapt(&mut self) {
+    fn adapt(&mut self) -> bool {
         let takeovers = self.takeovers(&self.selected.estimates());
         let mut unseen = self.unseen(&self.pooled()).points;
         if self.selected.samples() < MIN_SAMPLES {
             unseen.fill(false);
         }
-        if let Some(Bidirectional { relief, .. }) = &mut self.bidirectional {
-            let due = takeovers.into_iter().zip(unseen);
-            let taken: Vec<bool> =
-                due.map(|(takeover, unseen)| takeover.is_due() || unseen).collect();
-            relief.begin(&taken);
-            self.selected.freeze_converged(&relief.begun());
-        }
+        let Some(Bidirectional { relief, .. }) = &mut self.bidirectional else { return false };
+        let begun = relief.begun();
+        let due = takeovers.into_iter().zip(unseen);
+        let taken: Vec<bool> = due.map(|(takeover, unseen)| takeover.is_due() || unseen).collect();
+        relief.begin(&taken);
+        self.selected.freeze_converged(&relief.begun());
+        relief.begun() != begun && self.selected.are_over().into_iter().all(|over| over)
     }
 
     fn first_checkpoint(&self) -> u64 {
