@@ -236,8 +236,9 @@ mod tests {
     #[test]
     fn streams_have_numbers_of_their_own() {
         use Stream::{
-            CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, FirstShotPilots,
-            MapPilots, Paths, Photons, PlanPhotons, Survey, WindowPilots,
+            CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, EyeSubpaths,
+            FirstShotPilots, LightSubpaths, MapPilots, Paths, Photons, PlanPhotons, Survey,
+            WindowPilots, WitnessPaths, WitnessPhotons, WitnessPlaces,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -245,9 +246,12 @@ mod tests {
             numbers(1 << 32)
                 .map(move |pixel| Stream::Pixel { camera: camera as u32, pixel: pixel as u32 })
         });
-        let numbered = numbers(1 << 40)
-            .flat_map(|number| [ConnectedPhotons(number), ConnectionPlaces(number), Paths(number)]);
-        let streams = single.into_iter().chain([CellPhotons]).chain(numbered);
+        let numbered = numbers(1 << 40).flat_map(|number| {
+            [ConnectedPhotons, ConnectionPlaces, Paths, EyeSubpaths, LightSubpaths, WitnessPaths]
+                .map(|stream| stream(number))
+        });
+        let others = [CellPhotons, WitnessPhotons, WitnessPlaces];
+        let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();
         let count = ids.len();

@@ -11,7 +11,6 @@ use crate::lights::images::LightPathClass;
 use crate::lights::{Emission, Emitted};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::subpath_weights::SubpathWeights;
-
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::{Interaction, RayOrigin};
@@ -38,8 +37,9 @@ struct LightSubpath<'p, S> {
     sampler: Sampler<'p>,
     start: Emission,
     flux_lm: S,
-    /// Number of its light, and whether it comes straight from it.
+    /// Number of its light.
     light: usize,
+    /// [`LightPathClass::Found`] after the first surface, and from emitting facets.
     path_class: LightPathClass,
     weights: SubpathWeights,
     gain: Gain,

@@ -14,8 +14,9 @@
 //!   where the other way is known to hide tails ([`takeover`]).
 //! - where light may hide behind openings that only they look for ([`unseen`]).
 //!
-//! A point that is taken over begins anew: no sample of the decision enters its value. So the worst
-//! case is that of bidirectional paths, whatever pilots saw, and the rays before.
+//! A point that is taken over begins anew: no sample of the decision enters its value. There the
+//! worst case is that of bidirectional paths, whatever pilots saw, and the rays before. Points that
+//! are not taken over trust what was selected as far as probe, tails and witness can tell.
 //!
 //! The probe is a function of scene, settings and the number of samples; it is traced again where a
 //! run goes on or parts are merged. Where photons would show light that bidirectional paths must
@@ -45,13 +46,13 @@ use unseen::{Tests, Unseen};
 const CONFIDENT: f64 = 2.0;
 /// Part of the rays of the run that the probe may take.
 const SHARE_OF_PROBE: f64 = 0.1;
-
 /// Paths of the probe between two moments when it can be stopped.
 const STEP_OF_PROBE: u64 = 1 << 16;
 
 /// The selected estimator, the probe and the relief.
 pub(crate) struct AutoEstimator<'a, S> {
     selected: PathEstimator<'a, S>,
+    kind: SelectedKind,
     bidirectional: Option<Bidirectional<'a, S>>,
 }
 
@@ -75,6 +76,12 @@ fn next_of_probe<S: Spectrum>(probe: &PathEstimator<'_, S>) -> u64 {
     samples + samples.clamp(1, most)
 }
 
+/// Traces the probe up to so many samples; nobody stops it half-way.
+fn trace_probe<S: Spectrum>(probe: &mut PathEstimator<'_, S>, samples: u64) {
+    let mut nobody = ();
+    let _ = probe.advance(samples, &mut Watch::new(&mut nobody));
+}
+
 /// Whether bidirectional paths find all light of a scene, and none of it twice.
 pub(crate) fn is_possible<S: Spectrum>(context: &Context<'_, S>, settings: &Settings) -> bool {
     context.images.is_empty()
@@ -95,10 +102,9 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
             relief: PathEstimator::bidirectional(context, scene, settings).without_targets(),
         };
         let is_possible = is_possible(context, settings) && !scene.sensors.is_empty();
-        Self {
-            bidirectional: is_possible.then(bidirectional),
-            selected: PathEstimator::new(context, scene, settings, watch),
-        }
+        let selected = PathEstimator::new(context, scene, settings, watch);
+        let kind = SelectedKind::new(&selected.decisions());
+        Self { bidirectional: is_possible.then(bidirectional), selected, kind }
     }
 
     /// Traces the probe that belongs to the rays of the others so far, and more where light may
@@ -106,9 +112,8 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
     fn probe(&mut self, watch: &mut Watch<'_>) -> bool {
         while self.wants_probe() {
             let Some(Bidirectional { probe, .. }) = &mut self.bidirectional else { break };
-            let (before, mut nobody) = (probe.sampling_rays(), ());
-            // Nobody stops it half-way.
-            let _ = probe.advance(next_of_probe(probe), &mut Watch::new(&mut nobody));
+            let before = probe.sampling_rays();
+            trace_probe(probe, next_of_probe(probe));
             let rays = probe.sampling_rays() - before;
             if !watch.tick(0, 0, rays) || !watch.keep(|out| self.put(out)) {
                 return false;
@@ -124,14 +129,18 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let next = next_of_probe(probe) as f64;
         let rays_of_next = probe.sampling_rays() as f64 * next / probe.samples().max(1) as f64;
         rays_of_next <= SHARE_OF_PROBE * rays as f64
-            || self.selected.samples() >= MIN_SAMPLES && self.unseen(&self.pooled()).wants_more
+            || self.selected.samples() >= MIN_SAMPLES
+                && self.unseen(&self.relieved(&self.selected.estimates())).wants_more
     }
 
     /// Where light may hide behind openings, beside these estimates.
     fn unseen(&self, estimates: &Estimates) -> Unseen {
         let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
-            return Unseen { points: Vec::new(), wants_more: false };
+            return Unseen::nothing(0);
         };
+        if self.selected.samples() < MIN_SAMPLES {
+            return Unseen::nothing(self.selected.are_over().len());
+        }
         let errors = estimates.sensors.iter().flat_map(|sensor| {
             (0..sensor.resolved.len()).map(|point| {
                 let rows = sensor.replicate_lx.iter();
@@ -149,8 +158,8 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
     }
 
     /// The values of the selected estimator, and of the relief where that has taken over.
-    fn pooled(&self) -> Estimates {
-        let mut estimates = self.selected.estimates();
+    fn relieved(&self, selected: &Estimates) -> Estimates {
+        let mut estimates = selected.clone();
         if let Some(Bidirectional { relief, .. }) = &self.bidirectional {
             let of_relief = relief.estimates();
             let mut is_relieved = relief.samples_of_all().into_iter().map(|samples| samples > 0);
@@ -159,6 +168,11 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
                 let taken: Vec<bool> = is_relieved.by_ref().take(points).collect();
                 sensor.replace(&taken, relieved);
             }
+            estimates.rays += of_relief.rays;
+            estimates.invalid_contributions += of_relief.invalid_contributions;
+            estimates.biased |= of_relief.biased;
+            estimates.dimensions.path.merge(&of_relief.dimensions.path);
+            estimates.warnings.extend(of_relief.warnings);
         }
         estimates
     }
@@ -173,11 +187,7 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
             selected: &selected.sensors,
             probe: &probe.estimates().sensors,
             rays: [self.selected.sampling_rays(), probe.sampling_rays()],
-            kind: match self.selected.decisions() {
-                Decisions { connected_photons: None, .. } => SelectedKind::Paths,
-                Decisions { uses_importance: true, .. } => SelectedKind::GuidedConnections,
-                _ => SelectedKind::Connections,
-            },
+            kind: self.kind,
             photons_hide_tails: self.selected.photons_hide_tails(),
         };
         takeover::all(&judged, &states)
@@ -220,9 +230,7 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         if probed > self.selected.samples().max(unseen::MAX_TESTS) {
             return Err(StateError::Unfit("the samples of the probe"));
         }
-        let mut nobody = ();
-        // Nobody stops it.
-        let _ = probe.advance(probed, &mut Watch::new(&mut nobody));
+        trace_probe(probe, probed);
         Ok(())
     }
 
@@ -253,29 +261,19 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
     }
 
     fn estimates(&self) -> Estimates {
-        let mut estimates = self.pooled();
-        let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
-            return estimates;
-        };
-        let takeovers = self.takeovers(&self.selected.estimates());
+        let selected = self.selected.estimates();
+        let Some(Bidirectional { probe, relief }) = &self.bidirectional else { return selected };
+        let mut estimates = self.relieved(&selected);
+        let takeovers = self.takeovers(&selected);
         let mut contradicted = takeovers.iter().map(|takeover| *takeover == Takeover::MissesLight);
-        let mut unseen = self.unseen(&estimates).points;
-        if self.selected.samples() < MIN_SAMPLES {
-            unseen.fill(false);
-        }
-        let mut unseen = unseen.into_iter();
+        let mut unseen = self.unseen(&estimates).points.into_iter();
         for sensor in &mut estimates.sensors {
             let points = sensor.resolved.len();
             sensor.withdraw(contradicted.by_ref().take(points).collect());
             sensor.withdraw_unseen(unseen.by_ref().take(points));
         }
-        let of_relief = relief.estimates();
-        estimates.rays += of_relief.rays + probe.estimates().rays;
-        estimates.invalid_contributions += of_relief.invalid_contributions;
-        estimates.biased |= of_relief.biased;
-        estimates.dimensions.path.merge(&of_relief.dimensions.path);
+        estimates.rays += probe.all_rays();
         estimates.relieved_points = relief.begun().iter().filter(|begun| **begun).count() as u64;
-        estimates.warnings.extend(of_relief.warnings);
         estimates
     }
 
@@ -287,11 +285,9 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
     }
 
     fn adapt(&mut self) -> bool {
-        let takeovers = self.takeovers(&self.selected.estimates());
-        let mut unseen = self.unseen(&self.pooled()).points;
-        if self.selected.samples() < MIN_SAMPLES {
-            unseen.fill(false);
-        }
+        let selected = self.selected.estimates();
+        let takeovers = self.takeovers(&selected);
+        let unseen = self.unseen(&self.relieved(&selected)).points;
         let Some(Bidirectional { relief, .. }) = &mut self.bidirectional else { return false };
         let begun = relief.begun();
         let due = takeovers.into_iter().zip(unseen);

@@ -1,5 +1,6 @@
 //! When bidirectional paths take a sensor point over from the selected estimator.
 
+use crate::stats::decisions::Decisions;
 use crate::stats::estimates::SensorEstimates;
 use crate::stats::interval::{Interval, t_quantile_for};
 
@@ -74,6 +75,16 @@ pub(super) enum SelectedKind {
     Connections,
     /// By such photons that are guided.
     GuidedConnections,
+}
+
+impl SelectedKind {
+    pub(super) fn new(decisions: &Decisions) -> Self {
+        match decisions {
+            Decisions { connected_photons: None, .. } => Self::Paths,
+            Decisions { uses_importance: true, .. } => Self::GuidedConnections,
+            _ => Self::Connections,
+        }
+    }
 }
 
 /// Of all sensor points.

@@ -16,7 +16,6 @@ use crate::path::sections::PathScores;
 pub(super) const MAX_TESTS: u64 = 1 << 20;
 /// Of no event among n, the mean number is less than this with 95 %.
 const RULE_OF_THREE: f64 = 3.0;
-
 /// Light that was seen and is so large a part of what was blocked is of the same size.
 const SAME_SIZE: f64 = 1.0 / 16.0;
 
@@ -37,6 +36,11 @@ pub(super) struct Unseen {
 }
 
 impl Unseen {
+    /// Where nobody looks yet, of so many sensor points.
+    pub(super) fn nothing(points: usize) -> Self {
+        Self { points: vec![false; points], wants_more: false }
+    }
+
     pub(super) fn new(tests: &[Tests]) -> Self {
         let needed: Vec<f64> = tests.iter().map(Tests::needed_paths).collect();
         let open =
