@@ -18,7 +18,8 @@
 //! ```
 //!
 //! Russian roulette and the choice of one connection among several are left out of the densities:
-//! the weights of a way still sum up to one.
+//! the weights of a way still sum up to one. A connection that is chosen counts the sum of those
+//! that it stands for, each bounded as above: at most as many as its light subpath has vertices.
 
 /// What the techniques that leave vertices of a subpath to the other one weigh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

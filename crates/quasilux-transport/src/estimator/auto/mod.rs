@@ -5,7 +5,8 @@
 //! the whole run. The *probe* traces a few bidirectional paths for every sensor point
 //! ([`crate::path::subpath_weights`]): no survey, no pilot and no guide enters them, and none of
 //! their contributions exceeds that of the same way in plain path tracing, or that of a plain
-//! photon which is connected to the sensor. The *relief* traces bidirectional paths in full for
+//! photon which is connected to the sensor (a connection that is chosen among several counts the
+//! sum of theirs). The *relief* traces bidirectional paths in full for
 //! the sensor points that it takes over:
 //!
 //! - where the probe finds more light than the selected estimator, by more than chance allows: that
