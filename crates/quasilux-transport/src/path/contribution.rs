@@ -19,8 +19,8 @@ pub(crate) struct PathContribution<S> {
     pub(crate) endless: bool,
     /// What a bidirectional path asked for, in order: less than 0 what was blocked.
     pub(crate) asked: Vec<f64>,
-    /// Emitting facets that it met coming from specular surfaces.
-    pub(crate) specular_hits: u64,
+    /// Materials of the emitting facets that it met coming from specular surfaces.
+    pub(crate) specular_hits: Vec<u32>,
     /// The glossy surfaces that it came to.
     pub(crate) lobes: Lobes,
 }

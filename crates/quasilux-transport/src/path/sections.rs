@@ -7,6 +7,7 @@ use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
 use crate::path::lobes::LobeSums;
 use crate::path::partition::Partition;
+use crate::path::specular_hits::HitCounts;
 use crate::path::start::{Measurement, Start};
 use crate::path::trace::PathResult;
 use crate::path::wave::PathWave;
@@ -34,8 +35,6 @@ pub(crate) struct PathSums {
     /// Paths that came to a surface that reflects.
     pub(crate) reflected: u64,
     pub(crate) lobes: LobeSums,
-    /// Emitting facets that paths met coming from specular surfaces.
-    pub(crate) specular_hits: u64,
 }
 
 /// Single contributions to one target, of all replicates.
@@ -46,6 +45,8 @@ pub(crate) struct PathScores {
     /// Of lights and light vertices that bidirectional paths saw, and of those that they did not.
     pub(crate) seen: Scores,
     pub(crate) blocked: Scores,
+    /// Area lights that paths met coming from specular surfaces.
+    pub(crate) specular_hits: HitCounts,
 }
 
 /// What paths cost.
@@ -187,7 +188,6 @@ impl PathSums {
         self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
         self.lobes.add(found.lobes, quantum);
-        self.specular_hits += found.specular_hits;
         self.add_terms(found, quantum);
     }
 
@@ -211,6 +211,7 @@ impl PathScores {
             let of = if *light > 0.0 { &mut self.seen } else { &mut self.blocked };
             of.add(light.abs(), quantum);
         }
+        found.specular_hits.iter().for_each(|material| self.specular_hits.count(*material));
     }
 
     /// Adds those of other paths.
@@ -218,6 +219,7 @@ impl PathScores {
         self.paths.merge(&other.paths);
         self.seen.merge(&other.seen);
         self.blocked.merge(&other.blocked);
+        self.specular_hits.merge(&other.specular_hits);
     }
 }
 
@@ -225,7 +227,8 @@ impl Sums for PathScores {
     fn checked_add(&mut self, other: &Self) -> Option<()> {
         self.paths.checked_add(&other.paths)?;
         self.seen.checked_add(&other.seen)?;
-        self.blocked.checked_add(&other.blocked)
+        self.blocked.checked_add(&other.blocked)?;
+        self.specular_hits.checked_add(&other.specular_hits)
     }
 }
 
@@ -235,7 +238,6 @@ impl AddAssign for PathSums {
         self.indirect += other.indirect;
         self.reflected += other.reflected;
         self.lobes += &other.lobes;
-        self.specular_hits += other.specular_hits;
         self.terms.resize(self.terms.len().max(other.terms.len()), Sum::default());
         for (sum, found) in self.terms.iter_mut().zip(other.terms) {
             *sum += found;
@@ -273,7 +275,6 @@ impl Sums for PathSums {
         self.indirect.checked_add(&other.indirect)?;
         add_count(&mut self.reflected, other.reflected)?;
         self.lobes.checked_add(&other.lobes)?;
-        add_count(&mut self.specular_hits, other.specular_hits)?;
         if self.terms.is_empty() {
             // Before its first path a target has none.
             self.terms.clone_from(&other.terms);

@@ -5,38 +5,77 @@
 //! emitting facet by chance, and then all of its luminance at once: `pi L` lux where it started
 //! with the cosine distribution. Of a small bright facet a run may see no hit, or one of three, and
 //! its spread does not tell. With n paths one hit more or less is `pi L / n`; where that is more
-//! than the half-width and hits are few, the value has no interval yet.
+//! than the half-width and hits of this light are few, the value has no interval yet. Hits of
+//! another light, however many, say nothing of it.
 
+use crate::codec::{Sums, add_count};
 use crate::world::World;
 use quasilux_scene::{Light, Scene};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// So many hits, of all replicates, show in their spread.
 const MIN_HITS: u64 = 16;
 
-/// Whether hits can be missed in a scene, and what one counts.
-#[derive(Clone, Copy, Debug)]
+/// How often paths met each area light from specular surfaces, by its material.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct HitCounts(BTreeMap<u32, u64>);
+
+impl HitCounts {
+    pub(crate) fn count(&mut self, material: u32) {
+        *self.0.entry(material).or_default() += 1;
+    }
+
+    /// Adds those of other paths.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        other.0.iter().for_each(|(material, hits)| *self.0.entry(*material).or_default() += hits);
+    }
+}
+
+impl Sums for HitCounts {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        let mut counts = other.0.iter();
+        counts
+            .try_for_each(|(material, hits)| add_count(self.0.entry(*material).or_default(), *hits))
+    }
+}
+
+/// Lights that can be missed in a scene, and what one hit counts.
+#[derive(Clone, Debug)]
 pub(crate) struct SpecularHits {
-    /// Of the brightest facet, in lx; 0 where no path can come to one from a specular surface.
-    largest_lx: f64,
+    /// None where no path can come to one from a specular surface.
+    lights: Vec<Glint>,
+}
+
+/// An area light behind a mirror or glass.
+#[derive(Clone, Copy, Debug)]
+struct Glint {
+    material: u32,
+    /// By one hit, in lx, times the number of paths.
+    hit_lx: f64,
 }
 
 impl SpecularHits {
     pub(crate) fn new<S: crate::spectrum::Spectrum>(scene: &Scene, world: &World<S>) -> Self {
-        let luminances = scene.lights.iter().map(|light| match light {
-            Light::Area(area) => area.luminance_cd_m2,
-            _ => 0.0,
-        });
-        let brightest_cd_m2 = luminances.fold(0.0, f64::max);
-        let largest_lx = if world.has_specular_facets() { PI * brightest_cd_m2 } else { 0.0 };
-        Self { largest_lx }
+        let glint = |light: &Light| match light {
+            Light::Area(area) => {
+                Some(Glint { material: area.material, hit_lx: PI * area.luminance_cd_m2 })
+            }
+            _ => None,
+        };
+        let is_seen = world.has_specular_facets();
+        Self { lights: scene.lights.iter().filter(|_| is_seen).filter_map(glint).collect() }
     }
 
     /// Whether this many hits of so many paths say nothing of the error, beside this standard
     /// error.
-    pub(crate) fn are_missed(&self, hits: u64, paths: u64, standard_error_lx: f64) -> bool {
+    pub(crate) fn are_missed(&self, hits: &HitCounts, paths: u64, standard_error_lx: f64) -> bool {
         let half_width_lx = 2.0 * standard_error_lx;
-        hits < MIN_HITS && self.largest_lx > half_width_lx * paths as f64
+        self.lights.iter().any(|light| {
+            let own = hits.0.get(&light.material).copied().unwrap_or_default();
+            own < MIN_HITS && light.hit_lx > half_width_lx * paths as f64
+        })
     }
 }
 

@@ -401,7 +401,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
                     subpath.of_hit(emitters.pdf_m2(emitted_cd_m2), emission)
                 }
             };
-            self.found.specular_hits += u64::from(bounces > 0 && self.pdf_sr.is_none());
+            if bounces > 0 && self.pdf_sr.is_none() {
+                self.found.specular_hits.push(context.world.facet(at).material);
+            }
             self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
         }
     }

@@ -35,15 +35,14 @@ fn places() -> impl Iterator<Item = DVec3> {
     (0..9).map(|i| DVec3::new(1.0, 0.8 + 1.2 * f64::from(i % 3), 0.6 + 0.9 * f64::from(i / 3)))
 }
 
-/// Adds a small light that faces the mirror, at `at`.
-fn add_light(scene: &mut Scene, at: DVec3) {
+/// Adds a small light of this luminance that faces the mirror, at `at`.
+fn add_light(scene: &mut Scene, at: DVec3, luminance_cd_m2: f64) {
     let first = scene.mesh.triangles.len() as u32;
     let (u, v) = (DVec3::Z * EDGE_M, DVec3::Y * EDGE_M);
     add_panel(scene, at - 0.5 * (u + v), u, v, diffuse(0.0));
     let material = scene.mesh.material_of[first as usize];
     let triangles = vec![first, first + 1];
     let area_m2 = EDGE_M * EDGE_M;
-    let luminance_cd_m2 = LUMINANCE_CD_M2;
     scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
 }
 
@@ -58,27 +57,51 @@ fn run(scene: &Scene, seed: u64, max_samples: u64) -> Estimates {
     simulate(scene, &settings, &mut ())
 }
 
-/// What comes over the mirror has a closed form: the image of a small source, `r L A cos cos /
-/// d^2`, on top of what there is without it. Sixteen places of the light.
+/// Adds a panel of 6 m^2 and 100 cd/m^2 that faces the mirror.
+fn add_large_panel(scene: &mut Scene) {
+    let first = scene.mesh.triangles.len() as u32;
+    let corner = DVec3::new(4.5, 0.5, 0.5);
+    add_panel(scene, corner, DVec3::Z * 2.0, DVec3::Y * 3.0, diffuse(0.0));
+    let material = scene.mesh.material_of[first as usize];
+    let triangles = vec![first, first + 1];
+    let (area_m2, luminance_cd_m2) = (6.0, 100.0);
+    scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
+}
+
 #[test]
 fn intervals_know_of_glints_that_were_not_seen() {
-    let without = run(&mirrored_room(), 1, 1 << 12).point_intervals(0);
+    assert_glints_are_known(&mirrored_room(), LUMINANCE_CD_M2);
+}
+
+/// Hits of a large panel in the mirror are many, and say nothing of the small lamp beside it.
+#[test]
+fn hits_of_another_light_are_no_hits_of_a_glint() {
+    let mut scene = mirrored_room();
+    add_large_panel(&mut scene);
+    // Brighter, for the panel makes the rest brighter.
+    assert_glints_are_known(&scene, 4.0 * LUMINANCE_CD_M2);
+}
+
+/// What comes over the mirror has a closed form: the image of a small source, `r L A cos cos /
+/// d^2`, on top of what there is without it. Sixteen places of the light.
+fn assert_glints_are_known(room: &Scene, luminance_cd_m2: f64) {
+    let without = run(room, 1, 1 << 12).point_intervals(0);
     let (mut missed, mut kept) = (0, 0);
     for seed in 0..16 {
-        let mut scene = mirrored_room();
+        let mut scene = room.clone();
         let place = |step: f64| (f64::from(seed as u32) * step).fract();
         let at = DVec3::new(
             2.5 + 2.0 * place(0.618),
             0.5 + 3.0 * place(0.7549),
             0.5 + 2.0 * place(0.5698),
         );
-        add_light(&mut scene, at);
+        add_light(&mut scene, at, luminance_cd_m2);
         let found = run(&scene, seed, 256);
         let image = DVec3::new(-at.x, at.y, at.z);
         for (point, place) in places().enumerate() {
             let way = place - image;
             let cosine = way.x / way.length();
-            let of_source_cd = MIRROR * LUMINANCE_CD_M2 * EDGE_M * EDGE_M;
+            let of_source_cd = MIRROR * luminance_cd_m2 * EDGE_M * EDGE_M;
             let glint_lx = of_source_cd * cosine * cosine / way.length_squared();
             let least_lx = without[point].value + 0.95 * glint_lx;
             let interval = found.point_intervals(0)[point];
@@ -97,17 +120,7 @@ fn intervals_know_of_glints_that_were_not_seen() {
 #[test]
 fn a_large_dim_panel_in_the_mirror_is_no_glint() {
     let mut scene = mirrored_room();
-    let first = scene.mesh.triangles.len() as u32;
-    let corner = DVec3::new(4.5, 0.5, 0.5);
-    add_panel(&mut scene, corner, DVec3::Z * 2.0, DVec3::Y * 3.0, diffuse(0.0));
-    let material = scene.mesh.material_of[first as usize];
-    let light = AreaLight {
-        material,
-        triangles: vec![first, first + 1],
-        area_m2: 6.0,
-        luminance_cd_m2: 100.0,
-    };
-    scene.lights.push(Light::Area(light));
+    add_large_panel(&mut scene);
     let found = run(&scene, 1, 1 << 12);
     assert!(found.tolerance_reached, "{:?}", found.warnings);
 }

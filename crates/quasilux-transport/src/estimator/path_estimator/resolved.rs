@@ -24,13 +24,15 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Whether too few paths of each target met emitting facets over specular surfaces.
     pub(super) fn missed_hits(&self, replicate_lx: &[Vec<f64>]) -> Vec<bool> {
-        let own = self.sums.chunks_exact(self.replicates as usize).enumerate();
-        own.map(|(target, own)| {
-            let hits = own.iter().map(|sums| sums.specular_hits).sum();
-            let paths = self.samples_of(target) * u64::from(self.replicates);
+        let own = self.scores.iter().enumerate();
+        own.map(|(target, scores)| {
             let values = replicate_lx.iter().map(|row| row[target]);
             let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
-            self.specular_hits.are_missed(hits, paths, standard_error_lx.unwrap_or_default())
+            self.specular_hits.are_missed(
+                &scores.specular_hits,
+                self.paths_of(target),
+                standard_error_lx.unwrap_or_default(),
+            )
         })
         .collect()
     }
