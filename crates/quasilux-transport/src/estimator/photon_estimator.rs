@@ -2,11 +2,14 @@
 //! illumination map.
 //!
 //! A grid is a virtual receiver: it counts the photons that pass through each cell from its front
-//! side and disturbs nothing. A sensor point on a surface reads the map element it lies on.
+//! side and disturbs nothing. A sensor point on a diffuse surface reads the map element it lies on;
+//! one in the air, or on another surface, is a virtual square of about that size.
 
 mod pilot;
+mod receivers;
 
 pub(crate) use pilot::plan;
+pub(crate) use receivers::Receivers;
 
 use crate::codec::{Reader, StateError, Stored, Writer, digest};
 use crate::context::{Context, Stream};
@@ -14,7 +17,7 @@ use crate::estimator::Estimator;
 use crate::importance::{Plan, WeightWindows};
 use crate::photon::batch::{PhotonBatch, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
-use crate::photon::map::{MapLayout, QUANTA_PER_PHOTON};
+use crate::photon::map::QUANTA_PER_PHOTON;
 use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::photon::trace::{Lead, Source};
@@ -26,18 +29,14 @@ use crate::stats::observer::Snapshot;
 use crate::stats::tally::checked_quanta;
 use crate::stats::targets::{by_sensor, snapshot};
 use crate::stats::watch::Watch;
+use crate::world::Interaction;
 use crate::world::flight::Flight;
-use crate::world::grid_plane::GridPlane;
-use crate::world::{Interaction, World};
-use quasilux_scene::sensor::Grid;
-use quasilux_scene::{Scene, SensorShape};
+use quasilux_scene::Scene;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Indices per replicate of the first checkpoint.
 const FIRST_SAMPLES: u64 = 1 << 8;
-/// Marks elements that no sensor reads.
-const UNREAD: u32 = u32::MAX;
 
 /// Photons counted by all sensors, in all replicates.
 pub(crate) struct PhotonEstimator<'a, S> {
@@ -51,26 +50,6 @@ pub(crate) struct PhotonEstimator<'a, S> {
     samples: u64,
     /// Without pilots.
     photons: PhotonCounts,
-}
-
-/// What counts photons, the same for all replicates.
-pub(crate) struct Receivers {
-    grids: Vec<GridReceiver>,
-    layout: MapLayout,
-    /// Whether a sensor reads an element of the facet: most facets have none, and the table of
-    /// elements is too large for the caches.
-    reads_facet: Vec<bool>,
-    /// The counter that an element feeds, or [`UNREAD`].
-    counter_of_element: Vec<u32>,
-    /// For each target, in order: the counter it reads and the area behind it in m^2.
-    pub(crate) targets: Vec<(u32, f64)>,
-    pub(crate) counters: usize,
-}
-
-/// A grid as photons see it.
-struct GridReceiver {
-    plane: GridPlane,
-    first_counter: usize,
 }
 
 /// Photons counted in one replicate, in quanta: all, and those of 0, 1, .. bounces as far as terms
@@ -275,75 +254,6 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
 
     fn first_checkpoint(&self) -> u64 {
         FIRST_SAMPLES
-    }
-}
-
-impl Receivers {
-    pub(crate) fn new<S: Spectrum>(world: &World<S>, scene: &Scene, settings: &Settings) -> Self {
-        let layout = MapLayout::new(world, settings);
-        let mut receivers = Self {
-            grids: Vec::new(),
-            reads_facet: vec![false; world.facets.len()],
-            counter_of_element: vec![UNREAD; layout.len()],
-            layout,
-            targets: Vec::new(),
-            counters: 0,
-        };
-        for sensor in &scene.sensors {
-            match &sensor.shape {
-                SensorShape::Grid(grid) => receivers.add_grid(world, grid),
-                SensorShape::Points(points) => {
-                    for point in points {
-                        receivers.add_point(world.facet_under(point.position, point.normal));
-                    }
-                }
-            }
-        }
-        receivers
-    }
-
-    fn add_grid<S: Spectrum>(&mut self, world: &World<S>, grid: &Grid) {
-        let plane = GridPlane::new(world, grid);
-        let cell_area_m2 = plane.cell_area_m2();
-        self.grids.push(GridReceiver { plane, first_counter: self.counters });
-        let first = self.counters as u32;
-        self.targets.extend((0..grid.cells() as u32).map(|cell| (first + cell, cell_area_m2)));
-        self.counters += grid.cells();
-    }
-
-    /// A point off all surfaces reads a counter that nothing feeds; [`crate::run::check`] refuses
-    /// it.
-    fn add_point(&mut self, at: Option<Interaction>) {
-        let fresh = self.counters as u32;
-        let (counter, area_m2) = match at {
-            None => (fresh, 1.0),
-            Some(at) => {
-                self.reads_facet[at.facet as usize] = true;
-                let place = self.layout.locate(&at);
-                let counter = &mut self.counter_of_element[place.element];
-                if *counter == UNREAD {
-                    *counter = fresh;
-                }
-                (*counter, place.area_m2)
-            }
-        };
-        self.targets.push((counter, area_m2));
-        self.counters = self.counters.max(counter as usize + 1);
-    }
-
-    /// The counters of the grids that a flight passes through.
-    pub(crate) fn passed<'s>(&'s self, flight: &'s Flight) -> impl Iterator<Item = usize> + 's {
-        let cell = |grid: &'s GridReceiver| Some(grid.first_counter + grid.plane.cell(flight)?);
-        self.grids.iter().filter_map(cell)
-    }
-
-    /// The counter of the map element that a photon lands on, if a sensor reads it.
-    pub(crate) fn landed_on(&self, at: &Interaction) -> Option<usize> {
-        if !self.reads_facet[at.facet as usize] {
-            return None;
-        }
-        let counter = self.counter_of_element[self.layout.locate(at).element];
-        (counter != UNREAD).then_some(counter as usize)
     }
 }
 

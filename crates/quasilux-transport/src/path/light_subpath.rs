@@ -7,12 +7,13 @@
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
-use crate::lights::images::LightPathClass;
+use crate::lights::images::{ImageQuery, LightPathClass, Links};
 use crate::lights::{Emission, Emitted};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
+use crate::world::vertex::Vertex;
 use crate::world::{Interaction, RayOrigin};
 use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
@@ -127,12 +128,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let wo = frame.to_local(-self.start.direction);
         self.weights = match self.path_class {
             LightPathClass::Found => self.weights.arrived(at.distance_m, wo.z),
-            _ => SubpathWeights::of_landing(context.lights.landings_m2(
-                self.light,
-                at.position,
-                at.n,
-                bsdf.transmits(),
-            )),
+            _ if bsdf.is_specular() => self.weights,
+            _ => SubpathWeights::of_landing(self.landings_m2(context, at)),
         };
         let albedo = bsdf.albedo(wo, at.front, TransportMode::Importance);
         let left = (self.flux_lm * albedo).max_channel();
@@ -156,12 +153,33 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let next = bsdf.sample(wo, at.front, TransportMode::Importance, &mut self.sampler);
         let Some(next) = next else { return false };
         self.weights = scattered(self.weights, bsdf, wo, next.wi);
-        self.path_class = LightPathClass::Found;
+        self.path_class = self.path_class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
         self.flux_lm = self.flux_lm * next.weight * factor;
         let from: RayOrigin =
             if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
         self.start = Emission { from, direction: frame.to_world(next.wi) };
         true
+    }
+}
+
+impl<S: Spectrum> LightSubpath<'_, S> {
+    /// The density in m^-2 with which light of a point or luminaire lands here over the specular
+    /// surfaces that it came by; `None` where no eye subpath asks for that light.
+    fn landings_m2(&self, context: &Context<'_, S>, at: &Interaction) -> Option<f64> {
+        let Context { world, lights, images, .. } = context;
+        let is_light = |image: u32| image as usize == self.light;
+        match self.path_class {
+            LightPathClass::Shown(image) if !is_light(image) => {
+                let vertex = &Vertex::surface(world, at, self.start.direction, S::white());
+                let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: 0, vertex };
+                Some(images.illuminance_lx(&query, image, &mut Links::default())? / lights.flux_lm)
+            }
+            LightPathClass::Shown(_) | LightPathClass::Straight => {
+                let takes_both_sides = world.bsdf(at).transmits();
+                Some(lights.landings_m2(self.light, at.position, at.n, takes_both_sides))
+            }
+            LightPathClass::Caustic | LightPathClass::Found => None,
+        }
     }
 }
 

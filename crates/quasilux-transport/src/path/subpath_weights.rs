@@ -34,10 +34,11 @@ impl SubpathWeights {
     /// At a sensor point, which no light subpath can meet.
     pub(crate) const SENSOR: Self = Self { vcm: 0.0, vc: 0.0 };
 
-    /// At the first surface, where light without extent lands with this density in m^-2: an eye
-    /// subpath that ends here asks the light, and nothing meets it.
-    pub(crate) fn of_landing(density_m2: f64) -> Self {
-        Self { vcm: 1.0 / density_m2, vc: 0.0 }
+    /// At the first surface that is not specular, where light without extent lands with this
+    /// density in m^-2: an eye subpath that ends here asks the light or its image, and nothing
+    /// meets it. Without a density it asks nothing.
+    pub(crate) fn of_landing(density_m2: Option<f64>) -> Self {
+        Self { vcm: density_m2.map_or(0.0, |density_m2| 1.0 / density_m2), vc: 0.0 }
     }
 
     /// On an emitting facet that a photon leaves with the density `emission` in m^-2 sr^-1 at this
@@ -251,7 +252,7 @@ mod tests {
                 let start = SubpathWeights::of_emission(self.emission(), self.asked_m2(), cos);
                 return self.carried(start, &nodes);
             }
-            let landed = SubpathWeights::of_landing(self.landing_m2());
+            let landed = SubpathWeights::of_landing(Some(self.landing_m2()));
             if at == last {
                 return landed;
             }

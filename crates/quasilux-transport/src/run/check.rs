@@ -1,8 +1,6 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
 use crate::settings::{EstimatorKind, Settings, Switch};
-use crate::world::World;
-use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
@@ -21,17 +19,6 @@ pub enum CheckError {
     OtherNumberOfPoints {
         /// Name of the sequence.
         sequence: &'static str,
-    },
-    /// Photon counting reads sensor points from the map of the surface they lie on.
-    #[error(
-        "sensor \"{sensor}\", point {point}: the estimator \"photon\" can only read points that \
-         lie on a diffuse surface, with the normal on its side; use a grid, or another estimator"
-    )]
-    PointOffSurface {
-        /// Name of the sensor.
-        sensor: String,
-        /// Number of the point, from 1.
-        point: usize,
     },
     /// Photon counting needs the flux through a grid's own plane.
     #[error(
@@ -176,31 +163,16 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
     Ok(())
 }
 
-/// Whether photons can be counted at all sensors: on surfaces and in grids, for no camera.
+/// Whether photons can be counted at all sensors, and for no camera.
 fn check_photon_sensors(scene: &Scene) -> Result<(), CheckError> {
     if let Some(camera) = scene.cameras.first() {
         return Err(CheckError::CameraOfPhotons { camera: camera.name.clone() });
     }
-    let world = World::<f64>::new(scene, SimdLevel::fastest());
     for sensor in &scene.sensors {
-        let name = || sensor.name.clone();
-        match &sensor.shape {
-            SensorShape::Points(points) => {
-                let is_off = |p: &quasilux_scene::SensorPoint| {
-                    !world
-                        .facet_under(p.position, p.normal)
-                        .is_some_and(|at| world.bsdf(&at).keeps_illuminance())
-                };
-                if let Some(point) = points.iter().position(is_off) {
-                    let point = point + 1;
-                    return Err(CheckError::PointOffSurface { sensor: name(), point });
-                }
-            }
-            SensorShape::Grid(grid) => {
-                let cos = grid.normal.dot(grid.u.cross(grid.v).normalize());
-                if cos.abs() < 1.0 - 1e-9 {
-                    return Err(CheckError::TiltedNormal { sensor: name() });
-                }
+        if let SensorShape::Grid(grid) = &sensor.shape {
+            let cos = grid.normal.dot(grid.u.cross(grid.v).normalize());
+            if cos.abs() < 1.0 - 1e-9 {
+                return Err(CheckError::TiltedNormal { sensor: sensor.name.clone() });
             }
         }
     }
@@ -232,8 +204,9 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
             };
             if scene.sensors.iter().any(|sensor| reads_points(&sensor.shape)) {
                 caveats.push(
-                    "the estimator \"photon\" gives means over cells and map elements, which are \
-                     biased as values at points; ask grids for quantity = \"mean\""
+                    "the estimator \"photon\" gives means over cells, map elements and small \
+                     squares, which are biased as values at points; ask grids for \
+                     quantity = \"mean\""
                         .to_owned(),
                 );
             }

@@ -11,7 +11,7 @@
 //! much would make intervals of 32 replicates that cannot be trusted at this significance.
 
 use crate::dozen_scenes as scenes;
-use quasilux_scene::Scene;
+use quasilux_scene::{Bsdf, Scene};
 use quasilux_stats::{sidak, student_t_quantile};
 use quasilux_transport::trial::bidirectional_paths;
 use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, Switch, simulate};
@@ -125,6 +125,10 @@ fn assert_agree(scene: &Scene) {
         for (other, of_other) in &found {
             assert!(mean.agrees(of_other), "bidirectional paths and {other}: {mean:?}, {found:?}");
         }
+    } else {
+        let refracts = |bsdf: &Bsdf| matches!(bsdf, Bsdf::Dielectric(_));
+        let mut bsdfs = scene.materials.iter().map(|material| &material.bsdf);
+        assert!(bsdfs.any(refracts), "bidirectional paths were not tried");
     }
     let map = estimate(scene, EstimatorKind::BidirectionalMap, Switch::Off);
     assert!(found[0].1.agrees(&map), "map: {map:?}, {found:?}");

@@ -17,6 +17,7 @@ mod estimators;
 mod explain;
 mod few;
 mod first_shot;
+mod free_points;
 mod furnace;
 mod glints;
 mod hall;

@@ -29,7 +29,7 @@ pub(crate) fn write_floor(folder: &Folder, project: &str, look: &Look) {
     write(folder, project, look, &format!("{floor}{}", panel_obj(1.9, 5)));
 }
 
-/// Leaves the grid, which the estimator "photon" can read, and no free points.
+/// Leaves the grid, and no free points.
 pub(crate) fn remove_probes(folder: &Folder, project: &str) {
     let file = format!("{project}.toml");
     let text = folder.read(&file);

@@ -20,9 +20,8 @@
 //! are not taken over trust what was selected as far as probe, tails and witness can tell.
 //!
 //! The probe is a function of scene, settings and the number of samples; it is traced again where a
-//! run goes on or parts are merged. Where photons would show light that bidirectional paths must
-//! not count twice (images of point-like lights, caustics by density), there is neither probe nor
-//! relief.
+//! run goes on or parts are merged. Where some light is known by density alone (caustics), which
+//! bidirectional paths would count twice, there is neither probe nor relief.
 
 mod takeover;
 mod unseen;
@@ -47,6 +46,9 @@ use unseen::{Tests, Unseen};
 const CONFIDENT: f64 = 2.0;
 /// Part of the rays of the run that the probe may take.
 const SHARE_OF_PROBE: f64 = 0.1;
+/// Samples of the probe at least where a run may end: with fewer it tells nothing of light that a
+/// short run misses.
+const MIN_OF_PROBE: u64 = MIN_SAMPLES / 2;
 /// Paths of the probe between two moments when it can be stopped.
 const STEP_OF_PROBE: u64 = 1 << 16;
 
@@ -85,8 +87,7 @@ fn trace_probe<S: Spectrum>(probe: &mut PathEstimator<'_, S>, samples: u64) {
 
 /// Whether bidirectional paths find all light of a scene, and none of it twice.
 pub(crate) fn is_possible<S: Spectrum>(context: &Context<'_, S>, settings: &Settings) -> bool {
-    context.images.is_empty()
-        && context.hides.is_none()
+    context.hides.is_none()
         && settings.max_bounces != Some(0)
         && settings.effective_replicates() > 1
 }
@@ -129,7 +130,9 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let rays = self.selected.all_rays() + relief.sampling_rays();
         let next = next_of_probe(probe) as f64;
         let rays_of_next = probe.sampling_rays() as f64 * next / probe.samples().max(1) as f64;
+        let is_look = self.selected.samples() >= MIN_SAMPLES;
         rays_of_next <= SHARE_OF_PROBE * rays as f64
+            || is_look && probe.samples() < MIN_OF_PROBE
             || self.selected.samples() >= MIN_SAMPLES
                 && self.unseen(&self.relieved(&self.selected.estimates())).wants_more
     }

@@ -89,36 +89,31 @@ impl SelectedKind {
 
 /// Of all sensor points.
 pub(super) fn all(judged: &Judged<'_>, states: &[PointState]) -> Vec<Takeover> {
-    let &Judged { selected, probe, rays, kind, .. } = judged;
-    let values = |sensor: usize, point: usize| {
-        [selected, probe].map(|of| {
-            let rows = of[sensor].replicate_lx.iter();
-            Interval::of_mean(rows.map(|row| row[point]), Some(1.0))
-        })
-    };
-    let points = selected.iter().enumerate().flat_map(|(sensor, figures)| {
-        let missed = figures.missed.iter().enumerate();
-        missed.map(move |(point, missed)| (values(sensor, point), *missed))
-    });
-    let replicates = selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
+    let replicates = judged.selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
     let of_each = FALSE_ALARM / states.len().max(1) as f64;
-    let Some(t) = t_quantile_for(replicates, 2.0 * of_each) else {
+    let quantiles = [of_each, FALSE_ALARM].map(|alarm| t_quantile_for(replicates, 2.0 * alarm));
+    let [Some(t_of_each), Some(t_of_all)] = quantiles else {
         return vec![Takeover::No; states.len()];
     };
+    let all_miss = miss_light_together(judged, states, t_of_all);
+    let points = points(judged);
     let states = states.iter().zip(&judged.photons_hide_tails);
-    let takeovers = points.zip(states).map(|(([own, probed], missed), (state, hides_tail))| {
+    let takeovers = points.zip(states).map(|(point, (state, hides_tail))| {
+        let Point { own, probed, missed } = point;
         let [Some(own_error), Some(error)] = [own.half_width, probed.half_width] else {
             return Takeover::No;
         };
-        let misses = probed.value - own.value > t * libm::hypot(own_error, error);
+        let misses =
+            all_miss || probed.value - own.value > t_of_each * libm::hypot(own_error, error);
         let cost = |error: f64, rays: u64| error * error * rays as f64;
-        let worthwhile = match kind {
+        let worthwhile = match judged.kind {
             _ if missed || *hides_tail => FOR_A_TAIL,
             SelectedKind::Connections => FOR_CONNECTIONS,
             SelectedKind::GuidedConnections => FOR_GUIDED_CONNECTIONS,
             SelectedKind::Paths => FOR_PATHS,
         };
-        let pays = error > 0.0 && cost(error, rays[1]) < worthwhile * cost(own_error, rays[0]);
+        let [own_rays, rays] = judged.rays;
+        let pays = error > 0.0 && cost(error, rays) < worthwhile * cost(own_error, own_rays);
         match state {
             PointState::Open | PointState::Converged if misses => Takeover::MissesLight,
             PointState::Open if pays => Takeover::Pays,
@@ -126,4 +121,49 @@ pub(super) fn all(judged: &Judged<'_>, states: &[PointState]) -> Vec<Takeover> {
         }
     });
     takeovers.collect()
+}
+
+/// A sensor point.
+struct Point {
+    /// What the selected estimator found.
+    own: Interval,
+    /// What the probe found.
+    probed: Interval,
+    /// Whether the selected estimator saw too few scores there.
+    missed: bool,
+}
+
+fn points<'j>(judged: &'j Judged<'_>) -> impl Iterator<Item = Point> + 'j {
+    let &Judged { selected, probe, .. } = judged;
+    selected.iter().zip(probe).flat_map(|(selected, probe)| {
+        let missed = selected.missed.iter().enumerate();
+        missed.map(move |(point, missed)| {
+            let [own, probed] = [selected, probe].map(|of| {
+                let rows = of.replicate_lx.iter();
+                Interval::of_mean(rows.map(|row| row[point]), Some(1.0))
+            });
+            Point { own, probed, missed: *missed }
+        })
+    })
+}
+
+/// Whether the probe finds more light than the selected estimator in the mean over all points that
+/// this works at, each relative to its value: a miss that they share shows there long before it
+/// shows at one of them. Replicates are independent, points of one need not be.
+fn miss_light_together(judged: &Judged<'_>, states: &[PointState], t: f64) -> bool {
+    let &Judged { selected, probe, .. } = judged;
+    let values: Vec<f64> = points(judged).map(|point| point.own.value).collect();
+    let replicates = selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
+    let differences = (0..replicates).map(|replicate| {
+        let of_sensors = selected.iter().zip(probe);
+        let lx = of_sensors.flat_map(|(selected, probe)| {
+            probe.replicate_lx[replicate].iter().zip(&selected.replicate_lx[replicate])
+        });
+        let known = lx.zip(&values).zip(states);
+        let counted =
+            known.filter(|((_, value), state)| **state != PointState::TakenOver && **value > 0.0);
+        counted.map(|(((probed, own), value), _)| (probed - own) / value).sum::<f64>()
+    });
+    let Interval { value, half_width } = Interval::of_mean(differences, Some(t));
+    half_width.is_some_and(|half_width| value > half_width)
 }

@@ -21,11 +21,13 @@ use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
 use crate::world::{Facet, World};
-use chain::{Links, UnfoldedPath};
+use chain::UnfoldedPath;
+use glam::DVec3;
 use planes::MirrorPlanes;
 use quasilux_sampling::choose_weights;
 use tree::Images;
 
+pub(crate) use chain::Links;
 pub(crate) use light_path_class::LightPathClass;
 
 /// Up to this number of images at a vertex are all tested; of more one is chosen.
@@ -62,6 +64,22 @@ struct ImageSample<S> {
     image: u32,
     path: UnfoldedPath<S>,
     light: S,
+}
+
+/// How light of an image comes to a place.
+struct ImageIncidence<S> {
+    path: UnfoldedPath<S>,
+    /// Unit direction to the image.
+    direction: DVec3,
+    /// If its mirrors reflected all of it.
+    illuminance_lx: f64,
+}
+
+impl<S: Spectrum> ImageIncidence<S> {
+    /// The illuminance in lx with what they reflect.
+    fn reflected_lx(&self) -> f64 {
+        self.path.reflected.luminance() * self.illuminance_lx
+    }
 }
 
 /// Which images are considered past the first [`SURE`]: every `stride`th from `phase` on.
@@ -145,7 +163,7 @@ impl SpecularImages {
         let mut found = ImageSamples::default();
         for Receiver { who, vertex } in receivers {
             let query = ImageQuery { world, pointlikes, who: *who, vertex };
-            self.find(&query, shadows.max_bounces, Thinning::NONE, &mut found);
+            self.find(&query, shadows.max_bounces, Thinning::NONE, |_, _| 1.0, &mut found);
             for light_sample in &found.light_samples {
                 self.ask(&query, light_sample, &found.links, shadows);
             }
@@ -157,16 +175,20 @@ impl SpecularImages {
     /// where they are few. Of very many, far ones are thinned out; of those that give anything
     /// unshadowed, one is chosen in proportion to what it gives where they are more than
     /// [`ALL_TESTED`].
+    ///
+    /// `share` is the part of an image's light that counts, by the direction to it and the
+    /// illuminance in lx that it gives.
     pub(crate) fn sample_direct<S: Spectrum>(
         &self,
         query: &ImageQuery<'_, S>,
         u: f64,
+        share: impl Fn(DVec3, f64) -> f64,
         found: &mut ImageSamples<S>,
         shadows: &mut ShadowQueue<S>,
     ) {
         let others = self.images.nodes.len().saturating_sub(self.images.lights + SURE);
         let stride = others.div_ceil(THINNED).max(1);
-        self.find(query, shadows.max_bounces, Thinning { stride, phase: u }, found);
+        self.find(query, shadows.max_bounces, Thinning { stride, phase: u }, share, found);
         let u = (u * stride as f64).fract();
         let ImageSamples { links, light_samples } = found;
         if light_samples.len() > ALL_TESTED {
@@ -183,40 +205,67 @@ impl SpecularImages {
         }
     }
 
-    /// Finds what all images over at most `max_bounces` mirrors may give to a vertex.
+    /// The illuminance in lx that an image, or a light itself, gives to a surface as if nothing
+    /// stood in the path; `None` where no vertex there asks it.
+    pub(crate) fn illuminance_lx<S: Spectrum>(
+        &self,
+        query: &ImageQuery<'_, S>,
+        image: u32,
+        links: &mut Links,
+    ) -> Option<f64> {
+        links.clear();
+        let incidence = self.incidence(query, image, links)?;
+        Some(incidence.reflected_lx())
+    }
+
+    /// How light of an image comes to a vertex; `None` where it does not.
+    fn incidence<S: Spectrum>(
+        &self,
+        query: &ImageQuery<'_, S>,
+        image: u32,
+        links: &mut Links,
+    ) -> Option<ImageIncidence<S>> {
+        let &ImageQuery { world, pointlikes, vertex, .. } = query;
+        let (place, node) = (vertex.position(), &self.images.nodes[image as usize]);
+        let toward_m = node.position - place;
+        if vertex.cos(toward_m) <= 0.0 || !node.beam.holds(-toward_m) {
+            return None;
+        }
+        let path = links.unfold(world, &self.mirrors, &self.images, image, place)?;
+        let distance_m = toward_m.length();
+        let direction = toward_m / distance_m;
+        let intensity_cd = pointlikes.intensity_cd(node.light, path.leaves);
+        let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
+        Some(ImageIncidence { path, direction, illuminance_lx })
+    }
+
+    /// Finds what all images over at most `max_bounces` mirrors may give to a vertex, `share` of it
+    /// each.
     fn find<S: Spectrum>(
         &self,
         query: &ImageQuery<'_, S>,
         max_bounces: u32,
         Thinning { stride, phase }: Thinning,
+        share: impl Fn(DVec3, f64) -> f64,
         found: &mut ImageSamples<S>,
     ) {
         let ImageSamples { links, light_samples } = found;
         links.clear();
         light_samples.clear();
-        let &ImageQuery { world, pointlikes, vertex, .. } = query;
-        let place = vertex.position();
         for (count, number) in self.images.mirrored(SURE, stride, phase).enumerate() {
             let (image, node) = (number as u32, &self.images.nodes[number]);
             if node.depth > max_bounces {
                 break;
             }
-            let toward_m = node.position - place;
-            if vertex.cos(toward_m) <= 0.0 || !node.beam.holds(-toward_m) {
-                continue;
-            }
-            let Some(path) = links.unfold(world, &self.mirrors, &self.images, image, place) else {
-                continue;
-            };
-            let distance_m = toward_m.length();
-            let direction = toward_m / distance_m;
-            let intensity_cd = pointlikes.intensity_cd(node.light, path.leaves);
-            let illuminance_lx = intensity_cd * vertex.cos(direction) / (distance_m * distance_m);
-            let stands_for = if count < SURE { 1.0 } else { stride as f64 };
-            let light = vertex.weight(direction) * path.reflected * (illuminance_lx * stands_for);
+            let Some(incidence) = self.incidence(query, image, links) else { continue };
+            let share = share(incidence.direction, incidence.reflected_lx());
+            let ImageIncidence { path, direction, illuminance_lx } = incidence;
+            let stands_for = if count < SURE { share } else { share * stride as f64 };
+            let weight = query.vertex.weight(direction);
+            let light = weight * path.reflected * (illuminance_lx * stands_for);
             let is_known = |other: &ImageSample<S>| {
                 self.images.nodes[other.image as usize].light == node.light
-                    && links.are_same(&other.path, &path, world.hair_m())
+                    && links.are_same(&other.path, &path, query.world.hair_m())
             };
             if light.luminance() != 0.0 && !light_samples.iter().any(is_known) {
                 light_samples.push(ImageSample { image, path, light });

@@ -41,6 +41,9 @@ impl<S: Spectrum> Path<'_, S> {
         if !context.images.is_empty() {
             let choice = Purpose::Image { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, choice, Sampler::next_1d);
+            let share = |direction: DVec3, lx: f64| {
+                self.weight_beside_landings(vertex, direction, lx / context.lights.flux_lm)
+            };
             let PathWork { shadows, images, .. } = work;
             let query = ImageQuery {
                 world: &context.world,
@@ -48,7 +51,7 @@ impl<S: Spectrum> Path<'_, S> {
                 who: self.number,
                 vertex,
             };
-            context.images.sample_direct(&query, u, images, shadows);
+            context.images.sample_direct(&query, u, share, images, shadows);
         }
     }
 

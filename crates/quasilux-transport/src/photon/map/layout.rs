@@ -73,8 +73,17 @@ impl MapLayout {
         Self::regular(world, COARSEST_ELEMENTS_ACROSS, settings)
     }
 
+    /// The longest edge of the elements, as far as `map_elements` allows.
+    pub(crate) fn longest_edge_m<S: Spectrum>(world: &World<S>, settings: &Settings) -> f64 {
+        Self::edge_m(world, ELEMENTS_ACROSS, settings)
+    }
+
+    fn edge_m<S: Spectrum>(world: &World<S>, across: f64, settings: &Settings) -> f64 {
+        settings.map_element_m.unwrap_or(world.size_m() / across)
+    }
+
     fn regular<S: Spectrum>(world: &World<S>, across: f64, settings: &Settings) -> Self {
-        let mut element_m = settings.map_element_m.unwrap_or(world.size_m() / across);
+        let mut element_m = Self::edge_m(world, across, settings);
         let parts = |facet: &Facet, element_m: f64| {
             let counts = world.bsdf_of(facet).keeps_illuminance();
             let parts = (facet.longest_edge_m() / element_m).ceil().clamp(1.0, MAX_PARTS);

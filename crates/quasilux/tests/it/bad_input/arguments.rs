@@ -79,9 +79,6 @@ fn combinations() {
             Case::new("one replicate and no limit")
                 .replace("rel_tol = 0.5", "replicates = 1")
                 .says(&["--samples", "interval"]),
-            Case::new("photons at a free point")
-                .with(&["--estimator", "photon"])
-                .says(&["\"probes\"", "surface"]),
             Case::new("photons through a tilted grid")
                 .replace("counts = [2, 2]", "counts = [2, 2]\nnormal = [0, 1, 1]")
                 .with(&["--estimator", "photon"])
