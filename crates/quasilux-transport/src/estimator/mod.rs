@@ -19,6 +19,7 @@ use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
+use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
@@ -69,9 +70,9 @@ pub(crate) trait Estimator {
         false
     }
 
-    /// After a checkpoint that did not end the run: chooses anew how each target is estimated;
-    /// whether all that go on begin anew.
-    fn adapt(&mut self) -> bool {
+    /// After a checkpoint with these estimates that did not end the run: chooses anew how each
+    /// target is estimated; whether all that go on begin anew.
+    fn adapt(&mut self, _estimates: &Estimates, _standing: &Standing) -> bool {
         false
     }
 

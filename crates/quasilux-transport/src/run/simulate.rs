@@ -156,7 +156,7 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             if is_look && !is_enough {
                 course.is_adaptive = estimator.freeze_converged(&standing.done);
             }
-            if !is_enough && estimator.adapt() {
+            if !is_enough && estimator.adapt(&estimates, &standing) {
                 course.history.restart();
             }
             course.record(&mut estimates, &standing, settings);

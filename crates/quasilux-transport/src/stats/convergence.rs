@@ -317,6 +317,7 @@ mod tests {
             let standing = Standing {
                 relative_widths: widths.iter().copied().map(Some).collect(),
                 excess: widths.iter().map(|width| Some(width / settings.rel_tol)).collect(),
+                narrow: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
                 done: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
                 unresolved: 0,
                 is_reached: false,

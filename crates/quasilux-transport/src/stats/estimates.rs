@@ -182,6 +182,12 @@ impl Estimates {
         self.intervals(replicate_lx, resolved)
     }
 
+    /// The same of what was found, whatever is missing.
+    pub(crate) fn found_point_intervals(&self, sensor: usize) -> Vec<Interval> {
+        let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
+        self.intervals(replicate_lx, &vec![true; resolved.len()])
+    }
+
     /// The intervals of one term of the Neumann series at all points of one sensor, in lx; no
     /// half-width where nothing was found that might be.
     #[must_use]

@@ -18,6 +18,8 @@ pub(crate) struct Standing {
     /// Half-width over tolerance of what has to reach it: the point, or the average of its sensor.
     /// `None` where there is no half-width, or nothing to reach.
     pub(crate) excess: Vec<Option<f64>>,
+    /// Whether what was found is known as well, be the interval withdrawn or not.
+    pub(crate) narrow: Vec<bool>,
     /// Whether more samples are of no use to a target.
     pub(crate) done: Vec<bool>,
     /// Points where nothing was found yet.
@@ -39,20 +41,13 @@ impl Standing {
         let mut standing = Self {
             relative_widths: Vec::new(),
             excess: Vec::new(),
+            narrow: Vec::new(),
             done: Vec::new(),
             unresolved: 0,
             is_reached: is_wanted,
             may_end: is_wanted,
         };
-        let excess_of = |interval: &Interval| {
-            let tolerance_lx = settings.tolerance_lx(interval.value);
-            let excess = |half_width: f64| {
-                let excess = if half_width == 0.0 { 0.0 } else { half_width / tolerance_lx };
-                // What is no number is not known at all.
-                if excess.is_nan() { f64::INFINITY } else { excess }
-            };
-            interval.half_width.filter(|_| is_wanted).map(excess)
-        };
+        let excess_of = |interval: &Interval| excess(interval, settings).filter(|_| is_wanted);
         for (sensor, figures) in estimates.sensors.iter().enumerate() {
             let unresolved = figures.resolved.iter().filter(|resolved| !**resolved).count();
             standing.unresolved += unresolved as u64;
@@ -60,6 +55,11 @@ impl Standing {
             standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
             match settings.tolerance_on {
                 ToleranceOn::Points => {
+                    let found = estimates.found_point_intervals(sensor);
+                    let narrow = found.iter().map(excess_of);
+                    let is_narrow =
+                        |excess: Option<f64>| excess.is_some_and(|excess| excess <= 1.0);
+                    standing.narrow.extend(narrow.map(is_narrow));
                     for (number, point) in points.iter().enumerate() {
                         let excess = excess_of(point);
                         let resolved = figures.resolved[number];
@@ -74,6 +74,7 @@ impl Standing {
                         [&figures.missed, &figures.contradicted].map(|of| of.contains(&true));
                     let done = excess.is_some_and(|excess| excess <= 1.0)
                         && (unresolved == 0 || had_a_chance(misses.contains(&true)));
+                    standing.narrow.extend(points.iter().map(|_| done));
                     points.iter().for_each(|_| standing.add(excess, done, false));
                 }
             }
@@ -94,4 +95,13 @@ impl Standing {
         self.is_reached &= done;
         self.may_end &= done || is_given_up;
     }
+}
+
+/// Half-width over tolerance; `None` without a half-width.
+fn excess(interval: &Interval, settings: &Settings) -> Option<f64> {
+    let half_width = interval.half_width?;
+    let tolerance_lx = settings.tolerance_lx(interval.value);
+    let excess = if half_width == 0.0 { 0.0 } else { half_width / tolerance_lx };
+    // What is no number is not known at all.
+    Some(if excess.is_nan() { f64::INFINITY } else { excess })
 }

@@ -13,7 +13,9 @@
 //!   one misses light. Its interval is withdrawn at once.
 //! - where the probe promises the wanted error for about as many rays, or for a few times as many
 //!   where the other way is known to hide tails ([`takeover`]).
-//! - where light may hide behind openings that only they look for ([`unseen`]).
+//! - where light may hide behind openings that only they look for ([`unseen`]), if photons are
+//!   connected to the sensors: what their survey did not see either they may lack. Of paths the
+//!   relief leaves the value alone as long as it finds nothing.
 //!
 //! A point that is taken over begins anew: no sample of the decision enters its value. There the
 //! worst case is that of bidirectional paths, whatever pilots saw, and the rays before. Points that
@@ -36,19 +38,21 @@ use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
 use crate::stats::interval::Interval;
 use crate::stats::schedule::MIN_SAMPLES;
+use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use takeover::{Judged, PointState, SelectedKind, Takeover};
+use takeover::{Judged, PointState, SelectedKind, Side};
 use unseen::{Tests, Unseen};
 
 /// Standard errors in a half-width, about.
 const CONFIDENT: f64 = 2.0;
-/// Part of the rays of the run that the probe may take.
-const SHARE_OF_PROBE: f64 = 0.1;
-/// Samples of the probe at least where a run may end: with fewer it tells nothing of light that a
-/// short run misses.
-const MIN_OF_PROBE: u64 = MIN_SAMPLES / 2;
+/// Part of the rays of the run that the probe may take; the witness takes as many.
+const SHARE_OF_PROBE: f64 = 0.05;
+/// Paths of the probe at least where a run may end, of all sensor points together: with fewer it
+/// tells nothing of light that a short run misses.
+const MIN_OF_PROBE: u64 = 1 << 14;
 /// Paths of the probe between two moments when it can be stopped.
 const STEP_OF_PROBE: u64 = 1 << 16;
 
@@ -61,14 +65,31 @@ pub(crate) struct AutoEstimator<'a, S> {
 
 struct Bidirectional<'a, S> {
     probe: PathEstimator<'a, S>,
+    /// Of the points that it takes over, and of those where it looks for openings.
     relief: PathEstimator<'a, S>,
+    watched: Watched,
+}
+
+/// What goes with the relief in states.
+#[derive(Serialize, Deserialize)]
+struct Watched {
+    /// Samples of the probe, whose paths are traced again.
+    probed: u64,
+    /// The points that the relief has taken over.
+    taken_over: Vec<bool>,
 }
 
 impl<S: Spectrum> Bidirectional<'_, S> {
-    /// The state of the relief, and how far the probe is, whose paths are traced again.
     fn put(&self, out: &mut Writer) {
         self.relief.put(out);
-        out.value(&self.probe.samples());
+        out.value(&self.watched);
+    }
+
+    /// Traces the probe up to so many samples; nobody stops it half-way.
+    fn trace_probe(&mut self, samples: u64) {
+        let mut nobody = ();
+        let _ = self.probe.advance(samples, &mut Watch::new(&mut nobody));
+        self.watched.probed = self.probe.samples();
     }
 }
 
@@ -77,12 +98,6 @@ fn next_of_probe<S: Spectrum>(probe: &PathEstimator<'_, S>) -> u64 {
     let samples = probe.samples();
     let most = (STEP_OF_PROBE / probe.paths_of_an_index()).max(1);
     samples + samples.clamp(1, most)
-}
-
-/// Traces the probe up to so many samples; nobody stops it half-way.
-fn trace_probe<S: Spectrum>(probe: &mut PathEstimator<'_, S>, samples: u64) {
-    let mut nobody = ();
-    let _ = probe.advance(samples, &mut Watch::new(&mut nobody));
 }
 
 /// Whether bidirectional paths find all light of a scene, and none of it twice.
@@ -99,9 +114,11 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         settings: &Settings,
         watch: &mut Watch<'_>,
     ) -> Self {
-        let bidirectional = || Bidirectional {
-            probe: PathEstimator::bidirectional(context, scene, settings),
-            relief: PathEstimator::bidirectional(context, scene, settings).without_targets(),
+        let bidirectional = || {
+            let relief = PathEstimator::bidirectional(context, scene, settings).without_targets();
+            let probe = PathEstimator::bidirectional(context, scene, settings);
+            let watched = Watched { probed: 0, taken_over: vec![false; relief.begun().len()] };
+            Bidirectional { probe, relief, watched }
         };
         let is_possible = is_possible(context, settings) && !scene.sensors.is_empty();
         let selected = PathEstimator::new(context, scene, settings, watch);
@@ -113,10 +130,10 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
     /// hide behind openings; `false` when the observer stopped it.
     fn probe(&mut self, watch: &mut Watch<'_>) -> bool {
         while self.wants_probe() {
-            let Some(Bidirectional { probe, .. }) = &mut self.bidirectional else { break };
-            let before = probe.sampling_rays();
-            trace_probe(probe, next_of_probe(probe));
-            let rays = probe.sampling_rays() - before;
+            let Some(own) = &mut self.bidirectional else { break };
+            let before = own.probe.sampling_rays();
+            own.trace_probe(next_of_probe(&own.probe));
+            let rays = own.probe.sampling_rays() - before;
             if !watch.tick(0, 0, rays) || !watch.keep(|out| self.put(out)) {
                 return false;
             }
@@ -126,20 +143,20 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
 
     /// Whether the probe is to have twice the samples.
     fn wants_probe(&self) -> bool {
-        let Some(Bidirectional { probe, relief }) = &self.bidirectional else { return false };
+        let Some(Bidirectional { probe, relief, .. }) = &self.bidirectional else { return false };
         let rays = self.selected.all_rays() + relief.sampling_rays();
         let next = next_of_probe(probe) as f64;
         let rays_of_next = probe.sampling_rays() as f64 * next / probe.samples().max(1) as f64;
         let is_look = self.selected.samples() >= MIN_SAMPLES;
         rays_of_next <= SHARE_OF_PROBE * rays as f64
-            || is_look && probe.samples() < MIN_OF_PROBE
+            || is_look && probe.samples() * probe.paths_of_an_index() < MIN_OF_PROBE
             || self.selected.samples() >= MIN_SAMPLES
                 && self.unseen(&self.relieved(&self.selected.estimates())).wants_more
     }
 
     /// Where light may hide behind openings, beside these estimates.
     fn unseen(&self, estimates: &Estimates) -> Unseen {
-        let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
+        let Some(Bidirectional { probe, relief, .. }) = &self.bidirectional else {
             return Unseen::nothing(0);
         };
         if self.selected.samples() < MIN_SAMPLES {
@@ -158,20 +175,18 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
             let half_width = interval.half_width.unwrap_or(0.0) / probe.reference_lx();
             Tests { scores, paths, half_width }
         });
-        Unseen::new(&tests.collect::<Vec<Tests>>())
+        let replicates = estimates.sensors.first().map_or(0, |sensor| sensor.replicate_lx.len());
+        Unseen::new(&tests.collect::<Vec<Tests>>(), MIN_SAMPLES * replicates as u64)
     }
 
     /// The values of the selected estimator, and of the relief where that has taken over.
     fn relieved(&self, selected: &Estimates) -> Estimates {
         let mut estimates = selected.clone();
-        if let Some(Bidirectional { relief, .. }) = &self.bidirectional {
+        if let Some(Bidirectional { relief, watched, .. }) = &self.bidirectional {
             let of_relief = relief.estimates();
-            let mut is_relieved = relief.samples_of_all().into_iter().map(|samples| samples > 0);
-            for (sensor, relieved) in estimates.sensors.iter_mut().zip(&of_relief.sensors) {
-                let points = sensor.resolved.len();
-                let taken: Vec<bool> = is_relieved.by_ref().take(points).collect();
-                sensor.replace(&taken, relieved);
-            }
+            let known = relief.samples_of_all().into_iter().zip(&watched.taken_over);
+            let is_relieved = known.map(|(samples, taken_over)| *taken_over && samples > 0);
+            replace(&mut estimates, &is_relieved.collect::<Vec<bool>>(), &of_relief);
             estimates.rays += of_relief.rays;
             estimates.invalid_contributions += of_relief.invalid_contributions;
             estimates.biased |= of_relief.biased;
@@ -181,20 +196,37 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         estimates
     }
 
-    /// How each sensor point stands that the relief has not taken over.
-    fn takeovers(&self, selected: &Estimates) -> Vec<Takeover> {
-        let Some(Bidirectional { probe, relief }) = &self.bidirectional else {
-            return Vec::new();
+    /// What these estimates of the selected estimator are beside `probe`; `None` before either
+    /// has enough samples to judge by.
+    fn judge<T>(&self, selected: &Estimates, judge: impl FnOnce(&Judged<'_>) -> T) -> Option<T> {
+        let Bidirectional { probe, relief, watched } = self.bidirectional.as_ref()?;
+        if self.selected.samples() < MIN_SAMPLES {
+            return None;
+        }
+        let side = |of: &PathEstimator<'_, S>, sensors| {
+            let indices: u64 = of.samples_of_all().iter().sum();
+            Side { sensors, rays: of.sampling_rays() as f64 / indices.max(1) as f64 }
         };
-        let states = PointState::of_all(&self.selected.are_over(), &relief.begun());
-        let judged = Judged {
-            selected: &selected.sensors,
-            probe: &probe.estimates().sensors,
-            rays: [self.selected.sampling_rays(), probe.sampling_rays()],
+        let mut probed = probe.estimates();
+        let more = relief.samples_of_all().into_iter().zip(probe.samples_of_all());
+        let knows_more: Vec<bool> = more.map(|(relief, probe)| relief > probe).collect();
+        replace(&mut probed, &knows_more, &relief.estimates());
+        Some(judge(&Judged {
+            selected: side(&self.selected, &selected.sensors),
+            probe: side(probe, &probed.sensors),
             kind: self.kind,
             photons_hide_tails: self.selected.photons_hide_tails(),
-        };
-        takeover::all(&judged, &states)
+            states: PointState::of_all(&self.selected.are_over(), &watched.taken_over),
+        }))
+    }
+}
+
+/// Takes the figures of some points from other estimates.
+fn replace(estimates: &mut Estimates, points: &[bool], other: &Estimates) {
+    let mut points = points.iter().copied();
+    for (sensor, other) in estimates.sensors.iter_mut().zip(&other.sensors) {
+        let own: Vec<bool> = points.by_ref().take(sensor.resolved.len()).collect();
+        sensor.replace(&own, other);
     }
 }
 
@@ -206,9 +238,9 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         if !self.selected.advance(samples, watch) {
             return false;
         }
-        if let Some(Bidirectional { relief, probe }) = &mut self.bidirectional {
+        if let Some(Bidirectional { relief, watched, .. }) = &mut self.bidirectional {
             let selected = &self.selected;
-            watch.surround(|before| selected.put(before), |after| after.value(&probe.samples()));
+            watch.surround(|before| selected.put(before), |after| after.value(watched));
             if !relief.advance(samples, watch) {
                 return false;
             }
@@ -228,13 +260,20 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.selected.merge_from(coming, from)?;
-        let Some(Bidirectional { probe, relief }) = &mut self.bidirectional else { return Ok(()) };
-        relief.merge_from(coming, from)?;
-        let probed: u64 = from.value()?;
+        let Some(own) = &mut self.bidirectional else { return Ok(()) };
+        own.relief.merge_from(coming, from)?;
+        let Watched { probed, taken_over } = from.value()?;
         if probed > self.selected.samples().max(unseen::MAX_TESTS) {
             return Err(StateError::Unfit("the samples of the probe"));
         }
-        trace_probe(probe, probed);
+        let begun = own.relief.begun();
+        let fits = taken_over.len() == begun.len()
+            && taken_over.iter().zip(begun).all(|(taken_over, begun)| begun || !taken_over);
+        if !fits {
+            return Err(StateError::Unfit("the points that were taken over"));
+        }
+        own.watched.taken_over = taken_over;
+        own.trace_probe(probed);
         Ok(())
     }
 
@@ -266,10 +305,13 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn estimates(&self) -> Estimates {
         let selected = self.selected.estimates();
-        let Some(Bidirectional { probe, relief }) = &self.bidirectional else { return selected };
+        let Some(Bidirectional { probe, watched, .. }) = &self.bidirectional else {
+            return selected;
+        };
         let mut estimates = self.relieved(&selected);
-        let takeovers = self.takeovers(&selected);
-        let mut contradicted = takeovers.iter().map(|takeover| *takeover == Takeover::MissesLight);
+        let misses_light =
+            self.judge(&selected, |judged| judged.misses_light()).unwrap_or_default();
+        let mut contradicted = misses_light.into_iter().chain(std::iter::repeat(false));
         let mut unseen = self.unseen(&estimates).points.into_iter();
         for sensor in &mut estimates.sensors {
             let points = sensor.resolved.len();
@@ -277,7 +319,8 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
             sensor.withdraw_unseen(unseen.by_ref().take(points));
         }
         estimates.rays += probe.all_rays();
-        estimates.relieved_points = relief.begun().iter().filter(|begun| **begun).count() as u64;
+        let taken_over = watched.taken_over.iter().filter(|taken_over| **taken_over);
+        estimates.relieved_points = taken_over.count() as u64;
         estimates
     }
 
@@ -288,17 +331,33 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         self.selected.freeze_converged(done)
     }
 
-    fn adapt(&mut self) -> bool {
+    fn adapt(&mut self, estimates: &Estimates, standing: &Standing) -> bool {
         let selected = self.selected.estimates();
-        let takeovers = self.takeovers(&selected);
+        let judge = |judged: &Judged<'_>| [judged.misses_light(), judged.pays(&standing.excess)];
+        let Some([misses_light, pays]) = self.judge(&selected, judge) else { return false };
         let unseen = self.unseen(&self.relieved(&selected)).points;
-        let Some(Bidirectional { relief, .. }) = &mut self.bidirectional else { return false };
-        let begun = relief.begun();
-        let due = takeovers.into_iter().zip(unseen);
-        let taken: Vec<bool> = due.map(|(takeover, unseen)| takeover.is_due() || unseen).collect();
-        relief.begin(&taken);
-        self.selected.freeze_converged(&relief.begun());
-        relief.begun() != begun && self.selected.are_over().into_iter().all(|over| over)
+        let Some(Bidirectional { relief, watched, .. }) = &mut self.bidirectional else {
+            return false;
+        };
+        let before = watched.taken_over.clone();
+        let contradicted = estimates.sensors.iter().flat_map(|sensor| &sensor.contradicted);
+        let distrusts = self.kind != SelectedKind::Paths;
+        let due = misses_light.into_iter().zip(contradicted).zip(pays.into_iter().zip(&unseen));
+        for (taken_over, ((misses, contradicted), (pays, unseen))) in
+            watched.taken_over.iter_mut().zip(due)
+        {
+            *taken_over |= misses || *contradicted || pays || (distrusts && *unseen);
+        }
+        let either = |(a, b): (&bool, &bool)| *a || *b;
+        relief.begin(&watched.taken_over.iter().zip(&unseen).map(either).collect::<Vec<bool>>());
+        // Where the relief only looks, what was selected may be known well enough.
+        let resolved = selected.sensors.iter().flat_map(|sensor| &sensor.resolved);
+        let known = unseen.iter().zip(resolved).zip(&standing.narrow);
+        let is_enough = known.map(|((unseen, resolved), narrow)| *unseen && *resolved && *narrow);
+        let over: Vec<bool> =
+            watched.taken_over.iter().zip(is_enough).map(|(a, b)| *a || b).collect();
+        self.selected.freeze_converged(&over);
+        watched.taken_over != before && self.selected.are_over().into_iter().all(|over| over)
     }
 
     fn first_checkpoint(&self) -> u64 {

@@ -1,4 +1,5 @@
-//! When bidirectional paths take a sensor point over from the selected estimator.
+//! When bidirectional paths take a sensor point over from the selected estimator: where that misses
+//! light, and where they take fewer rays than it still needs.
 
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::SensorEstimates;
@@ -6,31 +7,14 @@ use crate::stats::interval::{Interval, t_quantile_for};
 
 /// Probability that the probe contradicts any sensor point at one look by chance.
 const FALSE_ALARM: f64 = 1e-3;
-/// Bidirectional paths take over where they promise the same error for at most this many times the
-/// rays. Of plain paths they are the safe form. What connections of photons promise may hang on
-/// light that a survey or a pilot did not see, most of all where nothing guides the photons, and
-/// what hides a tail promises nothing.
-const FOR_PATHS: f64 = 1.0;
-const FOR_GUIDED_CONNECTIONS: f64 = 2.0;
-const FOR_CONNECTIONS: f64 = 4.0;
-const FOR_A_TAIL: f64 = 8.0;
-
-/// How the probe judges the selected estimator at a sensor point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Takeover {
-    /// It goes on.
-    No,
-    /// The probe found more light than it.
-    MissesLight,
-    /// Bidirectional paths need fewer rays.
-    Pays,
-}
-
-impl Takeover {
-    pub(super) fn is_due(self) -> bool {
-        self != Self::No
-    }
-}
+/// Bidirectional paths take over where they promise the wanted error for at most this many times
+/// the rays that are left to the selected estimator. Of plain paths they are the safe form, but by
+/// the spreads of a few replicates each the ratio is known to a factor of two. What connections of
+/// photons promise may hang on light that a survey or a pilot did not see, and what hides a tail
+/// promises too much.
+const FOR_PATHS: f64 = 0.5;
+const FOR_CONNECTIONS: f64 = 1.0;
+const FOR_A_TAIL: f64 = 2.0;
 
 /// How far a sensor point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,13 +41,20 @@ impl PointState {
 
 /// The selected estimator and the probe at a checkpoint.
 pub(super) struct Judged<'e> {
-    pub(super) selected: &'e [SensorEstimates],
-    pub(super) probe: &'e [SensorEstimates],
-    /// Rays that each of them took.
-    pub(super) rays: [u64; 2],
+    pub(super) selected: Side<'e>,
+    pub(super) probe: Side<'e>,
     pub(super) kind: SelectedKind,
     /// Whether few connections make the variance of each sensor point.
     pub(super) photons_hide_tails: Vec<bool>,
+    /// How far each sensor point is.
+    pub(super) states: Vec<PointState>,
+}
+
+/// One of them.
+pub(super) struct Side<'e> {
+    pub(super) sensors: &'e [SensorEstimates],
+    /// Of one index of one replicate of a sensor point, on average.
+    pub(super) rays: f64,
 }
 
 /// How the selected estimator works.
@@ -73,54 +64,15 @@ pub(super) enum SelectedKind {
     Paths,
     /// By photons that are connected to the sensors, too.
     Connections,
-    /// By such photons that are guided.
-    GuidedConnections,
 }
 
 impl SelectedKind {
     pub(super) fn new(decisions: &Decisions) -> Self {
-        match decisions {
-            Decisions { connected_photons: None, .. } => Self::Paths,
-            Decisions { uses_importance: true, .. } => Self::GuidedConnections,
-            _ => Self::Connections,
+        match decisions.connected_photons {
+            None => Self::Paths,
+            Some(_) => Self::Connections,
         }
     }
-}
-
-/// Of all sensor points.
-pub(super) fn all(judged: &Judged<'_>, states: &[PointState]) -> Vec<Takeover> {
-    let replicates = judged.selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
-    let of_each = FALSE_ALARM / states.len().max(1) as f64;
-    let quantiles = [of_each, FALSE_ALARM].map(|alarm| t_quantile_for(replicates, 2.0 * alarm));
-    let [Some(t_of_each), Some(t_of_all)] = quantiles else {
-        return vec![Takeover::No; states.len()];
-    };
-    let all_miss = miss_light_together(judged, states, t_of_all);
-    let points = points(judged);
-    let states = states.iter().zip(&judged.photons_hide_tails);
-    let takeovers = points.zip(states).map(|(point, (state, hides_tail))| {
-        let Point { own, probed, missed } = point;
-        let [Some(own_error), Some(error)] = [own.half_width, probed.half_width] else {
-            return Takeover::No;
-        };
-        let misses =
-            all_miss || probed.value - own.value > t_of_each * libm::hypot(own_error, error);
-        let cost = |error: f64, rays: u64| error * error * rays as f64;
-        let worthwhile = match judged.kind {
-            _ if missed || *hides_tail => FOR_A_TAIL,
-            SelectedKind::Connections => FOR_CONNECTIONS,
-            SelectedKind::GuidedConnections => FOR_GUIDED_CONNECTIONS,
-            SelectedKind::Paths => FOR_PATHS,
-        };
-        let [own_rays, rays] = judged.rays;
-        let pays = error > 0.0 && cost(error, rays) < worthwhile * cost(own_error, own_rays);
-        match state {
-            PointState::Open | PointState::Converged if misses => Takeover::MissesLight,
-            PointState::Open if pays => Takeover::Pays,
-            _ => Takeover::No,
-        }
-    });
-    takeovers.collect()
 }
 
 /// A sensor point.
@@ -129,41 +81,98 @@ struct Point {
     own: Interval,
     /// What the probe found.
     probed: Interval,
+    /// Rays of each for it.
+    rays: [f64; 2],
     /// Whether the selected estimator saw too few scores there.
     missed: bool,
 }
 
-fn points<'j>(judged: &'j Judged<'_>) -> impl Iterator<Item = Point> + 'j {
-    let &Judged { selected, probe, .. } = judged;
-    selected.iter().zip(probe).flat_map(|(selected, probe)| {
-        let missed = selected.missed.iter().enumerate();
-        missed.map(move |(point, missed)| {
-            let [own, probed] = [selected, probe].map(|of| {
-                let rows = of.replicate_lx.iter();
-                Interval::of_mean(rows.map(|row| row[point]), Some(1.0))
-            });
-            Point { own, probed, missed: *missed }
-        })
-    })
-}
+impl Judged<'_> {
+    /// Whether the probe finds more light at each sensor point than the selected estimator, which
+    /// works there or did, by more than chance allows.
+    pub(super) fn misses_light(&self) -> Vec<bool> {
+        let replicates = self.selected.sensors.first().map_or(0, |own| own.replicate_lx.len());
+        let of_each = FALSE_ALARM / self.states.len().max(1) as f64;
+        let t = |alarm: f64| t_quantile_for(replicates, 2.0 * alarm);
+        let [Some(t_of_each), Some(t_of_all)] = [t(of_each), t(FALSE_ALARM)] else {
+            return vec![false; self.states.len()];
+        };
+        let all_miss = self.all_miss_light(t_of_all);
+        let misses = |Point { own, probed, .. }: Point| {
+            let errors = own.half_width.zip(probed.half_width);
+            errors.is_some_and(|(own_error, error)| {
+                probed.value - own.value > t_of_each * libm::hypot(own_error, error)
+            })
+        };
+        let points = self.points().zip(&self.states);
+        let known = |(point, state): (Point, &PointState)| {
+            *state != PointState::TakenOver && (all_miss || misses(point))
+        };
+        points.map(known).collect()
+    }
 
-/// Whether the probe finds more light than the selected estimator in the mean over all points that
-/// this works at, each relative to its value: a miss that they share shows there long before it
-/// shows at one of them. Replicates are independent, points of one need not be.
-fn miss_light_together(judged: &Judged<'_>, states: &[PointState], t: f64) -> bool {
-    let &Judged { selected, probe, .. } = judged;
-    let values: Vec<f64> = points(judged).map(|point| point.own.value).collect();
-    let replicates = selected.first().map_or(0, |sensor| sensor.replicate_lx.len());
-    let differences = (0..replicates).map(|replicate| {
-        let of_sensors = selected.iter().zip(probe);
-        let lx = of_sensors.flat_map(|(selected, probe)| {
-            probe.replicate_lx[replicate].iter().zip(&selected.replicate_lx[replicate])
+    /// Whether bidirectional paths need fewer rays to the tolerance at each sensor point than the
+    /// selected estimator, which works there. `excess` are its half-widths over the tolerance.
+    pub(super) fn pays(&self, excess: &[Option<f64>]) -> Vec<bool> {
+        let points = self.points().zip(&self.photons_hide_tails).zip(excess).zip(&self.states);
+        let pays = points.map(|(((point, hides_tail), excess), state)| {
+            let Point { own, probed, rays: [own_rays, rays], missed } = point;
+            let Some((own_error, error)) = own.half_width.zip(probed.half_width) else {
+                return false;
+            };
+            let worthwhile = match self.kind {
+                _ if missed || *hides_tail => FOR_A_TAIL,
+                SelectedKind::Connections => FOR_CONNECTIONS,
+                SelectedKind::Paths => FOR_PATHS,
+            };
+            // Without a half-width nothing of the way is behind it.
+            let left = excess.map_or(1.0, |excess| 1.0 - 1.0 / (excess * excess).max(1.0));
+            let own_cost = own_error * own_error * own_rays * left;
+            let is_open = *state == PointState::Open;
+            is_open && error > 0.0 && error * error * rays < worthwhile * own_cost
         });
-        let known = lx.zip(&values).zip(states);
-        let counted =
-            known.filter(|((_, value), state)| **state != PointState::TakenOver && **value > 0.0);
-        counted.map(|(((probed, own), value), _)| (probed - own) / value).sum::<f64>()
-    });
-    let Interval { value, half_width } = Interval::of_mean(differences, Some(t));
-    half_width.is_some_and(|half_width| value > half_width)
+        pays.collect()
+    }
+
+    /// Whether the probe finds more light than the selected estimator in the mean over all points
+    /// that this works at, each relative to its value: a miss that they share shows there long
+    /// before it shows at one of them. Replicates are independent, points of one need not be.
+    fn all_miss_light(&self, t: f64) -> bool {
+        let Self { selected, probe, states, .. } = self;
+        let values: Vec<f64> = self.points().map(|point| point.own.value).collect();
+        let replicates = selected.sensors.first().map_or(0, |sensor| sensor.replicate_lx.len());
+        let differences = (0..replicates).map(|replicate| {
+            let of_sensors = selected.sensors.iter().zip(probe.sensors);
+            let lx = of_sensors.flat_map(|(selected, probe)| {
+                probe.replicate_lx[replicate].iter().zip(&selected.replicate_lx[replicate])
+            });
+            let known = lx.zip(&values).zip(states);
+            let counted = known
+                .filter(|((_, value), state)| **state != PointState::TakenOver && **value > 0.0);
+            counted.map(|(((probed, own), value), _)| (probed - own) / value).sum::<f64>()
+        });
+        let Interval { value, half_width } = Interval::of_mean(differences, Some(t));
+        half_width.is_some_and(|half_width| value > half_width)
+    }
+
+    fn points(&self) -> impl Iterator<Item = Point> {
+        let Self { selected, probe, .. } = self;
+        selected.sensors.iter().zip(probe.sensors).flat_map(|(own, probed)| {
+            (0..own.missed.len()).map(|point| {
+                let interval = |of: &SensorEstimates| {
+                    Interval::of_mean(of.replicate_lx.iter().map(|row| row[point]), Some(1.0))
+                };
+                let rays = [
+                    selected.rays * own.samples[point] as f64,
+                    probe.rays * probed.samples[point] as f64,
+                ];
+                Point {
+                    own: interval(own),
+                    probed: interval(probed),
+                    rays,
+                    missed: own.missed[point],
+                }
+            })
+        })
+    }
 }

@@ -8,7 +8,8 @@
 //!
 //! All sensor points where the paths of one are not enough look for the same openings, so what
 //! counts for them is the number of paths from all of them together, as long as none of them saw
-//! light of that size. Where one did, each of them has to see it for itself.
+//! light of that size. Where one did, each of them has to see it for itself: more paths of all
+//! points settle it where they are fewer than those of a relief of these.
 
 use crate::path::sections::PathScores;
 
@@ -41,7 +42,9 @@ impl Unseen {
         Self { points: vec![false; points], wants_more: false }
     }
 
-    pub(super) fn new(tests: &[Tests]) -> Self {
+    /// By the tests of all sensor points, of which one that bidirectional paths take over gets this
+    /// many paths at least.
+    pub(super) fn new(tests: &[Tests], paths_of_relief: u64) -> Self {
         let needed: Vec<f64> = tests.iter().map(Tests::needed_paths).collect();
         let open =
             || tests.iter().zip(&needed).filter(|(own, needed)| own.paths as f64 <= **needed);
@@ -52,9 +55,14 @@ impl Unseen {
             .iter()
             .zip(&needed)
             .map(|(own, needed)| own.paths as f64 <= *needed && is_short(*needed));
-        let is_reachable = |needed: f64| needed <= MAX_TESTS as f64;
-        let wants_more = !is_seen
-            && open().any(|(_, needed)| together as f64 <= *needed && is_reachable(*needed));
+        let most = open().fold(0.0, |most: f64, (_, needed)| most.max(*needed));
+        let of_relief = open().count() as f64 * paths_of_relief as f64;
+        let wants_more = if is_seen {
+            most * tests.len() as f64 <= of_relief
+        } else {
+            together as f64 <= most && most <= MAX_TESTS as f64
+        };
+        let wants_more = wants_more && most > 0.0;
         Self { points: points.collect(), wants_more }
     }
 }

@@ -13,8 +13,9 @@
 //! near a sensor have a heavy tail to the right, which makes Student's t of their mean small rather
 //! than large: the test errs on the side of silence.
 //!
-//! It takes a tenth of the rays of the run, as of each checkpoint. What it finds is a function of
-//! scene, settings and that number of rays, and is computed anew where a run goes on or parts are
+//! Photons take a twentieth of the rays of the run, as of each checkpoint, and paths as many, or
+//! the bidirectional paths of [`crate::estimator::auto`] in their place. What it finds is a function
+//! of scene, settings and that number of rays, and is computed anew where a run goes on or parts are
 //! merged: it has no state of its own.
 
 mod receiver;
@@ -109,8 +110,7 @@ impl<'a, S: Spectrum> Witness<'a, S> {
 
     /// Looks for light until its rays are their share of `rays`, those of the run.
     pub(crate) fn look(&mut self, rays: u64) {
-        let kinds = if self.paths.is_some() { 2.0 } else { 1.0 };
-        let budget = SHARE * rays as f64 / kinds;
+        let budget = 0.5 * SHARE * rays as f64;
         while let Some(indices) = self.photons.next(budget) {
             self.trace_photons(indices);
         }
