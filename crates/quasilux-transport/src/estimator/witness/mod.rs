@@ -14,9 +14,9 @@
 //! than large: the test errs on the side of silence.
 //!
 //! Photons take a twentieth of the rays of the run, as of each checkpoint, and paths as many, or
-//! the bidirectional paths of [`crate::estimator::auto`] in their place. What it finds is a function
-//! of scene, settings and that number of rays, and is computed anew where a run goes on or parts are
-//! merged: it has no state of its own.
+//! the bidirectional paths of [`crate::estimator::auto`] in their place. What it finds is a
+//! function of scene, settings and that number of rays, and is computed anew where a run goes on or
+//! parts are merged: it has no state of its own.
 
 mod receiver;
 
