@@ -36,6 +36,7 @@ fn random_room(number: u64, reflectance: f64) -> Scene {
         places.push((DVec3::new(NEAR_M, along * size.y, 0.4 * size.z), DVec3::Z));
         places.push((DVec3::new(along * size.x, size.y - NEAR_M, 0.3 * size.z), DVec3::Z));
     }
+    places.push((lamp - 0.1 * DVec3::Z, DVec3::Z));
     scene.sensors.push(points("air", &places));
     scene
 }
@@ -51,7 +52,8 @@ fn count(scene: &Scene, estimator: EstimatorKind, samples: u64) -> Vec<[f64; 2]>
 }
 
 /// In a black room the light of the lamp alone, in one with light walls that of paths. A square
-/// that reached through a wall would lose a third of it.
+/// that reached through a wall would lose a third of it, one that is as large as its distance from
+/// the lamp a fifth.
 #[test]
 fn squares_in_the_air_count_what_paths_find() {
     for (number, reflectance) in (0..ROOMS).flat_map(|number| [(number, 0.0), (number, 0.7)]) {

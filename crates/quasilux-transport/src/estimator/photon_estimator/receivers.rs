@@ -10,7 +10,7 @@ use crate::world::grid_plane::GridPlane;
 use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
-use quasilux_scene::{Quantity, Scene, SensorPoint, SensorShape};
+use quasilux_scene::{Light, Quantity, Scene, SensorPoint, SensorShape};
 use std::f64::consts::{SQRT_2, TAU};
 
 /// Marks elements that no sensor reads.
@@ -19,7 +19,10 @@ const UNREAD: u32 = u32::MAX;
 const DIRECTIONS: u32 = 32;
 /// Its corners come so near to them, as a share of their distance.
 const AS_NEAR: f64 = 0.9;
-/// Its edges are at least so many hairs.
+/// Its edges are at most this share of the distance to the nearest light: light of a point in front
+/// differs by 0.5 % from the middle to the mean.
+const BESIDE_LIGHT: f64 = 1.0 / 8.0;
+/// They are at least so many hairs.
 const MIN_HAIRS: f64 = 8.0;
 
 /// What counts photons, the same for all replicates.
@@ -57,8 +60,10 @@ impl Receivers {
             match &sensor.shape {
                 SensorShape::Grid(grid) => receivers.add_grid(world, grid),
                 SensorShape::Points(points) => {
-                    let edge_m = MapLayout::longest_edge_m(world, settings);
+                    let longest_m = MapLayout::longest_edge_m(world, settings);
                     for point in points {
+                        let to_light_m = distance_to_light_m(world, scene, point.position);
+                        let edge_m = longest_m.min(BESIDE_LIGHT * to_light_m);
                         let under = world.facet_under(point.position, point.normal);
                         match under.filter(|at| world.bsdf(at).keeps_illuminance()) {
                             Some(at) => receivers.add_element(&at),
@@ -124,4 +129,19 @@ fn square<S: Spectrum>(world: &World<S>, point: &SensorPoint, edge_m: f64) -> Gr
     let [u, v] = [DVec3::X, DVec3::Y].map(|edge| frame.to_world(edge) * edge_m);
     let origin = position - (u + v) / 2.0;
     Grid { origin, u, v, counts: [1, 1], normal, quantity: Quantity::Mean }
+}
+
+/// Distance to the nearest light: to its position, or to a corner of its facets or their middle.
+fn distance_to_light_m<S: Spectrum>(world: &World<S>, scene: &Scene, from: DVec3) -> f64 {
+    let nearest = |light: &Light| match light {
+        Light::Point(light) => light.position.distance(from),
+        Light::Luminaire(light) => light.position.distance(from),
+        Light::Area(light) => {
+            let facets = light.triangles.iter().map(|&facet| &world.facets[facet as usize]);
+            let places = facets
+                .flat_map(|facet| facet.corners().into_iter().chain([facet.point([1.0 / 3.0; 3])]));
+            places.map(|place| place.distance(from)).fold(f64::INFINITY, f64::min)
+        }
+    };
+    scene.lights.iter().map(nearest).fold(f64::INFINITY, f64::min)
 }
