@@ -15,9 +15,7 @@ use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::cutoff::MAX_EVENTS;
 use crate::photon::batch::{PhotonBatch, trace_photons};
-use crate::photon::map::{
-    BounceTerm, ELEMENTS_ACROSS, IlluminationMap, MapLayout, QUANTA_PER_PHOTON,
-};
+use crate::photon::map::{BounceTerm, IlluminationMap, MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::order::PhotonOrder;
 use crate::photon::trace::{Lead, Source};
 use crate::settings::{Reconstruction, Settings};
@@ -92,7 +90,7 @@ impl<S: Spectrum> CausticMap<S> {
         let layers = context.max_bounces.unwrap_or(context.listed_terms).clamp(1, MAX_EVENTS);
         let tally = |_| CausticTally::new(&layout, layers, targets.len(), context.listed_terms);
         let tallies = (0..settings.effective_replicates()).map(tally).collect();
-        let radius_m = settings.map_element_m.unwrap_or(context.world.size_m() / ELEMENTS_ACROSS);
+        let radius_m = MapLayout::longest_edge_m(&context.world, settings);
         let [least, most] = PHOTONS_PER_PATH;
         Some(Self {
             layout,

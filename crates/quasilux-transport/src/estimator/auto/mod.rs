@@ -6,13 +6,14 @@
 //! ([`crate::path::subpath_weights`]): no survey, no pilot and no guide enters them, and none of
 //! their contributions exceeds that of the same way in plain path tracing, or that of a plain
 //! photon which is connected to the sensor (a connection that is chosen among several counts the
-//! sum of theirs). The *relief* traces bidirectional paths in full for
-//! the sensor points that it takes over:
+//! sum of theirs). The *relief* traces bidirectional paths in full for the sensor points that it
+//! takes over:
 //!
 //! - where the probe finds more light than the selected estimator, by more than chance allows: that
 //!   one misses light. Its interval is withdrawn at once.
-//! - where the probe promises the wanted error for about as many rays, or for a few times as many
-//!   where the other way is known to hide tails ([`takeover`]).
+//! - where the witness does ([`crate::estimator::witness`]).
+//! - where the probe promises the wanted error for fewer rays than are left to the selected
+//!   estimator, or for twice as many where that is known to hide tails ([`takeover`]).
 //! - where light may hide behind openings that only they look for ([`unseen`]), if photons are
 //!   connected to the sensors: what their survey did not see either they may lack. Of paths the
 //!   relief leaves the value alone as long as it finds nothing.
@@ -41,7 +42,6 @@ use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use takeover::{Judged, PointState, SelectedKind, Side};
 use unseen::{Tests, Unseen};
@@ -67,30 +67,32 @@ struct Bidirectional<'a, S> {
     probe: PathEstimator<'a, S>,
     /// Of the points that it takes over, and of those where it looks for openings.
     relief: PathEstimator<'a, S>,
-    watched: Watched,
-}
-
-/// What goes with the relief in states.
-#[derive(Serialize, Deserialize)]
-struct Watched {
-    /// Samples of the probe, whose paths are traced again.
-    probed: u64,
-    /// The points that the relief has taken over.
+    /// The points that it has taken over.
     taken_over: Vec<bool>,
 }
 
 impl<S: Spectrum> Bidirectional<'_, S> {
     fn put(&self, out: &mut Writer) {
         self.relief.put(out);
-        out.value(&self.watched);
+        put_beside_relief(&self.probe, &self.taken_over, out);
     }
 
     /// Traces the probe up to so many samples; nobody stops it half-way.
     fn trace_probe(&mut self, samples: u64) {
         let mut nobody = ();
         let _ = self.probe.advance(samples, &mut Watch::new(&mut nobody));
-        self.watched.probed = self.probe.samples();
     }
+}
+
+/// What comes after the relief in states: how far the probe is, whose paths are traced again, and
+/// the points that are taken over.
+fn put_beside_relief<S: Spectrum>(
+    probe: &PathEstimator<'_, S>,
+    taken_over: &[bool],
+    out: &mut Writer,
+) {
+    out.value(&probe.samples());
+    out.value(taken_over);
 }
 
 /// Samples of the probe after the next step: twice as many, if they are not too many paths.
@@ -117,8 +119,8 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let bidirectional = || {
             let relief = PathEstimator::bidirectional(context, scene, settings).without_targets();
             let probe = PathEstimator::bidirectional(context, scene, settings);
-            let watched = Watched { probed: 0, taken_over: vec![false; relief.begun().len()] };
-            Bidirectional { probe, relief, watched }
+            let taken_over = vec![false; relief.begun().len()];
+            Bidirectional { probe, relief, taken_over }
         };
         let is_possible = is_possible(context, settings) && !scene.sensors.is_empty();
         let selected = PathEstimator::new(context, scene, settings, watch);
@@ -150,8 +152,7 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         let is_look = self.selected.samples() >= MIN_SAMPLES;
         rays_of_next <= SHARE_OF_PROBE * rays as f64
             || is_look && probe.samples() * probe.paths_of_an_index() < MIN_OF_PROBE
-            || self.selected.samples() >= MIN_SAMPLES
-                && self.unseen(&self.relieved(&self.selected.estimates())).wants_more
+            || is_look && self.unseen(&self.relieved(&self.selected.estimates())).wants_more
     }
 
     /// Where light may hide behind openings, beside these estimates.
@@ -182,9 +183,9 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
     /// The values of the selected estimator, and of the relief where that has taken over.
     fn relieved(&self, selected: &Estimates) -> Estimates {
         let mut estimates = selected.clone();
-        if let Some(Bidirectional { relief, watched, .. }) = &self.bidirectional {
+        if let Some(Bidirectional { relief, taken_over, .. }) = &self.bidirectional {
             let of_relief = relief.estimates();
-            let known = relief.samples_of_all().into_iter().zip(&watched.taken_over);
+            let known = relief.samples_of_all().into_iter().zip(taken_over);
             let is_relieved = known.map(|(samples, taken_over)| *taken_over && samples > 0);
             replace(&mut estimates, &is_relieved.collect::<Vec<bool>>(), &of_relief);
             estimates.rays += of_relief.rays;
@@ -199,7 +200,7 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
     /// What these estimates of the selected estimator are beside `probe`; `None` before either
     /// has enough samples to judge by.
     fn judge<T>(&self, selected: &Estimates, judge: impl FnOnce(&Judged<'_>) -> T) -> Option<T> {
-        let Bidirectional { probe, relief, watched } = self.bidirectional.as_ref()?;
+        let Bidirectional { probe, relief, taken_over } = self.bidirectional.as_ref()?;
         if self.selected.samples() < MIN_SAMPLES {
             return None;
         }
@@ -216,7 +217,7 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
             probe: side(probe, &probed.sensors),
             kind: self.kind,
             photons_hide_tails: self.selected.photons_hide_tails(),
-            states: PointState::of_all(&self.selected.are_over(), &watched.taken_over),
+            states: PointState::of_all(&self.selected.are_over(), taken_over),
         }))
     }
 }
@@ -238,9 +239,10 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         if !self.selected.advance(samples, watch) {
             return false;
         }
-        if let Some(Bidirectional { relief, watched, .. }) = &mut self.bidirectional {
+        if let Some(Bidirectional { relief, probe, taken_over }) = &mut self.bidirectional {
             let selected = &self.selected;
-            watch.surround(|before| selected.put(before), |after| after.value(watched));
+            let after = |after: &mut Writer| put_beside_relief(probe, taken_over, after);
+            watch.surround(|before| selected.put(before), after);
             if !relief.advance(samples, watch) {
                 return false;
             }
@@ -262,7 +264,8 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         self.selected.merge_from(coming, from)?;
         let Some(own) = &mut self.bidirectional else { return Ok(()) };
         own.relief.merge_from(coming, from)?;
-        let Watched { probed, taken_over } = from.value()?;
+        let probed: u64 = from.value()?;
+        let taken_over: Vec<bool> = from.value()?;
         if probed > self.selected.samples().max(unseen::MAX_TESTS) {
             return Err(StateError::Unfit("the samples of the probe"));
         }
@@ -272,7 +275,7 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
         if !fits {
             return Err(StateError::Unfit("the points that were taken over"));
         }
-        own.watched.taken_over = taken_over;
+        own.taken_over = taken_over;
         own.trace_probe(probed);
         Ok(())
     }
@@ -305,7 +308,7 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn estimates(&self) -> Estimates {
         let selected = self.selected.estimates();
-        let Some(Bidirectional { probe, watched, .. }) = &self.bidirectional else {
+        let Some(Bidirectional { probe, taken_over, .. }) = &self.bidirectional else {
             return selected;
         };
         let mut estimates = self.relieved(&selected);
@@ -319,8 +322,7 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
             sensor.withdraw_unseen(unseen.by_ref().take(points));
         }
         estimates.rays += probe.all_rays();
-        let taken_over = watched.taken_over.iter().filter(|taken_over| **taken_over);
-        estimates.relieved_points = taken_over.count() as u64;
+        estimates.relieved_points = taken_over.iter().filter(|taken| **taken).count() as u64;
         estimates
     }
 
@@ -333,31 +335,29 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn adapt(&mut self, estimates: &Estimates, standing: &Standing) -> bool {
         let selected = self.selected.estimates();
-        let judge = |judged: &Judged<'_>| [judged.misses_light(), judged.pays(&standing.excess)];
-        let Some([misses_light, pays]) = self.judge(&selected, judge) else { return false };
+        let judge = |judged: &Judged<'_>| judged.pays(&standing.excess);
+        let Some(pays) = self.judge(&selected, judge) else { return false };
         let unseen = self.unseen(&self.relieved(&selected)).points;
-        let Some(Bidirectional { relief, watched, .. }) = &mut self.bidirectional else {
+        let Some(Bidirectional { relief, taken_over, .. }) = &mut self.bidirectional else {
             return false;
         };
-        let before = watched.taken_over.clone();
+        let before = taken_over.clone();
+        // By the probe or by the witness.
         let contradicted = estimates.sensors.iter().flat_map(|sensor| &sensor.contradicted);
         let distrusts = self.kind != SelectedKind::Paths;
-        let due = misses_light.into_iter().zip(contradicted).zip(pays.into_iter().zip(&unseen));
-        for (taken_over, ((misses, contradicted), (pays, unseen))) in
-            watched.taken_over.iter_mut().zip(due)
-        {
-            *taken_over |= misses || *contradicted || pays || (distrusts && *unseen);
+        let due = contradicted.zip(pays).zip(&unseen);
+        for (taken, ((contradicted, pays), unseen)) in taken_over.iter_mut().zip(due) {
+            *taken |= *contradicted || pays || (distrusts && *unseen);
         }
         let either = |(a, b): (&bool, &bool)| *a || *b;
-        relief.begin(&watched.taken_over.iter().zip(&unseen).map(either).collect::<Vec<bool>>());
+        relief.begin(&taken_over.iter().zip(&unseen).map(either).collect::<Vec<bool>>());
         // Where the relief only looks, what was selected may be known well enough.
         let resolved = selected.sensors.iter().flat_map(|sensor| &sensor.resolved);
         let known = unseen.iter().zip(resolved).zip(&standing.narrow);
         let is_enough = known.map(|((unseen, resolved), narrow)| *unseen && *resolved && *narrow);
-        let over: Vec<bool> =
-            watched.taken_over.iter().zip(is_enough).map(|(a, b)| *a || b).collect();
+        let over: Vec<bool> = taken_over.iter().zip(is_enough).map(|(a, b)| *a || b).collect();
         self.selected.freeze_converged(&over);
-        watched.taken_over != before && self.selected.are_over().into_iter().all(|over| over)
+        *taken_over != before && self.selected.are_over().into_iter().all(|over| over)
     }
 
     fn first_checkpoint(&self) -> u64 {
