@@ -50,6 +50,7 @@ struct Effort {
     seeds: u32,
     seed: u64,
     limit: Duration,
+    max_samples: Option<u64>,
 }
 
 /// The room of this number.
@@ -74,6 +75,7 @@ pub(super) fn run(arguments: &Options) -> Outcome {
         seeds: arguments.seeds.unwrap_or(SEEDS),
         seed: arguments.seed,
         limit: arguments.seconds_per_point.unwrap_or(SECONDS),
+        max_samples: None,
     };
     outcome(&effort, references())
 }
@@ -96,7 +98,8 @@ fn trials(effort: &Effort, known: &[RoomReferences]) -> Vec<Trial> {
         for estimator in ESTIMATORS {
             for seed in 0..u64::from(effort.seeds) {
                 let seed = effort.seed + seed;
-                let ask = trial::Ask { estimator, seed, limit: effort.limit };
+                let &Effort { limit, max_samples, .. } = effort;
+                let ask = trial::Ask { estimator, seed, limit, max_samples };
                 trials.push(Trial::run(&room, &scene, references, &ask));
             }
         }

@@ -17,6 +17,8 @@ pub(super) struct Ask {
     pub(super) estimator: EstimatorKind,
     pub(super) seed: u64,
     pub(super) limit: Duration,
+    /// Of each replicate at most.
+    pub(super) max_samples: Option<u64>,
 }
 
 /// A run.
@@ -95,6 +97,7 @@ impl Trial {
             estimator: ask.estimator,
             seed: ask.seed,
             rel_tol: TOLERANCE,
+            max_samples: ask.max_samples,
             ..Settings::default()
         };
         let result = match check(scene, &settings) {
