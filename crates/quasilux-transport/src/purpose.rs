@@ -22,6 +22,12 @@ pub enum Purpose {
         /// The surface.
         surface: u32,
     },
+    /// The image of an area light that is asked, and the place on it, from a surface or the sensor
+    /// (0).
+    AreaLightImage {
+        /// The surface.
+        surface: u32,
+    },
     /// The luminaire with an area that is asked, and the place on it, from a surface or the sensor
     /// (0).
     AreaLuminaire {
@@ -136,6 +142,7 @@ impl fmt::Display for Purpose {
             }
             Self::FirstDirection => return f.write_str("direction from the sensor"),
             Self::AreaLight { surface } => ("place on an area light", surface),
+            Self::AreaLightImage { surface } => ("image of an area light and place on it", surface),
             Self::AreaLuminaire { surface } => ("luminaire and place on it", surface),
             Self::PointLike { surface } => ("choice of a light", surface),
             Self::Image { surface } => ("choice of images in mirrors", surface),

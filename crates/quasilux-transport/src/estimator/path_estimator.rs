@@ -152,6 +152,11 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let Plan { light_vertices, prepared, rays, is_bidirectional } = plan(&request);
         work.rays += rays;
         let Prepared { end, counts: photons } = prepared;
+        // Light on maps is not asked for.
+        let most_unasked = match end {
+            PathEnd::Nothing => context.images.most_left_out(&context.world),
+            PathEnd::Frozen(_) | PathEnd::Own { .. } => 1.0,
+        };
         Self {
             context,
             scene,
@@ -177,7 +182,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             contribution: Costs::default(),
             invalid_points,
             samples_direct,
-            specular_hits: SpecularHits::new(scene, &context.world),
+            specular_hits: SpecularHits::new(scene, &context.world, most_unasked),
         }
     }
 

@@ -7,9 +7,9 @@
 //! section 9.2.2). Densities are compared in solid angle, sr^-1.
 
 use crate::spectrum::Spectrum;
+use crate::world::World;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::LightSample;
-use crate::world::{Interaction, World};
 use glam::DVec3;
 use quasilux_sampling::Discrete;
 use quasilux_sampling::warp::sample_triangle;
@@ -101,19 +101,6 @@ impl Emitters {
         let facet = place.facet;
         let light_sample = LightSample { direction, distance_m, facet, light, illuminance_lx };
         (light.luminance() != 0.0).then_some(light_sample)
-    }
-
-    /// The weight of light found by a direction of this density in sr^-1.
-    pub(crate) fn weight_of_direction<S: Spectrum>(
-        &self,
-        world: &World<S>,
-        at: &Interaction,
-        direction: DVec3,
-        pdf_sr: f64,
-    ) -> f64 {
-        let cos_light = -at.n.dot(direction);
-        let pdf_light = self.pdf_sr(world.emitted_cd_m2(at), at.distance_m, cos_light);
-        pdf_sr / (pdf_sr + pdf_light)
     }
 
     /// Density in sr^-1 with which [`Self::light_sample`] finds a point on a facet of this

@@ -42,8 +42,21 @@ struct LightSubpath<'p, S> {
     light: usize,
     /// [`LightPathClass::Found`] after the first surface, and from emitting facets.
     path_class: LightPathClass,
+    /// The image of its emitting facet that mirrors show, as long as nothing else scattered it.
+    image: Option<EmitterImage>,
     weights: SubpathWeights,
     gain: Gain,
+}
+
+/// An image of an emitting facet, seen from where light of it goes.
+#[derive(Clone, Copy)]
+struct EmitterImage {
+    number: u32,
+    /// Flights so far, in m.
+    distance_m: f64,
+    emitted_cd_m2: f64,
+    /// Density in m^-2 sr^-1 of photons that leave the facet as this one did.
+    emission: f64,
 }
 
 /// Working space of light subpaths that are traced together.
@@ -100,19 +113,24 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let Emitted { light, emission, path_class } =
             lights.emit(world, *purposes, &mut sampler)?;
         let emitters = lights.emitters.as_ref();
-        let weights = match emission.from.facet().zip(emitters) {
-            Some((facet, emitters)) => {
-                let facet = &world.facets[facet as usize];
-                let cos = facet.front_normal.dot(emission.direction);
-                let per_m2_sr = facet.emitted_cd_m2 * cos / lights.flux_lm;
-                SubpathWeights::of_emission(per_m2_sr, emitters.pdf_m2(facet.emitted_cd_m2), cos)
-            }
-            // Known where it lands.
-            None => SubpathWeights::SENSOR,
-        };
+        // Of light without a facet known where it lands.
+        let (mut weights, mut image) = (SubpathWeights::SENSOR, None);
+        if let Some((facet, emitters)) = emission.from.facet().zip(emitters) {
+            let facet = &world.facets[facet as usize];
+            let cos = facet.front_normal.dot(emission.direction);
+            let emitted_cd_m2 = facet.emitted_cd_m2;
+            let per_m2_sr = emitted_cd_m2 * cos / lights.flux_lm;
+            weights = SubpathWeights::of_emission(per_m2_sr, emitters.pdf_m2(emitted_cd_m2), cos);
+            image = context.images.emitter(facet.material).map(|number| EmitterImage {
+                number,
+                distance_m: 0.0,
+                emitted_cd_m2,
+                emission: per_m2_sr,
+            });
+        }
         let flux_lm = S::white() * lights.flux_lm;
         let gain = Gain::NONE;
-        Some(Self { sampler, start: emission, flux_lm, light, path_class, weights, gain })
+        Some(Self { sampler, start: emission, flux_lm, light, path_class, image, weights, gain })
     }
 
     /// What happens where its flight after `bounces` surfaces ends; whether it goes on.
@@ -131,6 +149,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             _ if bsdf.is_specular() => self.weights,
             _ => SubpathWeights::of_landing(self.landings_m2(context, at)),
         };
+        self.land(context, at, wo.z);
         let albedo = bsdf.albedo(wo, at.front, TransportMode::Importance);
         let left = (self.flux_lm * albedo).max_channel();
         // What is not a number is left to the eye subpaths, which show it.
@@ -153,6 +172,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let next = bsdf.sample(wo, at.front, TransportMode::Importance, &mut self.sampler);
         let Some(next) = next else { return false };
         self.weights = scattered(self.weights, bsdf, wo, next.wi);
+        self.image = self.image.filter(|_| next.wi.z > 0.0);
         self.path_class = self.path_class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
         self.flux_lm = self.flux_lm * next.weight * factor;
         let from: RayOrigin =
@@ -163,6 +183,23 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
 }
 
 impl<S: Spectrum> LightSubpath<'_, S> {
+    /// Follows the image of its emitting facet over a mirror, or weighs that an eye subpath asks for
+    /// it where a surface of another kind is met, at this cosine.
+    fn land(&mut self, context: &Context<'_, S>, at: &Interaction, cos: f64) {
+        let images = &context.images;
+        let Some(mut image) = self.image.take() else { return };
+        image.distance_m += at.distance_m;
+        if context.world.bsdf(at).is_specular() {
+            let plane = images.plane_of(at.facet);
+            let next = plane.and_then(|plane| images.emitter_in(image.number, plane));
+            self.image = next.map(|number| EmitterImage { number, ..image });
+        } else if images.is_mirrored_emitter(image.number) {
+            let pdf_m2 = images.asked_m2(image.number, image.emitted_cd_m2);
+            let vcm = pdf_m2 / image.emission * image.distance_m * image.distance_m / cos;
+            self.weights = self.weights.unfolded(vcm);
+        }
+    }
+
     /// The density in m^-2 with which light of a point or luminaire lands here over the specular
     /// surfaces that it came by; `None` where no eye subpath asks for that light.
     fn landings_m2(&self, context: &Context<'_, S>, at: &Interaction) -> Option<f64> {

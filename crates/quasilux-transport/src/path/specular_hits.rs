@@ -1,14 +1,15 @@
 //! Test for missed specular hits: whether one more hit of an emitting facet, over mirrors or
 //! through glass, would move a value by more than its half-width.
 //!
-//! Next-event estimation does not see past a specular surface. A path that comes from one finds an
-//! emitting facet by chance, and then all of its luminance at once: `pi L` lux where it started
-//! with the cosine distribution. Of a small bright facet a run may see no hit, or one of three, and
+//! Next-event estimation sees past specular surfaces where plane mirrors show images. Past others a
+//! path finds an emitting facet by chance, and then all of its luminance at once: `pi L` lux where
+//! it started with the cosine distribution. Of a small bright facet a run may see no hit, or one of three, and
 //! its spread does not tell. With n paths one hit more or less is `pi L / n`; where that is more
 //! than the half-width and hits of this light are few, the value has no interval yet. Hits of
 //! another light, however many, say nothing of it.
 
 use crate::codec::{Sums, add_count};
+use crate::spectrum::Spectrum;
 use crate::world::World;
 use quasilux_scene::{Light, Scene};
 use serde::{Deserialize, Serialize};
@@ -57,10 +58,11 @@ struct Glint {
 }
 
 impl SpecularHits {
-    pub(crate) fn new<S: crate::spectrum::Spectrum>(scene: &Scene, world: &World<S>) -> Self {
+    /// Of paths that are reflected `most` at surfaces past which they do not ask for lights.
+    pub(crate) fn new<S: Spectrum>(scene: &Scene, world: &World<S>, most: f64) -> Self {
         let glint = |light: &Light| match light {
             Light::Area(area) => {
-                Some(Glint { material: area.material, hit_lx: PI * area.luminance_cd_m2 })
+                Some(Glint { material: area.material, hit_lx: PI * area.luminance_cd_m2 * most })
             }
             _ => None,
         };

@@ -63,6 +63,12 @@ impl SubpathWeights {
         Self { vcm: 0.0, vc: self.vc * cos }
     }
 
+    /// After a way over plane mirrors between two vertices of which each asks for what the mirrors
+    /// show of the other: `vcm` as it is where no mirror is between, with the way unfolded.
+    pub(crate) fn unfolded(self, vcm: f64) -> Self {
+        Self { vcm, ..self }
+    }
+
     /// Sum over the techniques that leave this vertex and perhaps more to the other subpath, over
     /// the density in m^-2 with which that makes this vertex; `reverse_pdf_sr` is its density of
     /// the direction to the vertex before.

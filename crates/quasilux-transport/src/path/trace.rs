@@ -15,6 +15,7 @@
 mod connect;
 mod direct_light;
 mod map_end;
+mod mirror_way;
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
@@ -38,6 +39,7 @@ use crate::world::visibility::{Answer, LightSample, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
+use mirror_way::{Asked, MirrorWay};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
@@ -71,6 +73,8 @@ pub(crate) struct Path<'p, S> {
     direction: DVec3,
     /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
     pdf_sr: Option<f64>,
+    /// The mirrors since then, where its last vertex asked for what they show of area lights.
+    mirror_way: Option<MirrorWay>,
     /// Factors from radiance along the path to what its start seeks.
     beta: S,
     /// The same for what the next surface emits itself.
@@ -148,6 +152,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             from,
             direction,
             pdf_sr,
+            mirror_way: None,
             beta,
             beta_emitted: beta,
             bounces_asked: 0,
@@ -166,8 +171,12 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 path.sample_direct_images(context, &vertex, work);
             }
             path.sample_direct_emitters(context, &vertex, work);
+            path.sample_direct_emitter_images(context, &vertex, work);
             path.sample_direct_area_luminaires(context, &vertex, work);
             path.connect(context, &vertex, work);
+            if path.asks_for_emitter_images(context) {
+                path.mirror_way = pdf_sr.map(MirrorWay::new);
+            }
             let cos = n.dot(direction);
             path.subpath = path.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
         }
@@ -306,6 +315,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 },
             );
         }
+        self.note_mirrors(context, at, wo, &next);
         self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;
         self.from =
@@ -390,21 +400,32 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// Adds the light that the place where the ray ends emits itself.
     fn add_emitted(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction) {
         let emitted_cd_m2 = context.world.emitted_cd_m2(at);
-        if let (true, Some(emitters)) = (emitted_cd_m2 > 0.0, &context.lights.emitters) {
-            let shared =
-                |pdf| emitters.weight_of_direction(&context.world, at, self.direction, pdf);
-            let weight = match self.subpath {
-                None => self.pdf_sr.map_or(1.0, shared),
-                Some(subpath) => {
-                    let cos = at.n.dot(self.direction).abs();
-                    let emission = emitted_cd_m2 * cos / context.lights.flux_lm;
-                    subpath.of_hit(emitters.pdf_m2(emitted_cd_m2), emission)
-                }
-            };
-            if bounces > 0 && self.pdf_sr.is_none() {
-                self.found.specular_hits.push(context.world.facet(at).material);
-            }
-            self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
+        let Some(emitters) = context.lights.emitters.as_ref().filter(|_| emitted_cd_m2 > 0.0)
+        else {
+            return;
+        };
+        let cos = at.n.dot(self.direction).abs();
+        let asked = match self.pdf_sr {
+            Some(pdf_sr) => Some(Asked {
+                pdf_m2: emitters.pdf_m2(emitted_cd_m2),
+                inverse_of_direction_m2: at.distance_m * at.distance_m / (cos * pdf_sr),
+            }),
+            None => self.asked_image(context, at),
+        };
+        if bounces > 0 && asked.is_none() {
+            self.found.specular_hits.push(context.world.facet(at).material);
         }
+        let Asked { pdf_m2, inverse_of_direction_m2 } = asked.unwrap_or_default();
+        let weight = match self.subpath {
+            None => 1.0 / (1.0 + pdf_m2 * inverse_of_direction_m2),
+            Some(subpath) => {
+                let emission = emitted_cd_m2 * cos / context.lights.flux_lm;
+                let is_mirrored = self.pdf_sr.is_none();
+                let unfolded = subpath.unfolded(inverse_of_direction_m2);
+                let subpath = if is_mirrored { unfolded } else { subpath };
+                subpath.of_hit(pdf_m2, emission)
+            }
+        };
+        self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
     }
 }

@@ -119,28 +119,33 @@ impl<S: Spectrum> ShadowQueue<S> {
             light_sample.distance_m,
             light_sample.facet,
         ));
-        // Paths run into facets that emit, behind panes too: only light of other places is let
-        // through.
-        let max_panes = if light_sample.facet == RayQuery::NONE { self.max_bounces } else { 0 };
+        let max_panes = self.max_panes(light_sample.facet, 0);
         let question =
             Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, max_panes };
         self.questions.push(question);
     }
 
     /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as
-    /// they follow a way over this many mirrors.
+    /// they follow a way over this many mirrors to a light on this facet or on none.
     pub(crate) fn push_polyline(
         &mut self,
         who: u32,
         light: S,
         mirrors: u32,
+        facet: u32,
         look: impl FnOnce(&mut Vec<RayQuery>),
     ) {
         let before = self.shadow_rays.len();
         look(&mut self.shadow_rays);
         let shadow_rays = (self.shadow_rays.len() - before) as u32;
-        let max_panes = self.max_bounces.saturating_sub(mirrors);
+        let max_panes = self.max_panes(facet, mirrors);
         self.questions.push(Question { who, light, shadow_rays, mirrors, max_panes });
+    }
+
+    /// So many panes may stand in the way of light from a facet, or from none. Paths run into
+    /// facets that emit, behind panes too: only light of other places is let through.
+    fn max_panes(&self, facet: u32, mirrors: u32) -> u32 {
+        if facet == RayQuery::NONE { self.max_bounces.saturating_sub(mirrors) } else { 0 }
     }
 
     /// Notes that `who` gets this light, which was reflected `bounces` times, if nothing at all

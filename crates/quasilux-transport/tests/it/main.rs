@@ -27,6 +27,7 @@ mod materials;
 mod measured;
 mod measured_known;
 mod measured_odd;
+mod mirrored_area_lights;
 mod mirrored_light;
 mod narrow_lobes;
 mod openings;

@@ -10,7 +10,7 @@
 //! counts.
 
 use super::planes::MirrorPlanes;
-use super::tree::Images;
+use super::tree::Shown;
 use crate::spectrum::Spectrum;
 use crate::world::{RayOrigin, World};
 use glam::DVec3;
@@ -55,17 +55,18 @@ impl Links {
         self.0.clear();
     }
 
-    /// Follows the way from `place` to an image; `None` where it leads past a mirror.
+    /// Follows the way from `place` to an image of `light`, by what the mirrors show, the last one
+    /// first; `None` where it leads past a mirror.
     pub(crate) fn unfold<S: Spectrum>(
         &mut self,
         world: &World<S>,
         mirrors: &MirrorPlanes,
-        images: &Images,
-        image: u32,
+        shown: impl Iterator<Item = Shown>,
+        light: DVec3,
         place: DVec3,
     ) -> Option<UnfoldedPath<S>> {
         let first = self.0.len();
-        let path = self.push_links(world, mirrors, images, image, place);
+        let path = self.push_links(world, mirrors, shown, light, place);
         if path.is_none() {
             self.0.truncate(first);
         }
@@ -76,17 +77,16 @@ impl Links {
         &mut self,
         world: &World<S>,
         mirrors: &MirrorPlanes,
-        images: &Images,
-        image: u32,
+        shown: impl Iterator<Item = Shown>,
+        light: DVec3,
         place: DVec3,
     ) -> Option<UnfoldedPath<S>> {
         let (first, slack_m) = (self.0.len(), world.hair_m());
         let mut reflected = S::white();
         let mut at = place;
-        let mut node = &images.nodes[image as usize];
-        while node.depth > 0 {
-            let mirror = &mirrors.planes[node.plane as usize];
-            let behind_m = mirror.height_m(node.position);
+        for Shown { plane, position } in shown {
+            let mirror = &mirrors.planes[plane as usize];
+            let behind_m = mirror.height_m(position);
             let side = -behind_m.signum();
             let height_m = mirror.height_m(at) * side;
             if height_m < -slack_m {
@@ -94,7 +94,7 @@ impl Links {
             }
             let height_m = height_m.max(0.0);
             let apart_m = height_m + behind_m.abs();
-            let line = node.position - at;
+            let line = position - at;
             let point = at + line * (height_m / apart_m);
             let facet = mirror.facet_at(point, slack_m)?;
             let cos = (apart_m / line.length()).min(1.0);
@@ -104,20 +104,20 @@ impl Links {
             let inner = point + inward * (HAIRS_INWARD * slack_m);
             self.0.push(Link { point, inner, facet: facet.facet, n: mirror.normal * side });
             at = point;
-            node = &images.nodes[node.parent as usize];
         }
-        let leaves = (at - node.position).normalize_or_zero();
+        let leaves = (at - light).normalize_or_zero();
         Some(UnfoldedPath { links: first..self.0.len(), leaves, reflected })
     }
 
     /// The rays that see whether anything stands in a way from `from` over its mirrors to the light
-    /// at `light`.
+    /// at `light`, which lies on `facet` or on none.
     pub(crate) fn shadow_rays<S: Spectrum>(
         &self,
         world: &World<S>,
         path: &UnfoldedPath<S>,
         from: RayOrigin,
         light: DVec3,
+        facet: u32,
         shadow_rays: &mut Vec<RayQuery>,
     ) {
         let mut from = from;
@@ -125,7 +125,7 @@ impl Links {
             shadow_rays.extend(shadow_ray(from, link.inner, link.facet));
             from = world.ray_origin_on_side(link.facet, link.inner, link.n);
         }
-        shadow_rays.extend(shadow_ray(from, light, RayQuery::NONE));
+        shadow_rays.extend(shadow_ray(from, light, facet));
     }
 
     /// Whether two ways are one, point by point.

@@ -1,6 +1,7 @@
 //! Cones of directions from one point, which bound the part of space that sees a mirror image.
 
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// Half-angles are drawn this much too large, in rad: images are left out only where that is
 /// certain.
@@ -16,8 +17,7 @@ pub(crate) struct Cone {
 }
 
 impl Cone {
-    pub(crate) const EVERYWHERE: Self =
-        Self { axis: DVec3::Z, half_rad: std::f64::consts::PI, cos: -1.0 };
+    pub(crate) const EVERYWHERE: Self = Self { axis: DVec3::Z, half_rad: PI, cos: -1.0 };
 
     /// A cone around convex polygons with these corners, seen from `apex`.
     pub(crate) fn around(apex: DVec3, corners: &[DVec3]) -> Self {
@@ -28,8 +28,24 @@ impl Cone {
         if least > 0.0 { Self::new(axis, libm::acos(least)) } else { Self::EVERYWHERE }
     }
 
+    /// The same for light that starts no farther than `radius_m` from the apex: holds the
+    /// directions in which it leaves, and those from the apex to all that it reaches through the
+    /// polygons.
+    pub(crate) fn around_ball(apex: DVec3, radius_m: f64, corners: &[DVec3]) -> Self {
+        let cone = Self::around(apex, corners);
+        let along = corners.iter().map(|&corner| (corner - apex).dot(cone.axis));
+        let near_m = along.fold(f64::INFINITY, f64::min);
+        match radius_m {
+            0.0 => cone,
+            _ if cone.cos > 0.0 && near_m > radius_m => {
+                Self::new(cone.axis, cone.half_rad + libm::asin(radius_m / near_m))
+            }
+            _ => Self::EVERYWHERE,
+        }
+    }
+
     fn new(axis: DVec3, half_rad: f64) -> Self {
-        let half_rad = half_rad + MARGIN_RAD;
+        let half_rad = (half_rad + MARGIN_RAD).min(PI);
         Self { axis, half_rad, cos: libm::cos(half_rad) }
     }
 
@@ -88,5 +104,24 @@ mod tests {
         let other = |z: f64| Cone::around(apex, &corners.map(|corner| corner - DVec3::Z * z));
         assert!(cone.meets(&other(0.1)) && !cone.meets(&other(5.0)));
         assert!(Cone::around(apex, &[apex, DVec3::X]).holds(DVec3::NEG_Y));
+    }
+
+    /// What light of a ball reaches through a window, at any distance, is in its cone.
+    #[test]
+    fn a_cone_holds_what_a_ball_lights_through_a_window() {
+        let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 1.0));
+        let (apex, radius_m) = (DVec3::new(0.9, 0.3, -0.2), 0.6);
+        let cone = Cone::around_ball(apex, radius_m, &corners);
+        assert!(!cone.holds(DVec3::NEG_Z));
+        for (axis, sign) in DVec3::AXES.into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+            let start = apex + axis * (sign * radius_m);
+            for corner in corners {
+                for distance in [1.0, 3.0, 1e3] {
+                    let place = start + (corner - start) * distance;
+                    assert!(cone.holds(place - apex), "{start} {place}");
+                }
+            }
+        }
+        assert!(Cone::around_ball(apex, 1.3, &corners).holds(DVec3::NEG_Z));
     }
 }

@@ -10,6 +10,7 @@
 
 mod chain;
 mod cone;
+mod emitters;
 #[cfg(test)]
 mod fixtures;
 mod light_path_class;
@@ -22,12 +23,15 @@ use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
 use crate::world::{Facet, World};
 use chain::UnfoldedPath;
+use emitters::EmitterImages;
 use glam::DVec3;
 use planes::MirrorPlanes;
+use quasilux_bvh::RayQuery;
 use quasilux_sampling::choose_weights;
-use tree::Images;
+use tree::{Imaged, Images};
 
 pub(crate) use chain::Links;
+pub(crate) use emitters::EmitterQuery;
 pub(crate) use light_path_class::LightPathClass;
 
 /// Up to this number of images at a vertex are all tested; of more one is chosen.
@@ -37,10 +41,11 @@ const ALL_TESTED: usize = 8;
 const SURE: usize = 64;
 const THINNED: usize = 64;
 
-/// All that mirrors show of point-like lights.
+/// All that mirrors show of point-like lights, and of area lights.
 pub(crate) struct SpecularImages {
     mirrors: MirrorPlanes,
     images: Images,
+    emitters: EmitterImages,
 }
 
 /// What images offer to one place, and working space.
@@ -101,9 +106,10 @@ impl SpecularImages {
         depth: Option<u32>,
     ) -> Self {
         let mirrors = MirrorPlanes::new(world);
-        let positions = lights.iter().map(|light| light.position);
-        let images = Images::new(&mirrors, positions, depth, world.hair_m());
-        Self { mirrors, images }
+        let points = lights.iter().map(|light| Imaged { position: light.position, radius_m: 0.0 });
+        let images = Images::new(&mirrors, points, depth, world.hair_m());
+        let emitters = EmitterImages::new(world, &mirrors, depth);
+        Self { mirrors, images, emitters }
     }
 
     /// What a mirror facet shows of an image.
@@ -146,6 +152,58 @@ impl SpecularImages {
     /// Whether there are none.
     pub(crate) fn is_empty(&self) -> bool {
         self.images.nodes.len() == self.images.lights
+    }
+
+    /// Whether mirrors show area lights.
+    pub(crate) fn show_emitters(&self) -> bool {
+        !self.emitters.is_empty()
+    }
+
+    /// Asks for the light of one point on one image of an area light, see
+    /// [`EmitterImages::sample`].
+    pub(crate) fn sample_emitters<S: Spectrum>(
+        &self,
+        query: &EmitterQuery<'_, S>,
+        u: [f64; 2],
+        beside_sr: impl FnOnce(DVec3, f64) -> f64,
+        found: &mut ImageSamples<S>,
+        shadows: &mut ShadowQueue<S>,
+    ) {
+        let _ = self.emitters.sample(&self.mirrors, query, u, beside_sr, &mut found.links, shadows);
+    }
+
+    /// The plane that a facet mirrors in, if it is one of the mirrors.
+    pub(crate) fn plane_of(&self, facet: u32) -> Option<u32> {
+        self.mirrors.of_facet(facet)
+    }
+
+    /// The area light of this material, as an image over no mirror.
+    pub(crate) fn emitter(&self, material: u32) -> Option<u32> {
+        self.emitters.light(material)
+    }
+
+    /// What the mirror in a plane shows of an image of an area light.
+    pub(crate) fn emitter_in(&self, image: u32, plane: u32) -> Option<u32> {
+        self.emitters.child(image, plane)
+    }
+
+    /// Whether there are mirrors between an area light and this image of it.
+    pub(crate) fn is_mirrored_emitter(&self, image: u32) -> bool {
+        self.emitters.is_mirrored(image)
+    }
+
+    /// Density in m^-2 with which a vertex asks for a point of this luminance on an image.
+    pub(crate) fn asked_m2(&self, image: u32, emitted_cd_m2: f64) -> f64 {
+        self.emitters.pdf_m2(image, emitted_cd_m2)
+    }
+
+    /// The most that is left of light of an area light that comes over specular surfaces and that
+    /// no image shows.
+    pub(crate) fn most_left_out<S: Spectrum>(&self, world: &World<S>) -> f64 {
+        let is_shown = |facet: &Facet| world.bsdf_of(facet).shows_images_alone();
+        let mut specular = world.facets.iter().filter(|facet| world.bsdf_of(facet).is_specular());
+        let is_complete = self.mirrors.curved_facets == 0 && specular.all(is_shown);
+        if is_complete { self.emitters.left_out() } else { 1.0 }
     }
 
     /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.
@@ -231,7 +289,9 @@ impl SpecularImages {
         if vertex.cos(toward_m) <= 0.0 || !node.beam.holds(-toward_m) {
             return None;
         }
-        let path = links.unfold(world, &self.mirrors, &self.images, image, place)?;
+        let (shown, light) =
+            (self.images.shown(image), self.images.nodes[node.light as usize].position);
+        let path = links.unfold(world, &self.mirrors, shown, light, place)?;
         let distance_m = toward_m.length();
         let direction = toward_m / distance_m;
         let intensity_cd = pointlikes.intensity_cd(node.light, path.leaves);
@@ -284,8 +344,10 @@ impl SpecularImages {
         let image = &self.images.nodes[light_sample.image as usize];
         let from = vertex.ray_origin(image.position - vertex.position());
         let light_m = self.images.nodes[image.light as usize].position;
-        shadows.push_polyline(who, light_sample.light, image.depth, |shadow_rays| {
-            links.shadow_rays(world, &light_sample.path, from, light_m, shadow_rays);
+        let nothing = RayQuery::NONE;
+        shadows.push_polyline(who, light_sample.light, image.depth, nothing, |shadow_rays| {
+            let path = &light_sample.path;
+            links.shadow_rays(world, path, from, light_m, RayQuery::NONE, shadow_rays);
         });
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct Images {
     pub(crate) lights: usize,
     /// Whether mirrors show more that would count.
     pub(crate) goes_on: bool,
+    /// The most that chains reflect which are not among these, but may be seen.
+    pub(crate) left_out: f64,
 }
 
 /// A light, or what a chain of mirrors shows of it.
@@ -43,34 +45,51 @@ pub(crate) struct Image {
     /// How many mirrors.
     pub(crate) depth: u32,
     pub(crate) position: DVec3,
+    /// All of it is this near.
+    radius_m: f64,
     /// Holds all places from which it can be seen.
     pub(crate) beam: Cone,
     /// The most that the chain reflects of any of its light.
-    reflected: f64,
+    pub(crate) reflected: f64,
     children: Range<u32>,
 }
 
+/// A light that mirrors show: a ball around it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Imaged {
+    pub(crate) position: DVec3,
+    pub(crate) radius_m: f64,
+}
+
+/// What one mirror of a chain shows of a point on the light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown {
+    pub(crate) plane: u32,
+    pub(crate) position: DVec3,
+}
+
 impl Images {
-    /// The images of lights at `positions` in m, through up to `depth` mirrors; `slack_m` is a
-    /// length that counts as nothing.
+    /// The images of lights, through up to `depth` mirrors; `slack_m` is a length that counts as
+    /// nothing.
     pub(crate) fn new(
         mirrors: &MirrorPlanes,
-        positions: impl Iterator<Item = DVec3>,
+        lights: impl Iterator<Item = Imaged>,
         depth: Option<u32>,
         slack_m: f64,
     ) -> Self {
-        let light = |(light, position): (u32, DVec3)| Image {
+        let light = |(light, Imaged { position, radius_m }): (u32, Imaged)| Image {
             light,
             parent: light,
             plane: 0,
             depth: 0,
             position,
+            radius_m,
             beam: Cone::EVERYWHERE,
             reflected: 1.0,
             children: 0..0,
         };
-        let nodes: Vec<Image> = (0..).zip(positions).map(light).collect();
-        let mut images = Self { lights: nodes.len(), nodes, goes_on: false };
+        let nodes: Vec<Image> = (0..).zip(lights).map(light).collect();
+        let mut images = Self { lights: nodes.len(), nodes, goes_on: false, left_out: 0.0 };
         let mut level = 0..images.lights;
         while !level.is_empty() {
             let next = images.nodes.len();
@@ -84,8 +103,10 @@ impl Images {
             let most = images.lights + if fits { most } else { next - images.lights };
             if !images.add_level(mirrors, level.clone(), most, slack_m) {
                 images.nodes.truncate(next);
-                images.nodes[level].iter_mut().for_each(|image| image.children = 0..0);
+                images.nodes[level.clone()].iter_mut().for_each(|image| image.children = 0..0);
                 images.goes_on = true;
+                let reflected = images.nodes[level].iter().map(|image| image.reflected);
+                images.left_out = reflected.fold(images.left_out, f64::max);
                 break;
             }
             level = next..images.nodes.len();
@@ -105,6 +126,10 @@ impl Images {
             let first = self.nodes.len() as u32;
             for plane in 0..mirrors.planes.len() as u32 {
                 let Some(image) = self.image_in(mirrors, parent, plane, slack_m) else { continue };
+                if image.reflected < MIN_REFLECTED {
+                    self.left_out = self.left_out.max(image.reflected);
+                    continue;
+                }
                 if self.nodes.len() >= most {
                     return false;
                 }
@@ -127,21 +152,22 @@ impl Images {
         let mirror = &mirrors.planes[plane as usize];
         let window = (before.depth > 0).then(|| &mirrors.planes[before.plane as usize]);
         let is_same = before.depth > 0 && before.plane == plane;
-        if is_same || mirror.height_m(before.position).abs() <= slack_m {
+        if is_same || mirror.height_m(before.position).abs() + before.radius_m <= slack_m {
             return None;
         }
-        if window.is_some_and(|window| !is_before(window, mirror, before.position, slack_m)) {
+        if window.is_some_and(|window| !is_before(window, mirror, before, slack_m)) {
             return None;
         }
         let seen = beam_on(before, window, mirror, slack_m)?;
         let beam = before.beam.narrower(seen);
         let reflected = before.reflected * mirror.max_reflected(beam.min_cos_with(mirror.normal));
-        (reflected >= MIN_REFLECTED).then(|| Image {
+        Some(Image {
             light: before.light,
             parent: parent as u32,
             plane,
             depth: before.depth + 1,
             position: mirror.mirrored(before.position),
+            radius_m: before.radius_m,
             beam: beam.mirrored(mirror.normal),
             reflected,
             children: 0..0,
@@ -154,6 +180,32 @@ impl Images {
         let own = &self.nodes[children.start as usize..children.end as usize];
         let place = own.binary_search_by_key(&plane, |child| child.plane).ok()?;
         Some(children.start + place as u32)
+    }
+
+    /// What the mirrors of an image show of its light, the last one first.
+    pub(crate) fn shown(&self, image: u32) -> impl Iterator<Item = Shown> {
+        self.chain(image).map(|node| Shown { plane: node.plane, position: node.position })
+    }
+
+    /// The same of a point on the light.
+    pub(crate) fn shown_of(&self, mirrors: &MirrorPlanes, image: u32, point: DVec3) -> Vec<Shown> {
+        let mut shown: Vec<Shown> = self
+            .chain(image)
+            .map(|&Image { plane, .. }| Shown { plane, position: point })
+            .collect();
+        let mut at = point;
+        for Shown { plane, position } in shown.iter_mut().rev() {
+            at = mirrors.planes[*plane as usize].mirrored(at);
+            *position = at;
+        }
+        shown
+    }
+
+    /// An image in a mirror, and those that led to it, but for the light itself.
+    fn chain(&self, image: u32) -> impl Iterator<Item = &Image> {
+        let parent = |node: &&Image| Some(&self.nodes[node.parent as usize]);
+        let first = &self.nodes[image as usize];
+        std::iter::successors(Some(first), parent).take(first.depth as usize)
     }
 
     /// Numbers of the images in mirrors, without the lights themselves, by depth: the first `sure`
@@ -171,10 +223,11 @@ impl Images {
 }
 
 /// Whether light of an image leaves any of `window` on the side of `mirror` that it comes from.
-fn is_before(window: &MirrorPlane, mirror: &MirrorPlane, image: DVec3, slack_m: f64) -> bool {
-    let side = mirror.height_m(image).signum();
-    let corners = window.facets.iter().flat_map(|facet| facet.corners);
-    corners.into_iter().any(|corner| mirror.height_m(corner) * side > slack_m)
+fn is_before(window: &MirrorPlane, mirror: &MirrorPlane, image: &Image, slack_m: f64) -> bool {
+    let height_m = mirror.height_m(image.position);
+    let is_on_both_sides = height_m.abs() < image.radius_m;
+    let mut corners = window.facets.iter().flat_map(|facet| facet.corners);
+    is_on_both_sides || corners.any(|corner| mirror.height_m(corner) * height_m.signum() > slack_m)
 }
 
 /// A cone around all of a mirror that the light of an image may reach, which comes through
@@ -186,6 +239,8 @@ fn beam_on(
     slack_m: f64,
 ) -> Option<Cone> {
     let mut corners = Vec::new();
+    let window = window.filter(|window| window.height_m(image.position).abs() >= image.radius_m);
+    let cone = |corners: &[DVec3]| Cone::around_ball(image.position, image.radius_m, corners);
     for facet in &mirror.facets {
         let first = corners.len();
         match window {
@@ -197,12 +252,12 @@ fn beam_on(
             }
         }
         let part = &corners[first..];
-        let is_seen = !part.is_empty() && image.beam.meets(&Cone::around(image.position, part));
+        let is_seen = !part.is_empty() && image.beam.meets(&cone(part));
         if !is_seen {
             corners.truncate(first);
         }
     }
-    (!corners.is_empty()).then(|| Cone::around(image.position, &corners))
+    (!corners.is_empty()).then(|| cone(&corners))
 }
 
 /// Adds the corners of the part of a polygon where `height` is positive.
@@ -228,7 +283,8 @@ mod tests {
 
     fn images(mirrors: &Mirrors, at: DVec3, depth: Option<u32>) -> Images {
         let planes = MirrorPlanes::new(&mirrors.world());
-        Images::new(&planes, [at].into_iter(), depth, SLACK_M)
+        let light = Imaged { position: at, radius_m: 0.0 };
+        Images::new(&planes, [light].into_iter(), depth, SLACK_M)
     }
 
     /// Two facing mirrors at x = 0 and x = 1 show a light at x = 0.3 at -x + 2 m and x + 2 m.

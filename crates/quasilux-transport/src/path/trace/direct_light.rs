@@ -3,7 +3,7 @@
 
 use super::{Path, PathWork};
 use crate::context::Context;
-use crate::lights::images::ImageQuery;
+use crate::lights::images::{EmitterQuery, ImageQuery};
 use crate::path::subpath_weights::product;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -28,6 +28,7 @@ impl<S: Spectrum> Path<'_, S> {
         self.sample_direct_pointlikes(context, &vertex, work);
         self.sample_direct_images(context, &vertex, work);
         self.sample_direct_emitters(context, &vertex, work);
+        self.sample_direct_emitter_images(context, &vertex, work);
         self.connect(context, &vertex, work);
     }
 
@@ -65,16 +66,44 @@ impl<S: Spectrum> Path<'_, S> {
         if let Some(emitters) = &context.lights.emitters {
             let place = Purpose::AreaLight { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            let (subpath, flux_lm) = (self.subpath, context.lights.flux_lm);
-            let beside_sr = |direction: DVec3, lx_sr: f64| match subpath {
-                None => vertex.pdf_sr(direction),
-                Some(weights) => {
-                    let to_eye = weights.towards(vertex.reverse_pdf_sr(direction));
-                    vertex.partition_pdf_sr(direction) + product(lx_sr / flux_lm, to_eye)
-                }
-            };
+            let beside_sr = self.beside_emitter_samples(context, vertex);
             let light_sample = emitters.light_sample(&context.world, vertex, u, beside_sr);
             self.ask(light_sample, vertex, work);
+        }
+    }
+
+    /// The same of the area lights as mirrors show them.
+    pub(super) fn sample_direct_emitter_images(
+        &mut self,
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
+        if self.asks_for_emitter_images(context) {
+            let place = Purpose::AreaLightImage { surface: self.bounces_asked };
+            let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
+            let beside_sr = self.beside_emitter_samples(context, vertex);
+            let PathWork { shadows, images, .. } = work;
+            let query = EmitterQuery { world: &context.world, who: self.number, vertex };
+            context.images.sample_emitters(&query, u, beside_sr, images, shadows);
+        }
+    }
+
+    /// Of a direction and of what a steradian of a light gives along it in lx, the density in sr^-1
+    /// of what finds it beside a question for the light: the direction in which the path goes on,
+    /// and light subpaths.
+    fn beside_emitter_samples(
+        &self,
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+    ) -> impl Fn(DVec3, f64) -> f64 {
+        let (subpath, flux_lm) = (self.subpath, context.lights.flux_lm);
+        move |direction, lx_sr| match subpath {
+            None => vertex.pdf_sr(direction),
+            Some(weights) => {
+                let to_eye = weights.towards(vertex.reverse_pdf_sr(direction));
+                vertex.partition_pdf_sr(direction) + product(lx_sr / flux_lm, to_eye)
+            }
         }
     }
 

@@ -1,0 +1,179 @@
+//! Mirror images of area lights (emitting facets): next-event estimation over plane mirrors.
+//!
+//! Seen in a chain of plane mirrors, a point of a facet stands at its image, D away with the way
+//! unfolded. A vertex that chooses this chain and the point with the density p in m^-2 finds it
+//! with `p D^2 / cos` in sr^-1, cos at the facet. A direction from the vertex that is mirrored into
+//! the same facet is weighted against that by the balance heuristic (Veach 1997, section 9.2.2), as
+//! it is where no mirror is between. What no image shows, chains past the last level and light
+//! through glass, is left to directions alone.
+
+use super::chain::Links;
+use super::planes::MirrorPlanes;
+use super::tree::{Imaged, Images};
+use crate::spectrum::Spectrum;
+use crate::world::World;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::ShadowQueue;
+use glam::DVec3;
+use quasilux_sampling::Discrete;
+use quasilux_sampling::warp::sample_triangle;
+use std::collections::BTreeMap;
+
+/// What mirrors show of all area lights.
+pub(super) struct EmitterImages {
+    /// The emitting facets of one material are one light.
+    images: Images,
+    lights: Vec<AreaLight>,
+    /// Over the images, by the flux of their light and what their mirrors reflect at most; 0 for
+    /// the lights themselves. `None` where there are no images.
+    by_flux: Option<Discrete>,
+    light_of_material: BTreeMap<u32, u32>,
+}
+
+struct AreaLight {
+    facets: Vec<u32>,
+    /// Over the facets, by luminance times area.
+    by_flux: Discrete,
+}
+
+/// A vertex that asks for the light of one image.
+pub(crate) struct EmitterQuery<'q, S> {
+    pub(crate) world: &'q World<S>,
+    /// Number of the receiver.
+    pub(crate) who: u32,
+    pub(crate) vertex: &'q Vertex<'q, S>,
+}
+
+impl EmitterImages {
+    pub(super) fn new<S: Spectrum>(
+        world: &World<S>,
+        mirrors: &MirrorPlanes,
+        depth: Option<u32>,
+    ) -> Self {
+        let mut by_material: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for (number, facet) in (0..).zip(&world.facets) {
+            if facet.emitted_cd_m2 * facet.area_m2() > 0.0 {
+                by_material.entry(facet.material).or_default().push(number);
+            }
+        }
+        let mut lights = Vec::new();
+        let mut light_of_material = BTreeMap::new();
+        for (material, facets) in by_material {
+            let weight = |facet: &u32| {
+                let facet = &world.facets[*facet as usize];
+                facet.emitted_cd_m2 * facet.area_m2()
+            };
+            let weights: Vec<f64> = facets.iter().map(weight).collect();
+            if let Some(by_flux) = Discrete::new(&weights) {
+                light_of_material.insert(material, lights.len() as u32);
+                lights.push(AreaLight { facets, by_flux });
+            }
+        }
+        let balls = lights.iter().map(|light| light.ball(world));
+        let images = Images::new(mirrors, balls, depth, world.hair_m());
+        let weights: Vec<f64> = images
+            .nodes
+            .iter()
+            .map(|node| match node.depth {
+                0 => 0.0,
+                _ => lights[node.light as usize].by_flux.total() * node.reflected,
+            })
+            .collect();
+        Self { by_flux: Discrete::new(&weights), images, lights, light_of_material }
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.by_flux.is_none()
+    }
+
+    /// The most that mirrors reflect of the light of any other image.
+    pub(super) fn left_out(&self) -> f64 {
+        self.images.left_out
+    }
+
+    /// Asks for the light of one point of one image, weighted against other techniques: of a
+    /// direction and of what a steradian of the light's luminance gives along it in lx, were all of
+    /// it reflected, `beside_sr` is the density of these in sr^-1.
+    pub(super) fn sample<S: Spectrum>(
+        &self,
+        mirrors: &MirrorPlanes,
+        query: &EmitterQuery<'_, S>,
+        u: [f64; 2],
+        beside_sr: impl FnOnce(DVec3, f64) -> f64,
+        links: &mut Links,
+        shadows: &mut ShadowQueue<S>,
+    ) -> Option<()> {
+        let &EmitterQuery { world, who, vertex } = query;
+        let choice = self.by_flux.as_ref()?.sample(u[0]);
+        let (image, node) = (choice.index as u32, &self.images.nodes[choice.index]);
+        if node.depth > shadows.max_bounces {
+            return None;
+        }
+        let light = &self.lights[node.light as usize];
+        let choice = light.by_flux.sample(choice.u_remapped);
+        let number = light.facets[choice.index];
+        let facet = &world.facets[number as usize];
+        let point = facet.point(sample_triangle([choice.u_remapped, u[1]]));
+        let shown = self.images.shown_of(mirrors, image, point);
+        let toward = shown.first()?.position - vertex.position();
+        let distance_m = toward.length();
+        let direction = toward / distance_m;
+        let cos = vertex.cos(direction);
+        if cos <= 0.0 {
+            return None;
+        }
+        links.clear();
+        let path = links.unfold(world, mirrors, shown.into_iter(), point, vertex.position())?;
+        let cos_light = facet.front_normal.dot(path.leaves);
+        if cos_light <= 0.0 {
+            return None;
+        }
+        let pdf_m2 = self.pdf_m2(image, facet.emitted_cd_m2);
+        let pdf_sr = pdf_m2 * distance_m * distance_m / cos_light;
+        let lx_sr = facet.emitted_cd_m2 * cos;
+        let illuminance_lx = lx_sr / (pdf_sr + beside_sr(direction, lx_sr));
+        let light = vertex.weight(direction) * path.reflected * illuminance_lx;
+        if light.luminance() != 0.0 {
+            let from = vertex.ray_origin(direction);
+            shadows.push_polyline(who, light, node.depth, number, |shadow_rays| {
+                links.shadow_rays(world, &path, from, point, number, shadow_rays);
+            });
+        }
+        Some(())
+    }
+
+    /// The area light of this material, as an image over no mirror.
+    pub(super) fn light(&self, material: u32) -> Option<u32> {
+        self.light_of_material.get(&material).copied()
+    }
+
+    /// What a mirror in this plane shows of an image.
+    pub(super) fn child(&self, image: u32, plane: u32) -> Option<u32> {
+        self.images.child(image, plane)
+    }
+
+    /// Whether there are mirrors between the light and an image.
+    pub(super) fn is_mirrored(&self, image: u32) -> bool {
+        self.images.nodes[image as usize].depth > 0
+    }
+
+    /// Density in m^-2 with which a point of this luminance is chosen, and this image of it.
+    pub(super) fn pdf_m2(&self, image: u32, emitted_cd_m2: f64) -> f64 {
+        let light = &self.lights[self.images.nodes[image as usize].light as usize];
+        let pdf = self.by_flux.as_ref().map_or(0.0, |by_flux| by_flux.pdf(image as usize));
+        pdf * emitted_cd_m2 / light.by_flux.total()
+    }
+}
+
+impl AreaLight {
+    /// A ball around it.
+    fn ball<S: Spectrum>(&self, world: &World<S>) -> Imaged {
+        let corners = || self.facets.iter().flat_map(|&it| world.facets[it as usize].corners());
+        let low = corners().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let position = 0.5 * (low + high);
+        let radius_m = corners().map(|corner| (corner - position).length()).fold(0.0, f64::max);
+        Imaged { position, radius_m }
+    }
+}
