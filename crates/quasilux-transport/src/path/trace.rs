@@ -164,23 +164,34 @@ impl<'p, S: Spectrum> Path<'p, S> {
             flights: 0,
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
-            path.found.list_terms(context.listed_terms);
-            let vertex = Vertex::sensor(from, n);
-            work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
-            if tests_pointlikes {
-                path.sample_direct_images(context, &vertex, work);
-            }
-            path.sample_direct_emitters(context, &vertex, work);
-            path.sample_direct_emitter_images(context, &vertex, work);
-            path.sample_direct_area_luminaires(context, &vertex, work);
-            path.connect(context, &vertex, work);
-            if path.asks_for_emitter_images(context) {
-                path.mirror_way = pdf_sr.map(MirrorWay::new);
-            }
-            let cos = n.dot(direction);
-            path.subpath = path.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
+            path.ask_at_start(context, n, tests_pointlikes, work);
         }
         path
+    }
+
+    /// Asks for the light of the lights at the sensor point that it starts from.
+    fn ask_at_start(
+        &mut self,
+        context: &Context<'_, S>,
+        n: DVec3,
+        tests_pointlikes: bool,
+        work: &mut PathWork<S>,
+    ) {
+        self.found.list_terms(context.listed_terms);
+        let vertex = Vertex::sensor(self.from, n);
+        work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        if tests_pointlikes {
+            self.sample_direct_images(context, &vertex, work);
+        }
+        self.sample_direct_emitters(context, &vertex, work);
+        self.sample_direct_emitter_images(context, &vertex, work);
+        self.sample_direct_area_luminaires(context, &vertex, work);
+        self.connect(context, &vertex, work);
+        if self.asks_for_emitter_images(context) {
+            self.mirror_way = self.pdf_sr.map(MirrorWay::new);
+        }
+        let cos = n.dot(self.direction);
+        self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
     }
 
     /// The ray along which it goes on.
