@@ -192,8 +192,8 @@ pub struct Settings {
     /// correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_dimensions: Option<u32>,
-    /// How many plane mirrors, one after the other, images of lights are followed through; `None` goes on while a chain of mirrors reflects 1e-4 at least, and the images stay
-    /// few.
+    /// How many plane mirrors, one after the other, images of lights are followed through; `None`
+    /// goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where
     /// that helps the sensors; else they keep equal flux.

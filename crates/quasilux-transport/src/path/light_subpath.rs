@@ -183,8 +183,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
 }
 
 impl<S: Spectrum> LightSubpath<'_, S> {
-    /// Follows the image of its emitting facet over a mirror, or weighs that an eye subpath asks for
-    /// it where a surface of another kind is met, at this cosine.
+    /// Follows the image of its emitting facet over a mirror, or weighs that an eye subpath asks
+    /// for it where a surface of another kind is met, at this cosine.
     fn land(&mut self, context: &Context<'_, S>, at: &Interaction, cos: f64) {
         let images = &context.images;
         let Some(mut image) = self.image.take() else { return };

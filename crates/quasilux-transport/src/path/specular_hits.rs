@@ -3,10 +3,10 @@
 //!
 //! Next-event estimation sees past specular surfaces where plane mirrors show images. Past others a
 //! path finds an emitting facet by chance, and then all of its luminance at once: `pi L` lux where
-//! it started with the cosine distribution. Of a small bright facet a run may see no hit, or one of three, and
-//! its spread does not tell. With n paths one hit more or less is `pi L / n`; where that is more
-//! than the half-width and hits of this light are few, the value has no interval yet. Hits of
-//! another light, however many, say nothing of it.
+//! it started with the cosine distribution. Of a small bright facet a run may see no hit, or one of
+//! three, and its spread does not tell. With n paths one hit more or less is `pi L / n`; where that
+//! is more than the half-width and hits of this light are few, the value has no interval yet. Hits
+//! of another light, however many, say nothing of it.
 
 use crate::codec::{Sums, add_count};
 use crate::spectrum::Spectrum;
