@@ -164,13 +164,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             flights: 0,
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
-            path.ask_at_start(context, n, tests_pointlikes, work);
+            path.sample_direct_at_start(context, n, tests_pointlikes, work);
         }
         path
     }
 
     /// Asks for the light of the lights at the sensor point that it starts from.
-    fn ask_at_start(
+    fn sample_direct_at_start(
         &mut self,
         context: &Context<'_, S>,
         n: DVec3,
