@@ -1,4 +1,4 @@
-//! Mirror images of point-like lights (Allen and Berkley 1979): direct light over plane mirrors,
+//! Mirror images of lights (Allen and Berkley 1979): direct light over plane mirrors,
 //! which neither BSDF nor light sampling finds.
 //!
 //! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
