@@ -1,8 +1,9 @@
-//! Mirror images of lights (Allen and Berkley 1979): direct light over plane mirrors,
-//! which neither BSDF nor light sampling finds.
+//! Mirror images of lights (Allen and Berkley 1979): direct light over plane mirrors, which light
+//! sampling does not find, nor a BSDF where the light is a point. Area lights are in `emitters`,
+//! point-like ones here.
 //!
 //! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
-//! to a place, and `path_class` which photons took such a path and are left out where images are
+//! to a place, and `light_path_class` which photons took such a path and are left out where images are
 //! counted.
 //!
 //! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
