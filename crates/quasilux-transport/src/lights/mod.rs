@@ -1,6 +1,6 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
-//! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent in
-//! `pointlike`, what mirrors show of both kinds in `images`.
+//! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent
+//! in `pointlike`, what mirrors show of both kinds in `images`.
 
 mod area_luminaires;
 mod emitting_facets;

@@ -3,8 +3,8 @@
 //! point-like ones here.
 //!
 //! `planes` finds the mirrors, `tree` what they show of each light, `chain` the way from an image
-//! to a place, and `light_path_class` which photons took such a path and are left out where images are
-//! counted.
+//! to a place, and `light_path_class` which photons took such a path and are left out where images
+//! are counted.
 //!
 //! An image at distance d, all bounces unfolded, gives `E = I cos / d^2` times what its mirrors
 //! reflect, I in the direction in which the light really leaves.
