@@ -31,12 +31,13 @@ fn rooms_follow_from_their_numbers() {
 
 /// One room of each family without interreflection: what comes straight from lights, or over
 /// mirrors, by both programs. 5 standard errors of both; seeds 1. An error of 5 % at a well-lit
-/// point would be noticed.
+/// point would be noticed. All of the brute program's paths are traced: a few that agree may all
+/// have missed a lamp in a mirror.
 #[test]
 fn both_programs_agree_on_direct_light_in_each_family() {
     for number in 0..families() {
         let room = black(number);
-        let limits = Limits { relative_error: 0.01, paths: 1 << 14 };
+        let limits = Limits { relative_error: 0.0, paths: 1 << 16 };
         let known = solve_until(&brute_scene(&room), limits, 1, || true);
         let settings =
             Settings { rel_tol: 0.01, max_samples: Some(1 << 10), ..Settings::default() };
