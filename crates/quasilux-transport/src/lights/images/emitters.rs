@@ -7,12 +7,12 @@
 //! it is where no mirror is between. What no image shows, chains past the last level and light
 //! through glass, is left to directions alone.
 
+use super::ImageQuery;
 use super::chain::Links;
 use super::planes::MirrorPlanes;
 use super::tree::{Imaged, Images};
 use crate::spectrum::Spectrum;
 use crate::world::World;
-use crate::world::vertex::Vertex;
 use crate::world::visibility::ShadowQueue;
 use glam::DVec3;
 use quasilux_sampling::Discrete;
@@ -34,14 +34,6 @@ struct AreaLight {
     facets: Vec<u32>,
     /// Over the facets, by luminance times area.
     by_flux: Discrete,
-}
-
-/// A vertex that asks for the light of one image.
-pub(crate) struct EmitterQuery<'q, S> {
-    pub(crate) world: &'q World<S>,
-    /// Number of the receiver.
-    pub(crate) who: u32,
-    pub(crate) vertex: &'q Vertex<'q, S>,
 }
 
 impl EmitterImages {
@@ -98,13 +90,13 @@ impl EmitterImages {
     pub(super) fn sample<S: Spectrum>(
         &self,
         mirrors: &MirrorPlanes,
-        query: &EmitterQuery<'_, S>,
+        query: &ImageQuery<'_, S>,
         u: [f64; 2],
         beside_sr: impl FnOnce(DVec3, f64) -> f64,
         links: &mut Links,
         shadows: &mut ShadowQueue<S>,
     ) -> Option<()> {
-        let &EmitterQuery { world, who, vertex } = query;
+        let &ImageQuery { world, who, vertex, .. } = query;
         let choice = self.by_flux.as_ref()?.sample(u[0]);
         let (image, node) = (choice.index as u32, &self.images.nodes[choice.index]);
         if node.depth > shadows.max_bounces {

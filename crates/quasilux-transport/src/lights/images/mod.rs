@@ -32,7 +32,6 @@ use quasilux_sampling::choose_weights;
 use tree::{Imaged, Images};
 
 pub(crate) use chain::Links;
-pub(crate) use emitters::EmitterQuery;
 pub(crate) use light_path_class::LightPathClass;
 
 /// Up to this number of images at a vertex are all tested; of more one is chosen.
@@ -164,7 +163,7 @@ impl SpecularImages {
     /// [`EmitterImages::sample`].
     pub(crate) fn sample_emitters<S: Spectrum>(
         &self,
-        query: &EmitterQuery<'_, S>,
+        query: &ImageQuery<'_, S>,
         u: [f64; 2],
         beside_sr: impl FnOnce(DVec3, f64) -> f64,
         found: &mut ImageSamples<S>,

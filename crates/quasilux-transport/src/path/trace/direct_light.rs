@@ -3,7 +3,7 @@
 
 use super::{Path, PathWork};
 use crate::context::Context;
-use crate::lights::images::{EmitterQuery, ImageQuery};
+use crate::lights::images::ImageQuery;
 use crate::path::subpath_weights::product;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -45,15 +45,19 @@ impl<S: Spectrum> Path<'_, S> {
             let share = |direction: DVec3, lx: f64| {
                 self.weight_beside_landings(vertex, direction, lx / context.lights.flux_lm)
             };
+            let query = self.image_query(context, vertex);
             let PathWork { shadows, images, .. } = work;
-            let query = ImageQuery {
-                world: &context.world,
-                pointlikes: &context.lights.pointlikes,
-                who: self.number,
-                vertex,
-            };
             context.images.sample_direct(&query, u, share, images, shadows);
         }
+    }
+
+    fn image_query<'q>(
+        &self,
+        context: &'q Context<'_, S>,
+        vertex: &'q Vertex<'_, S>,
+    ) -> ImageQuery<'q, S> {
+        let Context { world, lights, .. } = context;
+        ImageQuery { world, pointlikes: &lights.pointlikes, who: self.number, vertex }
     }
 
     /// Asks for the light of one point on the area lights.
@@ -83,8 +87,8 @@ impl<S: Spectrum> Path<'_, S> {
             let place = Purpose::AreaLightImage { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
             let beside_sr = self.beside_emitter_samples(context, vertex);
+            let query = self.image_query(context, vertex);
             let PathWork { shadows, images, .. } = work;
-            let query = EmitterQuery { world: &context.world, who: self.number, vertex };
             context.images.sample_emitters(&query, u, beside_sr, images, shadows);
         }
     }
