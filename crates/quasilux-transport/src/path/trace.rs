@@ -54,6 +54,8 @@ pub(crate) struct PathResult<S> {
     pub(crate) records: Vec<VertexRecord<S>>,
     /// Its rays, but for those that ask for light.
     pub(crate) flights: u32,
+    /// Rays by which it would have asked for light in mirrors, had it recorded nothing.
+    pub(crate) rays_unasked: u32,
 }
 
 /// A path on its way.
@@ -89,12 +91,15 @@ pub(crate) struct Path<'p, S> {
     found: PathContribution<S>,
     records: Vec<VertexRecord<S>>,
     flights: u32,
+    rays_unasked: u32,
 }
 
 /// What the paths that travel together ask of the lights, with working space.
 #[derive(Default)]
 pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
+    /// What they would have asked.
+    unasked: ShadowQueue<S>,
     light_samples: Vec<LightSample<S>>,
     images: ImageSamples<S>,
     weights: Vec<f64>,
@@ -162,6 +167,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             found: PathContribution::default(),
             records: Vec::new(),
             flights: 0,
+            rays_unasked: 0,
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
             path.sample_direct_at_start(context, n, tests_pointlikes, work);
@@ -351,6 +357,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             dimensions: self.sampler.used(),
             records: self.records,
             flights: self.flights,
+            rays_unasked: self.rays_unasked,
         }
     }
 

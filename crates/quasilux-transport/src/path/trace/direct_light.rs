@@ -83,13 +83,21 @@ impl<S: Spectrum> Path<'_, S> {
         vertex: &Vertex<'_, S>,
         work: &mut PathWork<S>,
     ) {
-        if self.asks_for_emitter_images(context) {
-            let place = Purpose::AreaLightImage { surface: self.bounces_asked };
-            let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            let beside_sr = self.beside_emitter_samples(context, vertex);
-            let query = self.image_query(context, vertex);
-            let PathWork { shadows, images, .. } = work;
+        let asks = self.asks_for_emitter_images(context);
+        if !asks && !self.would_ask_for_emitter_images(context) {
+            return;
+        }
+        let place = Purpose::AreaLightImage { surface: self.bounces_asked };
+        let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
+        let beside_sr = self.beside_emitter_samples(context, vertex);
+        let query = self.image_query(context, vertex);
+        let PathWork { shadows, unasked, images, .. } = work;
+        if asks {
             context.images.sample_emitters(&query, u, beside_sr, images, shadows);
+        } else {
+            unasked.max_bounces = shadows.max_bounces;
+            context.images.sample_emitters(&query, u, beside_sr, images, unasked);
+            self.rays_unasked += unasked.forget();
         }
     }
 

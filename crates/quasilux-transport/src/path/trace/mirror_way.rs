@@ -53,6 +53,11 @@ impl<S: Spectrum> Path<'_, S> {
         context.images.show_emitters() && is_on_no_map
     }
 
+    /// Whether it would, if it did not note where it might have ended.
+    pub(super) fn would_ask_for_emitter_images(&self, context: &Context<'_, S>) -> bool {
+        context.images.show_emitters() && matches!(self.rest, Rest::Recorded)
+    }
+
     /// Notes that it goes on from a surface, from `wo` in its frame to what was drawn.
     pub(super) fn note_mirrors(
         &mut self,
