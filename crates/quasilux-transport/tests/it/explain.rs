@@ -138,12 +138,13 @@ fn coordinates_are_named_in_their_order() {
         let explanation = explain(&scene, &Settings { estimator, ..Settings::default() });
         uses(&explanation)[..count].to_vec()
     };
-    let at = |surface| [Purpose::AreaLight { surface }, Purpose::Bounce { surface }];
-    let [[seen1, on1], [seen2, on2]] = [1, 2].map(at);
-    let [place, lit0] = [Purpose::Cell, Purpose::AreaLight { surface: 0 }];
+    let asked = |surface| [Purpose::AreaLight { surface }, Purpose::AreaLightImage { surface }];
+    let [[lit0, shown0], [lit1, shown1], [lit2, shown2]] = [0, 1, 2].map(asked);
+    let [on1, on2] = [1, 2].map(|surface| Purpose::Bounce { surface });
+    let place = Purpose::Cell;
     assert_eq!(
-        first(EstimatorKind::Path, 7),
-        [place, Purpose::FirstDirection, lit0, seen1, on1, seen2, on2]
+        first(EstimatorKind::Path, 10),
+        [place, Purpose::FirstDirection, lit0, shown0, lit1, shown1, on1, lit2, shown2, on2]
     );
     let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
     assert_eq!(first(EstimatorKind::Photon, 4), [leaves, across, on1, on2]);
@@ -152,7 +153,7 @@ fn coordinates_are_named_in_their_order() {
         explain(&scene, &Settings { estimator, connections, ..Settings::default() })
     });
     assert_eq!(beside.walk, SampleKind::PathsBesidePhotons);
-    assert_eq!(uses(&beside)[..4], [place, Purpose::FirstDirection, lit0, seen1]);
+    assert_eq!(uses(&beside)[..4], [place, Purpose::FirstDirection, lit0, shown0]);
     let [counted, light_vertices] = &beside.beside[..] else { panic!("{beside:?}") };
     assert_eq!(counted.explanation.walk, SampleKind::CountedPhotons);
     assert_eq!(light_vertices.explanation.walk, SampleKind::ConnectedPhotons);
