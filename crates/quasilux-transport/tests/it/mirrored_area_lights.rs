@@ -9,12 +9,14 @@ use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Scene};
 use quasilux_transport::trial::bidirectional_paths;
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 const LUMINANCE_CD_M2: f64 = 1e5;
 const REFLECTANCE: f64 = 0.9;
-/// Steps of the quadrature along each edge of a light: to 0.1 % with a mirror's edge across it.
-const STEPS: u32 = 120;
+/// Steps of the quadrature along each edge of a light: to 0.1 % with a mirror's edge across it,
+/// which is not parallel to its own edges; and steps that say whether a place is of use.
+const STEPS: u32 = 400;
+const FEW_STEPS: u32 = 16;
 
 #[derive(Clone, Copy)]
 struct Panel {
@@ -42,16 +44,16 @@ impl Panel {
         (0.0..=1.0).contains(&share) && along(self.u) && along(self.v)
     }
 
-    fn points(&self) -> impl Iterator<Item = DVec3> {
-        let step = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
-        (0..STEPS).flat_map(move |i| {
-            (0..STEPS).map(move |j| self.corner + self.u * step(i) + self.v * step(j))
+    fn points(&self, steps: u32) -> impl Iterator<Item = DVec3> {
+        let step = move |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
+        (0..steps).flat_map(move |i| {
+            (0..steps).map(move |j| self.corner + self.u * step(i) + self.v * step(j))
         })
     }
 
     /// What it gives over one mirror to a place that looks along `n`, in lx.
-    fn mirrored_lx(&self, mirror: &Panel, place: DVec3, n: DVec3) -> f64 {
-        let area_m2 = self.u.cross(self.v).length() / f64::from(STEPS * STEPS);
+    fn mirrored_lx(&self, mirror: &Panel, place: DVec3, n: DVec3, steps: u32) -> f64 {
+        let area_m2 = self.u.cross(self.v).length() / f64::from(steps * steps);
         let of_point = |point: DVec3| {
             let image = mirror.mirrored(point);
             let toward = image - place;
@@ -61,7 +63,7 @@ impl Panel {
             let square_m2 = toward.length_squared();
             if is_seen { cosines / (square_m2 * square_m2) } else { 0.0 }
         };
-        let sum: f64 = self.points().map(of_point).sum();
+        let sum: f64 = self.points(steps).map(of_point).sum();
         REFLECTANCE * LUMINANCE_CD_M2 * area_m2 * sum
     }
 }
@@ -123,50 +125,48 @@ fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
     }
 }
 
-/// Lights of a few cm that face a mirror, and sensors that look at it: in some of 12 scenes the
-/// edge of the mirror cuts what they see.
+/// A light of a few cm that faces a mirror in the plane x = 0, aslant to its frame.
+fn light_before_mirror(dice: &mut Dice) -> Panel {
+    let edge_m = dice.between(0.02, 0.2);
+    let [turn, roll] = [dice.between(-0.5, 0.5), dice.between(0.2, 1.3)];
+    let across = DVec3::new(libm::sin(turn), libm::cos(turn), 0.0);
+    let [u, v] = [roll, roll + FRAC_PI_2].map(|angle| {
+        let (sin, cos) = libm::sincos(angle);
+        (DVec3::Z * cos + across * sin) * edge_m
+    });
+    let corner = dice.point(DVec3::new(0.5, 0.0, 0.0), DVec3::new(2.0, 1.0, 0.7));
+    Panel { corner, u, v }
+}
+
+/// Lights that face a mirror, and sensors that look at it: in some of 12 scenes the edge of the
+/// mirror cuts what they see.
 #[test]
 fn a_mirror_shows_what_its_frame_lets_through() {
+    let (y, z) = (DVec3::Y, DVec3::Z);
+    let framed = Panel { corner: DVec3::ZERO, u: y, v: z * 0.7 };
+    let wide = Panel { corner: (y + z) * -9.0, u: y * 18.0, v: z * 18.0 };
     let mut cut = 0;
     for seed in 0..12 {
         let mut dice = Dice(seed);
-        let at = |y: f64, z: f64| DVec3::new(0.0, y, z);
-        let mirror_panel = Panel { corner: at(0.0, 0.0), u: at(1.0, 0.0), v: at(0.0, 0.7) };
-        let edge_m = dice.between(0.02, 0.2);
-        let turn = dice.between(-0.5, 0.5);
-        let light = Panel {
-            corner: dice.point(DVec3::new(0.5, 0.0, 0.0), DVec3::new(2.0, 1.0, 0.7)),
-            u: at(0.0, edge_m),
-            v: DVec3::new(libm::sin(turn), libm::cos(turn), 0.0) * edge_m,
-        };
+        let light = light_before_mirror(&mut dice);
         let mut scene = empty();
-        add_panel(
-            &mut scene,
-            mirror_panel.corner,
-            mirror_panel.u,
-            mirror_panel.v,
-            mirror(REFLECTANCE),
-        );
+        add_panel(&mut scene, framed.corner, framed.u, framed.v, mirror(REFLECTANCE));
         add_light(&mut scene, light);
         let (mut places, mut expected_lx) = (Vec::new(), Vec::new());
         while places.len() < 6 {
             let place = dice.point(DVec3::new(0.5, -1.0, -0.7), DVec3::new(3.0, 2.0, 1.4));
             let n = DVec3::new(-1.0, dice.between(-0.5, 0.5), dice.between(-0.5, 0.5)).normalize();
             // Not in the light's own beam, nor in its shadow.
-            let is_in_the_way = |point| light.is_met(place, mirror_panel.mirrored(point));
-            let lx = light.mirrored_lx(&mirror_panel, place, n);
-            let beside = (place - light.corner).dot(light.normal()) < 0.0
-                && n.dot(place - light.corner) > 0.1;
-            let whole = light.mirrored_lx(
-                &Panel { corner: at(-9.0, -9.0), u: at(18.0, 0.0), v: at(0.0, 18.0) },
-                place,
-                n,
-            );
-            let is_clear = !light.points().step_by(97).any(is_in_the_way);
-            if beside && is_clear && lx > 0.2 * whole {
-                cut += u32::from(lx < 0.98 * whole);
+            let from_light = place - light.corner;
+            let is_behind = from_light.dot(light.normal()) < 0.0 && n.dot(from_light) > 0.1;
+            let is_in_the_way = |point| light.is_met(place, framed.mirrored(point));
+            let is_clear = is_behind && !light.points(FEW_STEPS).any(is_in_the_way);
+            let [part, whole] =
+                [framed, wide].map(|mirror| light.mirrored_lx(&mirror, place, n, FEW_STEPS));
+            if is_clear && part > 0.2 * whole {
+                cut += u32::from(part < 0.95 * whole);
                 places.push((place, n));
-                expected_lx.push(lx);
+                expected_lx.push(light.mirrored_lx(&framed, place, n, STEPS));
             }
         }
         scene.sensors.push(points("probes", &places));
