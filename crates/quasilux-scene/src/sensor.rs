@@ -93,14 +93,20 @@ impl Sensor {
     /// The points of the sensor: cell centres for a grid, u fastest.
     #[must_use]
     pub fn points(&self) -> Vec<SensorPoint> {
+        (0..self.len()).map(|index| self.point(index)).collect()
+    }
+
+    /// One of them.
+    ///
+    /// # Panics
+    /// If there are no more than `index` points.
+    #[must_use]
+    pub fn point(&self, index: usize) -> SensorPoint {
         match &self.shape {
-            SensorShape::Points(points) => points.clone(),
-            SensorShape::Grid(grid) => (0..grid.cells())
-                .map(|cell| SensorPoint {
-                    position: grid.point_in_cell(cell, [0.5, 0.5]),
-                    normal: grid.normal,
-                })
-                .collect(),
+            SensorShape::Points(points) => points[index],
+            SensorShape::Grid(grid) => {
+                SensorPoint { position: grid.point_in_cell(index, [0.5, 0.5]), normal: grid.normal }
+            }
         }
     }
 }

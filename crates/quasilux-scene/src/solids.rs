@@ -26,15 +26,16 @@ const GRAZING: f64 = 1e-12;
 
 /// A closed object.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Solid {
+pub struct Solid {
     /// Its triangles, in ascending order.
-    pub(crate) triangles: Vec<u32>,
+    pub triangles: Vec<u32>,
     low: DVec3,
     high: DVec3,
 }
 
 /// All solids of a mesh, in the order of their first triangles.
-pub(crate) fn solids_of(mesh: &Mesh) -> Vec<Solid> {
+#[must_use]
+pub fn solids_of(mesh: &Mesh) -> Vec<Solid> {
     let count = mesh.triangles.len();
     if count > MAX_TRIANGLES {
         return Vec::new();
@@ -104,17 +105,20 @@ impl Solid {
     }
 
     /// The diagonal of the box around the solid, in m.
-    pub(crate) fn size_m(&self) -> f64 {
+    #[must_use]
+    pub fn size_m(&self) -> f64 {
         (self.high - self.low).length()
     }
 
     /// Whether the point is in the box around the solid.
-    pub(crate) fn may_contain(&self, point: DVec3) -> bool {
+    #[must_use]
+    pub fn may_contain(&self, point: DVec3) -> bool {
         point.cmpgt(self.low).all() && point.cmplt(self.high).all()
     }
 
     /// Whether the point is inside; a point that no direction decides, as on an edge, is not.
-    pub(crate) fn contains(&self, mesh: &Mesh, point: DVec3) -> bool {
+    #[must_use]
+    pub fn contains(&self, mesh: &Mesh, point: DVec3) -> bool {
         self.may_contain(point)
             && DIRECTIONS
                 .iter()

@@ -23,6 +23,7 @@ const MAY_USE: [(&str, &[&str]); 13] = [
             "quasilux-photometry",
         ],
     ),
+    ("quasilux-inspection", &["quasilux-scene", "quasilux-bvh", "quasilux-photometry"]),
     ("quasilux-drawing", &[]),
     ("quasilux-report", &["quasilux-transport", "quasilux-scene", "quasilux-drawing"]),
     (
@@ -47,6 +48,7 @@ const MAY_USE: [(&str, &[&str]); 13] = [
             "quasilux-photometry",
             "quasilux-bsdf",
             "quasilux-scene",
+            "quasilux-inspection",
             "quasilux-transport",
             "quasilux-drawing",
             "quasilux-report",

@@ -17,6 +17,8 @@ const MAX_TRIANGLES: u64 = 50_000_000;
 pub(crate) struct MeshBuilder {
     pub(super) geometry: Geometry,
     up: UpAxis,
+    /// The unit of the files in m.
+    unit_m: f64,
     vertex_of: HashMap<[u64; 3], u32>,
     material_of: HashMap<String, u32>,
     file: String,
@@ -34,10 +36,11 @@ pub(crate) enum TriangleError {
 }
 
 impl MeshBuilder {
-    pub(crate) fn new(up: UpAxis) -> Self {
+    pub(crate) fn new(up: UpAxis, unit_m: f64) -> Self {
         Self {
             geometry: Geometry::default(),
             up,
+            unit_m,
             vertex_of: HashMap::new(),
             material_of: HashMap::new(),
             file: String::new(),
@@ -149,7 +152,7 @@ impl MeshBuilder {
             UpAxis::Y => DVec3::new(position.x, -position.z, position.y),
         };
         // Adding zero makes -0 and +0 the same bits.
-        let position = turned + DVec3::ZERO;
+        let position = turned * self.unit_m + DVec3::ZERO;
         let positions = &mut self.geometry.mesh.positions;
         *self.vertex_of.entry(position.to_array().map(f64::to_bits)).or_insert_with(|| {
             positions.push(position);
@@ -186,7 +189,7 @@ mod tests {
 
     #[test]
     fn vertices_merge_by_exact_position_and_y_up_is_turned() {
-        let mut builder = MeshBuilder::new(UpAxis::Y);
+        let mut builder = MeshBuilder::new(UpAxis::Y, 1.0);
         let (object, material) = (builder.object("o"), builder.material("m"));
         let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(-0.0, -0.0, 1.0)];
         builder.triangle(object, material, [a, b, c]).unwrap();
@@ -198,7 +201,7 @@ mod tests {
 
     #[test]
     fn triangles_without_area_are_counted_not_kept() {
-        let mut builder = MeshBuilder::new(UpAxis::Z);
+        let mut builder = MeshBuilder::new(UpAxis::Z, 1.0);
         let (object, material) = (builder.object("o"), builder.material("m"));
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X * 2.0]).unwrap();
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X]).unwrap();

@@ -46,7 +46,7 @@ pub(crate) fn read(
     files: &dyn Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Geometry, LoadError> {
-    let mut builder = MeshBuilder::new(project.up.unwrap_or(UpAxis::Z));
+    let mut builder = MeshBuilder::new(project.up.unwrap_or(UpAxis::Z), project.unit.metres());
     for file in &project.geometry {
         let extension = file.value.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
         let is_obj = match extension.as_deref() {

@@ -4,6 +4,9 @@ mod lights;
 mod materials;
 mod measured;
 mod photometry;
+mod places;
+
+pub use places::Places;
 
 use crate::project::{Project, SimulationSection};
 use crate::{Files, LoadError, Scene, Warning, checks, enclosures, geometry};
@@ -13,6 +16,8 @@ use crate::{Files, LoadError, Scene, Warning, checks, enclosures, geometry};
 pub struct Loaded {
     /// The scene.
     pub scene: Scene,
+    /// Where the project file describes what.
+    pub places: Places,
     /// What the project file asks of the engine.
     pub simulation: SimulationSection,
     /// Oddities that were lived with.
@@ -36,9 +41,10 @@ pub fn load(
     let lights = lights::place(&project, &geometry, files, &mut warnings)?;
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
+    let places = Places::new(&project, &geometry);
     let scene = Scene { mesh: geometry.mesh, materials, lights, sensors, cameras };
     enclosures::light_must_end(&scene, &project)?;
     enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
     checks::places_in_walls(&scene, &project, &mut warnings)?;
-    Ok(Loaded { scene, simulation: project.simulation, warnings })
+    Ok(Loaded { scene, places, simulation: project.simulation, warnings })
 }

@@ -35,7 +35,7 @@ pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<CameraEn
 fn camera(section: &Section<'_>, names: &mut Names, pixels: &mut u64) -> Result<Camera, LoadError> {
     let name = names.of_camera(section)?;
     let position = "a position [x, y, z] in m";
-    let at = |key| section.require(key, position)?.vector(position);
+    let at = |key| section.require(key, position)?.position_m(position);
     let (position, target) = (at("position")?, at("target")?);
     let Some(forward) = (target - position).try_normalize() else {
         let message = "\"target\" is \"position\"; expected another point, to look at";

@@ -22,6 +22,8 @@ pub(super) struct Source<'a> {
     pub(super) file: &'a str,
     text: &'a str,
     line_starts: Vec<usize>,
+    /// The unit of its positions and lengths in m.
+    position_unit_m: f64,
 }
 
 /// A key of a table with its value.
@@ -52,7 +54,12 @@ impl<'a> Source<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
         let breaks = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
         let line_starts = std::iter::once(0).chain(breaks.map(|(at, _)| at + 1)).collect();
-        Self { file, text, line_starts }
+        Self { file, text, line_starts, position_unit_m: 1.0 }
+    }
+
+    /// The same text, positions and lengths in this unit.
+    pub(super) fn with_position_unit(self, position_unit_m: f64) -> Self {
+        Self { position_unit_m, ..self }
     }
 
     pub(super) fn place(&self, offset: usize) -> Position {
@@ -267,6 +274,16 @@ impl<'a> Value<'a> {
                 .collect()),
             _ => Err(self.unexpected(expected)),
         }
+    }
+
+    /// A position, or an edge between two, in m.
+    pub(super) fn position_m(&self, expected: &str) -> Result<DVec3, LoadError> {
+        Ok(self.vector(expected)? * self.source.position_unit_m)
+    }
+
+    /// A length above 0 in m.
+    pub(super) fn length_m(&self, expected: &str) -> Result<f64, LoadError> {
+        Ok(self.number(expected, |length| length > 0.0)? * self.source.position_unit_m)
     }
 
     /// Three coordinates, `expected` to be a position or a direction.

@@ -51,7 +51,7 @@ fn light(section: &Section<'_>) -> Result<LightEntry, LoadError> {
 fn point(section: &Section<'_>) -> Result<LightEntry, LoadError> {
     section.only(&["kind", "position", "intensity_cd"], &[])?;
     let position = "a position [x, y, z] in m";
-    let position = section.require("position", position)?.vector(position)?;
+    let position = section.require("position", position)?.position_m(position)?;
     let intensity = "a luminous intensity in cd, at least 0";
     let intensity_cd = section
         .require("intensity_cd", intensity)?

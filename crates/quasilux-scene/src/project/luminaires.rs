@@ -32,7 +32,7 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
     section.only(&KEYS, &[])?;
     let photometry = photometry(section.require("photometry", FILE_NAME)?)?;
     let position = "a position [x, y, z] in m";
-    let position = section.require("position", position)?.vector(position)?;
+    let position = section.require("position", position)?.position_m(position)?;
     let dimming = section.get("dimming").map(|dimming| {
         dimming
             .number("a factor of at least 0, where 1 is full light", |x| (0.0..=1e9).contains(&x))

@@ -16,9 +16,11 @@ mod pane;
 mod renamed;
 mod sensors;
 mod simulation;
+mod units;
 
 pub use renamed::{RENAMED_KEYS, RenamedKey};
 pub use simulation::SimulationSection;
+pub use units::LengthUnit;
 
 pub(crate) use cameras::CameraEntry;
 pub(crate) use lights::{Emission, LightEntry};
@@ -45,8 +47,12 @@ pub(crate) struct Project {
     pub(crate) file: String,
     /// Names of the geometry files, at least one.
     pub(crate) geometry: Vec<Spanned<String>>,
+    /// Where the section of the geometry is.
+    pub(crate) scene_place: Position,
     /// `None` where the file does not say: z.
     pub(crate) up: Option<UpAxis>,
+    /// Of the geometry files.
+    pub(crate) unit: LengthUnit,
     pub(crate) materials: Vec<MaterialEntry>,
     pub(crate) luminaires: Vec<LuminaireEntry>,
     pub(crate) lights: Vec<LightEntry>,
@@ -71,7 +77,10 @@ impl Project {
         let root = source.root(table.get_ref());
         root.only(&SECTIONS, &[])?;
 
-        let SceneSection { geometry, up } = scene_section(&root)?;
+        let SceneSection { geometry, place: scene_place, up, unit, position_unit } =
+            scene_section(&root)?;
+        let source = source.with_position_unit(position_unit.metres());
+        let root = source.root(table.get_ref());
         let luminaires = luminaires::read(&root)?;
         let lights = lights::read(&root)?;
         if luminaires.is_empty() && lights.is_empty() {
@@ -89,7 +98,9 @@ impl Project {
         Ok(Self {
             file: file.to_owned(),
             geometry,
+            scene_place,
             up,
+            unit,
             materials,
             luminaires,
             lights,
@@ -115,10 +126,13 @@ fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, LoadError> {
     })
 }
 
-/// `[scene]`: names of geometry files, and the axis that points up in OBJ files.
+/// `[scene]`: names of geometry files, the axis that points up in them, and units.
 struct SceneSection {
     geometry: Vec<Spanned<String>>,
+    place: Position,
     up: Option<UpAxis>,
+    unit: LengthUnit,
+    position_unit: LengthUnit,
 }
 
 fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
@@ -126,7 +140,7 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
     })?;
-    section.only(&["geometry", "up"], &[])?;
+    section.only(&["geometry", "up", "units", "position_units"], &[])?;
     let list = section.require("geometry", expected)?;
     let files = list.array(expected)?;
     if files.is_empty() {
@@ -145,5 +159,11 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
         Some("y") => Some(UpAxis::Y),
         Some(_) => Some(UpAxis::Z),
     };
-    Ok(SceneSection { geometry, up })
+    Ok(SceneSection {
+        geometry,
+        place: section.place(),
+        up,
+        unit: units::read(&section, "units")?,
+        position_unit: units::read(&section, "position_units")?,
+    })
 }

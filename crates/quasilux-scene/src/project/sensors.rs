@@ -45,7 +45,7 @@ pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<SensorEn
 }
 
 fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {
-    let vector = |key, expected: &str| section.require(key, expected)?.vector(expected);
+    let vector = |key, expected: &str| section.require(key, expected)?.position_m(expected);
     let origin = vector("origin", "a position [x, y, z] in m")?;
     let u = vector("u", "an edge [x, y, z] in m")?;
     let v = vector("v", "an edge [x, y, z] in m")?;
@@ -83,7 +83,7 @@ fn counts(
     let value = section.exactly_one(&["spacing", "counts", "rule"])?;
     let counts: [f64; 2] = match value.key {
         "spacing" => {
-            let spacing_m = value.number("a length in m above 0", |x| x > 0.0)?;
+            let spacing_m = value.length_m("a length in m above 0")?;
             edges_m.map(|edge_m| cells_along(edge_m, spacing_m))
         }
         "counts" => {
@@ -148,7 +148,7 @@ fn points(section: &Section<'_>) -> Result<PlacedPoints, LoadError> {
     let place = |value: &Value<'_>| value.place();
     let places = positions.iter().map(place).collect();
     let points = positions.into_iter().zip(normals).map(|(position, normal)| {
-        let position = position.vector("a position [x, y, z] in m")?;
+        let position = position.position_m("a position [x, y, z] in m")?;
         Ok(SensorPoint { position, normal: direction(normal)? })
     });
     Ok(PlacedPoints { points: points.collect::<Result<_, LoadError>>()?, places })

@@ -1,0 +1,38 @@
+//! Cameras that look at nothing lit from outside the geometry.
+
+use crate::finding::{Check, Findings};
+use crate::names;
+use crate::survey::Survey;
+use crate::units;
+
+pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
+    let scene = survey.probe.scene;
+    for (number, camera) in scene.cameras.iter().enumerate() {
+        let seen = &survey.camera_vertices[number];
+        let position = camera.position;
+        if survey.is_lit(seen) || !survey.is_in_the_open(position) {
+            continue;
+        }
+        let what = if seen.is_empty() {
+            "sees nothing"
+        } else {
+            "sees only what no light was found to reach"
+        };
+        let message = format!(
+            "camera \"{}\" at {} is outside the geometry and {what}",
+            camera.name,
+            names::position(position)
+        );
+        let cure = match units::explaining(scene, position) {
+            Some(unit) => format!(
+                "it would be inside in {}: say position_units = \"{}\" in [scene] if all positions \
+                 are meant so",
+                units::in_words(unit),
+                unit.name()
+            ),
+            None => "expected a place in the room, or one that looks into it".to_owned(),
+        };
+        let place = findings.places.cameras[number];
+        findings.add(Check::CameraOutside, place, message, cure).at(position);
+    }
+}

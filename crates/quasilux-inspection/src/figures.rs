@@ -1,0 +1,83 @@
+//! Figures that cannot be meant: lamps bigger than their room, light that no lamp gives, paint that
+//! nobody sells.
+
+use crate::finding::{Check, Findings};
+use crate::names;
+use quasilux_scene::{Bsdf, Light, Places, Scene};
+
+/// White paint and plaster reflect at most about 0.9, special coatings of integrating spheres more.
+const HIGH_REFLECTANCE: f64 = 0.95;
+/// What leaves a luminaire is between these shares of what its lamps give.
+const OUTPUT_RATIO: [f64; 2] = [0.1, 1.15];
+/// Findings of one kind that are listed.
+const MAX_LISTED: usize = 20;
+
+pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
+    lamps(scene, findings);
+    materials(scene, findings);
+}
+
+fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
+    let room = scene.mesh.bounds().map(|[low, high]| (high - low).max_element());
+    let mut seen: Vec<&str> = Vec::new();
+    let Places { photometry, .. } = findings.places;
+    for (index, light) in scene.lights.iter().enumerate() {
+        let (Light::Luminaire(light), Some(file)) = (light, &photometry[index]) else { continue };
+        if seen.contains(&file.as_str()) || seen.len() >= MAX_LISTED {
+            continue;
+        }
+        seen.push(file);
+        let place = findings.places.lights[index];
+        let size_m = light.photometry.facts().shape().size_m().max_element();
+        if let Some(room_m) = room.filter(|room_m| size_m > *room_m) {
+            let message = format!(
+                "\"{file}\" has a luminous opening of {}, and the geometry is {} long",
+                names::length(size_m),
+                names::length(room_m)
+            );
+            let cure = "expected a luminaire that fits: the unit of the geometry (units in \
+                        [scene]) or that of the luminaire file may be wrong";
+            findings.add(Check::LampTooBig, place, message, cure).at(light.position);
+        }
+        let Some(lamps_lm) = light.photometry.facts().lamps_flux_lm() else { continue };
+        let ratio = light.photometry.flux_lm() / lamps_lm;
+        if lamps_lm > 0.0 && !(OUTPUT_RATIO[0]..=OUTPUT_RATIO[1]).contains(&ratio) {
+            let message = format!(
+                "the intensities of \"{file}\" make {:.0} lm, its lamps {lamps_lm:.0} lm",
+                light.photometry.flux_lm()
+            );
+            let cure = "expected a file whose luminaire gives most of what its lamps do: its \
+                        multiplier or number of lamps may be wrong";
+            findings.add(Check::LampFlux, place, message, cure).at(light.position);
+        }
+    }
+}
+
+fn materials(scene: &Scene, findings: &mut Findings<'_>) {
+    let mut is_used = vec![false; scene.materials.len()];
+    scene.mesh.material_of.iter().for_each(|&material| is_used[material as usize] = true);
+    let used = || (0..scene.materials.len()).filter(|&material| is_used[material]);
+    if used().next().is_some() && used().all(|material| !findings.places.is_described[material]) {
+        let message = "no file gives the reflectance of any surface: all have the default, 0.5";
+        let cure = "expected [materials.NAME] with reflectance for each material, or for default";
+        let place = findings.places.scene;
+        findings.add(Check::DefaultReflectance, place, message.to_owned(), cure);
+    }
+    let high: Vec<usize> = used().filter(|&m| is_high(&scene.materials[m].bsdf)).collect();
+    for material in high.into_iter().take(MAX_LISTED) {
+        let entry = &scene.materials[material];
+        let message = format!(
+            "the material \"{}\" reflects more than {HIGH_REFLECTANCE} of the light",
+            entry.name
+        );
+        let place = findings.places.materials[material].unwrap_or(findings.places.scene);
+        let cure = "expected a share as of paint, 0.9 at the most";
+        findings.add(Check::HighReflectance, place, message, cure);
+    }
+}
+
+/// Whether a surface of this kind scatters more than it can; mirrors and clear bodies may.
+fn is_high(bsdf: &Bsdf) -> bool {
+    matches!(bsdf, Bsdf::Diffuse(_) | Bsdf::Translucent(_) | Bsdf::Plastic(_))
+        && bsdf.most_kept().luminance() > HIGH_REFLECTANCE
+}

@@ -1,0 +1,289 @@
+//! Holes in a room: light that leaves, and the edges around the way that it takes.
+//!
+//! A scene counts as a room where most directions from its lit places meet a surface. Openings that
+//! a lamp shines or a camera looks through from outside are meant. A hole's border is a loop of
+//! edges that belong to one triangle each, and that leaving rays go through.
+
+use crate::finding::{Check, Findings};
+use crate::lamps::position_of;
+use crate::names;
+use crate::probe::sphere_direction;
+use crate::survey::Survey;
+use glam::{DVec2, DVec3};
+use quasilux_scene::Mesh;
+
+/// Places that rays leave from.
+const PLACES: usize = 64;
+/// Rays from each.
+const DIRECTIONS: u32 = 96;
+/// Directions along an axis that meet a surface in more than this share are closed.
+const CLOSED: f64 = 0.4;
+/// Of six, in a room.
+const CLOSED_SIDES: usize = 5;
+/// Less than this share is taken for gaps of modelling.
+const MIN_LEAVING: f64 = 2e-4;
+/// Edges of a loop.
+const MAX_LOOP: usize = 4096;
+/// Holes that are listed.
+const MAX_LISTED: usize = 3;
+
+/// A ray that meets nothing.
+struct Leaving {
+    from: DVec3,
+    direction: DVec3,
+}
+
+/// What rays from lit places meet.
+#[derive(Default)]
+struct Outlook {
+    rays: usize,
+    leaving: Vec<Leaving>,
+    /// Rays along each of six directions: all, and those that meet something.
+    sides: [Side; 6],
+}
+
+#[derive(Clone, Copy, Default)]
+struct Side {
+    rays: usize,
+    met: usize,
+}
+
+/// A loop of border edges.
+struct Hole {
+    corners: Vec<DVec3>,
+    pierced: usize,
+}
+
+pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
+    let outlook = outlook(survey);
+    let leaving = outlook.leaving.len() as f64 / outlook.rays.max(1) as f64;
+    if leaving < MIN_LEAVING || !outlook.is_room() || is_looked_through(survey) {
+        return;
+    }
+    let mesh = &survey.probe.scene.mesh;
+    let holes = holes(mesh, &outlook.leaving);
+    let share = format!("{:.2} % of directions from lit places lead out", 100.0 * leaving);
+    let cure = "expected a closed room: the light that leaves is lost. Add the missing surface, or \
+                a dark one";
+    let place = findings.places.scene;
+    for hole in holes.iter().take(MAX_LISTED) {
+        let message = format!(
+            "the geometry has a hole of {:.2} m² between {} and {}, edged by {}: {share}",
+            hole.area_m2(),
+            names::position(hole.corners.iter().copied().fold(DVec3::INFINITY, DVec3::min)),
+            names::position(hole.corners.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max)),
+            names::count(hole.corners.len(), "edge", "edges"),
+        );
+        findings.add(Check::Hole, place, message, cure).at(hole.centre());
+    }
+    if holes.is_empty() {
+        let at = exit(survey, &outlook.leaving[0]);
+        let message = format!(
+            "the geometry has gaps between its surfaces, near {}: {share}",
+            names::position(at)
+        );
+        findings.add(Check::Hole, place, message, cure).at(at);
+    }
+}
+
+/// Rays from places that get light.
+fn outlook(survey: &Survey<'_>) -> Outlook {
+    let lit = survey.asked.iter().zip(&survey.asked_vertices);
+    let stride = survey.asked.len().div_ceil(PLACES).max(1);
+    let sensors = lit.step_by(stride).filter(|(_, vertices)| survey.is_lit(vertices));
+    let hair_m = survey.probe.hair_m;
+    let sensors = sensors.map(|(asked, _)| asked.point.position + asked.point.normal * hair_m);
+    let of_cameras = survey.camera_vertices.iter().flatten();
+    let cameras = of_cameras.step_by(8).take(PLACES).map(|vertex| vertex.position);
+    let mut outlook = Outlook::default();
+    for from in sensors.chain(cameras) {
+        for i in 0..DIRECTIONS {
+            let direction = sphere_direction(i, DIRECTIONS);
+            let met = survey.probe.first(from, direction).is_some();
+            outlook.rays += 1;
+            let side = &mut outlook.sides[side_of(direction)];
+            side.rays += 1;
+            side.met += usize::from(met);
+            if !met {
+                outlook.leaving.push(Leaving { from, direction });
+            }
+        }
+    }
+    outlook
+}
+
+/// The axis along which a direction goes most, -x to +z.
+fn side_of(direction: DVec3) -> usize {
+    let largest = direction.abs().max_position();
+    2 * largest + usize::from(direction[largest] > 0.0)
+}
+
+impl Outlook {
+    fn is_room(&self) -> bool {
+        let is_closed = |side: &&Side| side.met as f64 > CLOSED * side.rays.max(1) as f64;
+        self.sides.iter().filter(is_closed).count() >= CLOSED_SIDES
+    }
+}
+
+/// Whether a camera or a lamp whose light arrives stands outside: then it is through the hole.
+fn is_looked_through(survey: &Survey<'_>) -> bool {
+    let scene = survey.probe.scene;
+    let mut lamps = scene.lights.iter().zip(&survey.reaches).filter(|(_, reaches)| **reaches);
+    let lamp_outside = lamps
+        .any(|(lamp, _)| position_of(lamp).is_some_and(|position| survey.is_in_the_open(position)));
+    let looks_in = |(camera, seen): (&quasilux_scene::Camera, &Vec<_>)| {
+        survey.is_in_the_open(camera.position) && survey.is_lit(seen)
+    };
+    lamp_outside || scene.cameras.iter().zip(&survey.camera_vertices).any(looks_in)
+}
+
+/// Where a ray leaves the box around the geometry.
+fn exit(survey: &Survey<'_>, ray: &Leaving) -> DVec3 {
+    let [low, high] = survey.probe.scene.mesh.bounds().unwrap_or_default();
+    let end_m = (0..3)
+        .map(|axis| {
+            let wall = if ray.direction[axis] > 0.0 { high[axis] } else { low[axis] };
+            (wall - ray.from[axis]) / ray.direction[axis]
+        })
+        .filter(|t| t.is_finite())
+        .fold(f64::INFINITY, f64::min);
+    ray.from + ray.direction * if end_m.is_finite() { end_m.max(0.0) } else { 0.0 }
+}
+
+/// Loops of border edges that leaving rays go through, those of most rays first.
+fn holes(mesh: &Mesh, leaving: &[Leaving]) -> Vec<Hole> {
+    let mut holes: Vec<Hole> = loops(&border(mesh))
+        .into_iter()
+        .map(|corners| {
+            let corners = corners.iter().map(|&v| mesh.positions[v as usize]).collect();
+            Hole { corners, pierced: 0 }
+        })
+        .collect();
+    for hole in &mut holes {
+        hole.pierced = leaving.iter().filter(|ray| hole.is_pierced(ray)).count();
+    }
+    holes.retain(|hole| hole.pierced > 0);
+    holes.sort_by_key(|hole| std::cmp::Reverse(hole.pierced));
+    holes
+}
+
+/// Edges that belong to a single triangle, each as its two vertices in ascending order.
+fn border(mesh: &Mesh) -> Vec<[u32; 2]> {
+    let mut edges: Vec<u64> = Vec::with_capacity(3 * mesh.triangles.len());
+    for &[a, b, c] in &mesh.triangles {
+        edges.extend(
+            [(a, b), (b, c), (c, a)].map(|(a, b)| u64::from(a.min(b)) << 32 | u64::from(a.max(b))),
+        );
+    }
+    edges.sort_unstable();
+    let single = edges.chunk_by(|a, b| a == b).filter(|sharers| sharers.len() == 1);
+    single.map(|edge| [(edge[0] >> 32) as u32, edge[0] as u32]).collect()
+}
+
+/// Border edges joined to loops; where several meet in a vertex the first one is followed.
+fn loops(border: &[[u32; 2]]) -> Vec<Vec<u32>> {
+    let mut ends: Vec<[u32; 2]> = border.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
+    ends.sort_unstable();
+    let mut is_used = vec![false; ends.len()];
+    let mut loops = Vec::new();
+    for start in 0..ends.len() {
+        if is_used[start] {
+            continue;
+        }
+        let [first, mut here] = ends[start];
+        let mut corners = vec![first];
+        let mut from = first;
+        take(&ends, &mut is_used, [first, here]);
+        while here != first && corners.len() < MAX_LOOP {
+            corners.push(here);
+            let begin = ends.partition_point(|end| end[0] < here);
+            let onward = (begin..ends.len())
+                .take_while(|&k| ends[k][0] == here)
+                .find(|&k| !is_used[k] && ends[k][1] != from);
+            let Some(next) = onward.map(|k| ends[k][1]) else { break };
+            take(&ends, &mut is_used, [here, next]);
+            (from, here) = (here, next);
+        }
+        if here == first && corners.len() >= 3 {
+            loops.push(corners);
+        }
+    }
+    loops
+}
+
+/// Marks an edge as used, in both directions.
+fn take(ends: &[[u32; 2]], is_used: &mut [bool], [a, b]: [u32; 2]) {
+    for end in [[a, b], [b, a]] {
+        if let Ok(at) = ends.binary_search(&end) {
+            is_used[at] = true;
+        }
+    }
+}
+
+impl Hole {
+    fn centre(&self) -> DVec3 {
+        self.corners.iter().copied().sum::<DVec3>() / self.corners.len() as f64
+    }
+
+    /// Half of the sum of cross products along the loop (Newell's method).
+    fn area_vector(&self) -> DVec3 {
+        let centre = self.centre();
+        let next = self.corners.iter().cycle().skip(1);
+        let crosses = self.corners.iter().zip(next).map(|(&a, &b)| (a - centre).cross(b - centre));
+        0.5 * crosses.sum::<DVec3>()
+    }
+
+    fn area_m2(&self) -> f64 {
+        self.area_vector().length()
+    }
+
+    /// Whether a ray goes through the loop, which is taken as flat.
+    fn is_pierced(&self, ray: &Leaving) -> bool {
+        let Some(normal) = self.area_vector().try_normalize() else { return false };
+        let distance_m = (self.centre() - ray.from).dot(normal) / ray.direction.dot(normal);
+        if !(distance_m.is_finite() && distance_m > 0.0) {
+            return false;
+        }
+        let (u, v) = normal.any_orthonormal_pair();
+        let flat = |p: DVec3| DVec2::new(p.dot(u), p.dot(v));
+        let at = flat(ray.from + ray.direction * distance_m);
+        let mut is_inside = false;
+        let next = self.corners.iter().cycle().skip(1);
+        for (&a, &b) in self.corners.iter().zip(next) {
+            let (a, b) = (flat(a), flat(b));
+            if (a.y > at.y) != (b.y > at.y) {
+                let crossing = a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x);
+                is_inside ^= crossing > at.x;
+            }
+        }
+        is_inside
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_with_a_square_hole_has_two_loops() {
+        let mut mesh = Mesh::default();
+        for half in [2.0, 1.0] {
+            for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+                mesh.positions.push(DVec3::new(x * half, y * half, 0.0));
+            }
+        }
+        for k in 0..4_u32 {
+            let next = (k + 1) % 4;
+            mesh.triangles.extend([[k, next, 4 + next], [k, 4 + next, 4 + k]]);
+        }
+        let found = loops(&border(&mesh));
+        assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4]);
+        let ray = |x: f64| Leaving { from: DVec3::new(x, 0.1, -1.0), direction: DVec3::Z };
+        let holes = holes(&mesh, &[ray(0.2), ray(0.3), ray(5.0)]);
+        assert_eq!(holes.len(), 2);
+        assert!(holes.iter().all(|hole| hole.pierced == 2));
+        assert!(
+            (holes[1].area_m2() - 4.0).abs() < 1e-12 || (holes[0].area_m2() - 4.0).abs() < 1e-12
+        );
+    }
+}

@@ -1,0 +1,194 @@
+//! Lamps whose light reaches nobody: outside the geometry, behind a surface, in a closed body.
+//!
+//! That no way of light was found is no proof; a lamp is named where besides it sees the sky, or
+//! where a short move through a surface would have it shine on sensors, or where a closed body
+//! holds it and no sensor.
+
+use crate::finding::{Check, Findings};
+use crate::names;
+use crate::survey::{Survey, Vertex, emitted_direction};
+use crate::units;
+use glam::DVec3;
+use quasilux_scene::solids::{Solid, solids_of};
+use quasilux_scene::{Light, Scene};
+
+/// Findings of one kind that are listed; then their number.
+pub(crate) const MAX_LISTED: usize = 20;
+/// A lamp that hangs behind a surface by mistake is no further from it than this, in m.
+const MAX_MOVE_M: f64 = 1.0;
+/// Slabs through which a move may lead are no thicker, in m.
+const MAX_SLAB_M: f64 = 0.6;
+
+/// A surface this near to a lamp is around it, in m.
+const IN_SURFACE_M: f64 = 1e-3;
+/// Directions of a lamp that are looked at.
+const EMITTED: u32 = 64;
+/// Less than this share of light behind a ceiling is taken for the table's own upward light.
+const LOST_SHARE: f64 = 0.2;
+
+/// A way to a place where a lamp would shine on sensors.
+struct Move {
+    direction: DVec3,
+    length_m: f64,
+    /// The triangle that is in between.
+    triangle: u32,
+}
+
+pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
+    let scene = survey.probe.scene;
+    let mut solids: Option<Vec<Solid>> = None;
+    let mut unreached = 0;
+    for (index, lamp) in scene.lights.iter().enumerate() {
+        let Some(position) = position_of(lamp) else { continue };
+        if lamp.flux_lm() == 0.0 {
+            continue;
+        }
+        if survey.reaches[index] {
+            in_surface(survey, index, position, findings);
+            continue;
+        }
+        unreached += 1;
+        if unreached > MAX_LISTED {
+            continue;
+        }
+        let what = names::light(findings.places, &scene.lights, index);
+        let what = format!("{what} at {}", names::position(position));
+        let place = findings.places.lights[index];
+        let way = shortest_move(survey, lamp, position);
+        if survey.is_in_the_open(position) {
+            let message = format!(
+                "{what} hangs outside the geometry: none of its light was found to reach a sensor \
+                 or camera"
+            );
+            let cure = cure_outside(scene, position, way.as_ref());
+            findings.add(Check::LampOutside, place, message, cure).at(position);
+        } else if let Some(way) = way {
+            let object = names::object(&scene.mesh, way.triangle);
+            let message = format!(
+                "{what} hangs behind \"{object}\": none of its light was found to reach a sensor \
+                 or camera"
+            );
+            let cure = cure_by_move(&way, scene);
+            findings.add(Check::LampBehindSurface, place, message, cure).at(position);
+        } else {
+            let solids = solids.get_or_insert_with(|| solids_of(&scene.mesh));
+            let Some(solid) = around_lamp_alone(survey, solids, position) else { continue };
+            let object = names::object(&scene.mesh, solid.triangles[0]);
+            let message = format!(
+                "{what} is inside the closed object \"{object}\", and none of its light was found \
+                 to reach a sensor or camera"
+            );
+            let cure = "expected a place in the room, or an opening or glass in the object";
+            findings.add(Check::LampInBody, place, message, cure).at(position);
+        }
+    }
+    if unreached > MAX_LISTED {
+        let message = format!("light of {unreached} lamps was not found to reach anything");
+        let cure = format!("the first {MAX_LISTED} are looked at above, if something is odd there");
+        findings.add(Check::LampOutside, findings.places.scene, message, cure);
+    }
+}
+
+/// A lamp whose light arrives, and is in a surface behind which some of it is lost.
+fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findings<'_>) {
+    let scene = survey.probe.scene;
+    let Light::Luminaire(light) = &scene.lights[index] else { return };
+    let near = |direction: DVec3| {
+        survey.probe.first(at, direction).filter(|met| met.distance_m <= IN_SURFACE_M)
+    };
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+    let Some(surface) = axes.into_iter().find_map(near) else { return };
+    let lost = (0..EMITTED).filter_map(|i| emitted_direction(light, i)).filter(|&direction| {
+        let met = survey.probe.first(at, direction);
+        met.is_none_or(|met| !survey.would_serve(&Vertex::on(&met)))
+    });
+    let lost = lost.count() as f64 / f64::from(EMITTED);
+    if survey.is_open() || lost < LOST_SHARE {
+        return;
+    }
+    let object = names::object(&scene.mesh, surface.triangle);
+    let what = names::light(findings.places, &scene.lights, index);
+    let message = format!(
+        "{what} at {} is in \"{object}\", and some {:.0} % of its light starts behind it",
+        names::position(at),
+        100.0 * lost
+    );
+    let cure = "expected it in front of the surface, or turned away from it";
+    findings.add(Check::LampInSurface, findings.places.lights[index], message, cure).at(at);
+}
+
+/// Where a lamp is; `None` for one that is a surface.
+pub(crate) fn position_of(lamp: &Light) -> Option<DVec3> {
+    match lamp {
+        Light::Point(light) => Some(light.position),
+        Light::Luminaire(light) => Some(light.position),
+        Light::Area(_) => None,
+    }
+}
+
+/// The shortest way through a surface, along an axis or where the lamp aims, to a place from which
+/// it would shine on a sensor or on what one sees.
+fn shortest_move(survey: &Survey<'_>, lamp: &Light, from: DVec3) -> Option<Move> {
+    let aim = match lamp {
+        Light::Luminaire(light) => Some(light.world_from_luminaire * DVec3::NEG_Z),
+        Light::Point(_) | Light::Area(_) => None,
+    };
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+    let ways = axes.chain(aim).filter_map(|direction| through(survey, from, direction));
+    ways.min_by(|a, b| a.length_m.total_cmp(&b.length_m))
+}
+
+/// A way in this direction through one surface, or through a slab of two.
+fn through(survey: &Survey<'_>, from: DVec3, direction: DVec3) -> Option<Move> {
+    let probe = survey.probe;
+    let hair_m = 4.0 * probe.hair_m;
+    let first = probe.first(from, direction).filter(|first| first.distance_m <= MAX_MOVE_M)?;
+    let slab = probe.first(from + direction * (first.distance_m + hair_m), direction);
+    let slab_m = slab.map(|back| back.distance_m).filter(|slab_m| *slab_m <= MAX_SLAB_M);
+    let ends = [Some(first.distance_m), slab_m.map(|slab_m| first.distance_m + slab_m + hair_m)];
+    ends.into_iter().flatten().find_map(|length_m| {
+        let length_m = length_m + hair_m;
+        let way = Move { direction, length_m, triangle: first.triangle };
+        survey.would_light(from + direction * length_m).then_some(way)
+    })
+}
+
+fn cure_outside(scene: &Scene, position: DVec3, way: Option<&Move>) -> String {
+    if let Some(unit) = units::explaining(scene, position) {
+        return format!(
+            "its position would be inside in {}: if it is meant so, say position_units = \"{}\" \
+             in [scene] for all positions, or give this one in m",
+            units::in_words(unit),
+            unit.name()
+        );
+    }
+    match way {
+        Some(way) => cure_by_move(way, scene),
+        None => "expected a position inside the room, in m".to_owned(),
+    }
+}
+
+fn cure_by_move(way: &Move, scene: &Scene) -> String {
+    let object = names::object(&scene.mesh, way.triangle);
+    let length = names::length((way.length_m * 1e3).ceil() / 1e3);
+    let direction = names::position(way.direction);
+    format!(
+        "moved through \"{object}\" by more than {length} along {direction} it would light the room"
+    )
+}
+
+/// A closed body around the lamp and around no sensor or camera.
+fn around_lamp_alone<'s>(
+    survey: &Survey<'_>,
+    solids: &'s [Solid],
+    position: DVec3,
+) -> Option<&'s Solid> {
+    let mesh = &survey.probe.scene.mesh;
+    let sensors = survey.asked.iter().map(|asked| asked.point.position);
+    let eyes: Vec<DVec3> =
+        sensors.chain(survey.probe.scene.cameras.iter().map(|camera| camera.position)).collect();
+    let holds_lamp_alone = |solid: &&Solid| {
+        solid.contains(mesh, position) && !eyes.iter().any(|&eye| solid.contains(mesh, eye))
+    };
+    solids.iter().find(holds_lamp_alone)
+}

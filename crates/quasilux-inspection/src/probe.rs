@@ -1,0 +1,121 @@
+//! Rays through a scene: what they meet first, and whether two places see each other.
+//!
+//! Sheets that let light through (glass, panes, translucent and measured ones) are no obstacle
+//! here: light finds its way.
+
+use glam::DVec3;
+use quasilux_bvh::{Ray, TriangleBvh};
+use quasilux_scene::Scene;
+
+/// Rays start this share of the scene's size in front of their surface.
+const HAIR: f64 = 1e-7;
+
+/// Sheets that a ray goes through before it is given up as stopped.
+const MAX_SHEETS: usize = 16;
+
+/// Golden ratio and its relatives: points i times them, modulo 1, fill the square evenly.
+const R2: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+
+/// A place on a surface, seen from one side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub(crate) triangle: u32,
+    pub(crate) position: DVec3,
+    /// Unit normal on the side that is seen.
+    pub(crate) normal: DVec3,
+    pub(crate) distance_m: f64,
+}
+
+/// A scene that answers rays.
+pub(crate) struct Probe<'a> {
+    pub(crate) scene: &'a Scene,
+    hierarchy: &'a TriangleBvh,
+    /// The diagonal of the box around the geometry, in m.
+    pub(crate) size_m: f64,
+    pub(crate) hair_m: f64,
+    /// Of each material, whether light passes through it.
+    transmits: Vec<bool>,
+}
+
+impl<'a> Probe<'a> {
+    pub(crate) fn new(scene: &'a Scene, hierarchy: &'a TriangleBvh) -> Self {
+        let [low, high] = scene.mesh.bounds().unwrap_or_default();
+        let size_m = (high - low).length();
+        let transmits = scene.materials.iter().map(|material| material.bsdf.transmits()).collect();
+        Self { scene, hierarchy, size_m, hair_m: HAIR * size_m, transmits }
+    }
+
+    /// The first surface that stops light on its way.
+    pub(crate) fn first(&self, origin: DVec3, direction: DVec3) -> Option<Surface> {
+        self.within(&Ray::new(origin, direction))
+    }
+
+    /// Whether light gets from one place to the other; both may lie on surfaces.
+    pub(crate) fn sees(&self, a: DVec3, b: DVec3) -> bool {
+        let between = b - a;
+        let distance_m = between.length();
+        // What lies on a surface is looked at from a hair before it.
+        let end_m = distance_m - self.hair_m;
+        end_m <= 0.0 || self.within(&Ray::new(a, between / distance_m).up_to(end_m)).is_none()
+    }
+
+    /// The share of directions in which nothing is met.
+    pub(crate) fn escaping_share(&self, at: DVec3) -> f64 {
+        const DIRECTIONS: u32 = 64;
+        let escaping = (0..DIRECTIONS)
+            .filter(|&i| self.first(at, sphere_direction(i, DIRECTIONS)).is_none())
+            .count();
+        escaping as f64 / f64::from(DIRECTIONS)
+    }
+
+    /// A triangle at the same place as the one that was met.
+    pub(crate) fn twin(&self, origin: DVec3, direction: DVec3, met: &Surface) -> Option<u32> {
+        let reach_m = met.distance_m + 0.01 * self.hair_m;
+        let ray = Ray::new(origin, direction).up_to(reach_m);
+        let hit = self.hierarchy.closest_hit(&ray, &[met.triangle])?;
+        let is_there = (hit.distance - met.distance_m).abs() <= 0.01 * self.hair_m;
+        let normal = self.scene.mesh.front_normal(hit.triangle);
+        (is_there && normal.dot(met.normal).abs() > 1.0 - 1e-9).then_some(hit.triangle)
+    }
+
+    fn within(&self, ray: &Ray) -> Option<Surface> {
+        let mesh = &self.scene.mesh;
+        let mut passed: Vec<u32> = Vec::new();
+        loop {
+            let hit = self.hierarchy.closest_hit(ray, &passed)?;
+            let material = mesh.material_of[hit.triangle as usize] as usize;
+            if !self.transmits[material] || passed.len() == MAX_SHEETS {
+                let front_normal = mesh.front_normal(hit.triangle);
+                let is_front = front_normal.dot(ray.direction) < 0.0;
+                let normal = if is_front { front_normal } else { -front_normal };
+                let position = ray.at(hit.distance) + normal * self.hair_m;
+                let (triangle, distance_m) = (hit.triangle, hit.distance);
+                return Some(Surface { triangle, position, normal, distance_m });
+            }
+            passed.push(hit.triangle);
+        }
+    }
+}
+
+/// Direction number `i` of `count` that cover the sphere evenly (Fibonacci's lattice).
+pub(crate) fn sphere_direction(i: u32, count: u32) -> DVec3 {
+    let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(count);
+    let radius = (1.0 - z * z).sqrt();
+    let (sine, cosine) =
+        libm::sincos(2.0 * std::f64::consts::PI * 0.618_033_988_749_895 * f64::from(i));
+    DVec3::new(radius * cosine, radius * sine, z)
+}
+
+/// Point `i` of a sequence that fills the square evenly (Roberts 2018, R2).
+pub(crate) fn square(i: u32) -> [f64; 2] {
+    R2.map(|step| (0.5 + step * f64::from(i)).fract())
+}
+
+/// A direction above a surface, in proportion to its cosine (Malley's method).
+pub(crate) fn cosine_direction(normal: DVec3, [u, v]: [f64; 2]) -> DVec3 {
+    let radius = u.sqrt();
+    let (sine, cosine) = libm::sincos(2.0 * std::f64::consts::PI * v);
+    let tangent = normal.any_orthonormal_vector();
+    let along = tangent * (radius * cosine) + normal.cross(tangent) * (radius * sine);
+    (along + normal * (1.0 - u).max(0.0).sqrt()).normalize()
+}

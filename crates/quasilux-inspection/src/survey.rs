@@ -1,0 +1,267 @@
+//! Walks of light from the lamps and from what asks for it, and whether they meet.
+//!
+//! A vertex is a place on a surface that light of a lamp comes to, or that a sensor or camera gets
+//! light from, over some diffuse reflections. Light of a lamp reaches a sensor where a vertex of one
+//! sees a vertex of the other. That it was found is certain; that it was not is an opinion, and
+//! counts only beside other evidence.
+
+use crate::probe::{Probe, Surface, cosine_direction, square};
+use glam::DVec3;
+use quasilux_scene::light::{AreaLight, Luminaire};
+use quasilux_scene::{Light, Mesh, SensorPoint};
+
+/// Walks from each lamp, at most and at least, and from all together.
+const LAMP_WALKS: [u32; 2] = [8, 64];
+const ALL_LAMP_WALKS: u32 = 4096;
+/// Sensor points that are looked at in all, evenly over sensors.
+const SENSOR_POINTS: usize = 512;
+/// Places of each camera's picture.
+const CAMERA_WALKS: u32 = 64;
+/// Reflections of a walk.
+const BOUNCES: u32 = 6;
+/// Pairs that are tried for one answer.
+const MAX_PAIRS: usize = 2048;
+/// Lamps that are asked whether they shine straight on a place.
+const MAX_LAMPS_ASKED: usize = 64;
+/// A place from which so many directions meet nothing is not in a room: behind a large flat surface
+/// it is a half, in front of a missing wall less than a third.
+const OPEN_SHARE: f64 = 0.35;
+
+/// A place that light passes, with the side that it comes from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vertex {
+    pub(crate) position: DVec3,
+    /// Light comes and goes on this side; `None` for places that know no side.
+    pub(crate) normal: Option<DVec3>,
+}
+
+/// A sensor point that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    pub(crate) sensor: usize,
+    pub(crate) point: SensorPoint,
+}
+
+/// What is known of the ways of light.
+pub(crate) struct Survey<'a> {
+    pub(crate) probe: &'a Probe<'a>,
+    pub(crate) asked: Vec<Asked>,
+    /// What each asked point gets light from.
+    pub(crate) asked_vertices: Vec<Vec<Vertex>>,
+    /// What each camera gets light from.
+    pub(crate) camera_vertices: Vec<Vec<Vertex>>,
+    /// What each lamp sends light to.
+    pub(crate) lamp_vertices: Vec<Vec<Vertex>>,
+    /// Some of what all lamps send light to.
+    lit: Vec<Vertex>,
+    /// Whether light of each lamp was found to reach a sensor or camera.
+    pub(crate) reaches: Vec<bool>,
+}
+
+impl<'a> Survey<'a> {
+    pub(crate) fn new(probe: &'a Probe<'a>) -> Self {
+        let scene = probe.scene;
+        let asked = asked_points(probe);
+        let walk_from = |(i, asked): (usize, &Asked)| {
+            let SensorPoint { position, normal } = asked.point;
+            let start = Vertex { position: position + normal * probe.hair_m, normal: Some(normal) };
+            walk(probe, start, i as u32)
+        };
+        let asked_vertices: Vec<_> = asked.iter().enumerate().map(walk_from).collect();
+        let camera_vertices: Vec<_> =
+            (0..scene.cameras.len()).map(|camera| seen_by_camera(probe, camera)).collect();
+        let [least, most] = LAMP_WALKS;
+        let walks = (ALL_LAMP_WALKS / scene.lights.len().max(1) as u32).clamp(least, most);
+        let lamp_vertices: Vec<_> =
+            scene.lights.iter().map(|lamp| lit_by(probe, lamp, walks)).collect();
+        let all: Vec<Vertex> = lamp_vertices.iter().flatten().copied().collect();
+        let stride = all.len().div_ceil(MAX_PAIRS).max(1);
+        let lit = all.into_iter().step_by(stride).collect();
+        let reaches = Vec::new();
+        let mut survey =
+            Self { probe, asked, asked_vertices, camera_vertices, lamp_vertices, lit, reaches };
+        let of_sensors = survey.asked_vertices.iter().flatten();
+        let eyes: Vec<Vertex> =
+            of_sensors.chain(survey.camera_vertices.iter().flatten()).copied().collect();
+        let lamps = scene.lights.iter().zip(&survey.lamp_vertices);
+        let reaches =
+            |lamp: &Light, lit: &[Vertex]| survey.shines(lamp, &eyes) || survey.meet(lit, &eyes);
+        survey.reaches = lamps.map(|(lamp, lit)| reaches(lamp, lit)).collect();
+        survey
+    }
+
+    /// Whether a vertex of one list sees a vertex of the other; of many pairs some are tried.
+    pub(crate) fn meet(&self, some: &[Vertex], others: &[Vertex]) -> bool {
+        let pairs = some.len() * others.len();
+        if pairs <= MAX_PAIRS {
+            return some.iter().any(|a| others.iter().any(|b| self.exchange(a, b)));
+        }
+        let pick = |share: f64, from: &[Vertex]| from[(share * from.len() as f64) as usize];
+        (0..MAX_PAIRS as u32).any(|i| {
+            let [u, v] = square(i);
+            self.exchange(&pick(u, some), &pick(v, others))
+        })
+    }
+
+    /// Whether a lamp shines straight on one of the vertices.
+    fn shines(&self, lamp: &Light, vertices: &[Vertex]) -> bool {
+        let stride = vertices.len().div_ceil(MAX_PAIRS).max(1);
+        let shines_on = |vertex: &Vertex| {
+            let (position, is_bright) = match lamp {
+                Light::Point(light) => (light.position, light.intensity_cd > 0.0),
+                Light::Luminaire(light) => {
+                    let toward = (vertex.position - light.position).normalize_or_zero();
+                    (light.position, light.intensity_cd(toward) > 0.0)
+                }
+                Light::Area(_) => return false,
+            };
+            is_bright && self.exchange(&Vertex { position, normal: None }, vertex)
+        };
+        vertices.iter().step_by(stride).any(shines_on)
+    }
+
+    /// Whether light goes from one vertex to the other.
+    pub(crate) fn exchange(&self, a: &Vertex, b: &Vertex) -> bool {
+        let between = b.position - a.position;
+        let ahead = |normal: Option<DVec3>, to: DVec3| normal.is_none_or(|n| n.dot(to) > 0.0);
+        ahead(a.normal, between)
+            && ahead(b.normal, -between)
+            && self.probe.sees(a.position, b.position)
+    }
+
+    /// Whether light of any lamp was found to come to these vertices.
+    pub(crate) fn is_lit(&self, vertices: &[Vertex]) -> bool {
+        let lamps = &self.probe.scene.lights;
+        let stride = lamps.len().div_ceil(MAX_LAMPS_ASKED).max(1);
+        lamps.iter().step_by(stride).any(|lamp| self.shines(lamp, vertices))
+            || self.meet(&self.lit, vertices)
+    }
+
+    /// Whether light from a place goes on to what sensors or cameras get light from.
+    pub(crate) fn would_serve(&self, place: &Vertex) -> bool {
+        let vertices = self.asked_vertices.iter().chain(&self.camera_vertices).flatten();
+        let vertices: Vec<Vertex> = vertices.copied().collect();
+        self.meet(&[*place], &vertices)
+    }
+
+    /// Whether lit sensor points are in the open, so that a place under the sky is nothing odd.
+    pub(crate) fn is_open(&self) -> bool {
+        let stride = self.asked.len().div_ceil(64).max(1);
+        let asked = self.asked.iter().zip(&self.asked_vertices).step_by(stride);
+        let lit = asked.filter(|(_, vertices)| self.is_lit(vertices));
+        let open: Vec<bool> =
+            lit.map(|(asked, _)| self.is_in_the_open(self.before(&asked.point))).collect();
+        2 * open.iter().filter(|open| **open).count() > open.len()
+    }
+
+    /// A hair in front of a sensor point.
+    pub(crate) fn before(&self, point: &SensorPoint) -> DVec3 {
+        point.position + point.normal * self.probe.hair_m
+    }
+
+    /// Whether nothing is met in many directions from here.
+    pub(crate) fn is_in_the_open(&self, at: DVec3) -> bool {
+        self.probe.escaping_share(at) > OPEN_SHARE
+    }
+
+    /// Whether a lamp at this place would shine straight on a sensor point or on what it sees.
+    pub(crate) fn would_light(&self, position: DVec3) -> bool {
+        let place = Vertex { position, normal: None };
+        let first_two = self.asked_vertices.iter().flat_map(|vertices| vertices.iter().take(2));
+        let stride = (2 * self.asked_vertices.len() / 256).max(1);
+        let mut cameras = self.camera_vertices.iter().flatten();
+        first_two.step_by(stride).any(|vertex| self.exchange(&place, vertex))
+            || cameras.any(|vertex| self.exchange(&place, vertex))
+    }
+}
+
+/// Points of all sensors, each sensor with as many as the others where it has them.
+fn asked_points(probe: &Probe<'_>) -> Vec<Asked> {
+    let sensors = &probe.scene.sensors;
+    let each = (SENSOR_POINTS / sensors.len().max(1)).max(4);
+    let points = sensors.iter().enumerate().flat_map(|(number, sensor)| {
+        let count = sensor.len();
+        let taken = count.min(each);
+        // A stride that is no divisor of the rows goes over both edges of a grid.
+        (0..taken).map(move |i| Asked { sensor: number, point: sensor.point(i * count / taken) })
+    });
+    points.collect()
+}
+
+/// A vertex and those that a walk over diffuse surfaces meets from it.
+fn walk(probe: &Probe<'_>, start: Vertex, number: u32) -> Vec<Vertex> {
+    let mut vertices = vec![start];
+    let mut here = start;
+    for bounce in 0..BOUNCES {
+        let Some(normal) = here.normal else { break };
+        let u = square(number.wrapping_mul(7).wrapping_add(bounce.wrapping_mul(977)));
+        let Some(surface) = probe.first(here.position, cosine_direction(normal, u)) else { break };
+        here = Vertex::on(&surface);
+        vertices.push(here);
+    }
+    vertices
+}
+
+fn seen_by_camera(probe: &Probe<'_>, camera: usize) -> Vec<Vertex> {
+    let camera = &probe.scene.cameras[camera];
+    let (view, [width, height]) = (camera.view(), camera.resolution.map(f64::from));
+    let seen = (0..CAMERA_WALKS).filter_map(|i| {
+        let [u, v] = square(i);
+        let surface = probe.first(camera.position, view.direction([u * width, v * height]))?;
+        Some(walk(probe, Vertex::on(&surface), i))
+    });
+    seen.flatten().collect()
+}
+
+/// What a lamp sends light to; of an area light its own places, too.
+fn lit_by(probe: &Probe<'_>, lamp: &Light, walks: u32) -> Vec<Vertex> {
+    let walks = (0..walks).filter_map(|i| match lamp {
+        Light::Point(light) => {
+            let direction = crate::probe::sphere_direction(i, walks);
+            lit_along(probe, light.position, direction, i)
+        }
+        Light::Luminaire(light) => {
+            lit_along(probe, light.position, emitted_direction(light, i)?, i)
+        }
+        Light::Area(light) => {
+            let place = emitting_place(&probe.scene.mesh, light, i);
+            let position = place.position + place.normal.unwrap_or_default() * probe.hair_m;
+            Some(walk(probe, Vertex { position, ..place }, i))
+        }
+    });
+    walks.flatten().collect()
+}
+
+fn lit_along(probe: &Probe<'_>, from: DVec3, direction: DVec3, i: u32) -> Option<Vec<Vertex>> {
+    let surface = probe.first(from, direction)?;
+    Some(walk(probe, Vertex::on(&surface), i))
+}
+
+/// A direction that a luminaire shines in, by its intensities.
+pub(crate) fn emitted_direction(light: &Luminaire, i: u32) -> Option<DVec3> {
+    let local = light.photometry.sample_direction(square(i))?;
+    Some(light.world_from_luminaire * local)
+}
+
+/// A place on an emitting face, by area.
+pub(crate) fn emitting_place(mesh: &Mesh, light: &AreaLight, i: u32) -> Vertex {
+    let target = square(i)[0] * light.area_m2;
+    let mut before_m2 = 0.0;
+    let reaches = |&&triangle: &&u32| {
+        before_m2 += mesh.area_m2(triangle);
+        before_m2 >= target
+    };
+    let triangle = light.triangles.iter().find(reaches).or(light.triangles.last());
+    let triangle = *triangle.expect("an area light has triangles");
+    let [u, v] = square(i.wrapping_mul(31));
+    let [a, b, c] = mesh.corners(triangle);
+    let root = u.sqrt();
+    let position = a * (1.0 - root) + b * (root * (1.0 - v)) + c * (root * v);
+    Vertex { position, normal: Some(mesh.front_normal(triangle)) }
+}
+
+impl Vertex {
+    pub(crate) fn on(surface: &Surface) -> Self {
+        Self { position: surface.position, normal: Some(surface.normal) }
+    }
+}

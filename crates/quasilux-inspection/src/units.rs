@@ -1,0 +1,180 @@
+//! Units of length: whether the geometry and the positions of a project fit each other and the
+//! people in it.
+
+use crate::finding::{Check, Findings};
+use crate::lamps::position_of;
+use crate::names;
+use glam::DVec3;
+use quasilux_scene::{LengthUnit, Scene, SensorShape};
+
+/// Rooms are no higher, in m: the highest atria have 180 m, nearly all rooms below 30 m.
+const MAX_HEIGHT_M: f64 = 60.0;
+/// The height of most rooms in m.
+const USUAL_HEIGHT_M: f64 = 3.0;
+/// Geometry is larger than this, in m: a model of a desk lamp is.
+const MIN_SIZE_M: f64 = 0.05;
+/// Positions that fill less than this share of each edge of the geometry may be of another unit.
+const SMALL_SHARE: f64 = 0.36;
+/// The highest lamp hangs in the upper half of a room.
+const LAMP_HEIGHT: [f64; 2] = [0.5, 1.02];
+/// Positions may stand this share of the size outside the geometry.
+const MARGIN: f64 = 0.01;
+
+/// A box.
+#[derive(Clone, Copy)]
+pub(crate) struct Extent {
+    pub(crate) low: DVec3,
+    pub(crate) high: DVec3,
+}
+
+impl Extent {
+    pub(crate) fn new(points: &[DVec3]) -> Option<Self> {
+        let first = *points.first()?;
+        let grown = |it: Self, p: &DVec3| Self { low: it.low.min(*p), high: it.high.max(*p) };
+        Some(points.iter().fold(Self { low: first, high: first }, grown))
+    }
+
+    pub(crate) fn edges(&self) -> DVec3 {
+        self.high - self.low
+    }
+
+    fn scaled(&self, factor: f64) -> Self {
+        Self { low: self.low * factor, high: self.high * factor }
+    }
+
+    /// Whether a point is in the box or just outside.
+    pub(crate) fn holds(&self, point: DVec3) -> bool {
+        let margin = DVec3::splat(MARGIN * self.edges().length());
+        point.cmpge(self.low - margin).all() && point.cmple(self.high + margin).all()
+    }
+
+    /// The share of points that it holds.
+    pub(crate) fn share_of(&self, points: &[DVec3]) -> f64 {
+        let held = points.iter().filter(|point| self.holds(**point)).count();
+        held as f64 / points.len().max(1) as f64
+    }
+}
+
+/// The box around the geometry.
+pub(crate) fn geometry(scene: &Scene) -> Option<Extent> {
+    scene.mesh.bounds().map(|[low, high]| Extent { low, high })
+}
+
+/// Where the project file puts things: lamps, the corners of sensors, cameras that are near.
+pub(crate) fn positions(scene: &Scene) -> Vec<DVec3> {
+    let lamps = scene.lights.iter().filter_map(position_of);
+    let sensors = scene.sensors.iter().flat_map(|sensor| match &sensor.shape {
+        SensorShape::Points(points) => points.iter().map(|point| point.position).collect(),
+        SensorShape::Grid(grid) => {
+            vec![
+                grid.origin,
+                grid.origin + grid.u,
+                grid.origin + grid.v,
+                grid.origin + grid.u + grid.v,
+            ]
+        }
+    });
+    let cameras = scene.cameras.iter().map(|camera| camera.position);
+    lamps.chain(sensors).chain(cameras).collect()
+}
+
+/// A unit in which a position would be inside the geometry, where it is outside in m.
+pub(crate) fn explaining(scene: &Scene, position: DVec3) -> Option<LengthUnit> {
+    let geometry = geometry(scene)?;
+    let is_explained = |unit: &LengthUnit| geometry.holds(position * unit.metres());
+    let others = LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre);
+    if geometry.holds(position) { None } else { others.into_iter().find(is_explained) }
+}
+
+/// A unit in running text.
+pub(crate) fn in_words(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::Metre => "metres",
+        LengthUnit::Centimetre => "centimetres",
+        LengthUnit::Millimetre => "millimetres",
+        LengthUnit::Inch => "inches",
+        LengthUnit::Foot => "feet",
+    }
+}
+
+pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
+    let Some(geometry) = geometry(scene) else { return };
+    let positions = positions(scene);
+    let edges = geometry.edges();
+    let size = format!(
+        "the geometry is {} by {} by {} high",
+        names::length(edges.x),
+        names::length(edges.y),
+        names::length(edges.z)
+    );
+    let place = findings.places.scene;
+    if let Some(unit) = smaller_unit_of_geometry(scene, &geometry, &positions) {
+        let message = format!("{size}, and all positions of the project are in a corner of it");
+        let cure = format!(
+            "if its files are in {}, say units = \"{}\" in [scene]",
+            in_words(unit),
+            unit.name()
+        );
+        findings.add(Check::Units, place, message, cure);
+    } else if edges.z > MAX_HEIGHT_M {
+        let unit = usual_unit(edges.z);
+        let both = geometry.share_of(&positions) > 0.5;
+        let message = format!("{size}, more than any room");
+        let also = if both {
+            format!(", and position_units = \"{}\"", unit.name())
+        } else {
+            String::new()
+        };
+        let cure = format!(
+            "if its files are in {}, say units = \"{}\"{also} in [scene]",
+            in_words(unit),
+            unit.name()
+        );
+        findings.add(Check::Units, place, message, cure);
+    } else if edges.length() < MIN_SIZE_M {
+        let message = format!("{size}, less than any room");
+        let cure = "expected metres: look at units in [scene], and at the unit of its files";
+        findings.add(Check::Units, place, message, cure);
+    }
+}
+
+/// The unit in which the geometry would be as large as the positions say, where it is far larger.
+fn smaller_unit_of_geometry(
+    scene: &Scene,
+    geometry: &Extent,
+    positions: &[DVec3],
+) -> Option<LengthUnit> {
+    let filled = Extent::new(positions)?;
+    let share = filled.edges() / geometry.edges().max(DVec3::splat(f64::MIN_POSITIVE));
+    if share.max_element() > SMALL_SHARE {
+        return None;
+    }
+    let lamps = scene.lights.iter().filter_map(position_of);
+    let highest_m = lamps.map(|position| position.z).reduce(f64::max)?;
+    let fits = |unit: &LengthUnit| {
+        let scaled = geometry.scaled(unit.metres());
+        let height = (highest_m - scaled.low.z) / scaled.edges().z;
+        (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height) && scaled.share_of(positions) == 1.0
+    };
+    LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre).find(fits)
+}
+
+/// The unit in which a height is nearest to that of most rooms, by ratio.
+fn usual_unit(height: f64) -> LengthUnit {
+    let off = |unit: &LengthUnit| libm::log(height * unit.metres() / USUAL_HEIGHT_M).abs();
+    let nearest = LengthUnit::ALL.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    nearest.unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_of_rooms_tell_their_unit() {
+        let units = [(2700.0, "mm"), (300.0, "cm"), (118.0, "in"), (8500.0, "mm"), (98.4, "in")];
+        for (height, name) in units {
+            assert_eq!(usual_unit(height).name(), name, "{height}");
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Where the project file describes each thing of a scene, for what is said of it later.
+
+use crate::geometry::Geometry;
+use crate::project::{LengthUnit, LightEntry, Project, UpAxis};
+use crate::{Position, Spanned};
+
+/// The places of a scene's things in its project file, and what it says of the geometry files.
+#[derive(Clone, Debug)]
+pub struct Places {
+    /// What messages call the project file.
+    pub file: String,
+    /// The section of the geometry.
+    pub scene: Position,
+    /// Names of the geometry files, as the project file writes them.
+    pub geometry: Vec<Spanned<String>>,
+    /// Whether y points up in the geometry files.
+    pub y_is_up: bool,
+    /// The unit of the geometry files.
+    pub unit: LengthUnit,
+    /// Of each light of the scene.
+    pub lights: Vec<Position>,
+    /// The luminaire file of each light of the scene; `None` for other lights.
+    pub photometry: Vec<Option<String>>,
+    /// Of each sensor.
+    pub sensors: Vec<Position>,
+    /// Of each camera.
+    pub cameras: Vec<Position>,
+    /// Of each material; `None` where the project file does not describe it.
+    pub materials: Vec<Option<Position>>,
+    /// Whether any file describes a material; the default is used for the others.
+    pub is_described: Vec<bool>,
+}
+
+impl Places {
+    pub(super) fn new(project: &Project, geometry: &Geometry) -> Self {
+        let luminaires = project.luminaires.iter().map(|entry| entry.place);
+        let others = project.lights.iter().map(LightEntry::place);
+        let file_of = |light: usize| {
+            project.luminaires.get(light).map(|entry| entry.photometry.value.clone())
+        };
+        let place_of = |name: &str| {
+            let entry = project.materials.iter().find(|entry| entry.name.value == name);
+            entry.map(|entry| entry.name.place)
+        };
+        let materials: Vec<Option<Position>> =
+            geometry.materials.iter().map(|material| place_of(&material.name)).collect();
+        let described = geometry.materials.iter().zip(&materials);
+        let has_default = place_of(crate::geometry::DEFAULT_MATERIAL).is_some();
+        Self {
+            file: project.file.clone(),
+            scene: project.scene_place,
+            geometry: project.geometry.clone(),
+            y_is_up: project.up == Some(UpAxis::Y),
+            unit: project.unit,
+            photometry: (0..project.luminaires.len() + project.lights.len()).map(file_of).collect(),
+            lights: luminaires.chain(others).collect(),
+            sensors: project.sensors.iter().map(|entry| entry.place).collect(),
+            cameras: project.cameras.iter().map(|entry| entry.place).collect(),
+            is_described: described
+                .map(|(of_file, place)| {
+                    has_default || place.is_some() || of_file.reflectance.is_some()
+                })
+                .collect(),
+            materials,
+        }
+    }
+}
