@@ -14,13 +14,27 @@ pub(crate) const FLUX_TOLERANCE: f64 = 0.01;
 pub struct Photometry {
     table: SphericalTable,
     facts: LuminaireFacts,
+    name: String,
 }
 
 impl Photometry {
     /// A luminaire from a table of candela in the frame that [`Web`] gives the photometric type of
     /// `facts`: for type C theta is gamma and phi is C.
     pub fn new(table: SphericalTable, facts: LuminaireFacts) -> Self {
-        Self { table, facts }
+        Self { table, facts, name: String::new() }
+    }
+
+    /// The same luminaire under the name by which messages and pictures are to call it: that of
+    /// its file.
+    #[must_use]
+    pub fn with_name(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.name);
+        self
+    }
+
+    /// The name that [`Self::with_name`] gave it; empty without one.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Luminous intensity towards a unit direction of the luminaire frame, in candela.

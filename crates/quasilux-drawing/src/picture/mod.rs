@@ -17,6 +17,7 @@ mod label;
 mod layout;
 mod luminance;
 mod luminance_scale;
+mod plan;
 mod plot;
 mod scale;
 mod series;
@@ -27,5 +28,9 @@ pub use frame::Caption;
 pub use grid::grid;
 pub use image::Image;
 pub use luminance::{LuminancePicture, luminance};
+pub use plan::{
+    PlanAreaLight, PlanCamera, PlanGrid, PlanLuminaire, PlanMark, PlanPicture, PlanPoint,
+    PlanPoints, Surfaces, plan,
+};
 pub use series::{LabelledImage, series};
 pub use tone_map::tone_mapped_png;

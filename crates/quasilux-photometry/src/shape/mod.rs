@@ -151,6 +151,11 @@ impl LuminousShape {
         self.half_m == DVec3::ZERO
     }
 
+    /// Whether its outline seen from straight below is an ellipse.
+    pub fn is_round(&self) -> bool {
+        matches!(self.solid, Solid::Cylinder(Axis::Z) | Solid::Ellipsoid)
+    }
+
     /// Whether it encloses a volume.
     pub fn is_solid(&self) -> bool {
         self.half_m.min_element() > 0.0

@@ -27,7 +27,7 @@ pub(super) fn place(
             Some(known) => Arc::clone(known),
             None => {
                 let photometry = photometry::read(project, &entry.photometry, files, warnings)?;
-                let photometry = Arc::new(photometry);
+                let photometry = Arc::new(photometry.with_name(name));
                 read.insert(name, Arc::clone(&photometry));
                 photometry
             }

@@ -1,0 +1,72 @@
+//! The lines in which a plane cuts triangles.
+//!
+//! A corner in the plane counts as below it, so that a face in the plane is not cut, neighbours
+//! agree on their common edge, and the outline of a solid is closed.
+
+use super::model::Surfaces;
+use glam::DVec3;
+
+/// The points p with `normal` . p = `offset_m`; what lies toward `normal` is above.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    pub(crate) normal: DVec3,
+    pub(crate) offset_m: f64,
+}
+
+impl Plane {
+    fn height(&self, point_m: DVec3) -> f64 {
+        self.normal.dot(point_m) - self.offset_m
+    }
+
+    /// What of a segment is not above the plane.
+    pub(crate) fn part_below(&self, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+        match [a, b].map(|end| self.height(end) > 0.0) {
+            [true, true] => None,
+            [false, false] => Some([a, b]),
+            [false, true] => Some([a, self.crossing(a, b)]),
+            [true, false] => Some([self.crossing(b, a), b]),
+        }
+    }
+
+    /// Where the plane cuts a triangle.
+    fn cut(&self, corners: [DVec3; 3]) -> Option<[DVec3; 2]> {
+        let above = corners.map(|corner| self.height(corner) > 0.0);
+        // The corner that lies alone on its side.
+        let alone =
+            (0..3).find(|&k| above[k] != above[(k + 1) % 3] && above[k] != above[(k + 2) % 3])?;
+        let ends = [1, 2].map(|step| corners[(alone + step) % 3]);
+        Some(ends.map(|end| self.between(corners[alone], end)))
+    }
+
+    /// The crossing between two corners, computed from the lower one, so that both triangles of an
+    /// edge have the same.
+    fn between(&self, a: DVec3, b: DVec3) -> DVec3 {
+        if self.height(a) > 0.0 { self.crossing(b, a) } else { self.crossing(a, b) }
+    }
+
+    fn crossing(&self, below: DVec3, above: DVec3) -> DVec3 {
+        let [low, high] = [below, above].map(|end| self.height(end));
+        below.lerp(above, (low / (low - high)).clamp(0.0, 1.0))
+    }
+}
+
+impl<'a> Surfaces<'a> {
+    /// The triangles whose corners are there and finite.
+    pub(crate) fn corners(self) -> impl Iterator<Item = [DVec3; 3]> + 'a {
+        (0..self.triangles.len()).filter_map(move |index| self.triangle(index))
+    }
+
+    /// The corners of a triangle, if they are there and finite.
+    pub(crate) fn triangle(self, index: usize) -> Option<[DVec3; 3]> {
+        let [a, b, c] = self
+            .triangles
+            .get(index)?
+            .map(|v| self.positions_m.get(v as usize).copied().filter(|p| p.is_finite()));
+        Some([a?, b?, c?])
+    }
+
+    /// The lines in which a plane cuts the triangles.
+    pub(crate) fn cut(self, plane: Plane) -> impl Iterator<Item = [DVec3; 2]> + 'a {
+        self.corners().filter_map(move |corners| plane.cut(corners))
+    }
+}
