@@ -3,7 +3,7 @@
 use crate::finding::{Check, Findings};
 use crate::names;
 use crate::survey::Survey;
-use crate::units;
+use crate::units::{self, Thing};
 
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let scene = survey.probe.scene;
@@ -23,7 +23,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             camera.name,
             names::position(position)
         );
-        let cure = match units::explaining(scene, position) {
+        let cure = match units::explaining(scene, position, Thing::Other) {
             Some(unit) => format!(
                 "it would be inside in {}: say position_units = \"{}\" in [scene] if all positions \
                  are meant so",

@@ -23,8 +23,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         let Light::Area(area) = light else { continue };
         let stride = area.triangles.len().div_ceil(MAX_FACES).max(1);
         let faces: Vec<u32> = area.triangles.iter().copied().step_by(stride).collect();
-        let reaches = survey.reaches[index];
-        let looks_away = |&&face: &&u32| looks_away(survey, area, face, reaches);
+        let looks_away = |&&face: &&u32| looks_away(survey, area, face);
         let away: Vec<u32> = faces.iter().filter(looks_away).copied().collect();
         let Some(&first) = away.first() else { continue };
         let material = &scene.materials[area.material as usize].name;
@@ -45,21 +44,21 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// Whether the back of a face sees what sensors see, and its front does not and shines at nothing.
-fn looks_away(survey: &Survey<'_>, light: &AreaLight, face: u32, reaches: bool) -> bool {
+/// Whether the back of a face sees sensors or what a camera sees, and its front shines at nothing.
+fn looks_away(survey: &Survey<'_>, light: &AreaLight, face: u32) -> bool {
     let probe = survey.probe;
     let mesh = &probe.scene.mesh;
     let position = mesh.corners(face).into_iter().sum::<DVec3>() / 3.0;
     let normal = mesh.front_normal(face);
     let side =
         |normal: DVec3| Vertex { position: position + normal * probe.hair_m, normal: Some(normal) };
-    let eyes = survey.asked_vertices.iter().chain(&survey.camera_vertices).flatten();
-    let eyes: Vec<Vertex> = eyes.copied().collect();
-    let is_lost = || lost_share(probe, light, &side(normal), mesh.area_m2(face)) >= LOST;
+    let of_sensors = survey.asked_vertices.iter().filter_map(|vertices| vertices.first());
+    let eyes: Vec<Vertex> =
+        of_sensors.chain(survey.camera_vertices.iter().flatten()).copied().collect();
     !survey.meet(&[side(normal)], &eyes)
         && survey.meet(&[side(-normal)], &eyes)
-        && !has_twin(probe, position, normal)
-        && (!reaches || is_lost())
+        && !has_twin(survey, light, face, &side(normal))
+        && lost_share(probe, light, &side(normal), mesh.area_m2(face)) >= LOST
 }
 
 /// The share of a face's light that meets nothing, or something near that is no part of the lamp.
@@ -75,9 +74,14 @@ fn lost_share(probe: &Probe<'_>, light: &AreaLight, front: &Vertex, area_m2: f64
     (0..DIRECTIONS).filter(is_lost).count() as f64 / f64::from(DIRECTIONS)
 }
 
-/// Whether another face is at the same place: a panel that shines to both sides is drawn so.
-fn has_twin(probe: &Probe<'_>, position: DVec3, normal: DVec3) -> bool {
-    let from = position + normal * (10.0 * probe.hair_m);
-    let met = probe.first(from, -normal);
-    met.is_some_and(|met| probe.twin(from, -normal, &met).is_some())
+/// Whether another face of the light is at the same place: a panel that shines to both sides is
+/// drawn so.
+fn has_twin(survey: &Survey<'_>, light: &AreaLight, face: u32, front: &Vertex) -> bool {
+    let normal = front.normal.unwrap_or(DVec3::Z);
+    let from = front.position + normal * (10.0 * survey.probe.hair_m);
+    let Some(met) = survey.probe.first(from, -normal) else { return false };
+    let twin = survey.probe.twin(from, -normal, &met);
+    let is_other =
+        |triangle: &u32| *triangle != face && light.triangles.binary_search(triangle).is_ok();
+    std::iter::once(met.triangle).chain(twin).any(|triangle| is_other(&triangle))
 }

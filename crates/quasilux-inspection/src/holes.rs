@@ -16,10 +16,14 @@ use quasilux_scene::Mesh;
 const PLACES: usize = 64;
 /// Rays from each.
 const DIRECTIONS: u32 = 96;
-/// Directions along an axis that meet a surface in more than this share are closed.
-const CLOSED: f64 = 0.4;
-/// Of six, in a room.
+/// A side is closed where more than this share of directions to it meets a surface.
+const CLOSED: f64 = 0.5;
+/// Of six sides, in a room.
 const CLOSED_SIDES: usize = 5;
+/// Elevations, as tangents, at which a side is looked at: a floor is below them.
+const ELEVATIONS: [f64; 2] = [0.05, 0.15];
+/// Azimuths, as tangents from the axis.
+const AZIMUTHS: [f64; 4] = [-0.75, -0.25, 0.25, 0.75];
 /// Less than this share is taken for gaps of modelling.
 const MIN_LEAVING: f64 = 2e-4;
 /// Edges of a loop.
@@ -38,7 +42,7 @@ struct Leaving {
 struct Outlook {
     rays: usize,
     leaving: Vec<Leaving>,
-    /// Rays along each of six directions: all, and those that meet something.
+    /// Rays to each of six sides: all, and those that meet something.
     sides: [Side; 6],
 }
 
@@ -97,13 +101,11 @@ fn outlook(survey: &Survey<'_>) -> Outlook {
     let cameras = of_cameras.step_by(8).take(PLACES).map(|vertex| vertex.position);
     let mut outlook = Outlook::default();
     for from in sensors.chain(cameras) {
+        outlook.look_around(survey, from);
         for i in 0..DIRECTIONS {
             let direction = sphere_direction(i, DIRECTIONS);
-            let met = survey.probe.first(from, direction).is_some();
+            let met = survey.probe.meets(from, direction);
             outlook.rays += 1;
-            let side = &mut outlook.sides[side_of(direction)];
-            side.rays += 1;
-            side.met += usize::from(met);
             if !met {
                 outlook.leaving.push(Leaving { from, direction });
             }
@@ -112,13 +114,29 @@ fn outlook(survey: &Survey<'_>) -> Outlook {
     outlook
 }
 
-/// The axis along which a direction goes most, -x to +z.
-fn side_of(direction: DVec3) -> usize {
-    let largest = direction.abs().max_position();
-    2 * largest + usize::from(direction[largest] > 0.0)
+/// Directions to one of six sides: +x, -x, +y, -y, up, down.
+fn toward(side: usize) -> Vec<DVec3> {
+    let sign = if side.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let tangents = AZIMUTHS.iter().flat_map(|&a| ELEVATIONS.map(|e| DVec2::new(a, e)));
+    let direction = |at: DVec2| match side / 2 {
+        0 => DVec3::new(sign, at.x, at.y),
+        1 => DVec3::new(at.x, sign, at.y),
+        _ => DVec3::new(at.x, 4.0 * at.y, sign),
+    };
+    tangents.map(|at| direction(at).normalize()).collect()
 }
 
 impl Outlook {
+    /// Looks to all sides.
+    fn look_around(&mut self, survey: &Survey<'_>, from: DVec3) {
+        for (number, side) in self.sides.iter_mut().enumerate() {
+            for direction in toward(number) {
+                side.rays += 1;
+                side.met += usize::from(survey.probe.meets(from, direction));
+            }
+        }
+    }
+
     fn is_room(&self) -> bool {
         let is_closed = |side: &&Side| side.met as f64 > CLOSED * side.rays.max(1) as f64;
         self.sides.iter().filter(is_closed).count() >= CLOSED_SIDES
@@ -128,13 +146,14 @@ impl Outlook {
 /// Whether a camera or a lamp whose light arrives stands outside: then it is through the hole.
 fn is_looked_through(survey: &Survey<'_>) -> bool {
     let scene = survey.probe.scene;
+    let [low, high] = scene.mesh.bounds().unwrap_or_default();
+    let is_beyond = |at: DVec3| at.cmplt(low).any() || at.cmpgt(high).any();
     let mut lamps = scene.lights.iter().zip(&survey.reaches).filter(|(_, reaches)| **reaches);
-    let lamp_outside = lamps
-        .any(|(lamp, _)| position_of(lamp).is_some_and(|position| survey.is_in_the_open(position)));
+    let shines_in = lamps.any(|(lamp, _)| position_of(lamp).is_some_and(is_beyond));
     let looks_in = |(camera, seen): (&quasilux_scene::Camera, &Vec<_>)| {
-        survey.is_in_the_open(camera.position) && survey.is_lit(seen)
+        is_beyond(camera.position) && survey.is_lit(seen)
     };
-    lamp_outside || scene.cameras.iter().zip(&survey.camera_vertices).any(looks_in)
+    shines_in || scene.cameras.iter().zip(&survey.camera_vertices).any(looks_in)
 }
 
 /// Where a ray leaves the box around the geometry.

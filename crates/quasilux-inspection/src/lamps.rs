@@ -7,7 +7,7 @@
 use crate::finding::{Check, Findings};
 use crate::names;
 use crate::survey::{Survey, Vertex, emitted_direction};
-use crate::units;
+use crate::units::{self, Thing};
 use glam::DVec3;
 use quasilux_scene::solids::{Solid, solids_of};
 use quasilux_scene::{Light, Scene};
@@ -16,8 +16,8 @@ use quasilux_scene::{Light, Scene};
 pub(crate) const MAX_LISTED: usize = 20;
 /// A lamp that hangs behind a surface by mistake is no further from it than this, in m.
 const MAX_MOVE_M: f64 = 1.0;
-/// Slabs through which a move may lead are no thicker, in m.
-const MAX_SLAB_M: f64 = 0.6;
+/// Surfaces on the way: those of a slab, and of a ceiling below.
+const MAX_SURFACES: usize = 4;
 
 /// A surface this near to a lamp is around it, in m.
 const IN_SURFACE_M: f64 = 1e-3;
@@ -62,6 +62,14 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             );
             let cure = cure_outside(scene, position, way.as_ref());
             findings.add(Check::LampOutside, place, message, cure).at(position);
+        } else if let Some(solid) = around_lamp_alone(survey, &mut solids, position) {
+            let object = names::object(&scene.mesh, solid);
+            let message = format!(
+                "{what} is inside the closed object \"{object}\", and none of its light was found \
+                 to reach a sensor or camera"
+            );
+            let cure = "expected a place in the room, or an opening or glass in the object";
+            findings.add(Check::LampInBody, place, message, cure).at(position);
         } else if let Some(way) = way {
             let object = names::object(&scene.mesh, way.triangle);
             let message = format!(
@@ -70,16 +78,6 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             );
             let cure = cure_by_move(&way, scene);
             findings.add(Check::LampBehindSurface, place, message, cure).at(position);
-        } else {
-            let solids = solids.get_or_insert_with(|| solids_of(&scene.mesh));
-            let Some(solid) = around_lamp_alone(survey, solids, position) else { continue };
-            let object = names::object(&scene.mesh, solid.triangles[0]);
-            let message = format!(
-                "{what} is inside the closed object \"{object}\", and none of its light was found \
-                 to reach a sensor or camera"
-            );
-            let cure = "expected a place in the room, or an opening or glass in the object";
-            findings.add(Check::LampInBody, place, message, cure).at(position);
         }
     }
     if unreached > MAX_LISTED {
@@ -94,7 +92,8 @@ fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findi
     let scene = survey.probe.scene;
     let Light::Luminaire(light) = &scene.lights[index] else { return };
     let near = |direction: DVec3| {
-        survey.probe.first(at, direction).filter(|met| met.distance_m <= IN_SURFACE_M)
+        let met = survey.probe.first(at - direction * IN_SURFACE_M, direction);
+        met.filter(|met| met.distance_m <= 2.0 * IN_SURFACE_M)
     };
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
     let Some(surface) = axes.into_iter().find_map(near) else { return };
@@ -138,23 +137,27 @@ fn shortest_move(survey: &Survey<'_>, lamp: &Light, from: DVec3) -> Option<Move>
     ways.min_by(|a, b| a.length_m.total_cmp(&b.length_m))
 }
 
-/// A way in this direction through one surface, or through a slab of two.
+/// A way in this direction through a few surfaces, as of a slab.
 fn through(survey: &Survey<'_>, from: DVec3, direction: DVec3) -> Option<Move> {
-    let probe = survey.probe;
-    let hair_m = 4.0 * probe.hair_m;
-    let first = probe.first(from, direction).filter(|first| first.distance_m <= MAX_MOVE_M)?;
-    let slab = probe.first(from + direction * (first.distance_m + hair_m), direction);
-    let slab_m = slab.map(|back| back.distance_m).filter(|slab_m| *slab_m <= MAX_SLAB_M);
-    let ends = [Some(first.distance_m), slab_m.map(|slab_m| first.distance_m + slab_m + hair_m)];
-    ends.into_iter().flatten().find_map(|length_m| {
-        let length_m = length_m + hair_m;
-        let way = Move { direction, length_m, triangle: first.triangle };
-        survey.would_light(from + direction * length_m).then_some(way)
-    })
+    let step_m = 4.0 * survey.probe.hair_m;
+    let mut length_m = 0.0;
+    let mut first = None;
+    for _ in 0..MAX_SURFACES {
+        let met = survey.probe.first(from + direction * length_m, direction)?;
+        length_m += met.distance_m + step_m;
+        if length_m > MAX_MOVE_M {
+            return None;
+        }
+        let triangle = *first.get_or_insert(met.triangle);
+        if survey.would_light(from + direction * length_m) {
+            return Some(Move { direction, length_m, triangle });
+        }
+    }
+    None
 }
 
 fn cure_outside(scene: &Scene, position: DVec3, way: Option<&Move>) -> String {
-    if let Some(unit) = units::explaining(scene, position) {
+    if let Some(unit) = units::explaining(scene, position, Thing::Lamp) {
         return format!(
             "its position would be inside in {}: if it is meant so, say position_units = \"{}\" \
              in [scene] for all positions, or give this one in m",
@@ -177,12 +180,16 @@ fn cure_by_move(way: &Move, scene: &Scene) -> String {
     )
 }
 
-/// A closed body around the lamp and around no sensor or camera.
-fn around_lamp_alone<'s>(
+/// A triangle of a closed body around the lamp and around no sensor or camera; nothing where no lamp
+/// lights any of these, for then these may be what is in the wrong place.
+fn around_lamp_alone(
     survey: &Survey<'_>,
-    solids: &'s [Solid],
+    solids: &mut Option<Vec<Solid>>,
     position: DVec3,
-) -> Option<&'s Solid> {
+) -> Option<u32> {
+    if !survey.reaches.contains(&true) {
+        return None;
+    }
     let mesh = &survey.probe.scene.mesh;
     let sensors = survey.asked.iter().map(|asked| asked.point.position);
     let eyes: Vec<DVec3> =
@@ -190,5 +197,6 @@ fn around_lamp_alone<'s>(
     let holds_lamp_alone = |solid: &&Solid| {
         solid.contains(mesh, position) && !eyes.iter().any(|&eye| solid.contains(mesh, eye))
     };
-    solids.iter().find(holds_lamp_alone)
+    let solids = solids.get_or_insert_with(|| solids_of(mesh));
+    solids.iter().find(holds_lamp_alone).map(|solid| solid.triangles[0])
 }

@@ -24,9 +24,12 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     }
     let Some(geometry) = geometry(scene) else { return };
     let (now, other) = if findings.places.y_is_up { ("y", "z") } else { ("z", "y") };
-    let evidence = by_positions(scene, &geometry, findings.places.y_is_up)
-        .or_else(|| by_names(&scene.mesh, scene))
-        .or_else(|| by_areas(&scene.mesh, &geometry));
+    let evidence = by_positions(scene, &geometry, findings.places.y_is_up).or_else(|| {
+        match NamedFlat::new(scene) {
+            Some(named) => named.evidence(),
+            None => by_areas(&scene.mesh, &geometry),
+        }
+    });
     let Some(evidence) = evidence else { return };
     let message = format!("{now} is taken as up in the geometry files, but {evidence}");
     let cure = format!("if {other} points up there, say up = \"{other}\" in [scene]");
@@ -49,29 +52,45 @@ fn by_positions(scene: &Scene, geometry: &Extent, y_is_up: bool) -> Option<Strin
     })
 }
 
-/// Surfaces whose name says that they lie flat stand upright, facing y.
-fn by_names(mesh: &Mesh, scene: &Scene) -> Option<String> {
-    let is_flat_name = |name: &str| {
-        let name = name.to_lowercase();
-        FLAT.iter().any(|word| name.contains(word))
-    };
-    let materials: Vec<bool> =
-        scene.materials.iter().map(|material| is_flat_name(&material.name)).collect();
-    let objects: Vec<bool> = mesh.objects.iter().map(|name| is_flat_name(name)).collect();
-    let mut areas = DVec3::ZERO;
-    let mut example = None;
-    for triangle in 0..mesh.triangles.len() as u32 {
-        let (material, object) =
-            (mesh.material_of[triangle as usize], mesh.object_of[triangle as usize]);
-        if materials[material as usize] || objects[object as usize] {
-            areas += mesh.double_area_vector(triangle).abs();
-            example = example.or(Some(triangle));
+/// Surfaces whose name says that they lie flat.
+struct NamedFlat<'a> {
+    name: &'a str,
+    /// What they have of area square to each axis, in m^2.
+    areas_m2: DVec3,
+}
+
+impl<'a> NamedFlat<'a> {
+    fn new(scene: &'a Scene) -> Option<Self> {
+        let is_flat = |name: &str| {
+            let name = name.to_lowercase();
+            FLAT.iter().any(|word| name.contains(word))
+        };
+        let mesh = &scene.mesh;
+        let materials: Vec<bool> =
+            scene.materials.iter().map(|material| is_flat(&material.name)).collect();
+        let objects: Vec<bool> = mesh.objects.iter().map(|name| is_flat(name)).collect();
+        let mut named: Option<Self> = None;
+        for triangle in 0..mesh.triangles.len() as u32 {
+            let material = mesh.material_of[triangle as usize] as usize;
+            let name = if materials[material] {
+                &scene.materials[material].name
+            } else if objects[mesh.object_of[triangle as usize] as usize] {
+                names::object(mesh, triangle)
+            } else {
+                continue;
+            };
+            let named = named.get_or_insert(Self { name, areas_m2: DVec3::ZERO });
+            named.areas_m2 += 0.5 * mesh.double_area_vector(triangle).abs();
         }
+        named
     }
-    let example = example.filter(|_| areas.y > 2.0 * areas.z && areas.y > 2.0 * areas.x)?;
-    let material = &scene.material(example).name;
-    let name = if is_flat_name(material) { material } else { names::object(mesh, example) };
-    Some(format!("what is called \"{name}\" stands upright"))
+
+    /// They stand upright, facing y.
+    fn evidence(&self) -> Option<String> {
+        let areas = self.areas_m2;
+        let stands = areas.y > 2.0 * areas.z && areas.y > 2.0 * areas.x;
+        stands.then(|| format!("what is called \"{}\" stands upright", self.name))
+    }
 }
 
 /// Walls are larger than floor and ceiling, and as far apart as these usually are.

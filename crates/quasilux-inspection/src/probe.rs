@@ -50,6 +50,11 @@ impl<'a> Probe<'a> {
         self.within(&Ray::new(origin, direction))
     }
 
+    /// Whether a ray meets anything, glass too.
+    pub(crate) fn meets(&self, origin: DVec3, direction: DVec3) -> bool {
+        self.hierarchy.is_occluded(&Ray::new(origin, direction), &[])
+    }
+
     /// Whether light gets from one place to the other; both may lie on surfaces.
     pub(crate) fn sees(&self, a: DVec3, b: DVec3) -> bool {
         let between = b - a;
@@ -62,9 +67,8 @@ impl<'a> Probe<'a> {
     /// The share of directions in which nothing is met.
     pub(crate) fn escaping_share(&self, at: DVec3) -> f64 {
         const DIRECTIONS: u32 = 64;
-        let escaping = (0..DIRECTIONS)
-            .filter(|&i| self.first(at, sphere_direction(i, DIRECTIONS)).is_none())
-            .count();
+        let escaping =
+            (0..DIRECTIONS).filter(|&i| !self.meets(at, sphere_direction(i, DIRECTIONS))).count();
         escaping as f64 / f64::from(DIRECTIONS)
     }
 
@@ -84,7 +88,9 @@ impl<'a> Probe<'a> {
         loop {
             let hit = self.hierarchy.closest_hit(ray, &passed)?;
             let material = mesh.material_of[hit.triangle as usize] as usize;
-            if !self.transmits[material] || passed.len() == MAX_SHEETS {
+            // What starts in a surface is not stopped by it.
+            let is_around = hit.distance < 1e-3 * self.hair_m;
+            if !(self.transmits[material] || is_around) || passed.len() == MAX_SHEETS {
                 let front_normal = mesh.front_normal(hit.triangle);
                 let is_front = front_normal.dot(ray.direction) < 0.0;
                 let normal = if is_front { front_normal } else { -front_normal };

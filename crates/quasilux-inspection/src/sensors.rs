@@ -2,13 +2,21 @@
 
 use crate::finding::{Check, Findings};
 use crate::names;
+use crate::probe::{Probe, cosine_direction, square};
 use crate::survey::{Asked, Survey};
-use crate::units;
+use crate::units::{self, Thing};
 use glam::DVec3;
+use quasilux_scene::SensorPoint;
 
 /// A surface this near before a sensor point covers it, in m: a workplane is not put a centimetre
 /// below a table top.
 const COVERED_M: f64 = 0.01;
+
+/// Nor is most of the light that comes to it allowed to start nearer than this, in m.
+const NEAR_M: f64 = 0.1;
+/// Directions that are looked into, and how many of them meet something near.
+const DIRECTIONS: u32 = 16;
+const NEAR_DIRECTIONS: usize = 14;
 
 /// What is odd about the points of one sensor.
 #[derive(Default)]
@@ -33,8 +41,10 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     for (asked, lit) in survey.asked.iter().zip(lit) {
         let odd = &mut odd[asked.sensor];
         odd.tried += 1;
-        if !lit {
-            sort_in(survey, asked, is_open, odd);
+        if let Some(triangle) = covering(survey.probe, &asked.point) {
+            odd.covered.push(Covered { position: asked.point.position, triangle });
+        } else if !lit && is_outside(survey, asked, is_open) {
+            odd.outside.push(asked.point.position);
         }
     }
     for (number, odd) in odd.iter().enumerate() {
@@ -42,21 +52,25 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// Why this dark point may be dark.
-fn sort_in(survey: &Survey<'_>, asked: &Asked, is_open: bool, odd: &mut Odd) {
-    let (probe, position) = (survey.probe, asked.point.position);
-    let eye = survey.before(&asked.point);
-    let [low, high] = probe.scene.mesh.bounds().unwrap_or_default();
-    let margin = DVec3::splat(0.01 * probe.size_m);
+/// Whether a dark point is dark because it is not in the room.
+fn is_outside(survey: &Survey<'_>, asked: &Asked, is_open: bool) -> bool {
+    let position = asked.point.position;
+    let [low, high] = survey.probe.scene.mesh.bounds().unwrap_or_default();
+    let margin = DVec3::splat(0.01 * survey.probe.size_m);
     let is_beyond = position.cmplt(low - margin).any() || position.cmpgt(high + margin).any();
-    if is_beyond || (!is_open && survey.is_in_the_open(eye)) {
-        odd.outside.push(position);
-        return;
-    }
-    let ahead = probe.first(eye, asked.point.normal);
-    if let Some(ahead) = ahead.filter(|ahead| ahead.distance_m <= COVERED_M) {
-        odd.covered.push(Covered { position, triangle: ahead.triangle });
-    }
+    is_beyond || (!is_open && survey.is_in_the_open(survey.before(&asked.point)))
+}
+
+/// The triangle right in front of a point, from which nearly all of its light would come.
+fn covering(probe: &Probe<'_>, point: &SensorPoint) -> Option<u32> {
+    let eye = point.position + point.normal * probe.hair_m;
+    let ahead = probe.first(eye, point.normal).filter(|ahead| ahead.distance_m <= COVERED_M)?;
+    let is_near = |&i: &u32| {
+        let met = probe.first(eye, cosine_direction(point.normal, square(i)));
+        met.is_some_and(|met| met.distance_m <= NEAR_M)
+    };
+    let near = (0..DIRECTIONS).filter(is_near).count();
+    (near >= NEAR_DIRECTIONS).then_some(ahead.triangle)
 }
 
 fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings<'_>) {
@@ -79,7 +93,7 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
             share(odd.outside.len()),
             names::position(first)
         );
-        let cure = match units::explaining(scene, first) {
+        let cure = match units::explaining(scene, first, Thing::Other) {
             Some(unit) => format!(
                 "it would be inside in {}: say position_units = \"{}\" in [scene] if all positions \
                  are meant so",
@@ -96,7 +110,7 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
     if let Some(first) = odd.covered.first() {
         let object = names::object(&scene.mesh, first.triangle);
         let message = format!(
-            "{} right behind \"{object}\", where no light was found, as at {}",
+            "{} right before \"{object}\" and looks at it, as at {}",
             share(odd.covered.len()),
             names::position(first.position)
         );

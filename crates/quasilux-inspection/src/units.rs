@@ -78,12 +78,30 @@ pub(crate) fn positions(scene: &Scene) -> Vec<DVec3> {
     lamps.chain(sensors).chain(cameras).collect()
 }
 
-/// A unit in which a position would be inside the geometry, where it is outside in m.
-pub(crate) fn explaining(scene: &Scene, position: DVec3) -> Option<LengthUnit> {
+/// What stands at a position.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Thing {
+    /// Lamps hang in the upper half of a room.
+    Lamp,
+    /// Sensors and cameras may be at any height.
+    Other,
+}
+
+/// A unit in which a position would be inside the geometry, where it is far outside in m.
+pub(crate) fn explaining(scene: &Scene, position: DVec3, thing: Thing) -> Option<LengthUnit> {
     let geometry = geometry(scene)?;
-    let is_explained = |unit: &LengthUnit| geometry.holds(position * unit.metres());
+    let nearest = position.clamp(geometry.low, geometry.high);
+    if position.distance(nearest) < geometry.edges().length() {
+        return None;
+    }
+    let is_explained = |unit: &LengthUnit| {
+        let inside = position * unit.metres();
+        let height = (inside.z - geometry.low.z) / geometry.edges().z;
+        geometry.holds(inside)
+            && (thing == Thing::Other || (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height))
+    };
     let others = LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre);
-    if geometry.holds(position) { None } else { others.into_iter().find(is_explained) }
+    others.into_iter().find(is_explained)
 }
 
 /// A unit in running text.

@@ -157,6 +157,7 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
         threads: 2,
         expected_bytes: Some(96 << 20),
         warnings: vec![WARNING.into()],
+        findings: Vec::new(),
     };
     Report::new(&scene, settings, &estimates, facts)
 }
@@ -203,6 +204,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         relieved_points: 0,
         biased: false,
         warnings: Vec::new(),
+        findings: Vec::new(),
     };
     let scene = Scene {
         sensors: sensors.into_iter().map(|(sensor, _)| sensor).collect(),

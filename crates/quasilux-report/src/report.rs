@@ -7,6 +7,7 @@
 use crate::CameraReport;
 use crate::figure::{Figure, finite};
 use glam::DVec3;
+use quasilux_inspection::Finding;
 use quasilux_scene::{Grid, Scene, SensorShape};
 use quasilux_transport::{
     Convergence, Decisions, Dimensions, Estimates, Explanation, FluxBalance, SensorEstimates,
@@ -33,6 +34,8 @@ pub struct RunFacts {
     pub expected_bytes: Option<u64>,
     /// Warnings of the loaders.
     pub warnings: Vec<String>,
+    /// What is probably wrong with the scene.
+    pub findings: Vec<Finding>,
 }
 
 /// A run and its results.
@@ -48,7 +51,10 @@ pub struct Report {
     pub explanation: Option<Explanation>,
     /// Whether values may be biased beyond what their intervals say; a warning says why.
     pub biased: bool,
-    /// What a reader of the results must know: from loading, from the simulation, from reporting.
+    /// What is probably wrong with the scene.
+    pub findings: Vec<Finding>,
+    /// What a reader of the results must know: from loading, what is probably wrong with the scene,
+    /// from the simulation, from reporting.
     pub warnings: Vec<String>,
 }
 
@@ -163,6 +169,7 @@ impl Report {
         let cameras =
             (0..scene.cameras.len()).map(|c| CameraReport::new(scene, estimates, c)).collect();
         let mut warnings = facts.warnings;
+        warnings.extend(facts.findings.iter().map(ToString::to_string));
         warnings.extend_from_slice(&estimates.warnings);
         if estimates.biased && !warnings.iter().any(|w| w.contains("bias")) {
             warnings.push(format!(
@@ -196,6 +203,7 @@ impl Report {
             },
             explanation: None,
             biased: estimates.biased,
+            findings: facts.findings,
             warnings,
         }
     }

@@ -2,13 +2,13 @@
 
 use crate::lights::Lights;
 use crate::lights::images::SpecularImages;
+use crate::prepared::PreparedScene;
 use crate::purpose::{Purpose, PurposeRecorder};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use quasilux_bvh::SimdLevel;
 use quasilux_sampling::{PointSet, Sampler, Sequence, stream_key};
-use quasilux_scene::Scene;
 
 /// What a wave spends its time on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,13 +155,19 @@ impl Stream {
 }
 
 impl<'a, S: Spectrum> Context<'a, S> {
-    pub(crate) fn new(scene: &'a Scene, settings: &'a Settings) -> Self {
+    pub(crate) fn new(scene: impl Into<PreparedScene<'a>>, settings: &'a Settings) -> Self {
         Self::on(SimdLevel::fastest(), scene, settings)
     }
 
     /// The same for a ray kernel of choice: no result depends on it.
-    pub(crate) fn on(simd: SimdLevel, scene: &'a Scene, settings: &'a Settings) -> Self {
-        let world = World::new(scene, simd);
+    pub(crate) fn on(
+        simd: SimdLevel,
+        scene: impl Into<PreparedScene<'a>>,
+        settings: &'a Settings,
+    ) -> Self {
+        let prepared = scene.into();
+        let scene = prepared.scene();
+        let world = World::new(prepared, simd);
         let lights = Lights::new(scene, &world);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
         let hides = images.hides(&world, &lights);

@@ -32,6 +32,7 @@ mod importance;
 mod lights;
 mod path;
 mod photon;
+mod prepared;
 pub mod purpose;
 mod run;
 #[cfg(test)]
@@ -46,6 +47,7 @@ mod world;
 pub use bsdf::Scattering;
 pub use codec::StateError;
 pub use explain::{Explanation, explain};
+pub use prepared::PreparedScene;
 pub use quasilux_sampling::DimensionHistogram;
 pub use run::check::{CheckError, check};
 pub use run::memory::MemoryNeed;

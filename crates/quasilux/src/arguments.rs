@@ -1,11 +1,13 @@
 //! What can be said on the command line.
 
 mod bsdf;
+mod check;
 mod parts;
 mod photometry;
 mod points;
 
 pub(crate) use bsdf::{BsdfArguments, Incidence};
+pub(crate) use check::CheckArguments;
 pub(crate) use parts::{
     MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments,
 };
@@ -28,6 +30,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Simulate a project until every sensor point is known to the wanted tolerance
     Run(RunArguments),
+    /// Say what was understood of a project and what is probably wrong with it, and draw its plan
+    Check(CheckArguments),
     /// Run the cases of validation/ against their closed forms; exit code 1 when one fails
     Validate(ValidateArguments),
     /// Repeat one of the experiments of the paper, or one of our own; exit code 1 when what it
@@ -69,6 +73,9 @@ pub(crate) struct RunArguments {
     /// some seconds more
     #[arg(long)]
     pub(crate) explain: bool,
+    /// Refuse a scene in which something is probably wrong, instead of warning
+    #[arg(long)]
+    pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) output: OutputArguments,
 }

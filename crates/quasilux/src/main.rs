@@ -11,6 +11,7 @@ mod checkpoint;
 mod commands;
 mod container;
 mod digest;
+mod door;
 mod exit;
 mod forecast;
 mod interrupt;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
+        Command::Check(arguments) => commands::check(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
         Command::Points(arguments) => commands::points(&arguments),
         Command::Photometry(arguments) => commands::photometry(&arguments),

@@ -63,6 +63,11 @@ pub(crate) enum Stopped {
 }
 
 impl<'a> Watcher<'a> {
+    /// Prints something, the bar out of the way.
+    pub(crate) fn say(&self, print: impl FnOnce()) {
+        self.bar.suspend(print);
+    }
+
     /// Starts the clock. The bar goes to stderr, and only where that is a terminal.
     pub(crate) fn new(forecast: Forecast<'a>, time: Option<Duration>, quiet: bool) -> Self {
         let start = Instant::now();

@@ -25,7 +25,10 @@ const MAY_USE: [(&str, &[&str]); 13] = [
     ),
     ("quasilux-inspection", &["quasilux-scene", "quasilux-bvh", "quasilux-photometry"]),
     ("quasilux-drawing", &[]),
-    ("quasilux-report", &["quasilux-transport", "quasilux-scene", "quasilux-drawing"]),
+    (
+        "quasilux-report",
+        &["quasilux-transport", "quasilux-inspection", "quasilux-scene", "quasilux-drawing"],
+    ),
     (
         "quasilux-experiments",
         &[

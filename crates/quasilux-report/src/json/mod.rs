@@ -19,15 +19,19 @@
 //! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
 //! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
 //! tolerance before others has its own number of `samples`. Where it was asked for, `explain` says
-//! which coordinates carry the variance.
+//! which coordinates carry the variance. `findings` are what is probably wrong with the scene, each
+//! with the `check` that found it, place and `cure`; `warnings` have them as text, too.
 
 mod camera;
 mod explanation;
+mod finding;
 mod layout;
 mod prediction;
 mod terms;
 
 use crate::{Figure, Report, Run, SensorReport};
+pub use finding::FindingEntry;
+
 use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
@@ -68,6 +72,7 @@ struct Document<'a> {
     run: RunEntry<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     explain: Option<ExplanationEntry<'a>>,
+    findings: Vec<FindingEntry<'a>>,
     warnings: &'a [String],
 }
 
@@ -179,6 +184,7 @@ impl<'a> Document<'a> {
             cameras: report.cameras.iter().map(CameraEntry::new).collect(),
             run: RunEntry::new(&report.run),
             explain: report.explanation.as_ref().map(ExplanationEntry::new),
+            findings: report.findings.iter().map(FindingEntry::new).collect(),
             warnings: &report.warnings,
         }
     }

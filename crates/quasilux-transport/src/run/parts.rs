@@ -10,6 +10,7 @@ use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
 use crate::estimator::witness::Witness;
 use crate::estimator::{Estimator, new_estimator};
+use crate::prepared::PreparedScene;
 use crate::run::pixels::add_pictures;
 use crate::run::simulate::{Look, look};
 use crate::settings::Settings;
@@ -42,18 +43,18 @@ pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
 /// Traces the indices `part` of a run of so many `samples` in all replicates, for [`merge`]; `None`
 /// when the observer stopped it.
 #[must_use]
-pub fn trace_part(
-    scene: &Scene,
+pub fn trace_part<'a>(
+    scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
     samples: u64,
     part: Range<u64>,
     observer: &mut dyn Observer,
 ) -> Option<Vec<u8>> {
-    let watch = &mut Watch::new(observer);
-    if is_grey(scene) {
-        trace::<f64>(scene, settings, samples, part, watch)
+    let (prepared, watch) = (scene.into(), &mut Watch::new(observer));
+    if is_grey(prepared.scene()) {
+        trace::<f64>(prepared, settings, samples, part, watch)
     } else {
-        trace::<Rgb>(scene, settings, samples, part, watch)
+        trace::<Rgb>(prepared, settings, samples, part, watch)
     }
 }
 
@@ -109,29 +110,30 @@ pub enum MergeError {
 ///
 /// # Errors
 /// When a part is damaged or of another run, when parts overlap, and when indices are missing.
-pub fn merge(
-    scene: &Scene,
+pub fn merge<'a>(
+    scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
     samples: u64,
     parts: &[&[u8]],
     observer: &mut dyn Observer,
 ) -> Result<Estimates, MergeError> {
-    let watch = &mut Watch::new(observer);
-    if is_grey(scene) {
-        put_together::<f64>(scene, settings, samples, parts, watch)
+    let (prepared, watch) = (scene.into(), &mut Watch::new(observer));
+    if is_grey(prepared.scene()) {
+        put_together::<f64>(prepared, settings, samples, parts, watch)
     } else {
-        put_together::<Rgb>(scene, settings, samples, parts, watch)
+        put_together::<Rgb>(prepared, settings, samples, parts, watch)
     }
 }
 
 fn trace<S: Spectrum>(
-    scene: &Scene,
+    prepared: PreparedScene<'_>,
     settings: &Settings,
     samples: u64,
     part: Range<u64>,
     watch: &mut Watch<'_>,
 ) -> Option<Vec<u8>> {
-    let context = Context::<S>::new(scene, settings);
+    let scene = prepared.scene();
+    let context = Context::<S>::new(prepared, settings);
     let mut estimator = new_estimator(&context, scene, settings, watch);
     // There is no checkpoint before the end, and so no result if it is stopped.
     watch.obey();
@@ -148,13 +150,14 @@ fn trace<S: Spectrum>(
 }
 
 fn put_together<'p, S: Spectrum>(
-    scene: &Scene,
+    prepared: PreparedScene<'_>,
     settings: &Settings,
     samples: u64,
     parts: &[&'p [u8]],
     watch: &mut Watch<'_>,
 ) -> Result<Estimates, MergeError> {
-    let context = Context::<S>::new(scene, settings);
+    let scene = prepared.scene();
+    let context = Context::<S>::new(prepared, settings);
     let mut estimator = new_estimator(&context, scene, settings, watch);
     let decisions = estimator.decisions();
     let expected = Expected {

@@ -5,6 +5,7 @@ use crate::codec::{Reader, StateError};
 use crate::context::Context;
 use crate::estimator::witness::{self, Witness};
 use crate::estimator::{Estimator, new_estimator};
+use crate::prepared::PreparedScene;
 use crate::run::check::{caveats, is_biased};
 use crate::run::course::Course;
 use crate::run::pixels::add_pictures;
@@ -33,21 +34,27 @@ const ROUNDING: f64 = 1e-12;
 /// pool that the call is made in. [`crate::check`] says beforehand whether the settings make
 /// sense for the scene.
 #[must_use]
-pub fn simulate(scene: &Scene, settings: &Settings, observer: &mut dyn Observer) -> Estimates {
+pub fn simulate<'a>(
+    scene: impl Into<PreparedScene<'a>>,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Estimates {
     simulate_on(SimdLevel::fastest(), scene, settings, observer)
 }
 
 /// The same with a ray kernel of choice.
-pub(crate) fn simulate_on(
+pub(crate) fn simulate_on<'a>(
     simd: SimdLevel,
-    scene: &Scene,
+    scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Estimates {
+    let prepared = scene.into();
+    let scene = prepared.scene();
     let estimates = if is_grey(scene) {
-        run(&Context::<f64>::on(simd, scene, settings), scene, settings, None, observer)
+        run(&Context::<f64>::on(simd, prepared, settings), scene, settings, None, observer)
     } else {
-        run(&Context::<Rgb>::on(simd, scene, settings), scene, settings, None, observer)
+        run(&Context::<Rgb>::on(simd, prepared, settings), scene, settings, None, observer)
     };
     estimates.expect("a run from the start needs no state")
 }
@@ -57,16 +64,18 @@ pub(crate) fn simulate_on(
 ///
 /// # Errors
 /// When the state is damaged or of another run.
-pub fn resume(
-    scene: &Scene,
+pub fn resume<'a>(
+    scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
     state: &[u8],
     observer: &mut dyn Observer,
 ) -> Result<Estimates, StateError> {
+    let prepared = scene.into();
+    let scene = prepared.scene();
     if is_grey(scene) {
-        run(&Context::<f64>::new(scene, settings), scene, settings, Some(state), observer)
+        run(&Context::<f64>::new(prepared, settings), scene, settings, Some(state), observer)
     } else {
-        run(&Context::<Rgb>::new(scene, settings), scene, settings, Some(state), observer)
+        run(&Context::<Rgb>::new(prepared, settings), scene, settings, Some(state), observer)
     }
 }
 

@@ -10,12 +10,14 @@ pub(crate) mod vertex;
 pub(crate) mod visibility;
 
 use crate::bsdf::Bsdf;
+use crate::prepared::PreparedScene;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use glam::DVec3;
 use quasilux_bvh::{Hit, Ray, RayQuery, SimdLevel, TriangleBvh};
 use quasilux_sampling::warp::sample_triangle;
-use quasilux_scene::{Light, Scene};
+use quasilux_scene::Light;
+use std::sync::Arc;
 
 /// Hits are drawn this share of the way to their facet's centroid, so that none lies on an edge
 /// and a neighbour's plane cannot be on the wrong side of it.
@@ -76,7 +78,7 @@ pub(crate) struct World<S> {
     bsdfs: Vec<Bsdf<S>>,
     /// What each keeps at most of light from all sides.
     most_kept: Vec<f64>,
-    bvh: TriangleBvh,
+    bvh: Arc<TriangleBvh>,
     /// The emitting facets again, where some lie flush in another surface: they come first there.
     flush_emitters: Option<FlushEmitters>,
     has_panes: bool,
@@ -95,7 +97,9 @@ struct FlushEmitters {
 }
 
 impl<S: Spectrum> World<S> {
-    pub(crate) fn new(scene: &Scene, simd: SimdLevel) -> Self {
+    pub(crate) fn new<'a>(scene: impl Into<PreparedScene<'a>>, simd: SimdLevel) -> Self {
+        let prepared = scene.into();
+        let scene = prepared.scene();
         let mesh = &scene.mesh;
         let mut facets: Vec<Facet> = (0..mesh.triangles.len() as u32)
             .map(|triangle| Facet {
@@ -112,8 +116,6 @@ impl<S: Spectrum> World<S> {
                 }
             }
         }
-        let corners = facets.iter().map(|facet| facet.corners).collect();
-        let bvh = TriangleBvh::build_for(corners, simd);
         let bounds = mesh.bounds();
         let [low, high] = bounds.unwrap_or([DVec3::ZERO, DVec3::ONE]);
         let size_m = (high - low).length();
@@ -122,7 +124,7 @@ impl<S: Spectrum> World<S> {
             facets,
             bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
             most_kept: scene.materials.iter().map(|of| of.bsdf.most_kept().luminance()).collect(),
-            bvh,
+            bvh: prepared.hierarchy_for(simd),
             flush_emitters: None,
             has_panes: false,
             bounds,

@@ -2,12 +2,13 @@
 
 use super::run::{Folder, count, work};
 use crate::arguments::MergeArguments;
+use crate::door::Door;
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::{Part, in_order};
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
-use quasilux_transport::MergeError;
+use quasilux_transport::{MergeError, PreparedScene};
 
 /// Puts parts together and writes the results of the run.
 pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
@@ -29,7 +30,8 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
     let threads = count(arguments.work.threads);
     let forecast = Forecast::new(scene, &settings, threads);
     let watcher = Watcher::new(forecast, None, arguments.output.quiet);
-    let put_together = |watcher: &mut Watcher<'_>| {
+    let put_together = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
+        let scene = prepared.clone();
         let sums: Vec<&[u8]> = parts.iter().map(|part| part.sums.as_slice()).collect();
         quasilux_transport::merge(scene, &settings, plan.samples, &sums, watcher).map(Some).map_err(
             |error| match error {
@@ -40,7 +42,8 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
             },
         )
     };
-    match work(&project, watcher, put_together)? {
+    let door = Door { strict: false, announces: !arguments.output.quiet };
+    match work(&project, door, watcher, put_together)? {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
     }

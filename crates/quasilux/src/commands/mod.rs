@@ -1,6 +1,7 @@
 //! One file a command.
 
 mod bsdf;
+mod check;
 mod drawings;
 mod experiment;
 mod inputs;
@@ -14,6 +15,7 @@ mod shard;
 mod validate;
 
 pub(crate) use bsdf::bsdf;
+pub(crate) use check::check;
 pub(crate) use experiment::experiment;
 pub(crate) use merge::merge;
 pub(crate) use photometry::photometry;

@@ -3,10 +3,12 @@
 use super::run::{Folder, count, work};
 use crate::arguments::ResumeArguments;
 use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest};
+use crate::door::Door;
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
+use quasilux_transport::PreparedScene;
 use std::path::PathBuf;
 
 /// Goes on with a run, and ends with the bits that it would have had.
@@ -40,11 +42,12 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
     let forecast = Forecast::new(scene, &settings, threads);
     let watcher = Watcher::new(forecast, arguments.time, arguments.output.quiet)
         .checkpoints(writer, arguments.checkpoint_every);
-    let go_on = |watcher: &mut Watcher<'_>| {
-        let estimates = quasilux_transport::resume(scene, &settings, &state, watcher);
+    let go_on = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
+        let estimates = quasilux_transport::resume(prepared.clone(), &settings, &state, watcher);
         estimates.map(Some).map_err(|error| CliError::new(format!("{name}: {error}")))
     };
-    match work(&project, watcher, go_on)? {
+    let door = Door { strict: false, announces: !arguments.output.quiet };
+    match work(&project, door, watcher, go_on)? {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
     }

@@ -3,6 +3,7 @@
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
 use crate::build::{BUILD, VERSION};
 use crate::checkpoint::CheckpointWriter;
+use crate::door::{Admitted, Door};
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::Plan;
@@ -11,7 +12,7 @@ use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
 use quasilux_report::{Report, RunFacts, Style, json, table};
-use quasilux_transport::Estimates;
+use quasilux_transport::{Estimates, PreparedScene};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -45,10 +46,11 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, CliError> {
         let writer = CheckpointWriter::fresh(path, &arguments.project, &project, &settings)?;
         watcher = watcher.checkpoints(writer, arguments.keeping.checkpoint_every);
     }
-    let simulate = |watcher: &mut Watcher<'_>| {
-        Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)))
+    let simulate = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
+        Ok(Some(quasilux_transport::simulate(prepared.clone(), &settings, watcher)))
     };
-    let Some(mut finished) = work(&project, watcher, simulate)? else {
+    let door = Door { strict: arguments.strict, announces: !arguments.output.quiet };
+    let Some(mut finished) = work(&project, door, watcher, simulate)? else {
         return Ok(Exit::Interrupted);
     };
     if arguments.explain && finished.exit != Exit::Interrupted {
@@ -72,17 +74,18 @@ fn run_plan(
     let threads = count(arguments.simulation.threads);
     let forecast = Forecast::new(scene, &settings, threads);
     let watcher = Watcher::new(forecast, None, arguments.output.quiet);
-    let run = |watcher: &mut Watcher<'_>| {
-        let samples = plan.samples;
+    let run = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
+        let (samples, scene) = (plan.samples, prepared.clone());
         let part = quasilux_transport::trace_part(scene, &settings, samples, 0..samples, watcher);
         let merge = |part: Vec<u8>| {
             plan.expect_decisions(&part, &path.display().to_string())?;
-            quasilux_transport::merge(scene, &settings, samples, &[&part], watcher)
+            quasilux_transport::merge(prepared.clone(), &settings, samples, &[&part], watcher)
                 .map_err(CliError::new)
         };
         part.map(merge).transpose()
     };
-    match work(project, watcher, run)? {
+    let door = Door { strict: arguments.strict, announces: !arguments.output.quiet };
+    match work(project, door, watcher, run)? {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
     }
@@ -98,23 +101,27 @@ pub(crate) fn simulate(
     let scene = &project.loaded.scene;
     let forecast = Forecast::new(scene, &settings, count(arguments.threads));
     let watcher = Watcher::new(forecast, arguments.time, quiet);
-    let simulate = |watcher: &mut Watcher<'_>| {
-        Ok(Some(quasilux_transport::simulate(scene, &settings, watcher)))
+    let simulate = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
+        Ok(Some(quasilux_transport::simulate(prepared.clone(), &settings, watcher)))
     };
-    let finished = work(project, watcher, simulate)?;
+    let door = Door { strict: false, announces: false };
+    let finished = work(project, door, watcher, simulate)?;
     Ok(finished.expect("a run has results once it has begun"))
 }
 
-/// Does a job on the threads that its watcher knows of; `None` when the user interrupted it before
-/// it had results.
+/// Does a job on the threads that its watcher knows of, with a scene that the door lets in; `None`
+/// when the user interrupted it before it had results.
 pub(crate) fn work(
     project: &Project,
+    door: Door,
     mut watcher: Watcher<'_>,
-    job: impl FnOnce(&mut Watcher<'_>) -> Result<Option<Estimates>, CliError> + Send,
+    job: impl FnOnce(&PreparedScene<'_>, &mut Watcher<'_>) -> Result<Option<Estimates>, CliError> + Send,
 ) -> Result<Option<Finished>, CliError> {
     let forecast = watcher.forecast;
     let Forecast { scene, settings, threads, .. } = forecast;
-    let outcome = pool(threads)?.install(|| job(&mut watcher));
+    let pool = pool(threads)?;
+    let Admitted { prepared, findings } = pool.install(|| door.admit(project, &watcher))?;
+    let outcome = pool.install(|| job(&prepared, &mut watcher));
     let seconds: Duration = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
@@ -127,6 +134,7 @@ pub(crate) fn work(
         threads,
         expected_bytes: Some(forecast.bytes(Some(samples))),
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
+        findings,
     };
     let exit = match watcher.stopped {
         Some(Stopped::Interrupt) => Exit::Interrupted,

@@ -1,0 +1,106 @@
+//! Rooms at random, and the same rooms with one lamp moved through the ceiling.
+
+use crate::room::{Case, body, shell};
+use glam::DVec3;
+use quasilux_inspection::Check;
+
+/// Numbers from a counter (Steele, Lea and Flood 2014, SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+struct Random {
+    case: Case,
+    lamps: usize,
+    height_m: f64,
+}
+
+/// A room of any usual size with boxes in it and a row of lamps below the ceiling.
+fn room(seed: u64) -> Random {
+    let mut dice = Dice(seed);
+    let size = DVec3::new(dice.within(2.5, 20.0), dice.within(2.5, 12.0), dice.within(2.3, 6.0));
+    let origin = DVec3::new(dice.within(-5.0, 5.0), dice.within(-5.0, 5.0), 0.0);
+    let mut case = Case::new();
+    case.faces = shell(origin, origin + size);
+    for _ in 0..dice.within(0.0, 5.0) as usize {
+        let edge = DVec3::new(dice.within(0.3, 1.0), dice.within(0.3, 1.0), dice.within(0.3, 0.7));
+        let corner = origin
+            + DVec3::new(
+                dice.within(0.05, size.x - edge.x - 0.05),
+                dice.within(0.05, size.y - edge.y - 0.05),
+                0.01,
+            );
+        case.faces.extend(body("box", corner, corner + edge));
+    }
+    let lamps = 1 + dice.within(0.0, 5.0) as usize;
+    let (head, _) = case.project.split_once("[[luminaires]]").expect("a section of lamps");
+    let mut project = head.to_owned();
+    for k in 0..lamps {
+        let x = origin.x + size.x * (k as f64 + 0.5) / lamps as f64;
+        let y = origin.y + dice.within(0.2, 0.8) * size.y;
+        let z = size.z - dice.within(0.02, 0.5);
+        project +=
+            &format!("[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [{x}, {y}, {z}]\n");
+    }
+    let at = origin + DVec3::new(0.1, 0.1, 0.8);
+    let (u, v) = (size.x - 0.2, size.y - 0.2);
+    project += &format!(
+        "[[sensors]]\nname = \"plane\"\nkind = \"grid\"\norigin = [{}, {}, {}]\nu = [{u}, 0, 0]\n\
+         v = [0, {v}, 0]\nspacing = 0.5\n",
+        at.x, at.y, at.z
+    );
+    case.project = project;
+    Random { case, lamps, height_m: size.z }
+}
+
+#[test]
+fn random_rooms_are_right() {
+    for seed in 0..60 {
+        let findings = room(seed).case.findings();
+        assert!(findings.is_empty(), "room {seed}: {}", findings[0]);
+    }
+}
+
+/// In every room the lamp that hangs above the ceiling is named, and none else.
+#[test]
+fn a_lamp_above_the_ceiling_is_told_in_any_room() {
+    for seed in 0..60 {
+        let Random { mut case, lamps, height_m } = room(seed);
+        if lamps == 1 {
+            // Without a light in the room the project is refused.
+            continue;
+        }
+        let mut dice = Dice(seed ^ 0xABCD);
+        let wrong = (dice.within(0.0, lamps as f64) as usize).min(lamps - 1);
+        let above = height_m + dice.within(0.005, 0.9);
+        let mut number = 0;
+        let lines: Vec<String> = case
+            .project
+            .lines()
+            .map(|line| {
+                let is_lamp = line.starts_with("position");
+                number += usize::from(is_lamp);
+                if is_lamp && number == wrong + 1 {
+                    let (head, _) = line.rsplit_once(',').expect("three numbers");
+                    format!("{head}, {above}]")
+                } else {
+                    line.to_owned()
+                }
+            })
+            .collect();
+        case.project = lines.join("\n");
+        let findings = case.findings();
+        assert_eq!(findings.len(), 1, "room {seed}: {findings:#?}");
+        assert_eq!(findings[0].check, Check::LampOutside, "room {seed}: {}", findings[0]);
+        let named = format!("luminaire {} ", wrong + 1);
+        assert!(findings[0].message.starts_with(&named), "room {seed}: {}", findings[0]);
+    }
+}

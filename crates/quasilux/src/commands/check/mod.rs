@@ -1,0 +1,50 @@
+//! `quasilux check PROJECT`: what was understood of a project, what is probably wrong with it, and
+//! its plan.
+
+mod document;
+mod summary;
+
+use super::run::{count, pool};
+use crate::arguments::CheckArguments;
+use crate::door::{Admitted, prepare};
+use crate::exit::{CliError, Exit};
+use crate::print::print;
+use crate::{project, results};
+use quasilux_drawing::picture::PlanMark;
+use quasilux_inspection::Finding;
+use std::path::Path;
+
+/// Looks at a project, writes its plan, and reports; findings make the exit code 1 with `--strict`.
+pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, CliError> {
+    let project = project::open(&arguments.project)?;
+    let stem = arguments.project.file_stem().unwrap_or_default();
+    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    results::prepare(&folder)?;
+    let Admitted { findings, .. } = pool(count(None))?.install(|| prepare(&project));
+    let plan =
+        quasilux_report::plan(&project.loaded.scene, &stem.to_string_lossy(), &marks(&findings));
+    results::write_atomic(&folder.join("plan.png"), &plan.to_png(1.0))?;
+    results::write_atomic(&folder.join("plan.svg"), plan.to_svg().as_bytes())?;
+    if arguments.json {
+        print(&document::document(&project, &findings))?;
+    } else {
+        if !arguments.quiet {
+            print(&summary::summary(&project))?;
+        }
+        print(&summary::oddities(&project, &findings))?;
+        if !arguments.quiet {
+            print(&format!("plan in {0}/plan.png and {0}/plan.svg\n", folder.display()))?;
+        }
+    }
+    Ok(if arguments.strict && !findings.is_empty() { Exit::CheckFailed } else { Exit::Done })
+}
+
+/// A balloon for each finding that has a place, numbered as in the list.
+fn marks(findings: &[Finding]) -> Vec<PlanMark> {
+    let mark = |(number, finding): (usize, &Finding)| {
+        let text = format!("{}; {}", finding.message, finding.cure);
+        let position_m = finding.position_m?;
+        Some(PlanMark { position_m, number: number as u32 + 1, text })
+    };
+    findings.iter().enumerate().filter_map(mark).collect()
+}

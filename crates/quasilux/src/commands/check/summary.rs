@@ -1,0 +1,174 @@
+//! What was understood, for people.
+
+use crate::commands::inputs::printable;
+use crate::project::Project;
+use glam::DVec3;
+use quasilux_inspection::Finding;
+use quasilux_report::number::{brief, count};
+use quasilux_scene::{Light, Scene, SensorShape};
+use std::fmt::Write;
+
+/// Lights, sensors, materials that are listed.
+const MAX_LISTED: usize = 40;
+/// Digits of lengths in m.
+const DIGITS: i32 = 4;
+
+/// A paragraph for the geometry, and one line for each material, light, sensor and camera.
+pub(super) fn summary(project: &Project) -> String {
+    let scene = &project.loaded.scene;
+    let mut text = format!("{}\n", printable(&project.name));
+    let mut section = |name: &str, lines: Vec<String>| {
+        let more = lines.len().saturating_sub(MAX_LISTED);
+        for (i, line) in lines.iter().take(MAX_LISTED).enumerate() {
+            let name = if i == 0 { name } else { "" };
+            writeln!(text, "  {name:<11} {}", printable(line)).expect("strings grow");
+        }
+        if more > 0 {
+            writeln!(text, "  {:<11} and {more} more", "").expect("strings grow");
+        }
+    };
+    section("geometry", geometry(project));
+    section("materials", materials(scene));
+    section("lights", (0..scene.lights.len()).map(|i| light(project, i)).collect());
+    let flux_lm = brief(scene.flux_lm(), 5);
+    section("flux", vec![format!("{flux_lm} lm of {} lights", scene.lights.len())]);
+    section("sensors", scene.sensors.iter().map(sensor).collect());
+    section("cameras", scene.cameras.iter().map(camera).collect());
+    text
+}
+
+/// Findings and warnings, or that there are none.
+pub(super) fn oddities(project: &Project, findings: &[Finding]) -> String {
+    let mut text = String::new();
+    for warning in &project.loaded.warnings {
+        writeln!(text, "warning: {}", printable(&warning.to_string())).expect("strings grow");
+    }
+    for (number, finding) in findings.iter().enumerate() {
+        let finding = printable(&finding.to_string());
+        writeln!(text, "warning {}: {finding}", number + 1).expect("strings grow");
+    }
+    if findings.is_empty() {
+        text += "nothing odd was found in the scene\n";
+    }
+    text
+}
+
+fn geometry(project: &Project) -> Vec<String> {
+    let (scene, places) = (&project.loaded.scene, &project.loaded.places);
+    let files: Vec<&str> = places.geometry.iter().map(|file| file.value.as_str()).collect();
+    let (up, unit) = (if places.y_is_up { "y" } else { "z" }, places.unit.name());
+    let triangles = count(scene.mesh.triangles.len() as u64);
+    let mut lines = vec![format!(
+        "{}: {triangles} triangles in {} objects; read with {up} up, in {unit}",
+        files.join(", "),
+        scene.mesh.objects.len()
+    )];
+    if let Some([low, high]) = scene.mesh.bounds() {
+        let [x, y, z] = (high - low).to_array().map(|edge| brief(edge, DIGITS));
+        lines.push(format!("{x} x {y} m, {z} m high, from {} to {}", place(low), place(high)));
+    }
+    lines
+}
+
+fn materials(scene: &Scene) -> Vec<String> {
+    let mut areas_m2 = vec![0.0; scene.materials.len()];
+    for triangle in 0..scene.mesh.triangles.len() as u32 {
+        areas_m2[scene.mesh.material_of[triangle as usize] as usize] +=
+            scene.mesh.area_m2(triangle);
+    }
+    let width = scene.materials.iter().map(|m| m.name.chars().count()).max().unwrap_or(0).min(24);
+    let used = scene.materials.iter().zip(areas_m2).filter(|(_, area_m2)| *area_m2 > 0.0);
+    let line = |(material, area_m2): (&quasilux_scene::Material, f64)| {
+        let reflectance = match material.bsdf.reflectance() {
+            Some(reflectance) if reflectance.is_grey() => {
+                format!(", reflectance {}", brief(reflectance.luminance(), 3))
+            }
+            Some(reflectance) => {
+                let [r, g, b] = reflectance.0.map(|channel| brief(channel, 3));
+                format!(", reflectance [{r}, {g}, {b}]")
+            }
+            None => String::new(),
+        };
+        let area_m2 = brief(area_m2, DIGITS);
+        format!("{:<width$} {}{reflectance}, {area_m2} m²", material.name, material.bsdf.kind())
+    };
+    used.map(line).collect()
+}
+
+fn light(project: &Project, index: usize) -> String {
+    let (scene, places) = (&project.loaded.scene, &project.loaded.places);
+    let light = &scene.lights[index];
+    let flux_lm = brief(light.flux_lm(), 5);
+    let number = index + 1;
+    match light {
+        Light::Luminaire(luminaire) => {
+            let file = places.photometry[index].as_deref().unwrap_or_default();
+            let turn = luminaire.world_from_luminaire;
+            let (aim, c0) = (direction(-turn.z_axis), direction(turn.x_axis));
+            let form = if luminaire.is_area() { luminaire.shape.name() } else { "point" };
+            format!(
+                "{number} {file}, {flux_lm} lm, {form} at {}, aim {aim}, C0 {c0}, dimming {}",
+                place(luminaire.position),
+                brief(luminaire.dimming, 3)
+            )
+        }
+        Light::Point(point) => {
+            format!("{number} point, {flux_lm} lm at {}", place(point.position))
+        }
+        Light::Area(area) => format!(
+            "{number} area \"{}\", {flux_lm} lm, {} cd/m² on {} m² of {} triangles",
+            scene.materials[area.material as usize].name,
+            brief(area.luminance_cd_m2, 4),
+            brief(area.area_m2, DIGITS),
+            area.triangles.len()
+        ),
+    }
+}
+
+fn sensor(sensor: &quasilux_scene::Sensor) -> String {
+    let name = &sensor.name;
+    match &sensor.shape {
+        SensorShape::Grid(grid) => {
+            let [columns, rows] = grid.counts;
+            let [u, v] = [grid.u, grid.v].map(|edge| brief(edge.length(), DIGITS));
+            format!(
+                "{name}: grid of {columns} x {rows} points on {u} x {v} m from {}, normal {}",
+                place(grid.origin),
+                direction(grid.normal)
+            )
+        }
+        SensorShape::Points(points) => {
+            let first = points.first().map_or_else(String::new, |p| place(p.position));
+            format!("{name}: {} points, the first at {first}", points.len())
+        }
+    }
+}
+
+fn camera(camera: &quasilux_scene::Camera) -> String {
+    let [width, height] = camera.resolution;
+    format!(
+        "{}: {width} x {height} pixels from {} toward {}",
+        camera.name,
+        place(camera.position),
+        place(camera.target)
+    )
+}
+
+fn place(at: DVec3) -> String {
+    let [x, y, z] = at.to_array().map(|c| brief(c, 5));
+    format!("[{x}, {y}, {z}]")
+}
+
+/// A direction, in a word where it runs along an axis.
+fn direction(to: DVec3) -> String {
+    let axes = [
+        (DVec3::NEG_Z, "down"),
+        (DVec3::Z, "up"),
+        (DVec3::X, "+x"),
+        (DVec3::NEG_X, "-x"),
+        (DVec3::Y, "+y"),
+        (DVec3::NEG_Y, "-y"),
+    ];
+    let axis = axes.iter().find(|(axis, _)| axis.dot(to) > 1.0 - 1e-9);
+    axis.map_or_else(|| place((to * 1e4).round() / 1e4), |(_, name)| (*name).to_owned())
+}
