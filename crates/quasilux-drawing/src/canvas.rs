@@ -68,7 +68,8 @@ impl Canvas {
                 continue;
             };
             for y in top..top + rows {
-                for x in left..left + columns {
+                let band = band(segment, y as f64 + 0.5, reach);
+                for x in columns_within(band, [left, left + columns]) {
                     let centre = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
                     let inside = radius + 0.5 - distance(centre, segment);
                     let here = &mut coverage[(y - y0) * w + (x - x0)];
@@ -149,6 +150,20 @@ pub(crate) fn mix(a: Colour, b: Colour, t: f64) -> Colour {
         let (a, b) = (f64::from(a[c]), f64::from(b[c]));
         (a + (b - a) * t).round() as u8
     })
+}
+
+/// The range of x in which pixel centres of the row at `y` can be within `reach` of a segment.
+fn band([a, b]: &Segment, y: f64, reach: f64) -> [f64; 2] {
+    let rise = b.y - a.y;
+    let share = |edge: f64| (y + edge * reach - a.y) / rise;
+    let ends = if rise == 0.0 { [0.0, 1.0] } else { [share(-1.0), share(1.0)] };
+    let x = ends.map(|t| a.x + (b.x - a.x) * t.clamp(0.0, 1.0));
+    [x[0].min(x[1]) - reach, x[0].max(x[1]) + reach]
+}
+
+/// The pixels of a row between two columns whose centres lie in a range.
+fn columns_within([low, high]: [f64; 2], [from, to]: [usize; 2]) -> std::ops::Range<usize> {
+    (low.floor().max(0.0) as usize).max(from)..(high.ceil().max(0.0) as usize).min(to)
 }
 
 /// Distance from a point to a segment.

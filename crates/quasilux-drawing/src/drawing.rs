@@ -4,6 +4,7 @@
 //! and as pixels with the bundled fonts.
 
 use crate::style::{Colour, Stroke, TextStyle, WHITE};
+use glam::DVec2;
 
 /// Shapes on a white sheet: the origin is at the top left, x runs right, y runs down, lengths are
 /// pixels.
@@ -22,6 +23,9 @@ pub(crate) enum Shape {
     /// Lines of one stroke, each through two or more points, closed where the last equals the
     /// first.
     Lines { lines: Vec<Vec<[f64; 2]>>, stroke: Stroke },
+    /// Closed outlines, the last point equal to the first, filled where their winding number is not
+    /// zero.
+    Region { outlines: Vec<Vec<[f64; 2]>>, colour: Colour },
     /// A filled disk.
     Disk { centre_px: [f64; 2], radius_px: f64, colour: Colour },
     /// A line of text.
@@ -84,6 +88,28 @@ impl Drawing {
             .collect();
         if !lines.is_empty() {
             self.shapes.push(Shape::Lines { lines, stroke });
+        }
+    }
+
+    /// Separate lines of one stroke; where they cross nothing is drawn twice.
+    pub(crate) fn lines(&mut self, segments: &[[DVec2; 2]], stroke: Stroke) {
+        let finite = segments.iter().filter(|ends| ends.iter().all(|end| end.is_finite()));
+        let lines: Vec<Vec<[f64; 2]>> =
+            finite.map(|ends| ends.map(|end| end.to_array()).to_vec()).collect();
+        if !lines.is_empty() {
+            self.shapes.push(Shape::Lines { lines, stroke });
+        }
+    }
+
+    /// A filled region between closed outlines; what is not finite is left out.
+    pub(crate) fn region(&mut self, outlines: &[Vec<DVec2>], colour: Colour) {
+        let closed = |outline: &Vec<DVec2>| -> Option<Vec<[f64; 2]>> {
+            let first = outline.first().filter(|_| outline.iter().all(|p| p.is_finite()))?;
+            Some(outline.iter().chain([first]).map(|p| p.to_array()).collect())
+        };
+        let outlines: Vec<Vec<[f64; 2]>> = outlines.iter().filter_map(closed).collect();
+        if !outlines.is_empty() {
+            self.shapes.push(Shape::Region { outlines, colour });
         }
     }
 

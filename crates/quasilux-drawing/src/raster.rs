@@ -47,6 +47,14 @@ impl Painter {
                     .collect();
                 self.canvas.stroke(&pieces, stroke.width_px * scale, stroke.colour);
             }
+            Shape::Region { outlines, colour } => {
+                let pieces: Vec<Segment> = outlines
+                    .iter()
+                    .flat_map(|outline| outline.windows(2))
+                    .map(|pair| [pair[0], pair[1]].map(|end| self.place(end)))
+                    .collect();
+                self.canvas.fill_outline(&pieces, *colour);
+            }
             Shape::Disk { centre_px, radius_px, colour } => {
                 let centre = self.place(*centre_px);
                 self.canvas.stroke(&[[centre; 2]], 2.0 * radius_px * scale, *colour);

@@ -46,11 +46,20 @@ impl Writer {
             Shape::Fill { frame, colour } => self.fill(*frame, *colour),
             Shape::Lines { lines, stroke } => {
                 let stroke = stroked(*stroke);
-                for line in lines {
-                    let element = if line.first() == line.last() { "polygon" } else { "polyline" };
-                    let points = places(line);
-                    self.push(format_args!("<{element} points=\"{points}\" {stroke}/>"));
-                }
+                let [line] = lines.as_slice() else {
+                    let path = outlined(lines);
+                    self.push(format_args!(
+                        "<path d=\"{path}\" {stroke} stroke-linecap=\"round\"/>"
+                    ));
+                    return;
+                };
+                let element = if line.first() == line.last() { "polygon" } else { "polyline" };
+                let points = places(line);
+                self.push(format_args!("<{element} points=\"{points}\" {stroke}/>"));
+            }
+            Shape::Region { outlines, colour } => {
+                let (path, colour) = (outlined(outlines), hex(*colour));
+                self.push(format_args!("<path d=\"{path}\" fill=\"{colour}\"/>"));
             }
             Shape::Disk { centre_px: [x, y], radius_px, colour } => {
                 let ([x, y, r], colour) = ([*x, *y, *radius_px].map(number), hex(*colour));
@@ -134,6 +143,21 @@ fn places(line: &[[f64; 2]]) -> String {
     let open = if line.first() == line.last() { &line[1..] } else { line };
     let places = open.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y)));
     places.collect::<Vec<_>>().join(" ")
+}
+
+/// The data of a path through several lines; a closed one ends before its first point comes again.
+fn outlined(lines: &[Vec<[f64; 2]>]) -> String {
+    let mut path = String::new();
+    for line in lines {
+        let is_closed = line.len() > 2 && line.first() == line.last();
+        let open = if is_closed { &line[1..] } else { line };
+        for (step, [x, y]) in open.iter().enumerate() {
+            let letter = if step == 0 { 'M' } else { 'L' };
+            write!(path, "{letter}{},{}", number(*x), number(*y)).expect("strings grow");
+        }
+        path.push_str(if is_closed { "Z" } else { "" });
+    }
+    path
 }
 
 fn stroked(stroke: Stroke) -> String {

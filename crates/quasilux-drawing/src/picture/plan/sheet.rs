@@ -1,41 +1,74 @@
-//! The sheet: plan, elevations and the texts around them.
+//! The sheet: heading, plan, elevations, the key of symbols, and the texts below.
 
-use super::cut::Plane;
+use super::contents::Contents;
+use super::key::{self, Key};
+use super::layout::{LEFT_PX, RIGHT_PX};
 use super::model::PlanPicture;
-use super::projection::Projection;
+use super::notes::Notes;
+use super::words::metres;
+use super::{axes, draw};
 use crate::drawing::Drawing;
-use crate::style::{Anchor, INK, Stroke, TextStyle};
-use glam::{DVec2, DVec3};
+use crate::style::{Anchor, GREY, INK, TextStyle};
+use crate::text::fitted;
+use glam::DVec2;
 
-/// Draws a room.
+const TITLE_PX: f64 = 26.0;
+const TITLE_BASE_PX: f64 = 48.0;
+const FACTS_BASE_PX: f64 = 74.0;
+/// Where the views begin.
+const TOP_PX: f64 = 118.0;
+const BOTTOM_PX: f64 = 24.0;
+
+/// Draws a room in plan and two elevations at one scale, with what is in it, and remarks at their
+/// places.
+///
+/// The plan is cut at the height of the sensors, the elevations in the middle of the geometry.
+/// Views show the geometry; what lies far outside of it stands at their border with its distance.
 #[must_use]
 pub fn plan(picture: &PlanPicture<'_>) -> Drawing {
-    let mut drawing = Drawing::new(picture.title, [1000.0, 800.0]);
-    drawing.text([40.0, 40.0], TextStyle::new(28.0, INK, Anchor::Start), picture.title);
-    let mut points = picture.surfaces.corners().flatten();
-    let first = points.next().unwrap_or(DVec3::ZERO);
-    let [low, high] = points.fold([first; 2], |[low, high], p| [low.min(p), high.max(p)]);
-    let size = (high - low).max(DVec3::splat(1e-6));
-    let projection = Projection {
-        right: DVec3::X,
-        up: DVec3::Y,
-        anchor_m: low,
-        anchor_px: DVec2::new(60.0, 760.0),
-        px_per_m: (880.0 / size.x).min(660.0 / size.y),
-    };
-    let plane = Plane { normal: DVec3::Z, offset_m: low.z + 0.4 * size.z };
-    for ends in picture.surfaces.cut(plane) {
-        let ends = ends.map(|end| projection.place(end).to_array());
-        drawing.line(&ends, Stroke::solid(INK, 2.5));
+    let contents = Contents::new(picture, TOP_PX);
+    let layout = &contents.layout;
+    let content_px = layout.width_px - LEFT_PX - RIGHT_PX;
+    let key = Key::new(picture, content_px);
+    let notes = Notes::new(&contents, content_px);
+    let notes_top = layout.bottom_px + key.height_px() + 8.0;
+    let size_px = [layout.width_px, notes_top + notes.height_px() + BOTTOM_PX];
+    let mut drawing = Drawing::new(picture.title, size_px.map(f64::ceil));
+    let style = TextStyle::new(TITLE_PX, INK, Anchor::Start);
+    let title = fitted(picture.title, TITLE_PX, content_px);
+    drawing.text([LEFT_PX, TITLE_BASE_PX], style, &title);
+    let style = TextStyle::new(15.0, GREY, Anchor::Start);
+    let facts = fitted(&facts(&contents), 15.0, content_px);
+    drawing.text([LEFT_PX, FACTS_BASE_PX], style, &facts);
+    let [x, y, z] = contents.geometry.centre_m().to_array();
+    let headings = [
+        format!("Plan, cut at z = {} m", metres(contents.cut_m)),
+        format!("Front, seen along +y, cut at y = {} m", metres(y)),
+        format!("Side, seen along \u{2212}x, cut at x = {} m", metres(x)),
+    ];
+    let _ = z;
+    let names = [["x", "y"], ["x", "z"], ["y", "z"]];
+    for (index, (heading, names)) in headings.iter().zip(names).enumerate() {
+        draw::draw(&mut drawing, &contents, index);
+        axes::draw(&mut drawing, &layout.views[index], heading, names);
     }
-    for luminaire in picture.luminaires {
-        drawing.disk(projection.place(luminaire.position_m).to_array(), 6.0, [230, 159, 0]);
-    }
-    for mark in picture.marks {
-        let place = projection.place(mark.position_m).to_array();
-        drawing.disk(place, 9.0, [200, 0, 0]);
-        let style = TextStyle::new(12.0, [255; 3], Anchor::Middle);
-        drawing.text([place[0], place[1] + 4.0], style, &mark.number.to_string());
-    }
+    key::compass_and_scale(&mut drawing, layout);
+    key.draw(&mut drawing, DVec2::new(LEFT_PX, layout.bottom_px));
+    notes.draw(&mut drawing, DVec2::new(LEFT_PX, notes_top), content_px);
     drawing
+}
+
+/// Size and place of the geometry.
+fn facts(contents: &Contents<'_>) -> String {
+    let triangles = contents.picture.surfaces.triangles.len();
+    if triangles == 0 {
+        return "no geometry".to_owned();
+    }
+    let bounds = contents.geometry;
+    let [x, y, z] = bounds.size_m().to_array().map(metres);
+    let range = |axis: usize| [bounds.low, bounds.high].map(|p| metres(p[axis])).join(" to ");
+    let [along_x, along_y, along_z] = [0, 1, 2].map(range);
+    format!(
+        "{x} m x {y} m x {z} m, {triangles} triangles (x {along_x}, y {along_y}, z {along_z} m)"
+    )
 }

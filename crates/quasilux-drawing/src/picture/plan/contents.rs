@@ -1,0 +1,78 @@
+//! What a plan is drawn from: extents, cuts and edges of the geometry, found once for all views.
+
+use super::bounds::Bounds;
+use super::cut::Plane;
+use super::edges::{Edge, edges};
+use super::layout::Layout;
+use super::model::PlanPicture;
+use super::symbols::corners_of;
+use glam::DVec3;
+
+/// Things further from the geometry than this many times its longest edge do not enlarge the view.
+const NEAR: f64 = 1.2;
+/// Edges shorter than this are not looked at.
+const LEAST_PX: f64 = 0.5;
+/// Sensors lie between these shares of the height where walls are cut at their height.
+const CUT_SHARES: [f64; 2] = [0.03, 0.97];
+/// Where there are no such sensors: above the floor by this, or by a share of a low room.
+const CUT_M: f64 = 1.0;
+const CUT_SHARE: f64 = 0.4;
+
+pub(crate) struct Contents<'a> {
+    pub(crate) picture: &'a PlanPicture<'a>,
+    /// The box around the geometry; around everything else where there is none.
+    pub(crate) geometry: Bounds,
+    pub(crate) layout: Layout,
+    /// Height at which the plan is cut.
+    pub(crate) cut_m: f64,
+    pub(crate) edges: Vec<Edge>,
+}
+
+impl<'a> Contents<'a> {
+    pub(crate) fn new(picture: &'a PlanPicture<'a>, top_px: f64) -> Self {
+        let things = || things(picture);
+        let geometry = Bounds::of_surfaces(picture.surfaces)
+            .or_else(|| Bounds::around(things()))
+            .unwrap_or(Bounds { low: DVec3::ZERO, high: DVec3::ONE });
+        let layout = Layout::new(&geometry.with_near(things(), NEAR), top_px);
+        let toward = layout.views.map(|view| view.projection.toward());
+        let least_m = LEAST_PX / layout.views[0].projection.px_per_m;
+        let edges = edges(picture.surfaces, &toward, least_m);
+        Self { picture, geometry, layout, cut_m: cut_height_m(picture, &geometry), edges }
+    }
+
+    /// The plane in which a view is cut: the plan at the height of the sensors, elevations in the
+    /// middle.
+    pub(crate) fn plane(&self, view: usize) -> Plane {
+        let normal = self.layout.views[view].projection.toward();
+        let at = if view == 0 { DVec3::Z * self.cut_m } else { self.geometry.centre_m() };
+        Plane { normal, offset_m: normal.dot(at) }
+    }
+}
+
+/// The places of everything that is not geometry.
+fn things<'a>(picture: &'a PlanPicture<'a>) -> impl Iterator<Item = DVec3> + 'a {
+    let luminaires = picture.luminaires.iter().map(|luminaire| luminaire.position_m);
+    let grids = picture.grids.iter().flat_map(corners_of);
+    let points = picture.points.iter().flat_map(|named| named.points);
+    luminaires
+        .chain(picture.point_lights_m.iter().copied())
+        .chain(grids)
+        .chain(points.map(|point| point.position_m))
+        .chain(picture.cameras.iter().map(|camera| camera.position_m))
+}
+
+/// The height of the first level grid, or else of the first sensor point, that lies well inside.
+fn cut_height_m(picture: &PlanPicture<'_>, geometry: &Bounds) -> f64 {
+    let (low, height_m) = (geometry.low.z, geometry.size_m().z);
+    let [least, most] = CUT_SHARES.map(|share| low + share * height_m);
+    let is_level = |normal: DVec3| normal.z.abs() > 0.9;
+    let grids = picture.grids.iter().filter(|grid| is_level(grid.normal));
+    let points = picture.points.iter().flat_map(|named| named.points);
+    let points = points.filter(|point| is_level(point.normal)).map(|point| point.position_m.z);
+    grids
+        .map(|grid| grid.origin_m.z)
+        .chain(points)
+        .find(|height| (least..=most).contains(height))
+        .unwrap_or(low + CUT_M.min(CUT_SHARE * height_m))
+}

@@ -1,0 +1,355 @@
+//! Draws one view: the geometry, then sensors, cameras and lights, and remarks and texts on top.
+
+use super::bounds::Outside;
+use super::contents::Contents;
+use super::ink;
+use super::labels::{Box, Labels};
+use super::model::PlanLuminaire;
+use super::region;
+use super::symbols::{self, Ink};
+use super::thin::thinned;
+use super::view::{Pin, View};
+use crate::drawing::Drawing;
+use crate::style::{Anchor, Colour, Stroke, TextStyle};
+use crate::text::width_px;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// Most lines of a kind in one view.
+const MOST_LINES: usize = 12_000;
+/// Most symbols of a kind in one view.
+const MOST_SYMBOLS: usize = 2000;
+/// Most texts of a kind in one view.
+const MOST_TEXTS: usize = 300;
+/// Sensor points shown along each edge of a grid.
+const SAMPLE: u32 = 11;
+/// A balloon's radius.
+const BALLOON_PX: f64 = 9.5;
+
+/// Draws view number `index`.
+pub(crate) fn draw(drawing: &mut Drawing, contents: &Contents<'_>, index: usize) {
+    let view = contents.layout.views[index];
+    let labels = Labels::new(view.frame);
+    let mut painter = Painter { contents, view, index, labels };
+    drawing.clipped(view.frame, |drawing| {
+        painter.surfaces(drawing);
+        painter.grids(drawing);
+        painter.points(drawing);
+        painter.cameras(drawing);
+        painter.lights(drawing);
+        painter.marks(drawing);
+        painter.light_texts(drawing);
+        painter.sensor_texts(drawing);
+    });
+}
+
+struct Painter<'a> {
+    contents: &'a Contents<'a>,
+    view: View,
+    index: usize,
+    labels: Labels,
+}
+
+/// Luminaires that are drawn at one place, and their common label.
+struct Group {
+    centre: DVec2,
+    reach: DVec2,
+    numbers: Vec<usize>,
+    outside: Option<Outside>,
+    beyond: Option<String>,
+}
+
+impl Painter<'_> {
+    fn surfaces(&self, drawing: &mut Drawing) {
+        let (contents, projection, frame) = (self.contents, self.view.projection, self.view.frame);
+        let surfaces = contents.picture.surfaces;
+        let on_sheet = |ends: [DVec3; 2]| ends.map(|end| projection.place(end));
+        let glowing = || {
+            let lights = contents.picture.area_lights.iter();
+            lights.flat_map(|light| light.triangles).filter_map(move |&t| {
+                Some(surfaces.triangle(t as usize)?.map(|corner| projection.place(corner)))
+            })
+        };
+        let outlines = region::outlines(glowing());
+        drawing.region(&outlines, ink::GLOW);
+        let plane = contents.plane(self.index);
+        let seen = contents.edges.iter().filter(|edge| edge.is_seen(self.index));
+        let seen = seen.filter_map(|edge| match self.index {
+            0 => plane.part_below(edge.ends_m),
+            _ => Some(edge.ends_m),
+        });
+        drawing.lines(&thinned(seen.map(on_sheet), frame, MOST_LINES), ink::EDGE);
+        let cut = surfaces.cut(plane).map(on_sheet);
+        drawing.lines(&thinned(cut, frame, MOST_LINES), ink::CUT);
+        let sides = outlines
+            .iter()
+            .flat_map(|ring| (0..ring.len()).map(move |k| [ring[k], ring[(k + 1) % ring.len()]]));
+        let on_edge = glowing().filter(|[a, b, c]| (*b - *a).perp_dot(*c - *a).abs() < 1.0);
+        let on_edge = on_edge.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+        drawing.lines(&thinned(sides.chain(on_edge), frame, MOST_LINES), ink::GLOW_LINE);
+        self.glow_directions(drawing);
+    }
+
+    /// An arrow along the mean normal of each luminous surface, from its middle.
+    fn glow_directions(&self, drawing: &mut Drawing) {
+        let surfaces = self.contents.picture.surfaces;
+        for light in self.contents.picture.area_lights.iter().take(MOST_TEXTS) {
+            let corners = || light.triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
+            let (mut area, mut total, mut middle) = (DVec3::ZERO, 0.0, DVec3::ZERO);
+            for [a, b, c] in corners() {
+                let piece = (b - a).cross(c - a);
+                area += piece;
+                total += piece.length();
+                middle += (a + b + c) * (piece.length() / 3.0);
+            }
+            if total > 0.0 && area.length() > 0.5 * total {
+                let at = self.view.projection.place(middle / total);
+                let across = self.view.projection.direction(area.normalize());
+                symbols::arrow(drawing, at, across, ink::GLOW_LINE);
+            }
+        }
+    }
+
+    fn grids(&mut self, drawing: &mut Drawing) {
+        let projection = self.view.projection;
+        for grid in self.contents.picture.grids.iter().take(MOST_TEXTS) {
+            let corners = symbols::corners_of(grid).map(|corner| projection.place(corner));
+            let closed: Vec<[f64; 2]> =
+                corners.iter().chain(corners.first()).map(|p| p.to_array()).collect();
+            let inside = |p: &DVec2| self.view.holds(*p);
+            if corners.iter().any(inside) {
+                drawing.line(&closed, ink::SENSOR_EDGE);
+            }
+            let sample = symbols::sample_of(grid, SAMPLE).into_iter().map(|p| projection.place(p));
+            for place in sample.filter(inside) {
+                drawing.disk(place.to_array(), 1.3, ink::SENSOR);
+            }
+            let pin = self.view.pin(middle_of(&symbols::corners_of(grid)));
+            symbols::normal(drawing, pin.place_px, grid.normal, &projection);
+            self.point_out(drawing, &pin, ink::SENSOR_LINE);
+            self.labels.take(Box::around(pin.place_px, DVec2::splat(8.0)));
+        }
+    }
+
+    fn points(&mut self, drawing: &mut Drawing) {
+        let projection = self.view.projection;
+        for named in self.contents.picture.points.iter().take(MOST_TEXTS) {
+            let step = named.points.len().div_ceil(MOST_SYMBOLS / 5).max(1);
+            for point in named.points.iter().step_by(step) {
+                let pin = self.view.pin(point.position_m);
+                drawing.disk(pin.place_px.to_array(), 2.6, ink::SENSOR);
+                let across = projection.direction(point.normal);
+                symbols::arrow(drawing, pin.place_px, across * 0.6, ink::SENSOR_LINE);
+                self.point_out(drawing, &pin, ink::SENSOR_LINE);
+                self.labels.take(Box::around(pin.place_px, DVec2::splat(4.0)));
+            }
+        }
+    }
+
+    fn cameras(&mut self, drawing: &mut Drawing) {
+        for camera in self.contents.picture.cameras.iter().take(MOST_TEXTS) {
+            let pin = self.view.pin(camera.position_m);
+            let place = pin.place_px;
+            symbols::camera(drawing, place, camera, &self.view.projection);
+            self.point_out(drawing, &pin, ink::CAMERA_LINE);
+            self.labels.take(Box::around(place, DVec2::splat(6.0)));
+        }
+    }
+
+    fn lights(&mut self, drawing: &mut Drawing) {
+        let (picture, projection) = (self.contents.picture, self.view.projection);
+        // Wrong ones on top.
+        for is_fault in [false, true] {
+            let ink = if is_fault { Ink::FAULT } else { Ink::LAMP };
+            for luminaire in picture.luminaires.iter().take(MOST_SYMBOLS) {
+                if self.outside(luminaire.position_m).is_some() != is_fault {
+                    continue;
+                }
+                let pin = self.view.pin(luminaire.position_m);
+                symbols::luminaire(drawing, pin.place_px, luminaire, &projection, ink);
+                self.point_out(drawing, &pin, ink.line);
+                let reach = symbols::reach(&symbols::opening(luminaire, &projection));
+                self.labels.take(Box::around(pin.place_px, reach));
+            }
+        }
+        for &position_m in picture.point_lights_m.iter().take(MOST_SYMBOLS) {
+            let ink = if self.outside(position_m).is_some() { Ink::FAULT } else { Ink::LAMP };
+            let pin = self.view.pin(position_m);
+            symbols::star(drawing, pin.place_px, ink);
+            self.point_out(drawing, &pin, ink.line);
+            self.labels.take(Box::around(pin.place_px, DVec2::splat(11.0)));
+        }
+    }
+
+    /// An arrow toward what lies beyond the frame.
+    fn point_out(&self, drawing: &mut Drawing, pin: &Pin, stroke: Stroke) {
+        if let Some(beyond) = &pin.beyond {
+            let tip = pin.place_px + beyond.direction * 15.0;
+            symbols::pointer(drawing, pin.place_px, tip, stroke);
+        }
+    }
+
+    fn outside(&self, point_m: DVec3) -> Option<Outside> {
+        self.contents.geometry.outside(point_m)
+    }
+
+    fn marks(&mut self, drawing: &mut Drawing) {
+        let marks = self.contents.picture.marks;
+        for mark in marks.iter().take(MOST_SYMBOLS) {
+            let place = self.view.pin(mark.position_m).place_px;
+            let ring: Vec<[f64; 2]> = (0..=16)
+                .map(|k| {
+                    let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(k) / 16.0);
+                    (place + DVec2::new(cos, sin) * 5.0).to_array()
+                })
+                .collect();
+            drawing.line(&ring, ink::FAULT_LINE);
+            self.labels.take(Box::around(place, DVec2::splat(5.0)));
+        }
+        for mark in marks.iter().take(MOST_TEXTS) {
+            let place = self.view.pin(mark.position_m).place_px;
+            let text = mark.number.to_string();
+            let size =
+                DVec2::new(width_px(&text, 12.0) + 9.0, 0.0).max(DVec2::splat(2.0 * BALLOON_PX));
+            if let Some(at) = self.labels.beside(place, DVec2::splat(9.0), size) {
+                let way = (at.centre() - place).normalize_or_zero();
+                drawing.lines(&[[place + way * 5.0, at.centre()]], ink::FAULT_LINE);
+                balloon(drawing, at.centre(), &text);
+            }
+        }
+    }
+
+    fn light_texts(&mut self, drawing: &mut Drawing) {
+        let mut groups = self.groups();
+        groups.sort_by_key(|group| group.outside.is_none());
+        for group in groups.into_iter().take(MOST_TEXTS) {
+            let numbers = ranges(&group.numbers);
+            let (text, colour) = match (&group.outside, &group.beyond) {
+                (Some(_), Some(beyond)) => (format!("{numbers}: {beyond} away"), ink::FAULT),
+                (Some(outside), None) if self.index > 0 => {
+                    (format!("{numbers}: {}", outside.text()), ink::FAULT)
+                }
+                (Some(_), None) => (numbers, ink::FAULT),
+                (None, _) => (numbers, ink::LAMP_LINE.colour),
+            };
+            self.text(drawing, group.centre, group.reach, &text, colour);
+        }
+        let lights = self.contents.picture.point_lights_m.iter().take(MOST_TEXTS);
+        for (number, &position_m) in lights.enumerate() {
+            let pin = self.view.pin(position_m);
+            let away = pin.beyond.map_or(String::new(), |beyond| format!(": {} away", beyond.text));
+            let is_fault = self.outside(position_m).is_some();
+            let colour = if is_fault { ink::FAULT } else { ink::LAMP_LINE.colour };
+            let text = format!("P{}{away}", number + 1);
+            self.text(drawing, pin.place_px, DVec2::splat(11.0), &text, colour);
+        }
+    }
+
+    /// Luminaires that are drawn on top of each other.
+    fn groups(&self) -> Vec<Group> {
+        let mut groups: BTreeMap<[i64; 3], Group> = BTreeMap::new();
+        for (index, luminaire) in self.contents.picture.luminaires.iter().enumerate() {
+            let pin = self.view.pin(luminaire.position_m);
+            let outside = self.outside(luminaire.position_m);
+            let [x, y] = (pin.place_px / 4.0).to_array().map(|x| x.round() as i64);
+            let key = [i64::from(outside.is_none()), x, y];
+            let reach = self.reach(luminaire);
+            let group = groups.entry(key).or_insert_with(|| Group {
+                centre: pin.place_px,
+                reach,
+                numbers: Vec::new(),
+                outside,
+                beyond: pin.beyond.map(|beyond| beyond.text),
+            });
+            group.reach = group.reach.max(reach);
+            group.numbers.push(index + 1);
+        }
+        groups.into_values().collect()
+    }
+
+    fn reach(&self, luminaire: &PlanLuminaire) -> DVec2 {
+        symbols::reach(&symbols::opening(luminaire, &self.view.projection))
+    }
+
+    fn sensor_texts(&mut self, drawing: &mut Drawing) {
+        let picture = self.contents.picture;
+        for camera in picture.cameras.iter().take(MOST_TEXTS) {
+            let pin = self.view.pin(camera.position_m);
+            self.name(drawing, camera.name, &pin, ink::CAMERA);
+        }
+        for grid in picture.grids.iter().take(MOST_TEXTS) {
+            let corners = symbols::corners_of(grid);
+            let places = corners.map(|corner| self.view.projection.place(corner));
+            let inside = |p: &&DVec2| self.view.holds(**p);
+            // The upper left corner.
+            let corner =
+                places.iter().filter(inside).min_by(|a, b| (a.x + a.y).total_cmp(&(b.x + b.y)));
+            match corner.copied() {
+                Some(place_px) => {
+                    let pin = Pin { place_px, beyond: None };
+                    self.name(drawing, grid.name, &pin, ink::SENSOR);
+                }
+                None => {
+                    let pin = self.view.pin(middle_of(&corners));
+                    self.name(drawing, grid.name, &pin, ink::SENSOR);
+                }
+            }
+        }
+        for named in picture.points.iter().take(MOST_TEXTS) {
+            if let Some(first) = named.points.first() {
+                let pin = self.view.pin(first.position_m);
+                self.name(drawing, named.name, &pin, ink::SENSOR);
+            }
+        }
+    }
+
+    fn name(&mut self, drawing: &mut Drawing, name: &str, pin: &Pin, colour: Colour) {
+        let text = match &pin.beyond {
+            Some(beyond) => format!("{name}: {} away", beyond.text),
+            None => name.to_owned(),
+        };
+        self.text(drawing, pin.place_px, DVec2::splat(6.0), &text, colour);
+    }
+
+    fn text(
+        &mut self,
+        drawing: &mut Drawing,
+        centre: DVec2,
+        reach: DVec2,
+        text: &str,
+        colour: Colour,
+    ) {
+        let text = crate::text::fitted(text, ink::LABEL_PX, 260.0);
+        if let Some(place) = self.labels.text(centre, reach, ink::LABEL_PX, &text) {
+            let at = place.centre() + DVec2::Y * 0.35 * ink::LABEL_PX;
+            let style = TextStyle {
+                halo: Some([255; 3]),
+                ..TextStyle::new(ink::LABEL_PX, colour, Anchor::Middle)
+            };
+            drawing.text(at.to_array(), style, &text);
+        }
+    }
+}
+
+/// A white number on a red disk.
+pub(crate) fn balloon(drawing: &mut Drawing, at: DVec2, number: &str) {
+    let half = DVec2::X * (0.5 * width_px(number, 12.0) + 4.5 - BALLOON_PX).max(0.0);
+    drawing.lines(&[[at - half, at + half]], Stroke::solid(ink::FAULT, 2.0 * BALLOON_PX));
+    drawing.disk((at - half).to_array(), BALLOON_PX, ink::FAULT);
+    drawing.disk((at + half).to_array(), BALLOON_PX, ink::FAULT);
+    let style = TextStyle::new(12.0, [255; 3], Anchor::Middle);
+    drawing.text([at.x, at.y + 4.3], style, number);
+}
+
+fn middle_of(corners: &[DVec3; 4]) -> DVec3 {
+    corners.iter().sum::<DVec3>() * 0.25
+}
+
+/// Ascending numbers, neighbours joined: `1-4, 7`.
+pub(crate) fn ranges(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [first, .., last] if run.len() > 2 => format!("{first}\u{2013}{last}"),
+        _ => run.iter().map(usize::to_string).collect::<Vec<_>>().join(", "),
+    });
+    runs.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,99 @@
+//! The edges of surfaces that a drawing shows: borders, creases, and contours where a surface turns
+//! away from the viewer. Edges between triangles of one smooth face are left out.
+//!
+//! Corners at one place are one corner, whatever their indices. Of each triangle at an edge only
+//! the direction w counts in which it leaves the edge, a unit vector square to it, so that the order
+//! of corners does not matter: where each triangle at the edge has another one that leaves about the
+//! opposite way, the surface goes on. Seen along d, it turns there if both leave to the same side of
+//! the edge's line on the sheet.
+
+use super::model::Surfaces;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Surfaces that bend by less than this angle go on: its cosine (20 degrees).
+const COS_SMOOTH: f64 = 0.94;
+
+/// An edge that is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Edge {
+    pub(crate) ends_m: [DVec3; 2],
+    /// Bit k is set where it is seen along direction k.
+    shown: u8,
+}
+
+impl Edge {
+    /// Whether it is seen along direction number `view`.
+    pub(crate) fn is_seen(&self, view: usize) -> bool {
+        self.shown & (1 << view) != 0
+    }
+}
+
+/// An edge of one triangle.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Side {
+    /// Corners, the lower number first.
+    ends: [u32; 2],
+    /// The third corner.
+    opposite: u32,
+}
+
+/// The edges that are seen along at most eight unit directions, in a fixed order. Edges shorter than
+/// `least_m` are left out.
+pub(crate) fn edges(surfaces: Surfaces<'_>, directions: &[DVec3], least_m: f64) -> Vec<Edge> {
+    let corner_of = welded(surfaces.positions_m);
+    let place = |corner: u32| surfaces.positions_m[corner as usize];
+    let mut sides: Vec<Side> = Vec::new();
+    for (index, triangle) in surfaces.triangles.iter().enumerate() {
+        let Some([a, b, c]) = surfaces.triangle(index) else {
+            continue;
+        };
+        if (b - a).cross(c - a) == DVec3::ZERO {
+            continue;
+        }
+        let corners = triangle.map(|corner| corner_of[corner as usize]);
+        for k in 0..3 {
+            let [a, b, opposite] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k]);
+            if place(a).distance_squared(place(b)) >= least_m * least_m {
+                sides.push(Side { ends: [a.min(b), a.max(b)], opposite });
+            }
+        }
+    }
+    sides.sort_unstable();
+    let groups = sides.chunk_by(|a, b| a.ends == b.ends);
+    groups.filter_map(|group| edge(group, &place, directions)).collect()
+}
+
+/// The first of the corners at the same place as each.
+fn welded(positions_m: &[DVec3]) -> Vec<u32> {
+    let mut first: HashMap<[u64; 3], u32> = HashMap::with_capacity(positions_m.len());
+    // Adding zero makes one of both zeros.
+    let key = |p: &DVec3| (*p + 0.0).to_array().map(f64::to_bits);
+    let numbered = positions_m.iter().zip(0..);
+    numbered.map(|(position, number)| *first.entry(key(position)).or_insert(number)).collect()
+}
+
+fn edge(sides: &[Side], place: &impl Fn(u32) -> DVec3, directions: &[DVec3]) -> Option<Edge> {
+    let ends_m = sides.first()?.ends.map(place);
+    let along = (ends_m[1] - ends_m[0]).normalize_or_zero();
+    let leaving = |side: &Side| {
+        let across = place(side.opposite) - ends_m[0];
+        (across - along * along.dot(across)).normalize_or_zero()
+    };
+    // Where very many meet, the first ones decide.
+    let leaving: Vec<DVec3> = sides.iter().take(16).map(leaving).collect();
+    let goes_on = |w: &DVec3| leaving.iter().any(|other| w.dot(*other) < -COS_SMOOTH);
+    let shown = if leaving.iter().all(goes_on) {
+        let turns = |direction: &DVec3| {
+            let aside = along.cross(*direction);
+            let sides = || leaving.iter().map(|w| w.dot(aside));
+            let least = sides().fold(f64::INFINITY, f64::min);
+            let most = sides().fold(f64::NEG_INFINITY, f64::max);
+            least * most > 1e-9
+        };
+        directions.iter().rev().fold(0, |shown, d| shown << 1 | u8::from(turns(d)))
+    } else {
+        u8::MAX
+    };
+    (shown != 0).then_some(Edge { ends_m, shown })
+}

@@ -1,0 +1,98 @@
+//! Texts and symbols that keep clear of each other.
+
+use crate::drawing::Frame;
+use crate::text::width_px;
+use glam::DVec2;
+
+/// Height that a line of text takes, in its font size.
+const LINE_EM: f64 = 1.1;
+/// Clear space around a text.
+const CLEAR_PX: f64 = 2.0;
+/// More boxes than this are not kept clear of.
+const MOST: usize = 4000;
+
+/// An upright rectangle on the sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Box {
+    pub(crate) low: DVec2,
+    pub(crate) high: DVec2,
+}
+
+/// The places in a frame that are taken.
+pub(crate) struct Labels {
+    room: Box,
+    taken: Vec<Box>,
+}
+
+impl Box {
+    pub(crate) fn around(centre: DVec2, half: DVec2) -> Self {
+        Self { low: centre - half, high: centre + half }
+    }
+
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        self.low.cmplt(other.high).all() && other.low.cmplt(self.high).all()
+    }
+
+    pub(crate) fn centre(&self) -> DVec2 {
+        0.5 * (self.low + self.high)
+    }
+}
+
+impl Labels {
+    /// Nothing is taken.
+    pub(crate) fn new(frame: Frame) -> Self {
+        let low = DVec2::from(frame.corner_px) + 2.0;
+        let high = DVec2::from(frame.corner_px) + DVec2::from(frame.size_px) - 2.0;
+        Self { room: Box { low, high }, taken: Vec::new() }
+    }
+
+    /// Takes a place, whatever is there already.
+    pub(crate) fn take(&mut self, place: Box) {
+        if self.taken.len() < MOST {
+            self.taken.push(place);
+        }
+    }
+
+    /// Takes a free place for a box around something that reaches `reach` from `centre`.
+    pub(crate) fn beside(&mut self, centre: DVec2, reach: DVec2, size: DVec2) -> Option<Box> {
+        const WAYS: [[f64; 2]; 8] = [
+            [1.0, -1.0],
+            [1.0, 0.0],
+            [-1.0, -1.0],
+            [0.0, -1.0],
+            [-1.0, 0.0],
+            [1.0, 1.0],
+            [0.0, 1.0],
+            [-1.0, 1.0],
+        ];
+        if self.taken.len() >= MOST {
+            return None;
+        }
+        let half = 0.5 * size + CLEAR_PX;
+        let tried = [0.0, 9.0, 20.0, 34.0].into_iter().flat_map(|further| {
+            WAYS.map(|way| {
+                let way = DVec2::from(way);
+                let turn = if way.x * way.y == 0.0 { 1.0 } else { 0.75 };
+                Box::around(centre + way * (turn * (reach + further) + half), half)
+            })
+        });
+        let free = tried.into_iter().find(|place| {
+            let inside =
+                place.low.cmpge(self.room.low).all() && place.high.cmple(self.room.high).all();
+            inside && self.taken.iter().all(|other| !other.overlaps(place))
+        })?;
+        self.take(free);
+        Some(free)
+    }
+
+    /// Takes a free place for a line of text beside something.
+    pub(crate) fn text(
+        &mut self,
+        centre: DVec2,
+        reach: DVec2,
+        size_px: f64,
+        text: &str,
+    ) -> Option<Box> {
+        self.beside(centre, reach, DVec2::new(width_px(text, size_px), LINE_EM * size_px))
+    }
+}
