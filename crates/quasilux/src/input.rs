@@ -53,12 +53,12 @@ pub(crate) fn expect_regular(path: &Path) -> io::Result<()> {
 
 fn expect_kind(metadata: &fs::Metadata) -> io::Result<()> {
     if metadata.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; expected a file"));
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder, no file"));
     }
     if metadata.is_file() {
         return Ok(());
     }
-    let message = "is a device, a pipe or a socket; expected a regular file";
+    let message = "no regular file, but a device, a pipe or a socket";
     Err(io::Error::new(io::ErrorKind::InvalidInput, message))
 }
 
@@ -81,6 +81,6 @@ mod tests {
         let error = read(Path::new("/dev/zero"), 1 << 20).unwrap_err();
         assert!(error.to_string().contains("a device"), "{error}");
         let error = read(&std::env::temp_dir(), 1 << 20).unwrap_err();
-        assert!(error.to_string().contains("is a folder"), "{error}");
+        assert!(error.to_string().contains("a folder"), "{error}");
     }
 }

@@ -18,16 +18,17 @@ pub(super) fn read(
     document: &Document,
     mut blob: Option<Vec<u8>>,
     files: &dyn Files,
-) -> Result<Vec<Arc<[u8]>>, String> {
+) -> Result<Vec<Arc<Vec<u8>>>, String> {
     let mut named = NamedFiles { files, known: HashMap::new(), bytes: 0 };
     let mut buffers = Vec::new();
     for buffer in document.buffers() {
         let bytes = match buffer.source() {
             Source::Bin => {
-                blob.take().ok_or("a buffer refers to a binary chunk that is missing")?.into()
+                Arc::new(blob.take().ok_or("a buffer refers to a binary chunk that is missing")?)
             }
             Source::Uri(uri) if uri.starts_with("data:") => {
-                data_uri::decode(uri).map_err(|e| format!("buffer {}: {e}", buffer.index()))?.into()
+                let read = data_uri::decode(uri);
+                Arc::new(read.map_err(|e| format!("buffer {}: {e}", buffer.index()))?)
             }
             Source::Uri(uri) => {
                 let path = beside(file, &data_uri::percent_decoded(uri));
@@ -47,18 +48,18 @@ pub(super) fn read(
 /// Files of buffers, as far as they were read.
 struct NamedFiles<'a> {
     files: &'a dyn Files,
-    known: HashMap<String, Arc<[u8]>>,
+    known: HashMap<String, Arc<Vec<u8>>>,
     /// Of all of them.
     bytes: u64,
 }
 
 impl NamedFiles<'_> {
     /// A file; all together may have as many bytes as one.
-    fn read(&mut self, path: &str) -> io::Result<Arc<[u8]>> {
+    fn read(&mut self, path: &str) -> io::Result<Arc<Vec<u8>>> {
         if let Some(known) = self.known.get(path) {
             return Ok(Arc::clone(known));
         }
-        let bytes: Arc<[u8]> = files::read(self.files, path, FileKind::Buffer)?.into();
+        let bytes = Arc::new(files::read(self.files, path, FileKind::Buffer)?);
         self.bytes += bytes.len() as u64;
         if self.bytes > FileKind::Buffer.max_bytes() {
             return Err(too_large(FileKind::Buffer.max_bytes()));

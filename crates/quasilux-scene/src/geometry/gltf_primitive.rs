@@ -26,7 +26,7 @@ impl Target<'_> {
 /// Reads a primitive into `builder`; returns 1 if it has no triangles by its mode, else 0.
 pub(super) fn read(
     primitive: &Primitive<'_>,
-    buffers: &[Arc<[u8]>],
+    buffers: &[Arc<Vec<u8>>],
     target: &Target<'_>,
     builder: &mut MeshBuilder,
 ) -> Result<u64, String> {
