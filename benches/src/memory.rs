@@ -8,7 +8,7 @@
 use glam::DVec3;
 use quasilux_benches::meshes::Numbers;
 use quasilux_benches::scenes::lamp_and_probe;
-use quasilux_scene::{Files, Scene, load};
+use quasilux_scene::{FileKind, Files, Scene, load};
 use quasilux_transport::{EstimatorKind, MemoryNeed, Reconstruction, Settings, simulate};
 use std::fmt::Write;
 use std::io;
@@ -92,7 +92,7 @@ fn peak_bytes() -> f64 {
 struct Ground;
 
 impl Files for Ground {
-    fn read(&self, _path: &str) -> io::Result<Vec<u8>> {
+    fn read(&self, _path: &str, _kind: FileKind) -> io::Result<Vec<u8>> {
         Ok(ground().into_bytes())
     }
 }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use quasilux_scene::light::PointLight;
-use quasilux_scene::{Files, Grid, Light, Quantity, Scene, Sensor, SensorPoint, SensorShape, load};
+use quasilux_scene::{
+    FileKind, Files, Grid, Light, Quantity, Scene, Sensor, SensorPoint, SensorShape, load,
+};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,7 +21,7 @@ pub struct Named {
 struct Folder(PathBuf);
 
 impl Files for Folder {
-    fn read(&self, path: &str) -> io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _kind: FileKind) -> io::Result<Vec<u8>> {
         let packed = self.0.join(format!("{path}.zst"));
         if !packed.exists() {
             return std::fs::read(self.0.join(path));
@@ -44,7 +46,7 @@ pub fn example(name: &'static str) -> Named {
 struct Texts([(&'static str, &'static str); 2]);
 
 impl Files for Texts {
-    fn read(&self, path: &str) -> io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _kind: FileKind) -> io::Result<Vec<u8>> {
         let found = self.0.iter().find(|(name, _)| *name == path);
         found.map(|(_, text)| text.as_bytes().to_vec()).ok_or(io::ErrorKind::NotFound.into())
     }

@@ -9,6 +9,7 @@ use crate::project::{CameraEntry, Project, SensorEntry};
 use crate::solids::{Solid, solids_of};
 use crate::{Camera, Light, LoadError, Mesh, Scene, SensorPoint, SensorShape, Warning};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Triangles that may be tested in all before the search for sensors in walls is given up: some
 /// seconds at most.
@@ -52,7 +53,7 @@ fn check_sensor(
 ) -> Result<(), LoadError> {
     let name = &entry.sensor.name;
     let points = entry.sensor.points();
-    let inside: Vec<Option<String>> = points.iter().map(|point| walls.around(point)).collect();
+    let inside: Vec<Option<Arc<str>>> = points.iter().map(|point| walls.around(point)).collect();
     let Some((first, object)) =
         inside.iter().enumerate().find_map(|(i, object)| Some((i, object.as_ref()?)))
     else {
@@ -99,7 +100,7 @@ struct Walls<'a> {
 
 impl Walls<'_> {
     /// The name of a wall that the point is inside of.
-    fn around(&mut self, point: &SensorPoint) -> Option<String> {
+    fn around(&mut self, point: &SensorPoint) -> Option<Arc<str>> {
         let position = point.position + point.normal * self.hair_m;
         for (solid, is_lit) in &mut self.solids {
             if *is_lit == Some(true) || !solid.may_contain(position) {
@@ -118,7 +119,7 @@ impl Walls<'_> {
             }
             if *is_lit == Some(false) {
                 let object = mesh.object_of[solid.triangles[0] as usize];
-                return Some(mesh.objects[object as usize].clone());
+                return Some(Arc::clone(&mesh.objects[object as usize]));
             }
         }
         None

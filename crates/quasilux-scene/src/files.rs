@@ -1,11 +1,73 @@
-//! Where the bytes of a project come from.
+//! Where the bytes of a project come from, and how many of them there may be.
+
+use std::io;
+
+/// What a file is read as. Each kind has a size beyond which no file of it makes sense.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FileKind {
+    /// Wavefront OBJ, glTF or GLB.
+    Geometry,
+    /// Wavefront MTL.
+    MaterialLibrary,
+    /// A buffer of a glTF file.
+    Buffer,
+    /// A luminaire: LM-63, EULUMDAT or TM-33.
+    Photometry,
+    /// Tilt factors of an LM-63 file.
+    Tilt,
+    /// A measured surface.
+    Bsdf,
+}
+
+impl FileKind {
+    /// All kinds.
+    pub const ALL: [Self; 6] = [
+        Self::Geometry,
+        Self::MaterialLibrary,
+        Self::Buffer,
+        Self::Photometry,
+        Self::Tilt,
+        Self::Bsdf,
+    ];
+
+    /// Most bytes that a file of this kind can have.
+    #[must_use]
+    pub const fn max_bytes(self) -> u64 {
+        match self {
+            Self::Geometry | Self::Buffer => 2 << 30,
+            Self::Bsdf => 256 << 20,
+            Self::MaterialLibrary | Self::Photometry => 64 << 20,
+            Self::Tilt => 1 << 20,
+        }
+    }
+}
 
 /// How loaders reach files: the command line implements it over the file system, tests over maps.
 pub trait Files {
     /// The bytes of a file. `path` is relative to the project file's folder, with forward
-    /// slashes, as the project file writes it or a geometry file implies it.
+    /// slashes, as the project file writes it or a geometry file implies it. Of a file with more
+    /// bytes than [`FileKind::max_bytes`] none should be read: an error ([`too_large`]) costs
+    /// neither time nor memory. Loaders refuse it in any case.
     ///
     /// # Errors
     /// When the file cannot be read.
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>>;
+    fn read(&self, path: &str, kind: FileKind) -> io::Result<Vec<u8>>;
+}
+
+/// That a file has more bytes than are read: `max_bytes`.
+#[must_use]
+pub fn too_large(max_bytes: u64) -> io::Error {
+    let message = if max_bytes.is_multiple_of(1 << 20) {
+        format!("the file is larger than {} MiB", max_bytes >> 20)
+    } else {
+        format!("the file is larger than {max_bytes} bytes")
+    };
+    io::Error::new(io::ErrorKind::FileTooLarge, message)
+}
+
+/// Reads a file, and holds it to the size of its kind whatever `files` does.
+pub(crate) fn read(files: &dyn Files, path: &str, kind: FileKind) -> io::Result<Vec<u8>> {
+    let bytes = files.read(path, kind)?;
+    let max_bytes = kind.max_bytes();
+    if bytes.len() as u64 > max_bytes { Err(too_large(max_bytes)) } else { Ok(bytes) }
 }

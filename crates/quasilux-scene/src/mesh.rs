@@ -1,6 +1,7 @@
 //! All triangles of a scene, and where they come from.
 
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A triangle soup with shared vertices; all lengths in metres, z up.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,8 +14,8 @@ pub struct Mesh {
     pub material_of: Vec<u32>,
     /// Index into `objects` for each triangle.
     pub object_of: Vec<u32>,
-    /// Object names as the geometry files give them.
-    pub objects: Vec<String>,
+    /// Object names as the geometry files give them; instances share theirs.
+    pub objects: Vec<Arc<str>>,
 }
 
 impl Mesh {

@@ -1,23 +1,34 @@
 //! Files that appear whole or not at all, and are still there after a power cut.
 //!
 //! A file is written beside its place as `FILE.unfinished`, forced to disk, renamed into its place,
-//! and then the folder is forced to disk, without which the new name may be lost.
+//! and then the folder is forced to disk, without which the new name may be lost. What is no
+//! regular file, like a device or a pipe, keeps its place: bytes are written into it. A link to a
+//! file stays a link.
+
+mod device;
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A file that is on disk, beside its place.
+/// A file that is on disk, beside its place, or bytes that went where they were to go.
 #[derive(Debug)]
 #[must_use = "it is not in its place yet"]
-pub(crate) struct Finished {
+pub(crate) struct Finished(Option<Beside>);
+
+/// A file beside its place.
+#[derive(Debug)]
+struct Beside {
     beside: PathBuf,
     place: PathBuf,
 }
 
 /// Whether a file can be made there, by trying beside it.
 pub(crate) fn try_beside(place: &Path) -> io::Result<()> {
-    let beside = beside(place, "unfinished");
+    if is_device(place) {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "is no regular file"));
+    }
+    let beside = beside(&behind_links(place), "unfinished");
     File::create(&beside)?;
     fs::remove_file(beside)
 }
@@ -27,21 +38,48 @@ pub(crate) fn write_beside(
     place: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<Finished> {
-    let beside = beside(place, "unfinished");
-    let mut file = BufWriter::new(File::create(&beside)?);
+    if is_device(place) {
+        let mut device = BufWriter::new(device::open(place)?);
+        write(&mut device)?;
+        device.flush()?;
+        return Ok(Finished(None));
+    }
+    let place = behind_links(place);
+    let beside = beside(&place, "unfinished");
+    let written = write_to(&beside, write);
+    if written.is_err() {
+        // Half a file is of no use, and may take the last of a disk.
+        _ = fs::remove_file(&beside);
+    }
+    written.map(|()| Finished(Some(Beside { beside, place })))
+}
+
+fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
     write(&mut file)?;
     let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.sync_all()?;
-    Ok(Finished { beside, place: place.to_owned() })
+    file.sync_all()
 }
 
 impl Finished {
     /// Puts it in its place.
     pub(crate) fn publish(self) -> io::Result<()> {
-        let Self { beside, place } = self;
+        let Self(Some(Beside { beside, place })) = self else { return Ok(()) };
         fs::rename(beside, &place)?;
         sync_folder(&place)
     }
+}
+
+/// Whether something is there that is neither file nor folder.
+fn is_device(place: &Path) -> bool {
+    fs::metadata(place).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+/// The file that a link leads to; the path itself where there is none.
+fn behind_links(place: &Path) -> PathBuf {
+    let is_link = fs::symlink_metadata(place).is_ok_and(|there| there.is_symlink());
+    let target = if is_link { place.canonicalize().ok() } else { None };
+    target.unwrap_or_else(|| place.to_owned())
 }
 
 /// The path with another ending behind its own.
@@ -87,10 +125,35 @@ mod tests {
         assert!(!place.exists());
         finished.publish().unwrap();
         assert_eq!(fs::read(&place).unwrap(), b"whole");
-        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "half a file is left");
         try_beside(&place).unwrap();
         assert_eq!(fs::read(&place).unwrap(), b"whole");
         assert!(try_beside(&folder.join("none").join("file")).is_err());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    /// As a user who may: a rename would put a file in the place of the device.
+    #[cfg(unix)]
+    #[test]
+    fn devices_and_links_keep_their_places() {
+        use std::os::unix::fs::{FileTypeExt, symlink};
+        let folder = std::env::temp_dir().join(format!("quasilux-links-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        for name in ["null", "full"] {
+            symlink(Path::new("/dev").join(name), folder.join(name)).unwrap();
+        }
+        fs::write(folder.join("file"), b"old").unwrap();
+        symlink("file", folder.join("link")).unwrap();
+        let write =
+            |name: &str| write_beside(&folder.join(name), |file| file.write_all(b"new"))?.publish();
+        write("null").unwrap();
+        write("link").unwrap();
+        assert_eq!(write("full").unwrap_err().kind(), io::ErrorKind::StorageFull);
+        assert!(fs::metadata(folder.join("full")).unwrap().file_type().is_char_device());
+        assert_eq!(fs::read(folder.join("file")).unwrap(), b"new");
+        assert!(fs::symlink_metadata(folder.join("link")).unwrap().is_symlink());
+        assert!(try_beside(&folder.join("null")).is_err());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 4);
         fs::remove_dir_all(folder).unwrap();
     }
 }

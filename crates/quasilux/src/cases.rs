@@ -1,6 +1,7 @@
 //! Validation cases: projects with known answers, as data (validation/README.md has the format).
 
 use crate::exit::CliError;
+use crate::input;
 use quasilux_report::{Figure, Report, SensorReport};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -69,7 +70,8 @@ impl Case {
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let refuse =
             |error: &dyn std::fmt::Display| CliError::new(format!("{}: {error}", path.display()));
-        let text = std::fs::read_to_string(path).map_err(|error| refuse(&error))?;
+        let bytes = input::read(path, input::MAX_PROJECT_BYTES).map_err(|error| refuse(&error))?;
+        let text = String::from_utf8(bytes).map_err(|error| refuse(&error))?;
         let mut case: Self = toml::from_str(&text).map_err(|error| refuse(&error))?;
         if case.expect.is_empty() {
             return Err(refuse(&"a case expects at least one value"));

@@ -8,7 +8,7 @@ use crate::build::{self, BUILD, VERSION};
 use crate::container::{self, Contents};
 use crate::digest::SceneIdentity;
 use crate::exit::CliError;
-use crate::project::{Project, read_bounded};
+use crate::project::Project;
 use crate::results;
 use quasilux_report::json;
 use quasilux_transport::Settings;
@@ -181,7 +181,7 @@ fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), CliError
 
 fn read_one(path: &Path) -> Result<Checkpoint, CliError> {
     let name = path.display();
-    let bytes = read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
+    let bytes = container::read(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
     parse(&bytes).map_err(|what| CliError::new(format!("{name}: {what}")))
 }
 

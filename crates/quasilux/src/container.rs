@@ -13,6 +13,13 @@
 //! can write the digest.
 
 use crate::digest::{BYTES, sha256};
+use crate::input;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Longest line with format and version.
+const MAX_FORMAT_BYTES: u64 = 64;
 
 /// The bytes of a file of this format.
 pub(crate) fn encode(format: &str, header: &str, body: &[u8]) -> Vec<u8> {
@@ -24,6 +31,16 @@ pub(crate) fn encode(format: &str, header: &str, body: &[u8]) -> Vec<u8> {
     let digest = sha256(&bytes);
     bytes.extend_from_slice(&digest);
     bytes
+}
+
+/// The bytes of a file that begins like one of any format here: one that does not may be as long
+/// as it likes, and is read no further than its first line.
+pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
+    input::expect_regular(path)?;
+    let mut head = Vec::new();
+    File::open(path)?.take(MAX_FORMAT_BYTES).read_to_end(&mut head)?;
+    let is_ours = head.starts_with(b"quasilux-") && head.contains(&b'\n');
+    if is_ours { input::read(path, input::MAX_SUMS_BYTES) } else { Ok(head) }
 }
 
 /// The two parts of a file.

@@ -3,6 +3,8 @@
 //! Everything that touches the machine lives here: arguments, files, threads, the clock, signals,
 //! exit codes. Read on at [`commands::run`] for the main job.
 
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 mod arguments;
 mod atomic_file;
 mod build;
@@ -14,7 +16,9 @@ mod digest;
 mod door;
 mod exit;
 mod forecast;
+mod input;
 mod interrupt;
+mod machine;
 mod names;
 mod plan;
 mod print;
@@ -24,11 +28,17 @@ mod watcher;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use exit::Exit;
+use exit::{CliError, Exit};
+use print::tell;
+use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(message) => return explain(&message),
+    };
+    let outcome = match arguments.command {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
@@ -43,9 +53,23 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(exit) => exit.into(),
-        Err(error) => {
-            eprintln!("error: {error}");
-            Exit::BadInput.into()
+        Err(error) => refuse(&error),
+    }
+}
+
+fn refuse(error: &CliError) -> ExitCode {
+    tell(format_args!("error: {error}"));
+    Exit::BadInput.into()
+}
+
+/// What is wrong with the arguments, or the help or version that they ask for.
+fn explain(message: &clap::Error) -> ExitCode {
+    let is_error = message.use_stderr();
+    match message.print().and_then(|()| io::stdout().flush()) {
+        Err(error) if !is_error && error.kind() != ErrorKind::BrokenPipe => {
+            refuse(&CliError::new(format!("cannot write to stdout: {error}")))
         }
+        _ if is_error => Exit::BadInput.into(),
+        _ => Exit::Done.into(),
     }
 }

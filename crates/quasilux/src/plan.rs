@@ -8,7 +8,8 @@ use crate::build::{self, BUILD, VERSION};
 use crate::container::{self, Contents};
 use crate::digest::{BYTES, SceneIdentity, hex, sha256_hex};
 use crate::exit::CliError;
-use crate::project::{Project, kept_settings, read_bounded};
+use crate::input;
+use crate::project::{Project, kept_settings};
 use quasilux_report::json;
 use quasilux_scene::project::{RENAMED_KEYS, RenamedKey};
 use quasilux_transport::{Decisions, Settings};
@@ -111,8 +112,8 @@ impl Plan {
     /// Reads a plan; `path` is what messages call it.
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.display();
-        let bytes =
-            read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
+        let bytes = input::read(path, input::MAX_PLAN_BYTES)
+            .map_err(|error| CliError::new(format!("{name}: {error}")))?;
         let plan: Self = serde_json::from_slice(&bytes)
             .map_err(|error| CliError::new(format!("{name}: {}", why_no_plan(&bytes, &error))))?;
         plan.check().map_err(|what| CliError::new(format!("{name}: {what}")))?;
@@ -196,7 +197,7 @@ impl Part {
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.display().to_string();
         let bytes =
-            read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
+            container::read(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
         Self::parse(&name, &bytes).map_err(|what| CliError::new(format!("{name}: {what}")))
     }
 

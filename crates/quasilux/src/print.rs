@@ -1,11 +1,23 @@
-//! Text for stdout. A reader that has gone away is no reason to fail, a full disk is.
+//! Text for stdout and stderr. A reader that has gone away is no reason to fail, a full disk is; of
+//! a stderr that takes nothing nobody can be told.
 
 use crate::exit::CliError;
+use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 
 /// Prints a text.
 pub(crate) fn print(text: &str) -> Result<(), CliError> {
     to_stdout(|out| out.write_all(text.as_bytes()))
+}
+
+/// Tells the user something beside the output.
+pub(crate) fn tell(message: impl fmt::Display) {
+    tell_text(&format!("{message}\n"));
+}
+
+/// The same with line feeds of its own.
+pub(crate) fn tell_text(text: &str) {
+    _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// Prints piece by piece.

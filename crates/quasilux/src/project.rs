@@ -3,17 +3,14 @@
 use crate::arguments::SimulationArguments;
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
+use crate::input;
 use crate::names::{self, take_from_project as take};
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_scene::{Files, LoadError, Loaded, SimulationSection, Spanned, load};
+use quasilux_scene::{FileKind, Files, LoadError, Loaded, SimulationSection, Spanned, load};
 use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
-
-/// Larger files are refused before they are read.
-const MAX_BYTES: u64 = 8 << 30;
 
 /// Files relative to the project file's folder.
 struct Folder {
@@ -23,8 +20,8 @@ struct Folder {
 }
 
 impl Files for Folder {
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
-        let outcome = read_bounded(&self.path.join(path));
+    fn read(&self, path: &str, kind: FileKind) -> std::io::Result<Vec<u8>> {
+        let outcome = input::read_kind(&self.path.join(path), kind);
         let digest = outcome.as_ref().ok().map(|bytes| sha256_hex(bytes));
         self.read.borrow_mut().insert(path.to_owned(), digest);
         outcome
@@ -42,7 +39,8 @@ pub(crate) struct Project {
 /// Loads a project; messages name its files as the user does.
 pub(crate) fn open(path: &Path) -> Result<Project, CliError> {
     let name = path.display().to_string();
-    let bytes = read_bounded(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
+    let bytes = input::read(path, input::MAX_PROJECT_BYTES)
+        .map_err(|error| CliError::new(format!("{name}: {error}")))?;
     let path_of_folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let folder = Folder { path: path_of_folder, read: RefCell::default() };
     let loaded = load(&name, &bytes, &folder)?;
@@ -51,25 +49,6 @@ pub(crate) fn open(path: &Path) -> Result<Project, CliError> {
     let others = folder.read.into_inner().into_iter();
     let others = others.map(|(path, sha256)| SceneFile { path, sha256 }).collect();
     Ok(Project { name, loaded, identity: SceneIdentity::new(own, others) })
-}
-
-/// The bytes of a file, up to a bound.
-pub(crate) fn read_bounded(path: &Path) -> std::io::Result<Vec<u8>> {
-    let file = std::fs::File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(std::io::ErrorKind::IsADirectory.into());
-    }
-    read_all(file)
-}
-
-/// All bytes of a reader, up to the same bound.
-pub(crate) fn read_all(reader: impl Read) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    reader.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(std::io::ErrorKind::FileTooLarge.into());
-    }
-    Ok(bytes)
 }
 
 /// The settings of a run: the command line before the project file before defaults; checked against

@@ -5,6 +5,7 @@
 use crate::checkpoint::CheckpointWriter;
 use crate::forecast::Forecast;
 use crate::interrupt;
+use crate::print::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quasilux_report::number::{brief, count, memory};
 use quasilux_transport::{Control, Estimates, Observer, Progress, Snapshot};
@@ -142,7 +143,8 @@ impl Observer for Watcher<'_> {
         {
             kept.has_failed = true;
             let name = kept.writer.path().display();
-            self.bar.suspend(|| eprintln!("warning: {name}: cannot keep the run: {error}"));
+            let warning = format!("warning: {name}: cannot keep the run: {error}");
+            self.bar.suspend(|| tell(warning));
         }
         // A large state takes no more than a small share of the time.
         kept.next = Instant::now() + kept.every.max(kept.asked.elapsed() * KEEPING_SHARE);

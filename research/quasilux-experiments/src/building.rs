@@ -55,7 +55,7 @@ pub(super) fn add_quad(scene: &mut Scene, corners: [DVec3; 4], material: u32) {
         mesh.object_of.push(0);
     }
     if mesh.objects.is_empty() {
-        mesh.objects.push("scene".to_owned());
+        mesh.objects.push("scene".into());
     }
 }
 

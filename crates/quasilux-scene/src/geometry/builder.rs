@@ -5,13 +5,14 @@ use crate::project::UpAxis;
 use crate::{LoadError, Rgb, Warning};
 use glam::DVec3;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Largest coordinate in m that geometry may have.
 const MAX_COORDINATE_M: f64 = 1e9;
 
 /// Most triangles of a scene: about 4 GB of mesh. Instances multiply triangles, so that a small
 /// file can ask for any number.
-const MAX_TRIANGLES: u64 = 50_000_000;
+pub(super) const MAX_TRIANGLES: usize = 50_000_000;
 
 /// Collects triangles of one file after the other.
 pub(crate) struct MeshBuilder {
@@ -78,8 +79,8 @@ impl MeshBuilder {
     }
 
     /// A new object.
-    pub(crate) fn object(&mut self, name: &str) -> u32 {
-        self.geometry.mesh.objects.push(name.to_owned());
+    pub(crate) fn object(&mut self, name: &Arc<str>) -> u32 {
+        self.geometry.mesh.objects.push(Arc::clone(name));
         (self.geometry.mesh.objects.len() - 1) as u32
     }
 
@@ -129,7 +130,7 @@ impl MeshBuilder {
         if !corners.iter().all(|corner| corner.abs().max_element() <= MAX_COORDINATE_M) {
             return Err(TriangleError::NotFinite);
         }
-        if self.total >= MAX_TRIANGLES {
+        if self.total >= MAX_TRIANGLES as u64 {
             return Err(TriangleError::TooMany);
         }
         self.total += 1;
@@ -190,7 +191,7 @@ mod tests {
     #[test]
     fn vertices_merge_by_exact_position_and_y_up_is_turned() {
         let mut builder = MeshBuilder::new(UpAxis::Y, 1.0);
-        let (object, material) = (builder.object("o"), builder.material("m"));
+        let (object, material) = (builder.object(&"o".into()), builder.material("m"));
         let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(-0.0, -0.0, 1.0)];
         builder.triangle(object, material, [a, b, c]).unwrap();
         builder.triangle(object, material, [-a, d, b]).unwrap();
@@ -202,7 +203,7 @@ mod tests {
     #[test]
     fn triangles_without_area_are_counted_not_kept() {
         let mut builder = MeshBuilder::new(UpAxis::Z, 1.0);
-        let (object, material) = (builder.object("o"), builder.material("m"));
+        let (object, material) = (builder.object(&"o".into()), builder.material("m"));
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X * 2.0]).unwrap();
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X]).unwrap();
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::Y * 1e-9]).unwrap();

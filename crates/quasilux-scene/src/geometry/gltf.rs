@@ -6,16 +6,16 @@
 //! read, and lights belong to the project file.
 
 use super::builder::MeshBuilder;
+use super::gltf_buffers;
 use super::gltf_primitive::{self, Target};
-use super::{beside, data_uri, reason};
 use crate::{Files, LoadError, Rgb, Warning};
-use ::gltf::buffer::Source;
 use ::gltf::json::validation::Checked;
 use ::gltf::scene::Transform;
-use ::gltf::{Document, Gltf, Node, Semantic};
+use ::gltf::{Document, Gltf, Mesh, Node, Semantic};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use quasilux_text::Position;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Required extensions that change no geometry.
 const HARMLESS_EXTENSIONS: [&str; 7] = [
@@ -28,6 +28,10 @@ const HARMLESS_EXTENSIONS: [&str; 7] = [
     "KHR_animation_pointer",
 ];
 
+/// Most objects and lists in the JSON of a file: each takes up to 0.5 kB once it is read, whatever
+/// it takes in the file.
+const MAX_PARTS: usize = 1 << 21;
+
 /// Reads a glTF or GLB file and the buffers that it names into `builder`.
 pub(super) fn read(
     bytes: &[u8],
@@ -38,15 +42,15 @@ pub(super) fn read(
     let file = builder.file().to_owned();
     let error = |message: String| LoadError::new(&file, None, message);
     let Parsed { document, blob } = parse(&file, bytes)?;
-    let buffers = buffers(&file, &document, blob, files).map_err(error)?;
+    let buffers = gltf_buffers::read(&file, &document, blob, files).map_err(error)?;
+    let mut names = Names::default();
 
     let mut skipped = 0;
     let mut textured = false;
     let mut material_of: HashMap<Option<usize>, u32> = HashMap::new();
     for PlacedNode { node, world_from_node } in nodes(&document).map_err(error)? {
         let Some(mesh) = node.mesh() else { continue };
-        let name = node.name().or(mesh.name());
-        let name = name.map_or_else(|| format!("node_{}", node.index()), str::to_owned);
+        let name = names.of(&node, &mesh);
         let object = builder.object(&name);
         for primitive in mesh.primitives() {
             let material = primitive.material();
@@ -86,8 +90,12 @@ struct Parsed {
 fn parse(file: &str, bytes: &[u8]) -> Result<Parsed, LoadError> {
     let error = |message: String| LoadError::new(file, None, message);
     let is_binary = bytes.starts_with(b"glTF");
-    if is_binary {
-        check_glb_header(bytes).map_err(error)?;
+    let json = if is_binary { check_glb_header(bytes).map_err(error)? } else { bytes };
+    let parts = json.iter().filter(|byte| matches!(byte, b'{' | b'[')).count();
+    if parts > MAX_PARTS {
+        return Err(error(format!(
+            "the file has {parts} objects and lists of JSON; expected at most {MAX_PARTS}"
+        )));
     }
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(bytes).map_err(|e| match e {
@@ -137,8 +145,9 @@ fn check_position_indices(json: &::gltf::json::Root) -> Result<(), String> {
     Ok(())
 }
 
-/// Checks lengths of the 12-byte header and of the first chunk [4.4] against the bytes that exist.
-fn check_glb_header(bytes: &[u8]) -> Result<(), String> {
+/// Checks lengths of the 12-byte header and of the first chunk [4.4] against the bytes that exist;
+/// returns that chunk.
+fn check_glb_header(bytes: &[u8]) -> Result<&[u8], String> {
     let word = |at: usize| {
         let word = bytes.get(at..at + 4).and_then(|slice| <[u8; 4]>::try_from(slice).ok());
         word.map(u32::from_le_bytes).ok_or("the GLB header is cut off; expected 20 bytes")
@@ -156,38 +165,26 @@ fn check_glb_header(bytes: &[u8]) -> Result<(), String> {
     if chunk as usize > bytes.len() - 20 {
         return Err(format!("the first GLB chunk says {chunk} bytes, more than the file holds"));
     }
-    Ok(())
+    Ok(&bytes[20..20 + chunk as usize])
 }
 
-/// The bytes of all buffers, at least as many as each declares.
-fn buffers(
-    file: &str,
-    document: &Document,
-    mut blob: Option<Vec<u8>>,
-    files: &dyn Files,
-) -> Result<Vec<Vec<u8>>, String> {
-    let mut buffers = Vec::new();
-    for buffer in document.buffers() {
-        let bytes = match buffer.source() {
-            Source::Bin => {
-                blob.take().ok_or("a buffer refers to a binary chunk that is missing")?
+/// Names of objects; those of meshes are kept once for all their instances.
+#[derive(Default)]
+struct Names {
+    of_mesh: HashMap<usize, Arc<str>>,
+}
+
+impl Names {
+    /// That of a node, or else of its mesh, or else its number.
+    fn of(&mut self, node: &Node<'_>, mesh: &Mesh<'_>) -> Arc<str> {
+        match (node.name(), mesh.name()) {
+            (Some(name), _) => name.into(),
+            (None, Some(name)) => {
+                Arc::clone(self.of_mesh.entry(mesh.index()).or_insert_with(|| name.into()))
             }
-            Source::Uri(uri) if uri.starts_with("data:") => {
-                data_uri::decode(uri).map_err(|e| format!("buffer {}: {e}", buffer.index()))?
-            }
-            Source::Uri(uri) => {
-                let path = beside(file, &data_uri::percent_decoded(uri));
-                let read = files.read(&path);
-                read.map_err(|e| format!("cannot read the buffer \"{path}\": {}", reason(&e)))?
-            }
-        };
-        if bytes.len() < buffer.length() {
-            let (index, given, declared) = (buffer.index(), bytes.len(), buffer.length());
-            return Err(format!("buffer {index} has {given} bytes; expected {declared}"));
+            (None, None) => format!("node_{}", node.index()).into(),
         }
-        buffers.push(bytes);
     }
-    Ok(buffers)
 }
 
 /// A node with its transform to the world.

@@ -5,6 +5,7 @@
 
 use ::gltf::accessor::{DataType, Dimensions};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A view of numbers in a buffer; all elements lie within it.
 #[derive(Debug)]
@@ -20,7 +21,7 @@ impl<'b> Accessor<'b> {
     /// Vertex positions: three 32-bit floats each.
     pub(super) fn positions(
         accessor: &::gltf::Accessor<'_>,
-        buffers: &'b [Vec<u8>],
+        buffers: &'b [Arc<Vec<u8>>],
     ) -> Result<Self, String> {
         let kind = (accessor.data_type(), accessor.dimensions());
         if kind != (DataType::F32, Dimensions::Vec3) {
@@ -33,7 +34,7 @@ impl<'b> Accessor<'b> {
     /// Vertex indices: unsigned integers of 8, 16 or 32 bits.
     pub(super) fn indices(
         accessor: &::gltf::Accessor<'_>,
-        buffers: &'b [Vec<u8>],
+        buffers: &'b [Arc<Vec<u8>>],
     ) -> Result<Self, String> {
         let size = match (accessor.data_type(), accessor.dimensions()) {
             (DataType::U8, Dimensions::Scalar) => 1,
@@ -49,7 +50,7 @@ impl<'b> Accessor<'b> {
 
     fn new(
         accessor: &::gltf::Accessor<'_>,
-        buffers: &'b [Vec<u8>],
+        buffers: &'b [Arc<Vec<u8>>],
         size: usize,
     ) -> Result<Self, String> {
         let index = accessor.index();

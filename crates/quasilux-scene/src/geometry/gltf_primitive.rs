@@ -5,6 +5,7 @@ use super::gltf_accessor::Accessor;
 use ::gltf::Semantic;
 use ::gltf::mesh::{Mode, Primitive};
 use glam::{DMat4, DVec3};
+use std::sync::Arc;
 
 /// Where the triangles of a primitive go.
 pub(super) struct Target<'a> {
@@ -15,21 +16,27 @@ pub(super) struct Target<'a> {
     pub(super) name: &'a str,
 }
 
+impl Target<'_> {
+    /// What messages call the object: the start of its name.
+    fn object_name(&self) -> String {
+        format!("object \"{}\"", self.name.chars().take(60).collect::<String>())
+    }
+}
+
 /// Reads a primitive into `builder`; returns 1 if it has no triangles by its mode, else 0.
 pub(super) fn read(
     primitive: &Primitive<'_>,
-    buffers: &[Vec<u8>],
+    buffers: &[Arc<Vec<u8>>],
     target: &Target<'_>,
     builder: &mut MeshBuilder,
 ) -> Result<u64, String> {
-    let object = format!("object \"{}\"", target.name);
     let mode = primitive.mode();
     if matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
         return Ok(1);
     }
     let positions = primitive
         .get(&Semantic::Positions)
-        .ok_or_else(|| format!("{object} has a primitive without positions"))?;
+        .ok_or_else(|| format!("{} has a primitive without positions", target.object_name()))?;
     let positions = Accessor::positions(&positions, buffers)?;
     let indices = primitive.indices().map(|indices| Accessor::indices(&indices, buffers));
     let indices = indices.transpose()?;
@@ -43,6 +50,7 @@ pub(super) fn read(
             None => corner,
         };
         let local = positions.position(vertex).ok_or_else(|| {
+            let object = target.object_name();
             format!("{object} refers to vertex {vertex}, but has {}", positions.count())
         })?;
         Ok(target.world_from_node.transform_point3(local))
@@ -53,7 +61,7 @@ pub(super) fn read(
         let corners = [position(a)?, position(b)?, position(c)?];
         builder
             .triangle(target.object, target.material, corners)
-            .map_err(|error| error.message(&object))?;
+            .map_err(|error| error.message(&target.object_name()))?;
     }
     Ok(0)
 }

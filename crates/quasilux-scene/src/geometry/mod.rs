@@ -4,9 +4,11 @@
 //! exactly the same position, and counts the degenerate triangles that it drops.
 
 mod builder;
+mod corner_grid;
 mod data_uri;
 mod gltf;
 mod gltf_accessor;
+mod gltf_buffers;
 mod gltf_primitive;
 mod mtl;
 mod obj;
@@ -14,7 +16,7 @@ mod obj_lines;
 mod polygon;
 
 use crate::project::{Project, UpAxis};
-use crate::{Files, LoadError, Mesh, Rgb, Spanned, Warning};
+use crate::{FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
 use builder::MeshBuilder;
 
 /// The name that triangles without a material get.
@@ -60,7 +62,7 @@ pub(crate) fn read(
                 return Err(project.error(file.place, message));
             }
         };
-        let bytes = read_file(project, file, files)?;
+        let bytes = read_file(project, file, files, FileKind::Geometry)?;
         builder.start_file(&file.value);
         if is_obj {
             obj::read(&bytes, files, &mut builder, warnings)?;
@@ -81,8 +83,9 @@ pub(crate) fn read_file(
     project: &Project,
     name: &Spanned<String>,
     files: &dyn Files,
+    kind: FileKind,
 ) -> Result<Vec<u8>, LoadError> {
-    files.read(&name.value).map_err(|error| {
+    reading::read(files, &name.value, kind).map_err(|error| {
         let reason = reason(&error);
         project.error(
             name.place,

@@ -2,12 +2,15 @@
 
 use super::builder::MeshBuilder;
 use super::mtl::{self, MtlMaterial};
-use super::obj_lines::{self, ObjLines};
-use super::polygon::triangulate;
+use super::obj_lines;
+use super::polygon::Cutter;
 use super::{DEFAULT_MATERIAL, beside, reason};
-use crate::{Files, LoadError, Warning};
+use crate::files::{self, FileKind};
+use crate::{Files, LoadError, Warning, too_large};
 use glam::DVec3;
 use quasilux_text::Position;
+use std::collections::HashSet;
+use std::io;
 
 /// Reads an OBJ file and the material files that it names into `builder`.
 pub(super) fn read(
@@ -19,15 +22,21 @@ pub(super) fn read(
     let file = builder.file().to_owned();
     let lines = obj_lines::read(&file, bytes)?;
     let materials: Vec<u32> = lines.materials.iter().map(|name| builder.material(name)).collect();
+    let mut libraries = Libraries { files, wanted: lines.materials.iter().collect(), bytes: 0 };
+    let mut read = HashSet::new();
     for (name, place) in &lines.libraries {
-        read_library(&beside(&file, name), *place, files, builder, &lines, warnings);
+        if read.insert(name) {
+            libraries.read(&beside(&file, name), *place, builder, warnings);
+        }
     }
     if lines.thin_faces > 0 {
         let message = format!("{} faces have fewer than three corners: dropped", lines.thin_faces);
         warnings.push(Warning::new(&file, None, message));
     }
 
-    let objects: Vec<u32> = lines.objects.iter().map(|name| builder.object(name)).collect();
+    let objects: Vec<u32> =
+        lines.objects.iter().map(|name| builder.object(&name.as_str().into())).collect();
+    let mut cutter = Cutter::default();
     for face in &lines.faces {
         let place = Some(Position { line: face.line, column: 1 });
         let material = match face.material {
@@ -38,7 +47,8 @@ pub(super) fn read(
             .iter()
             .map(|index| lines.positions[*index as usize])
             .collect();
-        let triangles = triangulate(&corners)
+        let triangles = cutter
+            .triangulate(&corners)
             .map_err(|error| LoadError::new(&file, place, error.to_string()))?;
         for triangle in triangles {
             builder
@@ -49,30 +59,55 @@ pub(super) fn read(
     Ok(())
 }
 
-/// Reads an MTL file; one that is missing or broken is a warning, for the project file may define
-/// the materials.
-fn read_library(
-    path: &str,
-    place: Position,
-    files: &dyn Files,
-    builder: &mut MeshBuilder,
-    lines: &ObjLines,
-    warnings: &mut Vec<Warning>,
-) {
-    let bytes = match files.read(path) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            let message =
-                format!("cannot read \"{path}\": {}; its materials are unknown", reason(&error));
-            warnings.push(Warning::new(builder.file(), Some(place), message));
-            return;
+/// What a material file counts for beside its bytes, so that their number is bounded.
+const LIBRARY_BYTES: u64 = 1 << 16;
+
+/// Material files of one OBJ file; all together may have as many bytes as one.
+struct Libraries<'a> {
+    files: &'a dyn Files,
+    /// Materials that the OBJ file uses.
+    wanted: HashSet<&'a String>,
+    /// Of all that were read.
+    bytes: u64,
+}
+
+impl Libraries<'_> {
+    /// Reads an MTL file; one that is missing or broken is a warning, for the project file may
+    /// define the materials.
+    fn read(
+        &mut self,
+        path: &str,
+        place: Position,
+        builder: &mut MeshBuilder,
+        warnings: &mut Vec<Warning>,
+    ) {
+        let bytes = match self.bytes_of(path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let reason = reason(&error);
+                let message =
+                    format!("cannot read \"{path}\": {reason}; its materials are unknown");
+                warnings.push(Warning::new(builder.file(), Some(place), message));
+                return;
+            }
+        };
+        for material in mtl::read(path, &bytes, warnings) {
+            let MtlMaterial { name, reflectance, emits } = material;
+            if self.wanted.contains(&name) {
+                let index = builder.material(&name);
+                builder.describe(index, reflectance, emits, warnings);
+            }
         }
-    };
-    for material in mtl::read(path, &bytes, warnings) {
-        let MtlMaterial { name, reflectance, emits } = material;
-        if lines.materials.contains(&name) {
-            let index = builder.material(&name);
-            builder.describe(index, reflectance, emits, warnings);
+    }
+
+    fn bytes_of(&mut self, path: &str) -> io::Result<Vec<u8>> {
+        let max_bytes = FileKind::MaterialLibrary.max_bytes();
+        if self.bytes >= max_bytes {
+            return Err(too_large(max_bytes));
         }
+        self.bytes += LIBRARY_BYTES;
+        let bytes = files::read(self.files, path, FileKind::MaterialLibrary)?;
+        self.bytes += bytes.len() as u64;
+        Ok(bytes)
     }
 }

@@ -4,6 +4,7 @@
 //! out. A face may come before its vertices. Format: Wavefront, Object Files (.obj), Advanced
 //! Visualizer manual, appendix B1 (1995).
 
+use super::builder::{MAX_TRIANGLES, TriangleError};
 use crate::LoadError;
 use glam::DVec3;
 use quasilux_text::Position;
@@ -73,6 +74,8 @@ fn refuse_binary(file: &str, bytes: &[u8]) -> Result<(), LoadError> {
 #[derive(Default)]
 struct Reader {
     lines: ObjLines,
+    /// Triangles that all faces so far make.
+    triangles: usize,
     object: Option<String>,
     material: Option<usize>,
     material_of: HashMap<String, usize>,
@@ -121,6 +124,10 @@ impl Reader {
             lines.thin_faces += 1;
             return Ok(());
         }
+        self.triangles += lines.corners.len() - start - 2;
+        if self.triangles > MAX_TRIANGLES {
+            return Err(reader.error(0, TriangleError::TooMany.message("the face")));
+        }
         let object = self.object.as_deref().unwrap_or(UNNAMED);
         if lines.objects.last().is_none_or(|last| last != object) {
             lines.objects.push(object.to_owned());
@@ -165,13 +172,26 @@ fn statements_of(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut lines = text.lines().zip(1..);
     std::iter::from_fn(move || {
         let (line, number) = lines.next()?;
-        let mut statement = Cow::Borrowed(without_comment(line));
-        while let Some(start) = statement.trim_end().strip_suffix('\\') {
-            let next = lines.next().map_or("", |(line, _)| without_comment(line));
-            statement = Cow::Owned(format!("{start} {next}"));
+        let mut last = without_comment(line);
+        let Some(first) = continued(last) else {
+            return Some(Statement { line: number, text: Cow::Borrowed(last) });
+        };
+        let mut statement = first.to_owned();
+        loop {
+            last = lines.next().map_or("", |(line, _)| without_comment(line));
+            let part = continued(last);
+            statement.push(' ');
+            statement.push_str(part.unwrap_or(last));
+            if part.is_none() {
+                return Some(Statement { line: number, text: Cow::Owned(statement) });
+            }
         }
-        Some(Statement { line: number, text: statement })
     })
+}
+
+/// A line without the mark that the next one goes on with its statement; `None` where there is none.
+fn continued(line: &str) -> Option<&str> {
+    line.trim_end().strip_suffix('\\')
 }
 
 /// The line up to a `#` that starts a word: names may hold one.
@@ -284,6 +304,14 @@ mod tests {
         assert_eq!(lines.objects.len(), 3, "{:?}", lines.objects);
         let materials: Vec<Option<usize>> = lines.faces.iter().map(|face| face.material).collect();
         assert_eq!(materials, [None, Some(0), Some(0), Some(1), Some(0)]);
+    }
+
+    /// In one pass: a million of them took longer than anyone waits.
+    #[test]
+    fn a_statement_may_go_on_over_any_number_of_lines() {
+        let text = format!("v 0 \\\n{}1 \\ \n2\nv 1 1 1\\", "\\\n".repeat(1_000_000));
+        let lines = read("a.obj", text.as_bytes()).unwrap();
+        assert_eq!(lines.positions, [DVec3::new(0.0, 1.0, 2.0), DVec3::ONE]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::photometry::{load_error, passed_on};
 use crate::bsdf::Measured;
 use crate::geometry::read_file;
 use crate::project::Project;
-use crate::{Files, LoadError, Mesh, Spanned, Warning};
+use crate::{FileKind, Files, LoadError, Mesh, Spanned, Warning};
 use glam::DVec3;
 use quasilux_bsdf::{MeasuredBsdf, read_bsdf_named};
 use std::collections::HashMap;
@@ -36,7 +36,7 @@ impl<'a> MeasuredFiles<'a> {
         let table = match self.tables.get(name) {
             Some(known) => Arc::clone(known),
             None => {
-                let bytes = read_file(self.project, file, self.files)?;
+                let bytes = read_file(self.project, file, self.files, FileKind::Bsdf)?;
                 let read =
                     read_bsdf_named(name, &bytes).map_err(|error| load_error(name, &error))?;
                 warnings.extend(read.warnings.iter().map(|warning| passed_on(name, warning)));

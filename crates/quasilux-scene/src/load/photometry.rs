@@ -2,7 +2,7 @@
 
 use crate::geometry::{beside, read_file, reason};
 use crate::project::Project;
-use crate::{Files, LoadError, Spanned, Warning};
+use crate::{FileKind, Files, LoadError, Spanned, Warning};
 use quasilux_photometry::{Format, ParseError, Photometry, Tilt, WarningKind, read_tilt};
 use quasilux_text::Position;
 
@@ -14,7 +14,7 @@ pub(super) fn read(
     files: &dyn Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Photometry, LoadError> {
-    let bytes = read_file(project, name, files)?;
+    let bytes = read_file(project, name, files, FileKind::Photometry)?;
     let file = name.value.as_str();
     let format = Format::from_file(file, &bytes).unwrap_or(Format::Lm63);
     if let Some(promised) = format.misnamed(file) {
@@ -36,7 +36,7 @@ pub(super) fn read(
         return Ok(read.photometry);
     };
     let tilt_path = beside(file, tilt_file);
-    match files.read(&tilt_path) {
+    match crate::files::read(files, &tilt_path, FileKind::Tilt) {
         Ok(bytes) => {
             let tilt = read_tilt(&bytes).map_err(|error| load_error(&tilt_path, &error))?;
             warnings.extend(tilt.warnings.iter().map(|warning| passed_on(&tilt_path, warning)));

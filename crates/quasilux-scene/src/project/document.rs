@@ -14,6 +14,9 @@ use toml::de::{DeTable, DeValue};
 /// square is far from overflow.
 const MAX_COORDINATE_M: f64 = 1e12;
 
+/// Bytes whose characters are counted together.
+const BLOCK: usize = 256;
+
 /// Longest piece of a value that a message repeats.
 const MAX_QUOTED_CHARS: usize = 40;
 
@@ -24,6 +27,8 @@ pub(super) struct Source<'a> {
     line_starts: Vec<usize>,
     /// The unit of its positions and lengths in m.
     position_unit_m: f64,
+    /// Characters before every [`BLOCK`] bytes: a line may be as long as the file.
+    chars_before: Vec<usize>,
 }
 
 /// A key of a table with its value.
@@ -50,11 +55,23 @@ pub(super) struct Value<'a> {
     value: &'a toml::Spanned<DeValue<'a>>,
 }
 
+/// Characters that begin in some bytes of UTF-8.
+fn count_chars(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count()
+}
+
 impl<'a> Source<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
         let breaks = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
         let line_starts = std::iter::once(0).chain(breaks.map(|(at, _)| at + 1)).collect();
-        Self { file, text, line_starts, position_unit_m: 1.0 }
+        let mut chars = 0;
+        let chars_in = |block: &[u8]| {
+            chars += count_chars(block);
+            chars
+        };
+        let chars_before =
+            std::iter::once(0).chain(text.as_bytes().chunks(BLOCK).map(chars_in)).collect();
+        Self { file, text, line_starts, chars_before, position_unit_m: 1.0 }
     }
 
     /// The same text, positions and lengths in this unit.
@@ -65,8 +82,14 @@ impl<'a> Source<'a> {
     pub(super) fn place(&self, offset: usize) -> Position {
         let line = self.line_starts.partition_point(|&start| start <= offset);
         let start = self.line_starts[line - 1];
-        let before = self.text.get(start..offset).unwrap_or_default();
-        Position { line, column: before.chars().count() + 1 }
+        Position { line, column: self.chars_to(offset) - self.chars_to(start) + 1 }
+    }
+
+    /// Characters that begin before a byte.
+    fn chars_to(&self, offset: usize) -> usize {
+        let offset = offset.min(self.text.len());
+        let block = offset / BLOCK;
+        self.chars_before[block] + count_chars(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
     pub(super) fn error(&self, offset: usize, message: impl Into<String>) -> LoadError {

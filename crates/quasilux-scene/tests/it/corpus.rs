@@ -1,14 +1,14 @@
 //! Geometry of other programs, where a collection of it is at hand.
 
 use crate::support::PROJECT;
-use quasilux_scene::Files;
+use quasilux_scene::{FileKind, Files};
 use std::path::{Path, PathBuf};
 
 /// Files below one folder.
 struct Folder(PathBuf);
 
 impl Files for Folder {
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _kind: FileKind) -> std::io::Result<Vec<u8>> {
         std::fs::read(self.0.join(path))
     }
 }

@@ -77,7 +77,7 @@ fn hierarchy_names_and_colours() {
     let loaded = load_text(&project, &files()).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     let scene = &loaded.scene;
-    assert_eq!(scene.mesh.objects, ["floor", "square"]);
+    assert_eq!(scene.mesh.objects, ["floor".into(), "square".into()]);
     assert_eq!(scene.mesh.object_of, [0, 0, 1, 1]);
     assert_eq!(scene.materials[0].name, "oak");
     assert_eq!(scene.materials[0].bsdf.reflectance(), Some(Rgb([0.5, 0.25, 0.125])));

@@ -14,7 +14,7 @@ fn names_materials_and_polygons_are_kept() {
     let project = PROJECT.to_owned() + "[materials.steel]\nkind = \"mirror\"\nreflectance = 0.6\n";
     let loaded = load_text(&project, &files).unwrap();
     let scene = &loaded.scene;
-    assert_eq!(scene.mesh.objects, ["desk top", "leg#1"]);
+    assert_eq!(scene.mesh.objects, ["desk top".into(), "leg#1".into()]);
     assert_eq!(scene.mesh.object_of, [0, 0, 0, 0, 1, 1, 1, 1]);
     let names: Vec<_> = scene.materials.iter().map(|m| m.name.as_str()).collect();
     assert_eq!(names, ["wood", "steel"]);

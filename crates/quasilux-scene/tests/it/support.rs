@@ -1,6 +1,6 @@
 //! A small valid project, and files in a map.
 
-use quasilux_scene::{Files, LoadError, Loaded, load};
+use quasilux_scene::{FileKind, Files, LoadError, Loaded, load};
 use std::collections::HashMap;
 use std::io::{Error, ErrorKind};
 
@@ -74,7 +74,7 @@ impl MapFiles {
 }
 
 impl Files for MapFiles {
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _kind: FileKind) -> std::io::Result<Vec<u8>> {
         self.0.get(path).cloned().ok_or_else(|| Error::from(ErrorKind::NotFound))
     }
 }

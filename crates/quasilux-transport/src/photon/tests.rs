@@ -27,7 +27,7 @@ fn floor(reflectance: f64) -> Scene {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
             material_of: vec![0; 2],
             object_of: vec![0; 2],
-            objects: vec!["floor".to_owned()],
+            objects: vec!["floor".into()],
         },
         materials: vec![Material { name: "odd".to_owned(), bsdf }],
         lights: vec![Light::Point(PointLight { position: DVec3::Z, intensity_cd: 1.0 })],

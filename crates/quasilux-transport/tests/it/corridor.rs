@@ -5,7 +5,7 @@ use crate::images::add_panel;
 use crate::measured_odd::grid_below;
 use crate::scenes::{diffuse, diffuse_cube, point_light, room, wall_grid};
 use glam::DVec3;
-use quasilux_scene::{Files, Quantity, Scene, SensorShape, load};
+use quasilux_scene::{FileKind, Files, Quantity, Scene, SensorShape, load};
 use quasilux_transport::trial::{PhotonOrder, Traced, try_photons};
 use quasilux_transport::{Estimates, EstimatorKind, Interval, Settings, Switch, simulate};
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ fn reference() -> Vec<SurveyCell> {
 struct Folder(PathBuf);
 
 impl Files for Folder {
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _kind: FileKind) -> std::io::Result<Vec<u8>> {
         std::fs::read(self.0.join(path))
     }
 }

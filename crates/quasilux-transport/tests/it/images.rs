@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// An empty scene.
 pub(crate) fn empty() -> Scene {
-    let mesh = Mesh { objects: vec!["all".to_owned()], ..Mesh::default() };
+    let mesh = Mesh { objects: vec!["all".into()], ..Mesh::default() };
     Scene { mesh, ..Scene::default() }
 }
 

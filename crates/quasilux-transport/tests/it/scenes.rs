@@ -23,7 +23,7 @@ pub(crate) fn room(size: DVec3, bsdf: Bsdf) -> Scene {
             triangles,
             material_of: vec![0; count],
             object_of: vec![0; count],
-            objects: vec!["room".to_owned()],
+            objects: vec!["room".into()],
         },
         materials: vec![Material { name: "walls".to_owned(), bsdf }],
         lights: Vec::new(),

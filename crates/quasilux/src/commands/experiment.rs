@@ -3,7 +3,7 @@
 
 use crate::arguments::ExperimentArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::print;
+use crate::print::{print, tell};
 use crate::{digest, results};
 use quasilux_experiments::{EXPERIMENTS, Experiment, Options};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, CliErr
         seed: arguments.seed,
     };
     if let Some(option) = experiment.unheeded(&options) {
-        eprintln!("warning: the experiment \"{name}\" takes no heed of {option}");
+        tell(format_args!("warning: the experiment \"{name}\" takes no heed of {option}"));
     }
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(name));
     results::prepare(&folder)?;

@@ -1,6 +1,7 @@
 //! Measurement files that are named on the command line: their bytes, and why one cannot be read.
 
-use crate::project::{read_all, read_bounded};
+use crate::input;
+use quasilux_scene::FileKind;
 use quasilux_text::{ParseError, Warning};
 use serde::Serialize;
 use std::fmt;
@@ -50,10 +51,13 @@ pub(super) fn stem_of(name: &str) -> String {
     stem.map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// The bytes of a file or of the standard input, up to a bound.
-pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
-    let bytes: io::Result<Vec<u8>> =
-        if is_stdin(path) { read_all(io::stdin().lock()) } else { read_bounded(path) };
+/// The bytes of a file or of the standard input, as many as its kind can have.
+pub(super) fn bytes_of(path: &Path, kind: FileKind) -> Result<Vec<u8>, Failure> {
+    let bytes: io::Result<Vec<u8>> = if is_stdin(path) {
+        input::read_all(io::stdin().lock(), kind.max_bytes())
+    } else {
+        input::read_kind(path, kind)
+    };
     bytes.map_err(|error| Failure { name: name_of(path), message: error.to_string(), place: None })
 }
 

@@ -6,6 +6,7 @@ use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest};
 use crate::door::Door;
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
+use crate::print::tell;
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
 use quasilux_transport::PreparedScene;
@@ -17,7 +18,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
     let Latest { checkpoint, warning } = checkpoint::read(&arguments.checkpoint)?;
     let Checkpoint { heading, state } = checkpoint;
     if let (Some(warning), false) = (&warning, arguments.output.quiet) {
-        eprintln!("warning: {warning}");
+        tell(format_args!("warning: {warning}"));
     }
     let name = arguments.checkpoint.display().to_string();
     heading.expect_build().map_err(|what| CliError::new(format!("{name}: {what}")))?;

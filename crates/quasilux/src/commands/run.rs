@@ -7,7 +7,7 @@ use crate::door::{Admitted, Door};
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::Plan;
-use crate::print::print;
+use crate::print::{print, tell, tell_text};
 use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
@@ -177,7 +177,7 @@ impl<'a> Folder<'a> {
         if output.json && !output.quiet {
             // The table has the warnings; the document is for programs.
             for warning in &project.loaded.warnings {
-                eprintln!("warning: {warning}");
+                tell(format_args!("warning: {warning}"));
             }
         }
         let by_name = || Path::new("out").join(file.file_stem().unwrap_or_default());
@@ -193,7 +193,7 @@ impl<'a> Folder<'a> {
         if self.output.json {
             print(&json::json(report))?;
             if let (Some(explanation), false) = (&report.explanation, self.output.quiet) {
-                eprint!("{}", table::explanation(explanation, Style::Plain));
+                tell_text(&table::explanation(explanation, Style::Plain));
             }
         } else if !self.output.quiet {
             print(&table::table(report, style()))?;

@@ -6,6 +6,7 @@ use crate::arguments::ShardArguments;
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::{Plan, part};
+use crate::print::tell;
 use crate::watcher::Watcher;
 use crate::{interrupt, project, results};
 use std::ops::Range;
@@ -33,7 +34,7 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, CliError> {
     results::prepare_file(&path, &read)?;
     let scene = &project.loaded.scene;
     if !arguments.quiet && !scene.cameras.is_empty() {
-        eprintln!("warning: parts have no pictures; `merge` takes them");
+        tell("warning: parts have no pictures; `merge` takes them");
     }
     let forecast = Forecast::new(scene, &settings, threads);
     let mut watcher = Watcher::new(forecast, None, arguments.quiet);
@@ -44,14 +45,15 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, CliError> {
     let sums = pool(threads)?.install(trace);
     let seconds = watcher.finish().as_secs_f64();
     let Some(sums) = sums else {
-        eprintln!("interrupted: no part was written");
+        tell("interrupted: no part was written");
         return Ok(Exit::Interrupted);
     };
     plan.expect_decisions(&sums, &project.name)?;
     results::write_atomic(&path, &part(&plan, &range, &sums))?;
     if !arguments.quiet {
         let (start, last, of) = (range.start, range.end - 1, plan.samples);
-        eprintln!("indices {start} to {last} of {of} in {}, {seconds:.1} s", path.display());
+        let name = path.display();
+        tell(format_args!("indices {start} to {last} of {of} in {name}, {seconds:.1} s"));
     }
     Ok(Exit::Done)
 }

@@ -15,7 +15,7 @@ impl Mirrors {
         let black = Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK });
         let material = |(name, bsdf): (&str, Bsdf)| Material { name: name.to_owned(), bsdf };
         let materials = [("mirror", mirror), ("black", black)].map(material).to_vec();
-        let objects = vec!["all".to_owned()];
+        let objects = vec!["all".into()];
         Self(Scene { materials, mesh: Mesh { objects, ..Mesh::default() }, ..Scene::default() })
     }
 

@@ -61,7 +61,7 @@ fn room(size: DVec3, materials: [Bsdf; 7], lights: Vec<Light>) -> Scene {
             material_of: (0..14).map(|triangle| triangle / 2).collect(),
             object_of: vec![0; 14],
             triangles,
-            objects: vec![String::new()],
+            objects: vec!["".into()],
         },
         materials: materials.to_vec(),
         lights,

@@ -16,7 +16,7 @@ pub(in crate::photon) fn square() -> World<f64> {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
             material_of: vec![0; 2],
             object_of: vec![0; 2],
-            objects: vec!["rectangle".to_owned()],
+            objects: vec!["rectangle".into()],
         },
         materials: vec![Material { name: "grey".to_owned(), bsdf }],
         lights: Vec::new(),

@@ -12,7 +12,7 @@ mod summary;
 use super::drawings;
 use crate::arguments::BsdfArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::print;
+use crate::print::{print, tell};
 use crate::results;
 use input::{Input, Surface};
 
@@ -25,7 +25,7 @@ pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, CliError> {
     let inputs: Vec<Input> = arguments.files.iter().map(|path| Input::read(path)).collect();
     for input in &inputs {
         if let Err(failure) = &input.surface {
-            eprintln!("error: {failure}");
+            tell(format_args!("error: {failure}"));
         }
     }
     let incidences = &arguments.incidences;

@@ -3,6 +3,7 @@
 use super::input::Luminaire;
 use super::outputs::Conversion;
 use crate::exit::CliError;
+use crate::print::tell;
 use crate::results;
 use quasilux_photometry::{Format, IesStandard, Standard, write_ies, write_ldt};
 
@@ -15,7 +16,7 @@ pub(super) fn convert(luminaire: &Luminaire, wanted: &Conversion) -> Result<(), 
     };
     results::write_atomic(&wanted.path, written.text.as_bytes())?;
     for note in &written.notes {
-        eprintln!("note: {}: {note}", wanted.path.display());
+        tell(format_args!("note: {}: {note}", wanted.path.display()));
     }
     Ok(())
 }

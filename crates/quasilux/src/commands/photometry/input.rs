@@ -2,6 +2,7 @@
 
 use crate::commands::inputs::{Failure, bytes_of, name_of, stem_of};
 use quasilux_photometry::{Analysis, Format, Photometry, Standard, Warning, WarningKind};
+use quasilux_scene::FileKind;
 use std::path::Path;
 
 /// A file, and what came of it.
@@ -25,7 +26,8 @@ impl Input {
     /// Reads and analyses a file.
     pub(super) fn read(path: &Path) -> Self {
         let name = name_of(path);
-        let luminaire = bytes_of(path).and_then(|bytes| luminaire(&name, &bytes));
+        let luminaire =
+            bytes_of(path, FileKind::Photometry).and_then(|bytes| luminaire(&name, &bytes));
         Self { name, luminaire }
     }
 

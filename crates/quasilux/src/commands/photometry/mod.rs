@@ -14,7 +14,7 @@ mod words;
 
 use crate::arguments::PhotometryArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::print;
+use crate::print::{print, tell};
 use crate::results;
 use input::{Input, Luminaire};
 use outputs::Outputs;
@@ -25,7 +25,7 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, CliErr
     let inputs: Vec<Input> = arguments.files.iter().map(|path| Input::read(path)).collect();
     for input in &inputs {
         if let Err(failure) = &input.luminaire {
-            eprintln!("error: {failure}");
+            tell(format_args!("error: {failure}"));
         }
     }
     if arguments.json {

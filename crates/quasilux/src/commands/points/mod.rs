@@ -9,7 +9,7 @@ mod setup;
 
 use crate::arguments::PointsArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::to_stdout;
+use crate::print::{print, to_stdout};
 use crate::{names, results};
 use quasilux_drawing::diagram::{Scatter, scatter};
 use quasilux_report::number::exact;
@@ -43,7 +43,7 @@ fn list_or_draw(name: &str, arguments: &PointsArguments) -> Result<(), CliError>
     if let Some(path) = &arguments.svg {
         let (drawing, facts) = drawing(&points, arguments)?;
         results::write_atomic(path, drawing.as_bytes())?;
-        println!("{}: {facts}", path.display());
+        print(&format!("{}: {facts}\n", path.display()))?;
     }
     match &arguments.csv {
         Some(path) => results::stream_atomic(path, |file| write_csv(&points, arguments, file)),
