@@ -12,10 +12,10 @@ use glam::DVec3;
 use quasilux_scene::solids::{Solid, solids_of};
 use quasilux_scene::{Light, Scene};
 
-/// Findings of one kind that are listed; then their number.
-pub(crate) const MAX_LISTED: usize = 20;
+/// Lamps that are listed.
+const MAX_LISTED: usize = 20;
 /// A lamp that hangs behind a surface by mistake is no further from it than this, in m.
-const MAX_MOVE_M: f64 = 1.0;
+const MAX_MOVE_M: f64 = 0.5;
 /// Surfaces on the way: those of a slab, and of a ceiling below.
 const MAX_SURFACES: usize = 4;
 
@@ -37,7 +37,8 @@ struct Move {
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let scene = survey.probe.scene;
     let mut solids: Option<Vec<Solid>> = None;
-    let mut unreached = 0;
+    let before = findings.found.len();
+    let mut listed = 0;
     for (index, lamp) in scene.lights.iter().enumerate() {
         let Some(position) = position_of(lamp) else { continue };
         if lamp.flux_lm() == 0.0 {
@@ -47,10 +48,10 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             in_surface(survey, index, position, findings);
             continue;
         }
-        unreached += 1;
-        if unreached > MAX_LISTED {
-            continue;
+        if listed == MAX_LISTED {
+            break;
         }
+        listed = findings.found.len() - before;
         let what = names::light(findings.places, &scene.lights, index);
         let what = format!("{what} at {}", names::position(position));
         let place = findings.places.lights[index];
@@ -79,11 +80,6 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             let cure = cure_by_move(&way, scene);
             findings.add(Check::LampBehindSurface, place, message, cure).at(position);
         }
-    }
-    if unreached > MAX_LISTED {
-        let message = format!("light of {unreached} lamps was not found to reach anything");
-        let cure = format!("the first {MAX_LISTED} are looked at above, if something is odd there");
-        findings.add(Check::LampOutside, findings.places.scene, message, cure);
     }
 }
 

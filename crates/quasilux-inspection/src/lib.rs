@@ -30,21 +30,20 @@ pub use finding::{Check, Finding};
 use finding::Findings;
 use probe::Probe;
 use quasilux_bvh::TriangleBvh;
-use quasilux_scene::Loaded;
+use quasilux_scene::{Places, Scene};
 use survey::Survey;
 
-/// All that is probably wrong with a loaded project, the most telling first: a wrong unit explains
-/// the lamps that it puts outside.
+/// All that is probably wrong with a scene, the most telling first: a wrong unit explains the lamps
+/// that it puts outside.
 ///
-/// `hierarchy` is over the triangles of the scene's mesh, in their order.
+/// `places` says where its things are described; `hierarchy` is over the triangles of the scene's mesh, in their order.
 ///
 /// # Panics
 /// If the hierarchy has another number of triangles than the scene.
 #[must_use]
-pub fn inspect(loaded: &Loaded, hierarchy: &TriangleBvh) -> Vec<Finding> {
-    assert_eq!(hierarchy.len(), loaded.scene.mesh.triangles.len(), "hierarchy of another scene");
-    let mut findings = Findings::new(&loaded.places);
-    let scene = &loaded.scene;
+pub fn inspect(scene: &Scene, places: &Places, hierarchy: &TriangleBvh) -> Vec<Finding> {
+    assert_eq!(hierarchy.len(), scene.mesh.triangles.len(), "hierarchy of another scene");
+    let mut findings = Findings::new(places);
     units::check(scene, &mut findings);
     orientation::check(scene, &mut findings);
     figures::check(scene, &mut findings);

@@ -26,7 +26,7 @@ pub(crate) struct Admitted<'a> {
 /// inspects it.
 pub(crate) fn prepare(project: &Project) -> Admitted<'_> {
     let prepared = PreparedScene::new(&project.loaded.scene);
-    let findings = inspect(&project.loaded, prepared.hierarchy());
+    let findings = inspect(&project.loaded.scene, &project.loaded.places, prepared.hierarchy());
     Admitted { prepared, findings }
 }
 

@@ -199,7 +199,7 @@ pub(crate) fn inspected(name: &str, project: &[u8], files: &dyn Files) -> Vec<Fi
     let mesh = &loaded.scene.mesh;
     let triangles = 0..mesh.triangles.len() as u32;
     let hierarchy = TriangleBvh::build(triangles.map(|t| mesh.corners(t)).collect());
-    inspect(&loaded, &hierarchy)
+    inspect(&loaded.scene, &loaded.places, &hierarchy)
 }
 
 /// Files in a map.

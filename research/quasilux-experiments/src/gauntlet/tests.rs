@@ -3,6 +3,9 @@
 use super::brute::brute_scene;
 use super::*;
 use quasilux_brute::{Limits, solve_until};
+use quasilux_bvh::TriangleBvh;
+use quasilux_inspection::{Check, inspect};
+use quasilux_scene::{LengthUnit, Places, Position, Scene};
 use quasilux_transport::{Settings, check, simulate};
 
 /// The same room without any reflection but that of mirrors.
@@ -27,6 +30,43 @@ fn rooms_follow_from_their_numbers() {
         let scene = made.scene();
         assert!(check(&scene, &Settings::default()).is_ok(), "{}", made.family);
     }
+}
+
+/// Where things of a scene would be described, were they read from a file.
+fn places(scene: &Scene) -> Places {
+    let place = Position { line: 1, column: 1 };
+    let (lights, materials) = (scene.lights.len(), scene.materials.len());
+    Places {
+        file: "room".to_owned(),
+        scene: place,
+        geometry: Vec::new(),
+        y_is_up: false,
+        unit: LengthUnit::Metre,
+        lights: vec![place; lights],
+        photometry: vec![None; lights],
+        sensors: vec![place; scene.sensors.len()],
+        cameras: vec![place; scene.cameras.len()],
+        materials: vec![None; materials],
+        is_described: vec![true; materials],
+    }
+}
+
+/// Light that is hard to find is no fault of a scene.
+#[test]
+fn hard_rooms_are_right() {
+    let mut told = Vec::new();
+    for number in 0..6 * families() {
+        let made = room(number);
+        let scene = made.scene();
+        let triangles = 0..scene.mesh.triangles.len() as u32;
+        let hierarchy = TriangleBvh::build(triangles.map(|t| scene.mesh.corners(t)).collect());
+        let findings = inspect(&scene, &places(&scene), &hierarchy);
+        // Rooms are whiter than paint, and have holes, on purpose.
+        let meant = [Check::HighReflectance, Check::Hole];
+        let odd = findings.iter().filter(|finding| !meant.contains(&finding.check));
+        told.extend(odd.map(|finding| format!("room {number}, {}: {finding}", made.family)));
+    }
+    assert!(told.is_empty(), "{}", told.join("\n"));
 }
 
 /// One room of each family without interreflection: what comes straight from lights, or over
