@@ -1,6 +1,9 @@
 //! What a run will take of the machine: the memory of the whole program.
 
-use quasilux_scene::Scene;
+use crate::exit::CliError;
+use crate::machine;
+use quasilux_report::number::memory;
+use quasilux_scene::{Loaded, Position, Scene};
 use quasilux_transport::{EstimatorKind, MemoryNeed, Settings};
 
 /// The program with small files in memory, and what a thread that traces paths, or photons too,
@@ -35,4 +38,62 @@ impl<'a> Forecast<'a> {
         let program_bytes = PROGRAM_BYTES + self.threads as u64 * thread_bytes;
         self.need.total_bytes(samples).saturating_add(program_bytes)
     }
+}
+
+/// Refuses a run for which there is not enough memory, by what takes the most of it.
+///
+/// # Errors
+/// Then, with the place in the project file.
+pub(crate) fn expect_memory(loaded: &Loaded, settings: &Settings) -> Result<(), CliError> {
+    expect_bytes(loaded, settings, machine::available_bytes())
+}
+
+fn expect_bytes(loaded: &Loaded, settings: &Settings, available: u64) -> Result<(), CliError> {
+    let bytes = Forecast::new(&loaded.scene, settings, 1).bytes(settings.max_samples);
+    if bytes <= available {
+        return Ok(());
+    }
+    let Greediest { what, place } = greediest(loaded, settings);
+    let file = &loaded.places.file;
+    let place = place.map_or_else(String::new, |place| format!(":{}:{}", place.line, place.column));
+    let [needed, there_is] = [bytes, available].map(memory);
+    Err(CliError::new(format!(
+        "{file}{place}: the run takes up to {bytes} bytes of memory ({needed}), most of it for \
+         {what}; expected at most {available} bytes ({there_is}), which there are"
+    )))
+}
+
+/// What takes the most memory, and where the project file asks for it.
+struct Greediest {
+    what: String,
+    place: Option<Position>,
+}
+
+fn greediest(loaded: &Loaded, settings: &Settings) -> Greediest {
+    let Loaded { scene, places, simulation, .. } = loaded;
+    let need = MemoryNeed::new(scene, settings);
+    let maps_bytes = need.maps_bytes;
+    let others = [need.scene_bytes, need.sums_bytes, need.cells_bytes, need.pictures_bytes];
+    if others.iter().all(|bytes| *bytes < maps_bytes) {
+        let asked = simulation.map_elements.as_ref().map(|given| given.place);
+        let asked = asked.or(simulation.map_element_m.as_ref().map(|given| given.place));
+        let what = "illumination maps: map_elements bounds them".to_owned();
+        return Greediest { what, place: asked };
+    }
+    let sums_bytes = need.sums_bytes.max(need.cells_bytes);
+    if sums_bytes >= need.scene_bytes.max(need.pictures_bytes) {
+        let points: usize = scene.sensors.iter().map(quasilux_scene::Sensor::len).sum();
+        let replicates = settings.effective_replicates();
+        let what = format!("the sums of {points} sensor points in {replicates} replicates");
+        let largest = scene.sensors.iter().zip(&places.sensors).max_by_key(|it| it.0.len());
+        let largest = largest.map(|(_, place)| *place);
+        let usual = Settings::default().replicates;
+        let asked = simulation.replicates.as_ref().filter(|given| given.value > usual);
+        return Greediest { what, place: asked.map(|given| given.place).or(largest) };
+    }
+    if need.scene_bytes >= need.pictures_bytes {
+        let what = format!("{} triangles", scene.mesh.triangles.len());
+        return Greediest { what, place: Some(places.scene) };
+    }
+    Greediest { what: "the pictures".to_owned(), place: places.cameras.first().copied() }
 }

@@ -3,6 +3,7 @@
 use crate::arguments::SimulationArguments;
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
+use crate::forecast;
 use crate::input;
 use crate::names::{self, take_from_project as take};
 use quasilux_sampling::{Randomization, Sequence};
@@ -68,6 +69,7 @@ pub(crate) fn settings(
     expect_an_end(project, &settings, arguments)?;
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
     checked.map_err(|error| CliError::new(format!("{}: {error}", project.name)))?;
+    forecast::expect_memory(&project.loaded, &settings)?;
     Ok(settings)
 }
 
@@ -161,6 +163,7 @@ pub(crate) fn kept_settings(
     let settings = Settings { sequence, ..settings.clone() };
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
     checked.map_err(|error| CliError::new(format!("{file}: {error}")))?;
+    forecast::expect_memory(&project.loaded, &settings)?;
     Ok(settings)
 }
 

@@ -4,6 +4,7 @@
 
 use crate::checkpoint::CheckpointWriter;
 use crate::forecast::Forecast;
+use crate::heartbeat::Heartbeat;
 use crate::interrupt;
 use crate::print::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -13,6 +14,8 @@ use std::time::{Duration, Instant};
 
 /// Steps of the progress bar.
 const STEPS: u64 = 1000;
+/// How often it shows the time, whatever else it has to show.
+const TICK: Duration = Duration::from_millis(500);
 
 /// Sensors that are shown while a run goes, the first ones.
 const SHOWN_SENSORS: usize = 3;
@@ -29,6 +32,8 @@ pub(crate) struct Watcher<'a> {
     /// What it will take.
     pub(crate) forecast: Forecast<'a>,
     bar: ProgressBar,
+    /// Where no bar can be drawn and the user has not asked for silence.
+    heartbeat: Option<Heartbeat>,
     /// Names of the sensors that are shown.
     sensors: Vec<String>,
     /// What they show.
@@ -77,7 +82,7 @@ impl<'a> Watcher<'a> {
         } else {
             ProgressDrawTarget::stderr_with_hz(8)
         };
-        let style = ProgressStyle::with_template("{bar:24} {msg}")
+        let style = ProgressStyle::with_template("{bar:24} {elapsed} {msg}")
             .expect("the template is well formed")
             .progress_chars("=> ");
         let bar = ProgressBar::with_draw_target(Some(STEPS), target).with_style(style);
@@ -86,10 +91,17 @@ impl<'a> Watcher<'a> {
         let sensors = forecast.scene.sensors.iter().take(SHOWN_SENSORS);
         // Before the first sample, and so of as many as there may be.
         let most = memory(forecast.bytes(forecast.settings.max_samples));
-        bar.set_message(format!("up to {most} of memory"));
+        let before = format!("up to {most} of memory");
+        let heartbeat = (!quiet && bar.is_hidden()).then(|| Heartbeat::new(&before));
+        bar.set_message(before);
+        if !bar.is_hidden() {
+            // Surveys and pilots may have nothing to say for a while.
+            bar.enable_steady_tick(TICK);
+        }
         Self {
             forecast,
             bar,
+            heartbeat,
             sensors: sensors.map(|sensor| sensor.name.clone()).collect(),
             values: String::new(),
             next_look: start,
@@ -110,7 +122,8 @@ impl<'a> Watcher<'a> {
     }
 
     /// Takes the bar away and says how long the run took.
-    pub(crate) fn finish(&self) -> Duration {
+    pub(crate) fn finish(&mut self) -> Duration {
+        self.heartbeat = None;
         self.bar.finish_and_clear();
         self.start.elapsed()
     }
@@ -172,7 +185,11 @@ impl Observer for Watcher<'_> {
         let course = message(progress, done, elapsed_s);
         let bytes =
             self.forecast.bytes(progress.expected_samples.or(self.forecast.settings.max_samples));
-        self.bar.set_message(course + ", " + &memory(bytes) + &self.values);
+        let course = course + ", " + &memory(bytes);
+        if let Some(heartbeat) = &self.heartbeat {
+            heartbeat.set(&course);
+        }
+        self.bar.set_message(course + &self.values);
         self.control()
     }
 

@@ -33,7 +33,8 @@ use quasilux_scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// The first checkpoint takes at most this many indices, and about this many paths in all.
+/// The first checkpoint takes at most this many indices, and about this many paths and photons of
+/// maps in all.
 const FIRST_SAMPLES: u64 = 16;
 const FIRST_PATHS: u64 = 1 << 22;
 
@@ -465,7 +466,8 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn first_checkpoint(&self) -> u64 {
-        let affordable = FIRST_PATHS / (self.sums.len() as u64).max(1);
+        let photons = self.end.photons_of_an_index(self.replicates);
+        let affordable = FIRST_PATHS / photons.saturating_add(self.sums.len() as u64).max(1);
         let powers = (affordable + 1).next_power_of_two() / 2;
         powers.clamp(1, FIRST_SAMPLES)
     }

@@ -97,6 +97,18 @@ impl<S: Spectrum> GrowingMaps<'_, S> {
     }
 }
 
+impl<S> PathEnd<S> {
+    /// Photons of all maps for each index.
+    pub(crate) fn photons_of_an_index(&self, replicates: u32) -> u64 {
+        match self {
+            Self::Nothing | Self::Frozen(_) => 0,
+            Self::Own { photons_per_path, .. } => {
+                photons_per_path.saturating_mul(u64::from(replicates))
+            }
+        }
+    }
+}
+
 impl<S: Spectrum> PathEnd<S> {
     /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the
     /// photons that come before all paths, if there are none yet that say where the flux goes.

@@ -62,6 +62,11 @@ pub(crate) struct LobeSums {
 }
 
 impl Lobes {
+    /// Surfaces so far that scatter into lobes.
+    pub(crate) fn surfaces(&self) -> u64 {
+        self.surfaces
+    }
+
     /// Adds a surface that scatters into lobes.
     pub(crate) fn meet(&mut self, lights: &PointLikes<'_>, met: &Met<'_>) {
         let Met { at, transmits, goes_on, sharpness } = *met;

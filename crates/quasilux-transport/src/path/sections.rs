@@ -34,7 +34,8 @@ pub(crate) struct PathSums {
     pub(crate) terms: Vec<Sum>,
     /// Paths that came to a surface that reflects.
     pub(crate) reflected: u64,
-    pub(crate) lobes: LobeSums,
+    /// `None` where no path met a lobe under a point-like light.
+    pub(crate) lobes: Option<Box<LobeSums>>,
 }
 
 /// Single contributions to one target, of all replicates.
@@ -187,7 +188,9 @@ impl PathSums {
         self.direct.add(found.direct.luminance(), quantum);
         self.indirect.add_signed(found.indirect.luminance(), quantum);
         self.reflected += u64::from(found.reflected);
-        self.lobes.add(found.lobes, quantum);
+        if found.lobes.surfaces() > 0 {
+            self.lobes.get_or_insert_default().add(found.lobes, quantum);
+        }
         self.add_terms(found, quantum);
     }
 
@@ -237,7 +240,9 @@ impl AddAssign for PathSums {
         self.direct += other.direct;
         self.indirect += other.indirect;
         self.reflected += other.reflected;
-        self.lobes += &other.lobes;
+        if let Some(more) = &other.lobes {
+            **self.lobes.get_or_insert_default() += more;
+        }
         self.terms.resize(self.terms.len().max(other.terms.len()), Sum::default());
         for (sum, found) in self.terms.iter_mut().zip(other.terms) {
             *sum += found;
@@ -274,7 +279,9 @@ impl Sums for PathSums {
         self.direct.checked_add(&other.direct)?;
         self.indirect.checked_add(&other.indirect)?;
         add_count(&mut self.reflected, other.reflected)?;
-        self.lobes.checked_add(&other.lobes)?;
+        if let Some(more) = &other.lobes {
+            self.lobes.get_or_insert_default().checked_add(more)?;
+        }
         if self.terms.is_empty() {
             // Before its first path a target has none.
             self.terms.clone_from(&other.terms);

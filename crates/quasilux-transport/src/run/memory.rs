@@ -119,18 +119,30 @@ impl MemoryNeed {
     }
 }
 
-/// Scores of a sensor point: 128 counters each of paths, seen and blocked light and connections.
-const SCORES_BYTES: u64 = 4 * 128 * 8;
+/// A list of scores of a sensor point: 128 counters.
+const SCORES_BYTES: u64 = 128 * 8;
+/// Of a sensor point whatever the replicates: where it is, what is exact of it, where it ends.
+const PLACE_BYTES: u64 = 256;
 
 /// A sensor point in all replicates.
 fn point_bytes(settings: &Settings) -> u64 {
+    let sum = size_of::<Sum>() as u64;
     let values = 1 + u64::from(settings.list_terms);
-    let sums = size_of::<PathSums>() as u64 + 2 * values * size_of::<Sum>() as u64;
+    let of_terms = if settings.list_terms > 0 { values * sum } else { 0 };
     let replicates = u64::from(settings.effective_replicates());
-    // Beside the selected estimator, a probe and a relief.
-    let estimators = if settings.estimator == EstimatorKind::Auto { 3 } else { 1 };
-    let own = replicates.saturating_mul(sums + values * VALUE_BYTES);
-    product([estimators, own.saturating_add(SCORES_BYTES)]).saturating_add(witness::POINT_BYTES)
+    let sums = replicates.saturating_mul(size_of::<PathSums>() as u64 + of_terms);
+    let joined = match settings.estimator {
+        kind if kind.is_selected_by_pilots() => replicates.saturating_mul(2 * values * sum),
+        _ => 0,
+    };
+    // Beside the selected estimator, a probe and a relief: bidirectional paths, with three scores.
+    let beside = match settings.estimator {
+        EstimatorKind::Auto => product([2, sums.saturating_add(3 * SCORES_BYTES)]),
+        _ => 0,
+    };
+    let figures = replicates.saturating_mul(values * VALUE_BYTES);
+    let own = [sums, joined, beside, figures];
+    total(own).saturating_add(SCORES_BYTES + PLACE_BYTES + witness::POINT_BYTES)
 }
 
 /// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`]

@@ -14,7 +14,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let own = self.sums.chunks_exact(self.replicates as usize).enumerate();
         own.map(|(target, own)| {
             let mut lobes = LobeSums::default();
-            own.iter().for_each(|sums| lobes += &sums.lobes);
+            own.iter().filter_map(|sums| sums.lobes.as_deref()).for_each(|more| lobes += more);
             let paths = self.samples_of(target) * u64::from(self.replicates);
             let value_lx = self.moment(target, paths).all_lx.unwrap_or_default();
             lobes.are_missed(self.quantum, paths, value_lx)

@@ -1,10 +1,11 @@
 //! `quasilux points --compare`: root mean squares over randomisations, and their slopes.
 
 use super::curve::{Curve, FIT_FROM};
-use super::setup::{Measure, Setup, counts, replicate};
+use super::setup::{Measure, Setup, Stream, counts, replicate};
 use super::{comparison_plot, comparison_table};
 use crate::arguments::PointsArguments;
 use crate::exit::CliError;
+use crate::meter::Meter;
 use crate::print::print;
 use crate::results;
 use quasilux_sampling::quality::fit_power_law;
@@ -31,10 +32,15 @@ fn curves(max_n: u64, seed: u64) -> Vec<Curve> {
         .enumerate()
         .flat_map(|(i, setup)| (0..setup.replicates()).map(move |number| (i, number)))
         .collect();
+    let steps = tasks.iter().map(|(i, _)| setups[*i].points_of(&counts)).sum();
+    let meter = Meter::new(steps);
     let measured: Vec<Vec<Vec<f64>>> = tasks
         .par_iter()
-        .map(|(i, number)| replicate(&setups[*i], &counts, seed, *number))
+        .map(|(i, number)| {
+            replicate(&setups[*i], &counts, Stream { seed, number: *number }, &meter)
+        })
         .collect();
+    drop(meter);
     let mut curves = Vec::new();
     for (m, measure) in Measure::all().into_iter().enumerate() {
         for (i, setup) in setups.iter().enumerate() {

@@ -1,5 +1,6 @@
 //! Which points are compared, and what is measured of them.
 
+use crate::meter::Meter;
 use quasilux_sampling::quality::{
     Integrand, L2Measure, PointsView, l2_discrepancy, star_discrepancy,
 };
@@ -12,6 +13,16 @@ pub(super) const MAX_MEASURED: u64 = 1 << 10;
 /// The smallest number of points compared; the others are this times powers of 4, the counts that
 /// suit nets in base 2 and 4 alike.
 const MIN: u64 = 1 << 4;
+
+/// Points between two words of how far the work is.
+const TOLD: u64 = 1 << 12;
+
+/// A seed, and which of its randomisations.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stream {
+    pub(super) seed: u64,
+    pub(super) number: u32,
+}
 
 /// A sequence under a randomisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,9 +60,20 @@ impl Setup {
         if self.sequence == Sequence::Independent { "" } else { self.randomization.name() }
     }
 
-    fn points(&self, count: u64, seed: u64, replicate: u32) -> PointSet {
+    fn points(&self, count: u64, Stream { seed, number }: Stream) -> PointSet {
         let sequence = Sequence::all_for(count)[self.number];
-        PointSet::new(sequence, self.randomization, stream_key(seed, replicate, 0))
+        PointSet::new(sequence, self.randomization, stream_key(seed, number, 0))
+    }
+
+    /// The counts that one set of points serves: all, but where a set must know its count.
+    fn runs<'a>(&self, counts: &'a [u64]) -> Vec<&'a [u64]> {
+        let needs_count = self.sequence.points().is_some();
+        if needs_count { counts.chunks(1).collect() } else { vec![counts] }
+    }
+
+    /// Points of one replicate, all sets together.
+    pub(super) fn points_of(&self, counts: &[u64]) -> u64 {
+        self.runs(counts).iter().filter_map(|run| run.last()).sum()
     }
 }
 
@@ -107,21 +129,24 @@ pub(super) fn counts(most: u64) -> Vec<u64> {
 
 /// One replicate: the measures, each for each number of points where it is computed. Errors are
 /// signed.
-pub(super) fn replicate(setup: &Setup, counts: &[u64], seed: u64, number: u32) -> Vec<Vec<f64>> {
+pub(super) fn replicate(
+    setup: &Setup,
+    counts: &[u64],
+    stream: Stream,
+    meter: &Meter,
+) -> Vec<Vec<f64>> {
     let measures = Measure::all();
     let mut values = vec![Vec::new(); measures.len()];
-    let needs_count = setup.sequence.points().is_some();
-    let runs: Vec<&[u64]> = if needs_count { counts.chunks(1).collect() } else { vec![counts] };
-    for run in runs {
+    for run in setup.runs(counts) {
         let last = run.last().copied().unwrap_or(0);
-        let points = setup.points(last, seed, number);
+        let points = setup.points(last, stream);
         for (measure, values) in measures.iter().zip(&mut values) {
             if !matches!(measure, Measure::Integration(_)) {
                 let few = run.iter().filter(|count| **count <= MAX_MEASURED);
                 values.extend(few.map(|count| discrepancy(*measure, &points, *count)));
             }
         }
-        let errors = integration_errors(&points, run);
+        let errors = integration_errors(&points, run, meter);
         let discrepancies = measures.len() - Integrand::ALL.len();
         for (values, errors) in values[discrepancies..].iter_mut().zip(errors) {
             values.extend(errors);
@@ -143,7 +168,7 @@ fn discrepancy(measure: Measure, points: &PointSet, count: u64) -> f64 {
 }
 
 /// Relative errors of the means of the first points, for each integrand and each count.
-fn integration_errors(points: &PointSet, counts: &[u64]) -> Vec<Vec<f64>> {
+fn integration_errors(points: &PointSet, counts: &[u64], meter: &Meter) -> Vec<Vec<f64>> {
     let mut sums = [0.0; Integrand::ALL.len()];
     let mut errors = vec![Vec::new(); sums.len()];
     let mut u = [0.0; Integrand::MAX_DIMENSIONS];
@@ -155,6 +180,9 @@ fn integration_errors(points: &PointSet, counts: &[u64]) -> Vec<Vec<f64>> {
             }
             for (sum, integrand) in sums.iter_mut().zip(Integrand::ALL) {
                 *sum += integrand.value(&u);
+            }
+            if (index + 1).is_multiple_of(TOLD) {
+                meter.add(TOLD);
             }
         }
         next = *count;
