@@ -231,4 +231,36 @@ mod tests {
     fn the_definition_is_consistent() {
         Arguments::command().debug_assert();
     }
+
+    /// Those among them that nobody runs because they take too long.
+    #[test]
+    fn every_command_in_the_documentation_is_one() {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+        let read = |name: &str| {
+            let path = format!("{root}/{name}");
+            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+        };
+        let documents = ["README.md", "docs/connections.md", "docs/speed.md", "CONTRIBUTING.md"];
+        let examples = ["cluster", "cornell", "corridor", "cube", "diffuser", "office"];
+        let examples = examples.map(|name| format!("examples/{name}/README.md"));
+        let own = "crates/quasilux/README.md".to_owned();
+        let mut parsed = 0;
+        for name in documents.map(str::to_owned).into_iter().chain(examples).chain([own]) {
+            let text = read(&name);
+            let lines = text.lines().filter_map(|line| line.strip_prefix("    "));
+            let calls = ["cargo run --release -- ", "quasilux "];
+            for line in lines {
+                let Some(arguments) = calls.iter().find_map(|call| line.strip_prefix(call)) else {
+                    continue;
+                };
+                let words = arguments.split_whitespace().take_while(|word| *word != "#");
+                let words = std::iter::once("quasilux").chain(words);
+                if let Err(error) = Arguments::try_parse_from(words) {
+                    panic!("{name}: {line}: {error}");
+                }
+                parsed += 1;
+            }
+        }
+        assert!(parsed > 25, "only {parsed} commands were found");
+    }
 }
