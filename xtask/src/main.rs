@@ -1,13 +1,14 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
-//! [`steps`] is the test command, [`examples`] and [`cluster`] its last step, [`office`] the
-//! generator behind `examples/office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
-//! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in
-//! `tests/architecture/`.
+//! [`steps`] is the test command, [`examples`], [`cluster`] and [`documents`] its last steps,
+//! [`office`] the generator behind `examples/office/`, [`cie171`] and [`octant`] those of cases in
+//! `validation/`, [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks
+//! are in `tests/architecture/`.
 
 mod arrows;
 mod cie171;
 mod cluster;
+mod documents;
 mod examples;
 mod expectation;
 mod experiments;
@@ -35,6 +36,7 @@ cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test package   the crates to publish build from their packages
 cargo xtask test examples  every example runs and gives the numbers it promises
+cargo xtask test documents every command of the documentation runs and prints what it shows
 cargo xtask test deep      all tests, in variants that take long and find smaller errors
 cargo xtask arrows CRATE   imports between the modules of a crate that no order allows
 cargo xtask order CRATE    an order of a crate's rooms with few imports against it
@@ -46,6 +48,7 @@ cargo xtask octant         write the mirror octant in validation/ from its gener
 cargo xtask office         write examples/office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
 cargo xtask experiments    write docs/experiments.md from what the experiments wrote
+cargo xtask pictures       write the pictures of the documentation from the commands beside them
 cargo xtask help           this text
 ";
 
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         ["figures", path] => figures::print(Path::new(path)),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
+        ["pictures"] => documents::draw(&workspace_root()),
         ["octant"] => octant::write(&workspace_root()),
         ["office"] => office::write(&workspace_root()),
         _ => Err(format!("no such command: {:?}\n\n{HELP}", words.join(" "))),

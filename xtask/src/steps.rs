@@ -1,6 +1,6 @@
 //! The steps of the test command, in the order in which they are cheapest to fail.
 
-use crate::{examples, same_bits};
+use crate::{documents, examples, same_bits};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
@@ -13,7 +13,7 @@ struct Step {
     run: fn() -> Result<(), Failure>,
 }
 
-const STEPS: [Step; 7] = [
+const STEPS: [Step; 8] = [
     Step { name: "fmt", run: check_format },
     Step {
         name: "clippy",
@@ -27,6 +27,7 @@ const STEPS: [Step; 7] = [
     },
     Step { name: "package", run: package_crates },
     Step { name: "examples", run: || examples::run_all(&workspace_root()) },
+    Step { name: "documents", run: || documents::check(&workspace_root()) },
 ];
 
 /// The step that [`run_all`] leaves out: all tests, in the variants that take long and find smaller

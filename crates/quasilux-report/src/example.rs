@@ -153,9 +153,11 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
         build: "0123456789abcdef".into(),
         scene_sha256: "c0ffee".into(),
         seconds: 9.8125,
+        earlier_seconds: 0.0,
         earlier_rays: 0,
         threads: 2,
         expected_bytes: Some(96 << 20),
+        maintenance_factor: None,
         warnings: vec![WARNING.into()],
         findings: Vec::new(),
     };

@@ -23,8 +23,10 @@ pub struct RunFacts {
     pub build: String,
     /// SHA-256 of the files that the scene was read from; empty where nobody knows.
     pub scene_sha256: String,
-    /// Duration of the run in s, since it was gone on with if it was.
+    /// Duration of the run in s, with what it took before it was gone on with.
     pub seconds: f64,
+    /// What of them it took before it was gone on with.
+    pub earlier_seconds: f64,
     /// Rays that were traced before that.
     pub earlier_rays: u64,
     /// Threads that worked on it.
@@ -32,6 +34,8 @@ pub struct RunFacts {
     /// Memory in bytes that the whole program should take up to the tolerance, as far as anybody
     /// can say.
     pub expected_bytes: Option<u64>,
+    /// What the lights give in use over what they give when new, if the project says so.
+    pub maintenance_factor: Option<f64>,
     /// Warnings of the loaders.
     pub warnings: Vec<String>,
     /// What is probably wrong with the scene.
@@ -131,14 +135,19 @@ pub struct Run {
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
-    /// Duration of the run in s, since it was gone on with if it was.
+    /// Duration of the run in s, with what it took before it was gone on with.
     pub seconds: f64,
+    /// What of them it took before it was gone on with; 0 where nothing stopped it.
+    pub earlier_seconds: f64,
     /// Rays that were traced before that.
     pub earlier_rays: u64,
     /// Threads that worked on it.
     pub threads: usize,
     /// Memory in bytes that the whole program should take up to the tolerance.
     pub expected_bytes: Option<u64>,
+    /// Factor that is in all light of the run: what lights give in use over what they give when
+    /// new. 1 where the project says nothing.
+    pub maintenance_factor: f64,
     /// Whether every sensor point, or every average, reached the wanted tolerance.
     pub tolerance_reached: bool,
     /// What surveys and pilots decided before the first sample.
@@ -190,9 +199,11 @@ impl Report {
                 samples: estimates.samples,
                 rays: estimates.rays,
                 seconds: facts.seconds,
+                earlier_seconds: facts.earlier_seconds,
                 earlier_rays: facts.earlier_rays,
                 threads: facts.threads,
                 expected_bytes: facts.expected_bytes,
+                maintenance_factor: facts.maintenance_factor.unwrap_or(1.0),
                 tolerance_reached: estimates.tolerance_reached,
                 decisions: estimates.decisions.clone(),
                 relieved_points: estimates.relieved_points,
@@ -216,7 +227,8 @@ impl Run {
     pub fn expected_seconds(&self) -> Option<f64> {
         let own_rays = self.rays.saturating_sub(self.earlier_rays);
         let rays = self.convergence.rays.filter(|_| own_rays > 0)?;
-        Some(self.seconds * rays as f64 / own_rays as f64).filter(|seconds| seconds.is_finite())
+        let own_seconds = self.seconds - self.earlier_seconds;
+        Some(own_seconds * rays as f64 / own_rays as f64).filter(|seconds| seconds.is_finite())
     }
 }
 

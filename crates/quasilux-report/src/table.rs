@@ -6,7 +6,7 @@ mod terms;
 
 pub use explanation::explanation;
 
-use crate::number::{FigureText, brief, count, figure_text};
+use crate::number::{FigureText, brief, count, exact, figure_text};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
 use quasilux_transport::{Settings, ToleranceOn};
 use std::fmt::Write;
@@ -174,15 +174,21 @@ fn run_facts(report: &Report) -> String {
     let replicates = u64::from(run.replicates);
     let least = report.sensors.iter().flat_map(|s| &s.points).map(|point| point.samples).min();
     let from = least.filter(|least| *least < run.samples);
+    let earlier = Some(run.earlier_seconds).filter(|seconds| *seconds > 0.0);
+    let maintained = Some(run.maintenance_factor).filter(|factor| *factor != 1.0);
+    let seconds_of = |seconds: f64| format!(" ({} s before it was resumed)", brief(seconds, 3));
+    let factor_of = |factor: f64| format!(", maintenance factor {}", exact(factor));
     format!(
-        "{} % confidence, {} of {}{}, {}, {} s on {}",
+        "{} % confidence, {} of {}{}, {}, {} s{} on {}{}",
         brief(100.0 * run.settings.confidence, 4),
         plural(replicates, "replicate"),
         from.map(|least| format!("{} to ", count(least))).unwrap_or_default(),
         plural(run.samples, "sample"),
         plural(run.rays, "ray"),
         brief(run.seconds, 3),
+        earlier.map(seconds_of).unwrap_or_default(),
         plural(run.threads as u64, "thread"),
+        maintained.map(factor_of).unwrap_or_default(),
     )
 }
 
@@ -289,6 +295,10 @@ mod tests {
         assert!(table(&report, Style::Plain).contains(last));
         assert!(table(&report, Style::Plain).ends_with("warning: a \"quoted\" warning\n"));
         assert!(table(&report, Style::Plain).contains("half-widths shrink like N^-0.72\n"));
+        report.run.earlier_seconds = 7.5;
+        report.run.maintenance_factor = 0.8;
+        let told = "9.81 s (7.5 s before it was resumed) on 2 threads, maintenance factor 0.8; ";
+        assert!(table(&report, Style::Plain).contains(told));
         report.sensors[0].points[7].samples = 1024;
         assert!(table(&report, Style::Plain).contains("of 1 024 to 65 536 samples"));
         report.run.settings.tolerance_on = ToleranceOn::Summary;

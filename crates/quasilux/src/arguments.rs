@@ -5,6 +5,8 @@ mod check;
 mod parts;
 mod photometry;
 mod points;
+mod refusal;
+mod values;
 
 pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use check::CheckArguments;
@@ -13,10 +15,17 @@ pub(crate) use parts::{
 };
 pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
+pub(crate) use refusal::refusal;
 
-use clap::{Args, Parser, Subcommand};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use quasilux_experiments::{EXPERIMENTS, Experiment};
+use quasilux_sampling::Sequence;
+use quasilux_transport::{EstimatorKind, ToleranceOn};
 use std::path::PathBuf;
 use std::time::Duration;
+use values::{duration, illuminance, level, one_of, share, whole};
 
 /// How many lux, and how sure: a lighting simulator.
 #[derive(Debug, Parser)]
@@ -52,6 +61,24 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     /// Go on from a checkpoint
     Resume(ResumeArguments),
+    /// Print the script with which a shell completes commands, options and names
+    Completions(CompletionsArguments),
+    /// Print a page of the manual in roff, for `man`
+    Man(ManArguments),
+}
+
+impl Arguments {
+    /// The definition of all commands, ready for those who describe it.
+    pub(crate) fn definition() -> clap::Command {
+        let mut definition = Self::command();
+        definition.build();
+        definition
+    }
+
+    /// The names of all commands, but for the help's.
+    pub(crate) fn commands() -> Vec<String> {
+        Self::command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
+    }
 }
 
 #[derive(Debug, Args)]
@@ -114,8 +141,8 @@ pub(crate) struct SimulationArguments {
     /// Half-width in lx that is enough whatever the value, like 0.5 or 0.5lx
     #[arg(long, value_name = "LUX", value_parser = illuminance)]
     pub(crate) abs_tol: Option<f64>,
-    /// What has to reach the tolerance: points, or summary for the averages alone
-    #[arg(long, value_name = "NAME")]
+    /// What has to reach the tolerance: every sensor point, or the average of every sensor
+    #[arg(long, value_name = "NAME", value_parser = one_of(&ToleranceOn::ALL, ToleranceOn::name))]
     pub(crate) tolerance_on: Option<String>,
     /// Confidence level of the intervals, like 95% or 0.99
     #[arg(long, value_name = "SHARE", value_parser = level)]
@@ -124,28 +151,29 @@ pub(crate) struct SimulationArguments {
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
     /// Stop after this many indices per replicate: photons, and paths for each sensor point
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 48))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 48))]
     pub(crate) samples: Option<u64>,
     /// Stop before more rays are traced, at the last completed checkpoint
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=u64::MAX))]
     pub(crate) rays: Option<u64>,
-    /// photon, path, bidirectional or bidirectional-map
-    #[arg(long, value_name = "NAME")]
+    /// How light is followed [default: the project's, or else auto]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&EstimatorKind::ALL, EstimatorKind::name))]
     pub(crate) estimator: Option<String>,
-    /// sobol, halton, hammersley (with --samples), faure4 or random
-    #[arg(long, value_name = "NAME")]
+    /// Points that drive the simulation, hammersley only with --samples [default: the project's, or
+    /// else sobol]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&Sequence::all_for(1), Sequence::name))]
     pub(crate) sequence: Option<String>,
     /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Seed of all randomisations
-    #[arg(long, value_name = "N")]
+    /// Seed of all randomisations [default: the project's, or else 1]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
     pub(crate) seed: Option<u64>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ValidateArguments {
-    /// Folder of the cases
+    /// Folder with the folder `cases`
     #[arg(default_value = "validation")]
     pub(crate) folder: PathBuf,
 }
@@ -153,68 +181,46 @@ pub(crate) struct ValidateArguments {
 #[derive(Debug, Args)]
 pub(crate) struct ExperimentArguments {
     /// Name of the experiment
+    #[arg(value_parser = experiments())]
     pub(crate) name: String,
     /// Folder for tables and pictures [default: out/NAME]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Largest number of photons or points compared [default: the experiment's own]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(64..=1 << 30))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(64..=1 << 30))]
     pub(crate) max_n: Option<u64>,
     /// Runs of each setup, where the experiment has such, 2 or more [default: the experiment's own]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(2..=1_000_000))]
     pub(crate) seeds: Option<u32>,
     /// Time for one setup at the most, like 60s or 5m, where errors are shown against time
     /// [default: the experiment's own]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) seconds_per_point: Option<Duration>,
     /// Seed of all randomisations; the first one where there are several
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole::<u64>(0..=u64::MAX))]
     pub(crate) seed: u64,
 }
 
-/// A share in (0, 1], as a number or with a percent sign.
-fn share(text: &str) -> Result<f64, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let share = match text.strip_suffix('%') {
-        Some(percent) => number(percent).map(|percent| percent / 100.0),
-        None => number(text),
-    };
-    share
-        .filter(|share| *share > 0.0 && *share <= 1.0)
-        .ok_or_else(|| "expected a share above 0 and up to 1, like 1% or 0.01".to_owned())
+/// The names of all experiments, with what each shows.
+fn experiments() -> PossibleValuesParser {
+    let name = |it: &Experiment| PossibleValue::new(it.name).help(it.shows);
+    PossibleValuesParser::new(EXPERIMENTS.iter().map(name))
 }
 
-/// A share in (0, 1).
-fn level(text: &str) -> Result<f64, String> {
-    let below_one = share(text).ok().filter(|level| *level < 1.0);
-    below_one.ok_or_else(|| "expected a share between 0 and 1, like 95% or 0.99".to_owned())
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArguments {
+    /// The shell
+    pub(crate) shell: Shell,
 }
 
-/// A positive illuminance in lx.
-fn illuminance(text: &str) -> Result<f64, String> {
-    let number = text.strip_suffix("lx").unwrap_or(text).trim().parse::<f64>();
-    number
-        .ok()
-        .filter(|lx| *lx > 0.0 && lx.is_finite())
-        .ok_or_else(|| "expected an illuminance above 0, like 0.5 or 0.5lx".to_owned())
-}
-
-/// Thirty years: what is longer cannot be added to a clock.
-const MAX_SECONDS: f64 = 1e9;
-
-/// A positive time in seconds, minutes or hours; seconds where no unit is given.
-fn duration(text: &str) -> Result<Duration, String> {
-    let (number, unit_s) = match text.char_indices().last() {
-        Some((end, 's')) => (&text[..end], 1.0),
-        Some((end, 'm')) => (&text[..end], 60.0),
-        Some((end, 'h')) => (&text[..end], 3600.0),
-        _ => (text, 1.0),
-    };
-    let seconds = number.trim().parse::<f64>().ok().map(|number| number * unit_s);
-    seconds
-        .filter(|seconds| *seconds > 0.0 && *seconds <= MAX_SECONDS)
-        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or_else(|| "expected a time above 0, like 60s, 5m or 1.5h, and at most 1e9s".to_owned())
+#[derive(Debug, Args)]
+pub(crate) struct ManArguments {
+    /// The command that the page is about [default: the program]
+    #[arg(value_name = "COMMAND", conflicts_with = "out")]
+    pub(crate) command: Option<String>,
+    /// Write the pages of the program and of all commands to this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[cfg(test)]
@@ -223,28 +229,38 @@ mod tests {
 
     #[test]
     fn the_definition_is_consistent() {
-        use clap::CommandFactory;
         Arguments::command().debug_assert();
     }
 
+    /// Those among them that nobody runs because they take too long.
     #[test]
-    fn shares_and_times_are_read() {
-        assert_eq!(share("1%"), Ok(0.01));
-        assert_eq!(share("0.5 %"), Ok(0.005));
-        assert_eq!(share("0.02"), Ok(0.02));
-        for bad in ["0", "-1%", "101%", "x", "", "%", "nan", "inf"] {
-            assert!(share(bad).is_err(), "{bad}");
+    fn every_command_in_the_documentation_is_one() {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+        let read = |name: &str| {
+            let path = format!("{root}/{name}");
+            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+        };
+        let documents = ["README.md", "docs/connections.md", "docs/speed.md", "CONTRIBUTING.md"];
+        let examples = ["cluster", "cornell", "corridor", "cube", "diffuser", "office"];
+        let examples = examples.map(|name| format!("examples/{name}/README.md"));
+        let own = "crates/quasilux/README.md".to_owned();
+        let mut parsed = 0;
+        for name in documents.map(str::to_owned).into_iter().chain(examples).chain([own]) {
+            let text = read(&name);
+            let lines = text.lines().filter_map(|line| line.strip_prefix("    "));
+            let calls = ["cargo run --release -- ", "quasilux "];
+            for line in lines {
+                let Some(arguments) = calls.iter().find_map(|call| line.strip_prefix(call)) else {
+                    continue;
+                };
+                let words = arguments.split_whitespace().take_while(|word| *word != "#");
+                let words = std::iter::once("quasilux").chain(words);
+                if let Err(error) = Arguments::try_parse_from(words) {
+                    panic!("{name}: {line}: {error}");
+                }
+                parsed += 1;
+            }
         }
-        assert_eq!((level("99%"), illuminance("0.5 lx")), (Ok(0.99), Ok(0.5)));
-        assert!(level("1").is_err() && level("100%").is_err());
-        for bad in ["0", "-1lx", "lx", "inf", "nan", "1 fc"] {
-            assert!(illuminance(bad).is_err(), "{bad}");
-        }
-        assert_eq!(duration("90"), Ok(Duration::from_secs(90)));
-        assert_eq!(duration("1.5h"), Ok(Duration::from_secs(5400)));
-        assert_eq!(duration("2m"), Ok(Duration::from_secs(120)));
-        for bad in ["0s", "-1", "s", "", "1d", "nan", "1e300", "inf", "ü"] {
-            assert!(duration(bad).is_err(), "{bad}");
-        }
+        assert!(parsed > 25, "only {parsed} commands were found");
     }
 }

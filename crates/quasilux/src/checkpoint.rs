@@ -31,6 +31,14 @@ pub(crate) struct Heading {
     pub(crate) project_absolute: PathBuf,
     pub(crate) scene: SceneIdentity,
     pub(crate) settings: Settings,
+    /// Where the results go, as it was given, and from the root.
+    #[serde(default)]
+    pub(crate) out: PathBuf,
+    #[serde(default)]
+    pub(crate) out_absolute: PathBuf,
+    /// What the run took in s up to this state.
+    #[serde(default)]
+    pub(crate) seconds: f64,
 }
 
 /// A checkpoint that was read.
@@ -43,8 +51,18 @@ pub(crate) struct Checkpoint {
 /// Writes the checkpoints of a run to its path.
 pub(crate) struct CheckpointWriter {
     path: PathBuf,
-    heading: String,
+    heading: Heading,
     before: Before,
+}
+
+/// What a run is kept with.
+#[derive(Clone, Copy)]
+pub(crate) struct Kept<'a> {
+    /// The project file.
+    pub(crate) file: &'a Path,
+    /// Folder for the results.
+    pub(crate) out: &'a Path,
+    pub(crate) settings: &'a Settings,
 }
 
 /// What is at the path before the next state is.
@@ -59,6 +77,12 @@ enum Before {
 }
 
 impl Heading {
+    /// Where the results went: as it was given where the project is found as it was given, and so
+    /// most likely from the same folder.
+    pub(crate) fn folder(&self) -> &Path {
+        if self.project.is_file() { &self.out } else { &self.out_absolute }
+    }
+
     /// Refuses what another build of the program left.
     pub(crate) fn expect_build(&self) -> Result<(), String> {
         build::expect(&self.version, &self.build)
@@ -67,26 +91,18 @@ impl Heading {
 
 impl CheckpointWriter {
     /// Of a run from the start: refuses to take the place of one that is not over.
-    pub(crate) fn fresh(
-        path: &Path,
-        file: &Path,
-        project: &Project,
-        settings: &Settings,
-    ) -> Result<Self, CliError> {
-        let writer = Self::new(path, file, project, settings)?;
+    pub(crate) fn fresh(path: &Path, project: &Project, kept: Kept<'_>) -> Result<Self, CliError> {
+        let writer = Self::new(path, project, kept)?;
         expect_nothing_to_lose(path, project)?;
         Ok(writer)
     }
 
     /// Makes sure that it can be.
-    pub(crate) fn new(
-        path: &Path,
-        file: &Path,
-        project: &Project,
-        settings: &Settings,
-    ) -> Result<Self, CliError> {
+    pub(crate) fn new(path: &Path, project: &Project, kept: Kept<'_>) -> Result<Self, CliError> {
+        let Kept { file, out, settings } = kept;
         results::prepare_file(path, &[file])?;
         results::expect_text(file)?;
+        results::expect_text(out)?;
         atomic_file::try_beside(path).map_err(|error| {
             CliError::new(format!("{}: cannot keep the run: {error}", path.display()))
         })?;
@@ -94,11 +110,14 @@ impl CheckpointWriter {
             version: VERSION.to_owned(),
             build: BUILD.to_owned(),
             project: file.to_owned(),
-            project_absolute: std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
+            project_absolute: from_the_root(file),
             scene: project.identity.clone(),
             settings: settings.clone(),
+            out: out.to_owned(),
+            out_absolute: from_the_root(out),
+            seconds: 0.0,
         };
-        Ok(Self { path: path.to_owned(), heading: json::text(&heading), before: Before::Foreign })
+        Ok(Self { path: path.to_owned(), heading, before: Before::Foreign })
     }
 
     /// For a run that goes on from there, or, where that was damaged, from the one before.
@@ -107,9 +126,10 @@ impl CheckpointWriter {
         Self { before, ..self }
     }
 
-    /// Puts a state in the place of the one before.
-    pub(crate) fn write(&mut self, state: &[u8]) -> io::Result<()> {
-        let bytes = container::encode(FORMAT, &self.heading, state);
+    /// Puts a state in the place of the one before; the run took `seconds` up to it.
+    pub(crate) fn write(&mut self, state: &[u8], seconds: f64) -> io::Result<()> {
+        self.heading.seconds = seconds;
+        let bytes = container::encode(FORMAT, &json::text(&self.heading), state);
         // On disk before it takes the place of one that is.
         let fresh = atomic_file::write_beside(&self.path, |file| file.write_all(&bytes))?;
         let previous = beside(&self.path, "previous");
@@ -177,6 +197,10 @@ fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), CliError
         "{name}: keeps a run of {project} that may not be over: go on with `quasilux resume \
          {name}`, or remove it to begin anew"
     )))
+}
+
+fn from_the_root(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 fn read_one(path: &Path) -> Result<Checkpoint, CliError> {

@@ -52,6 +52,8 @@ fn main() -> ExitCode {
         Command::Shard(arguments) => commands::shard(&arguments),
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Resume(arguments) => commands::resume(&arguments),
+        Command::Completions(arguments) => commands::completions(&arguments),
+        Command::Man(arguments) => commands::man(&arguments),
     };
     match outcome {
         Ok(exit) => exit.into(),
@@ -66,6 +68,9 @@ fn refuse(error: &CliError) -> ExitCode {
 
 /// What is wrong with the arguments, or the help or version that they ask for.
 fn explain(message: &clap::Error) -> ExitCode {
+    if let Some(what) = arguments::refusal(message) {
+        return refuse(&CliError::new(what));
+    }
     let is_error = message.use_stderr();
     match message.print().and_then(|()| io::stdout().flush()) {
         Err(error) if !is_error && error.kind() != ErrorKind::BrokenPipe => {

@@ -25,10 +25,10 @@ pub(crate) fn on_command_line<T: Copy>(
     }
     let list: Vec<&str> = known.iter().copied().map(name_of).collect();
     let nearest = nearest(name, list.iter().copied())
-        .map(|nearest| format!(", did you mean \"{nearest}\""))
+        .map(|nearest| format!("; did you mean \"{nearest}\"?"))
         .unwrap_or_default();
     let list = list.join(", ");
-    Err(CliError::new(format!("{what}: unknown name \"{name}\"{nearest}; expected {list}")))
+    Err(CliError::new(format!("{what}: unknown name \"{name}\"; expected one of {list}{nearest}")))
 }
 
 /// Takes over the one of `known` that a name in a project file stands for, if there is a name;

@@ -48,6 +48,8 @@ pub(crate) struct Watcher<'a> {
     pub(crate) stopped: Option<Stopped>,
     /// Rays that were traced before the clock was started.
     pub(crate) earlier_rays: u64,
+    /// What the run took before that, in s.
+    pub(crate) earlier_seconds: f64,
 }
 
 /// A run that is kept on disk.
@@ -111,7 +113,13 @@ impl<'a> Watcher<'a> {
             kept: None,
             stopped: None,
             earlier_rays: 0,
+            earlier_seconds: 0.0,
         }
+    }
+
+    /// For a run that took so many seconds already.
+    pub(crate) fn going_on(self, earlier_seconds: f64) -> Self {
+        Self { earlier_seconds, ..self }
     }
 
     /// Keeps the run on disk: at once, every so often, and when it is told to stop.
@@ -121,11 +129,15 @@ impl<'a> Watcher<'a> {
         self
     }
 
-    /// Takes the bar away and says how long the run took.
-    pub(crate) fn finish(&mut self) -> Duration {
+    /// Takes the bar away and says how many seconds the run took in all.
+    pub(crate) fn finish(&mut self) -> f64 {
         self.heartbeat = None;
         self.bar.finish_and_clear();
-        self.start.elapsed()
+        self.seconds()
+    }
+
+    fn seconds(&self) -> f64 {
+        self.earlier_seconds + self.start.elapsed().as_secs_f64()
     }
 
     fn control(&mut self) -> Control {
@@ -150,8 +162,9 @@ impl Observer for Watcher<'_> {
     }
 
     fn state(&mut self, state: &[u8]) {
+        let seconds = self.seconds();
         let Some(kept) = &mut self.kept else { return };
-        if let Err(error) = kept.writer.write(state)
+        if let Err(error) = kept.writer.write(state, seconds)
             && !kept.has_failed
         {
             kept.has_failed = true;

@@ -9,7 +9,9 @@
 //! replicate (`samples`) and the figures of its picture; and in `run` the rest of what makes a run
 //! repeatable: `build`, `scene_sha256`, and all [`Settings`] by the names of their fields, but for
 //! limits: a run that was stopped at some number of samples writes what one that was asked for this
-//! number writes. `replicates` counts those that differ. Then `decisions`, what pilots made of the
+//! number writes. `replicates` counts those that differ. `seconds` are those of the whole run,
+//! `earlier` says how many of them it took before it was resumed, and `maintenance_factor` what
+//! all lights were dimmed by. Then `decisions`, what pilots made of the
 //! settings (what they `selected` and why, how many points bidirectional paths took over from that
 //! (`relieved_points`), photons connected for each path (`connected_photons`), whether photons
 //! follow `importance` and leave lit places, sides of elements of the map that paths end on,
@@ -127,7 +129,9 @@ struct RunEntry<'a> {
     samples: u64,
     rays: u64,
     seconds: f64,
+    earlier: EarlierEntry,
     threads: usize,
+    maintenance_factor: f64,
     tolerance_reached: bool,
     prediction: PredictionEntry,
     decisions: DecisionsEntry,
@@ -140,6 +144,12 @@ struct RunEntry<'a> {
     flux_lost_lm: f64,
     flux_cut_lm: f64,
     invalid_contributions: u64,
+}
+
+/// What of the run was done before it was gone on with.
+#[derive(Serialize)]
+struct EarlierEntry {
+    seconds: f64,
 }
 
 /// What `auto` came to, as in a plan.
@@ -297,7 +307,9 @@ impl<'a> RunEntry<'a> {
             samples: run.samples,
             rays: run.rays,
             seconds: run.seconds,
+            earlier: EarlierEntry { seconds: run.earlier_seconds },
             threads: run.threads,
+            maintenance_factor: run.maintenance_factor,
             tolerance_reached: run.tolerance_reached,
             prediction: PredictionEntry::new(run),
             decisions: DecisionsEntry::new(run),
@@ -356,7 +368,8 @@ mod tests {
         assert_order(&text, &["average_lx", "minimum_lx", "maximum_lx", "uniformity"]);
         let run = &text[text.find("\"run\"").expect("a run")..];
         assert_order(run, &["version", "estimator", "sequence", "confidence", "replicates"]);
-        assert_order(run, &["replicates", "samples", "rays", "seconds", "threads"]);
+        assert_order(run, &["replicates", "samples", "rays", "seconds", "earlier", "seconds"]);
+        assert_order(run, &["earlier", "threads", "maintenance_factor", "tolerance_reached"]);
         assert_order(run, &["threads", "tolerance_reached", "prediction", "decisions"]);
         assert_order(run, &["tolerance_reached", "mean_dimension", "photon", "path"]);
         assert_order(run, &["path", "flux_emitted_lm", "flux_absorbed_lm", "flux_lost_lm"]);

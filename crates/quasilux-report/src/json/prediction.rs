@@ -50,6 +50,10 @@ mod tests {
         report.run.convergence.rays = Some(4 * report.run.rays);
         assert_eq!(prediction(&report)["seconds"], 4.0 * report.run.seconds);
         assert_eq!(prediction(&report)["bytes"], 96 << 20);
+        report.run.earlier_rays = report.run.rays / 2;
+        report.run.earlier_seconds = report.run.seconds;
+        report.run.seconds += 1.0;
+        assert!((prediction(&report)["seconds"].as_f64().unwrap() - 8.0).abs() < 1e-6);
         report.run.earlier_rays = report.run.rays;
         assert_eq!(prediction(&report)["seconds"], Value::Null);
         report.run.convergence.rays = None;

@@ -15,8 +15,8 @@ pub struct Luminaire {
     pub position: DVec3,
     /// Rotation from the luminaire frame to the world.
     pub world_from_luminaire: DMat3,
-    /// Factor on all intensities, at least 0: what the project asks for times what the lamps give
-    /// at this tilt ([`Photometry::tilt_factor`]).
+    /// Factor on all intensities, at least 0: what the project asks for, times what the lamps give
+    /// at this tilt ([`Photometry::tilt_factor`]), times the maintenance factor.
     pub dimming: f64,
     /// What of it shines; [`LuminousShape::POINT`] where it stands for a point.
     pub shape: LuminousShape,

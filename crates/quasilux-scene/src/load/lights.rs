@@ -1,8 +1,11 @@
 //! The lights of a project: luminaires placed, emitting triangles collected.
+//!
+//! All of them are dimmed by the maintenance factor (CIE 97:2005: what an installation gives in use
+//! over what it gives when new), so that every figure of a run is a maintained one.
 
 use super::{materials::listed, photometry};
 use crate::geometry::Geometry;
-use crate::light::{AreaLight, Luminaire};
+use crate::light::{AreaLight, Luminaire, PointLight};
 use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
 use crate::{Files, Light, LoadError, Spanned, Warning};
 use glam::DVec3;
@@ -37,7 +40,10 @@ pub(super) fn place(
     let mut emitting: HashMap<u32, Position> = HashMap::new();
     for entry in &project.lights {
         lights.push(match entry {
-            LightEntry::Point { light, .. } => Light::Point(*light),
+            LightEntry::Point { light, .. } => Light::Point(PointLight {
+                intensity_cd: project.maintenance_factor * light.intensity_cd,
+                ..*light
+            }),
             LightEntry::Area { material, emission } => {
                 let light = area_light(project, geometry, material, *emission)?;
                 if let Some(first) = emitting.insert(light.material, material.place) {
@@ -62,17 +68,18 @@ pub(super) fn place(
     Ok(lights)
 }
 
-/// Places a luminaire; a lamp that feels the tilt dims it.
+/// Places a luminaire; maintenance, and a lamp that feels the tilt, dim it.
 fn luminaire(
     project: &Project,
     entry: &LuminaireEntry,
     photometry: Arc<Photometry>,
     warnings: &mut Vec<Warning>,
 ) -> Luminaire {
+    let tilt_factor = tilt_factor(project, entry, &photometry, warnings);
     Luminaire {
         position: entry.position,
         world_from_luminaire: entry.world_from_luminaire,
-        dimming: entry.dimming * tilt_factor(project, entry, &photometry, warnings),
+        dimming: entry.dimming * tilt_factor * project.maintenance_factor,
         shape: shape(project, entry, &photometry, warnings),
         photometry,
     }
@@ -148,9 +155,10 @@ fn area_light(
         return Err(project.error(name.place, message).offer(&name.value, names()));
     };
     let area_m2: f64 = triangles.iter().map(|&t| mesh.area_m2(t)).sum();
-    let luminance_cd_m2 = match emission {
+    let new_cd_m2 = match emission {
         Emission::LuminanceCdM2(luminance_cd_m2) => luminance_cd_m2,
         Emission::FluxLm(flux_lm) => flux_lm / (PI * area_m2),
     };
+    let luminance_cd_m2 = project.maintenance_factor * new_cd_m2;
     Ok(AreaLight { material: material as u32, triangles, area_m2, luminance_cd_m2 })
 }

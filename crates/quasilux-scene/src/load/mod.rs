@@ -18,6 +18,9 @@ pub struct Loaded {
     pub scene: Scene,
     /// Where the project file describes what.
     pub places: Places,
+    /// Factor in (0, 1] by which the lights of the scene are dimmer than when they were new; they
+    /// have it in them.
+    pub maintenance_factor: f64,
     /// What the project file asks of the engine.
     pub simulation: SimulationSection,
     /// Oddities that were lived with.
@@ -46,5 +49,7 @@ pub fn load(
     enclosures::light_must_end(&scene, &project)?;
     enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
     checks::places_in_walls(&scene, &project, &mut warnings)?;
-    Ok(Loaded { scene, places, simulation: project.simulation, warnings })
+    warnings.extend(project.sensors.iter().filter_map(|entry| entry.oddity.clone()));
+    let Project { simulation, maintenance_factor, .. } = project;
+    Ok(Loaded { scene, places, maintenance_factor, simulation, warnings })
 }

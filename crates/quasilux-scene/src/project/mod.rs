@@ -19,7 +19,7 @@ mod simulation;
 mod units;
 
 pub use renamed::{RENAMED_KEYS, RenamedKey};
-pub use simulation::SimulationSection;
+pub use simulation::{SimulationSection, doubt_of_tolerance};
 pub use units::LengthUnit;
 
 pub(crate) use cameras::CameraEntry;
@@ -53,6 +53,8 @@ pub(crate) struct Project {
     pub(crate) up: Option<UpAxis>,
     /// Of the geometry files.
     pub(crate) unit: LengthUnit,
+    /// What lights give in use over what they give when new, in (0, 1].
+    pub(crate) maintenance_factor: f64,
     pub(crate) materials: Vec<MaterialEntry>,
     pub(crate) luminaires: Vec<LuminaireEntry>,
     pub(crate) lights: Vec<LightEntry>,
@@ -77,8 +79,14 @@ impl Project {
         let root = source.root(table.get_ref());
         root.only(&SECTIONS, &[])?;
 
-        let SceneSection { geometry, place: scene_place, up, unit, position_unit } =
-            scene_section(&root)?;
+        let SceneSection {
+            geometry,
+            place: scene_place,
+            up,
+            unit,
+            position_unit,
+            maintenance_factor,
+        } = scene_section(&root)?;
         let source = source.with_position_unit(position_unit.metres());
         let root = source.root(table.get_ref());
         let luminaires = luminaires::read(&root)?;
@@ -101,6 +109,7 @@ impl Project {
             scene_place,
             up,
             unit,
+            maintenance_factor,
             materials,
             luminaires,
             lights,
@@ -126,13 +135,15 @@ fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, LoadError> {
     })
 }
 
-/// `[scene]`: names of geometry files, the axis that points up in them, and units.
+/// `[scene]`: names of geometry files, the axis that points up in them, units, and what holds for
+/// all lights.
 struct SceneSection {
     geometry: Vec<Spanned<String>>,
     place: Position,
     up: Option<UpAxis>,
     unit: LengthUnit,
     position_unit: LengthUnit,
+    maintenance_factor: f64,
 }
 
 fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
@@ -140,7 +151,8 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
     })?;
-    section.only(&["geometry", "up", "units", "position_units"], &[])?;
+    let keys = ["geometry", "up", "units", "position_units", "maintenance_factor"];
+    section.only(&keys, &[])?;
     let list = section.require("geometry", expected)?;
     let files = list.array(expected)?;
     if files.is_empty() {
@@ -159,11 +171,17 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
         Some("y") => Some(UpAxis::Y),
         Some(_) => Some(UpAxis::Z),
     };
+    let maintenance_factor = section.get("maintenance_factor").map(|factor| {
+        let expected = "a factor above 0, at most 1, such as 0.8";
+        factor.number(expected, |x| x > 0.0 && x <= 1.0)
+    });
+    let maintenance_factor = maintenance_factor.transpose()?.unwrap_or(1.0);
     Ok(SceneSection {
         geometry,
         place: section.place(),
         up,
         unit: units::read(&section, "units")?,
         position_unit: units::read(&section, "position_units")?,
+        maintenance_factor,
     })
 }

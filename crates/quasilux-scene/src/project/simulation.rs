@@ -32,6 +32,8 @@ const KEYS: [&str; 21] = [
     "connections",
 ];
 
+/// Larger tolerances are written with a percent sign.
+const MAX_BARE_TOLERANCE: f64 = 0.5;
 /// Most replicates that a project file may ask for.
 const MAX_REPLICATES: u64 = 65_536;
 /// Most terms that can be listed.
@@ -55,7 +57,8 @@ pub struct SimulationSection {
     pub sequence: Option<Spanned<String>>,
     /// Name of the randomisation.
     pub randomization: Option<Spanned<String>>,
-    /// Wanted half-width over value, in (0, 1].
+    /// Wanted half-width over value, in (0, 1]; above one half only where the file writes it with a
+    /// percent sign.
     pub rel_tol: Option<Spanned<f64>>,
     /// Half-width in lx that is enough, above 0.
     pub abs_tol_lx: Option<Spanned<f64>>,
@@ -127,9 +130,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         estimator: name("estimator")?,
         sequence: name("sequence")?,
         randomization: name("randomization")?,
-        rel_tol: number("rel_tol", "a share above 0, at most 1, such as 0.01", |x| {
-            x > 0.0 && x <= 1.0
-        })?,
+        rel_tol: spanned(&section, "rel_tol", |value| tolerance(&value))?,
         abs_tol_lx: number("abs_tol", "an illuminance in lx above 0", |x| x > 0.0)?,
         tolerance_on: name("tolerance_on")?,
         confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
@@ -167,6 +168,40 @@ fn integer<'a>(
         let expected = format!("an integer from {} to {}", range.start(), range.end());
         value.integer(&expected, range.clone()).map(|n| n as u32)
     })
+}
+
+/// A share as a number, or with a percent sign as text.
+fn tolerance(value: &Value<'_>) -> Result<f64, LoadError> {
+    let expected = "a share above 0, at most 0.5, such as 0.01, or percent, such as \"1%\"";
+    if value.is_string() {
+        let percent = value.string(expected)?.strip_suffix('%');
+        return percent
+            .and_then(|number| number.trim().parse::<f64>().ok())
+            .map(|percent| percent / 100.0)
+            .filter(|share| *share > 0.0 && *share <= 1.0)
+            .ok_or_else(|| value.unexpected(expected));
+    }
+    let share = value.number(expected, |x| x > 0.0 && x <= 100.0)?;
+    match doubt_of_tolerance(share) {
+        None => Ok(share),
+        Some(doubt) => Err(value.error(format!("\"rel_tol\": {doubt}"))),
+    }
+}
+
+/// What to ask where a tolerance is given as a bare number above one half: 1 stands for 100 %, and
+/// whoever writes it mostly means 1 %.
+#[must_use]
+pub fn doubt_of_tolerance(share: f64) -> Option<String> {
+    if share <= MAX_BARE_TOLERANCE {
+        return None;
+    }
+    // Without the last digits, which are those of binary fractions.
+    let short = |number: f64| (1e9 * number).round() / 1e9;
+    let [percent, less] = [short(100.0 * share), short(share / 100.0)];
+    let as_it_is = if share <= 1.0 { format!(", or {percent}% if not") } else { String::new() };
+    Some(format!(
+        "{share} stands for {percent} %: was {share} % meant? expected {less} or {share}%{as_it_is}"
+    ))
 }
 
 fn bounces(value: &Value<'_>) -> Result<Option<u32>, LoadError> {

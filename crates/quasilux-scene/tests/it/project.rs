@@ -2,7 +2,7 @@
 
 use crate::support::{LAMP_IES, LAMP_TM33, MapFiles, PROJECT, lamp_ldt, load_text, warnings_of};
 use glam::DVec3;
-use quasilux_scene::{Light, Quantity, SensorShape};
+use quasilux_scene::{Light, Loaded, Quantity, SensorShape};
 use std::f64::consts::PI;
 
 fn grid_of(project: &str) -> quasilux_scene::Grid {
@@ -38,6 +38,49 @@ fn area_lights_by_luminance_and_flux() {
         assert_eq!((light.material, light.triangles.as_slice()), (0, &[0, 1][..]));
         assert!((light.area_m2 - 1.0).abs() < 1e-15);
         assert!((light.luminance_cd_m2 - luminance).abs() < 1e-12 * luminance);
+    }
+}
+
+/// Every kind of light has it, and nothing else has.
+#[test]
+fn a_maintenance_factor_dims_all_lights() {
+    let lamp = "[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\ndimming = 0.5\n";
+    let area = "[[lights]]\nkind = \"area\"\nmaterial = \"wood\"\nflux_lm = 300\n";
+    let new = format!("{PROJECT}{lamp}{area}");
+    let old = new.replace("[\"room.obj\"]", "[\"room.obj\"]\nmaintenance_factor = 0.75");
+    let [new, old] = [new, old].map(|text| load_text(&text, &MapFiles::room()).unwrap());
+    assert_eq!((new.maintenance_factor, old.maintenance_factor), (1.0, 0.75));
+    let fluxes =
+        |loaded: &Loaded| -> Vec<f64> { loaded.scene.lights.iter().map(Light::flux_lm).collect() };
+    assert_eq!(fluxes(&new).len(), 3);
+    for (new, old) in fluxes(&new).into_iter().zip(fluxes(&old)) {
+        assert!(new > 0.0 && (old - 0.75 * new).abs() < 1e-12 * new, "{old} of {new}");
+    }
+}
+
+#[test]
+fn tolerances_above_one_half_are_written_in_percent() {
+    let rel_tol = |text: &str| {
+        let project = format!("{PROJECT}[simulation]\nrel_tol = {text}\n");
+        let loaded = load_text(&project, &MapFiles::room()).unwrap();
+        loaded.simulation.rel_tol.unwrap().value
+    };
+    for (text, share) in [("0.5", 0.5), ("\"1%\"", 0.01), ("\"0.5 %\"", 0.005), ("\"100%\"", 1.0)] {
+        assert_eq!(rel_tol(text), share, "{text}");
+    }
+}
+
+#[test]
+fn a_spacing_beyond_the_plane_is_told() {
+    let warnings = |spacing: &str| {
+        let project = PROJECT.replace("spacing = 0.25", spacing);
+        warnings_of(&load_text(&project, &MapFiles::room()).unwrap())
+    };
+    let [told] = warnings("spacing = 25").try_into().unwrap();
+    assert!(told.starts_with("room.toml:15:11: \"spacing\" is 25 m"), "{told}");
+    assert!(told.contains("1 m x 1 m"), "{told}");
+    for fine in ["spacing = 1", "spacing = 0.3", "counts = [1, 1]"] {
+        assert_eq!(warnings(fine), Vec::<String>::new(), "{fine}");
     }
 }
 

@@ -1,7 +1,10 @@
 //! What can be said to `plan`, `shard`, `merge` and `resume`.
 
-use super::{OutputArguments, duration};
+use super::OutputArguments;
+use super::values::{duration, one_of, whole};
 use clap::{ArgGroup, Args};
+use quasilux_sampling::Sequence;
+use quasilux_transport::EstimatorKind;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -10,16 +13,16 @@ use std::time::Duration;
 #[derive(Debug, Args)]
 pub(crate) struct PlannedArguments {
     /// Indices per replicate: photons, and paths for each sensor point
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 48))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 48))]
     pub(crate) samples: Option<u64>,
-    /// photon, path, bidirectional or bidirectional-map
-    #[arg(long, value_name = "NAME")]
+    /// How light is followed [default: the project's, or else auto]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&EstimatorKind::ALL, EstimatorKind::name))]
     pub(crate) estimator: Option<String>,
-    /// sobol, halton, hammersley, faure4 or random
-    #[arg(long, value_name = "NAME")]
+    /// Points that drive the simulation [default: the project's, or else sobol]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&Sequence::all_for(1), Sequence::name))]
     pub(crate) sequence: Option<String>,
-    /// Seed of all randomisations
-    #[arg(long, value_name = "N")]
+    /// Seed of all randomisations [default: the project's, or else 1]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
     pub(crate) seed: Option<u64>,
 }
 
@@ -27,7 +30,7 @@ pub(crate) struct PlannedArguments {
 #[derive(Debug, Args)]
 pub(crate) struct WorkArguments {
     /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
     pub(crate) threads: Option<u16>,
 }
 
@@ -87,6 +90,7 @@ pub(crate) struct MergeArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.help("Folder for the results [default: the run's]")))]
 pub(crate) struct ResumeArguments {
     /// The checkpoint; the run goes on keeping itself there
     pub(crate) checkpoint: PathBuf,

@@ -1,6 +1,8 @@
 //! What can be said to `quasilux points`.
 
+use super::values::{one_of, whole};
 use clap::Args;
+use quasilux_sampling::{Randomization, Sequence};
 use std::path::PathBuf;
 
 /// More points than this are no list for anybody.
@@ -11,8 +13,12 @@ const MIN_COMPARED: u64 = 1 << 6;
 
 #[derive(Debug, Args)]
 pub(crate) struct PointsArguments {
-    /// The sequence: sobol, halton, random ..
-    #[arg(required_unless_present = "compare", conflicts_with = "compare")]
+    /// The sequence
+    #[arg(
+        required_unless_present = "compare",
+        conflicts_with = "compare",
+        value_parser = one_of(&Sequence::all_for(1), Sequence::name),
+    )]
     pub(crate) name: Option<String>,
     /// Number of points, like 64 or 2^6
     #[arg(
@@ -34,11 +40,17 @@ pub(crate) struct PointsArguments {
         conflicts_with = "compare",
     )]
     pub(crate) dims: Vec<u32>,
-    /// none, rotation, shift or owen
-    #[arg(long, value_name = "NAME", default_value = "none", conflicts_with = "compare")]
+    /// How they are randomised
+    #[arg(
+        long,
+        value_name = "NAME",
+        default_value = "none",
+        conflicts_with = "compare",
+        value_parser = one_of(&Randomization::ALL, Randomization::name),
+    )]
     pub(crate) randomization: String,
     /// Seed of the randomisation
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<u64>(0..=u64::MAX))]
     pub(crate) seed: u64,
     /// Draw the points of two dimensions, or the comparison
     #[arg(long, value_name = "FILE")]
@@ -51,7 +63,7 @@ pub(crate) struct PointsArguments {
         long,
         value_name = "N",
         default_value_t = 8,
-        value_parser = clap::value_parser!(u32).range(1..=128),
+        value_parser = whole::<u32>(1..=128),
         conflicts_with = "compare",
     )]
     pub(crate) cells: u32,

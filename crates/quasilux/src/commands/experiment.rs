@@ -5,13 +5,14 @@ use crate::arguments::ExperimentArguments;
 use crate::exit::{CliError, Exit};
 use crate::print::{print, tell};
 use crate::{digest, results};
-use quasilux_experiments::{EXPERIMENTS, Experiment, Options};
+use quasilux_experiments::{Experiment, Options};
 use std::path::{Path, PathBuf};
 
 /// Runs an experiment, writes its files and prints its table.
 pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, CliError> {
     let name = arguments.name.as_str();
-    let experiment = Experiment::named(name).ok_or_else(|| refused(name))?;
+    let experiment = Experiment::named(name)
+        .ok_or_else(|| CliError::new(format!("unknown experiment \"{name}\"")))?;
     let options = Options {
         max_n: arguments.max_n,
         seeds: arguments.seeds,
@@ -41,10 +42,4 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, CliErr
     }
     print(&format!("{}\nFiles: {}\n", outcome.markdown, file("{csv,md,svg}").display()))?;
     Ok(if outcome.passed { Exit::Done } else { Exit::CheckFailed })
-}
-
-fn refused(name: &str) -> CliError {
-    let list = EXPERIMENTS.iter().map(|known| format!("{} ({})", known.name, known.shows));
-    let list = list.collect::<Vec<_>>().join(", ");
-    CliError::new(format!("unknown experiment \"{name}\"; there is {list}"))
 }

@@ -25,7 +25,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
     for part in &parts {
         plan.expect_decisions(&part.sums, &part.name)?;
     }
-    let folder = Folder::prepare(&arguments.output, file, &project)?;
+    let folder = Folder::prepare(&arguments.output, Folder::by_name(file), &project)?;
     let scene = &project.loaded.scene;
     let threads = count(arguments.work.threads);
     let forecast = Forecast::new(scene, &settings, threads);

@@ -2,9 +2,11 @@
 
 mod bsdf;
 mod check;
+mod completions;
 mod drawings;
 mod experiment;
 mod inputs;
+mod man;
 mod merge;
 mod photometry;
 mod plan;
@@ -16,7 +18,9 @@ mod validate;
 
 pub(crate) use bsdf::bsdf;
 pub(crate) use check::check;
+pub(crate) use completions::completions;
 pub(crate) use experiment::experiment;
+pub(crate) use man::man;
 pub(crate) use merge::merge;
 pub(crate) use photometry::photometry;
 pub(crate) use plan::plan;

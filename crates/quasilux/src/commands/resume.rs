@@ -2,11 +2,12 @@
 
 use super::run::{Folder, count, work};
 use crate::arguments::ResumeArguments;
-use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest};
+use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Kept, Latest};
 use crate::door::Door;
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::print::tell;
+use crate::project::Project;
 use crate::watcher::Watcher;
 use crate::{interrupt, project};
 use quasilux_transport::PreparedScene;
@@ -36,21 +37,36 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
             settings.sequence.name()
         )));
     }
-    let folder = Folder::prepare(&arguments.output, &file, &project)?;
-    let writer = CheckpointWriter::new(&arguments.checkpoint, &file, &project, &settings)?
-        .going_on(warning.is_some());
+    let folder = Folder::prepare(&arguments.output, heading.folder().to_owned(), &project)?;
+    let kept = Kept { file: &file, out: folder.path(), settings: &settings };
+    let writer =
+        CheckpointWriter::new(&arguments.checkpoint, &project, kept)?.going_on(warning.is_some());
     let threads = count(arguments.work.threads);
     let forecast = Forecast::new(scene, &settings, threads);
     let watcher = Watcher::new(forecast, arguments.time, arguments.output.quiet)
+        .going_on(heading.seconds)
         .checkpoints(writer, arguments.checkpoint_every);
     let go_on = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
         let estimates = quasilux_transport::resume(prepared.clone(), &settings, &state, watcher);
         estimates.map(Some).map_err(|error| CliError::new(format!("{name}: {error}")))
     };
     let door = Door { strict: false, announces: !arguments.output.quiet };
-    match work(&project, door, watcher, go_on)? {
+    let finished = work(&project, door, watcher, go_on)?;
+    if !arguments.output.quiet && quasilux_transport::is_over(&state) {
+        tell(format_args!("note: {name}: {}", over(&project)));
+    }
+    match finished {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
+    }
+}
+
+/// What was left of a run whose sensors have all they get.
+fn over(project: &Project) -> &'static str {
+    if project.loaded.scene.cameras.is_empty() {
+        "the run was over; its results are written again"
+    } else {
+        "its sensors had all their samples; its pictures are taken and its results written again"
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
 use crate::build::{BUILD, VERSION};
-use crate::checkpoint::CheckpointWriter;
+use crate::checkpoint::{CheckpointWriter, Kept};
 use crate::door::{Admitted, Door};
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
@@ -15,7 +15,6 @@ use quasilux_report::{Report, RunFacts, Style, json, table};
 use quasilux_transport::{Estimates, PreparedScene};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// A finished simulation.
 pub(crate) struct Finished {
@@ -27,7 +26,8 @@ pub(crate) struct Finished {
 pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
     let project = project::open(&arguments.project)?;
-    let folder = Folder::prepare(&arguments.output, &arguments.project, &project)?;
+    let folder = Folder::by_name(&arguments.project);
+    let folder = Folder::prepare(&arguments.output, folder, &project)?;
     if arguments.explain && project.loaded.scene.sensors.is_empty() {
         return Err(CliError::new(format!(
             "{}: --explain looks at sensors, and the project has none",
@@ -43,7 +43,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, CliError> {
     let forecast = Forecast::new(scene, &settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, arguments.output.quiet);
     if let Some(path) = &arguments.keeping.checkpoint {
-        let writer = CheckpointWriter::fresh(path, &arguments.project, &project, &settings)?;
+        let kept = Kept { file: &arguments.project, out: folder.path(), settings: &settings };
+        let writer = CheckpointWriter::fresh(path, &project, kept)?;
         watcher = watcher.checkpoints(writer, arguments.keeping.checkpoint_every);
     }
     let simulate = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
@@ -122,17 +123,19 @@ pub(crate) fn work(
     let pool = pool(threads)?;
     let Admitted { prepared, findings } = pool.install(|| door.admit(project, &watcher))?;
     let outcome = pool.install(|| job(&prepared, &mut watcher));
-    let seconds: Duration = watcher.finish();
+    let seconds = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {
         version: VERSION.to_owned(),
         build: BUILD.to_owned(),
         scene_sha256: project.identity.sha256.clone(),
-        seconds: seconds.as_secs_f64(),
+        seconds,
+        earlier_seconds: watcher.earlier_seconds,
         earlier_rays: watcher.earlier_rays,
         threads,
         expected_bytes: Some(forecast.bytes(Some(samples))),
+        maintenance_factor: Some(project.loaded.maintenance_factor),
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
         findings,
     };
@@ -168,10 +171,16 @@ pub(crate) struct Folder<'a> {
 }
 
 impl<'a> Folder<'a> {
-    /// Makes sure that results can be written before anything is computed.
+    /// Where results of a project file go that nobody said a place for.
+    pub(crate) fn by_name(file: &Path) -> PathBuf {
+        Path::new("out").join(file.file_stem().unwrap_or_default())
+    }
+
+    /// Makes sure that results can be written before anything is computed: to where the arguments
+    /// say, or else to `otherwise`.
     pub(crate) fn prepare(
         output: &'a OutputArguments,
-        file: &Path,
+        otherwise: PathBuf,
         project: &Project,
     ) -> Result<Self, CliError> {
         if output.json && !output.quiet {
@@ -180,10 +189,13 @@ impl<'a> Folder<'a> {
                 tell(format_args!("warning: {warning}"));
             }
         }
-        let by_name = || Path::new("out").join(file.file_stem().unwrap_or_default());
-        let path = output.out.clone().unwrap_or_else(by_name);
+        let path = output.out.clone().unwrap_or(otherwise);
         results::prepare(&path)?;
         Ok(Self { path, output })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Writes results and prints what was asked for.

@@ -43,7 +43,7 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, CliError> {
         quasilux_transport::trace_part(scene, &settings, samples, range, &mut watcher)
     };
     let sums = pool(threads)?.install(trace);
-    let seconds = watcher.finish().as_secs_f64();
+    let seconds = watcher.finish();
     let Some(sums) = sums else {
         tell("interrupted: no part was written");
         return Ok(Exit::Interrupted);

@@ -12,11 +12,13 @@ mod explain;
 mod fingerprint;
 mod kept;
 mod limits;
+mod manuals;
 #[cfg(target_os = "linux")]
 mod memory;
 mod photometry;
 mod points;
 mod results;
+mod resumed;
 mod scenes;
 mod sequences;
 mod spread;

@@ -83,7 +83,7 @@ pub(crate) fn interrupt(child: &std::process::Child) {
 /// threads, the time that was predicted, and the memory of those threads.
 pub(crate) fn without_seconds_and_threads(document: &str) -> String {
     let mut text = document.to_owned();
-    for (key, times) in [("\"seconds\": ", 2), ("\"threads\": ", 1), ("\"bytes\": ", 1)] {
+    for (key, times) in [("\"seconds\": ", 3), ("\"threads\": ", 1), ("\"bytes\": ", 1)] {
         let mut from = 0;
         for _ in 0..times {
             let found = text[from..].find(key).unwrap_or_else(|| panic!("no {key}in {text}"));

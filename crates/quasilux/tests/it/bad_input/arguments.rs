@@ -16,16 +16,17 @@ fn options() {
             value("a share that is no number", &["--rel-tol", "nan"], "1%"),
             value("a negative time", &["--time=-3s"], "60s"),
             value("a time in days", &["--time", "1d"], "60s"),
-            value("no samples", &["--samples", "0"], "0 is not in 1.."),
+            value("a share that means percent", &["--rel-tol", "1"], "was 1 % meant?"),
+            value("no samples", &["--samples", "0"], "expected a whole number from 1 to "),
             value("a word for samples", &["--samples", "many"], "many"),
-            value("no threads", &["--threads", "0"], "0 is not in 1.."),
-            value("a million threads", &["--threads", "1000000"], "1000000"),
+            value("no threads", &["--threads", "0"], "expected a whole number from 1 to 1024"),
+            value("a million threads", &["--threads", "1000000"], "\"1000000\"; expected"),
             value("a negative seed", &["--seed=-1"], "-1"),
-            value("unknown estimator", &["--estimator", "radiosity"], "bidirectional"),
-            value("unknown sequence", &["--sequence", "sobel"], "sobol"),
-            value("unknown option", &["--sampels", "3"], "--samples"),
+            value("unknown estimator", &["--estimator", "radiosity"], "one of auto, photon"),
+            value("unknown sequence", &["--sequence", "sobel"], "did you mean \"sobol\"?"),
+            value("unknown option", &["--sampels", "3"], "did you mean \"--samples\"?"),
             value("an option without its value", &["--out"], "value"),
-            value("an option twice", &["--seed", "1", "--seed", "2"], "multiple times"),
+            value("an option twice", &["--seed", "1", "--seed", "2"], "is given twice"),
         ]
         .map(|mut case| {
             // The option stands for itself where its value is part of the argument.
@@ -41,7 +42,9 @@ fn commands_and_paths() {
     check(
         "commands",
         &[
-            Case::new("unknown command").instead(&["rum", "project.toml"]).says(&["rum", "run"]),
+            Case::new("unknown command")
+                .instead(&["rum", "project.toml"])
+                .says(&["rum", "did you mean \"run\"?"]),
             Case::new("no project").instead(&["run"]).says(&["<PROJECT>"]),
             Case::new("two projects").with(&["project.toml"]).says(&["unexpected"]),
             Case::new("a project that is not there")
@@ -60,9 +63,11 @@ fn commands_and_paths() {
                 .with(&["--out", "results/of/today"])
                 .says(&["results/of/today: ", "cannot write"]),
             Case::new("a surface that is not there").instead(&["bsdf", "x.xml"]).says(&["x.xml: "]),
-            Case::new("unknown experiment")
-                .instead(&["experiment", "octave"])
-                .says(&["octave", "octant"]),
+            Case::new("unknown experiment").instead(&["experiment", "octave"]).says(&[
+                "octave",
+                "expected one of cube",
+                "did you mean \"octant\"?",
+            ]),
             Case::new("no cases").instead(&["validate", "nowhere"]).says(&["cases: "]),
         ],
     );

@@ -164,9 +164,7 @@ fn faults_of(case: &Case, run: &Run) -> Vec<String> {
     if !run.stderr.starts_with("error: ") || run.stderr.matches("error: ").count() != 1 {
         faults.push("not exactly one message".to_owned());
     }
-    // Messages on arguments have a hint below; those on files are one line.
-    let is_of_files = case.needles[0].contains(['.', ':']);
-    if is_of_files && run.stderr.lines().count() != 1 {
+    if run.stderr.lines().count() != 1 {
         faults.push("several lines".to_owned());
     }
     if run.stderr.contains("panicked") {
