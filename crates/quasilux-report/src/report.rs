@@ -133,8 +133,11 @@ pub struct Run {
     pub threads: usize,
     /// Memory in bytes that the whole program should take up to the tolerance.
     pub expected_bytes: Option<u64>,
-    /// Whether every sensor point, or every average, reached the wanted tolerance.
+    /// Whether every sensor point, or every average, reached the wanted tolerance, and every
+    /// picture is what was wanted.
     pub tolerance_reached: bool,
+    /// The same of the sensors alone.
+    pub sensors_reached: bool,
     /// What surveys and pilots decided before the first sample.
     pub decisions: Decisions,
     /// Sensor points that bidirectional paths took over from what pilots selected.
@@ -187,6 +190,7 @@ impl Report {
                 threads: facts.threads,
                 expected_bytes: facts.expected_bytes,
                 tolerance_reached: estimates.tolerance_reached,
+                sensors_reached: estimates.sensors_reached,
                 decisions: estimates.decisions.clone(),
                 relieved_points: estimates.relieved_points,
                 convergence: estimates.convergence,
