@@ -5,10 +5,10 @@
 //! edges that belong to one triangle each, and that leaving rays go through.
 
 use crate::finding::{Check, Findings};
-use crate::lamps::position_of;
 use crate::names;
 use crate::probe::sphere_direction;
 use crate::survey::Survey;
+use crate::survey::position_of;
 use glam::{DVec2, DVec3};
 use quasilux_scene::Mesh;
 

@@ -6,7 +6,7 @@
 
 use crate::finding::{Check, Findings};
 use crate::names;
-use crate::survey::{Survey, Vertex, emitted_direction};
+use crate::survey::{Survey, Vertex, emitted_direction, position_of};
 use crate::units::{self, Thing};
 use glam::DVec3;
 use quasilux_scene::solids::{Solid, solids_of};
@@ -110,15 +110,6 @@ fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findi
     );
     let cure = "expected it in front of the surface, or turned away from it";
     findings.add(Check::LampInSurface, findings.places.lights[index], message, cure).at(at);
-}
-
-/// Where a lamp is; `None` for one that is a surface.
-pub(crate) fn position_of(lamp: &Light) -> Option<DVec3> {
-    match lamp {
-        Light::Point(light) => Some(light.position),
-        Light::Luminaire(light) => Some(light.position),
-        Light::Area(_) => None,
-    }
 }
 
 /// The shortest way through a surface, along an axis or where the lamp aims, to a place from which

@@ -237,6 +237,15 @@ fn lit_along(probe: &Probe<'_>, from: DVec3, direction: DVec3, i: u32) -> Option
     Some(walk(probe, Vertex::on(&surface), i))
 }
 
+/// Where a lamp is; `None` for one that is a surface.
+pub(crate) fn position_of(lamp: &Light) -> Option<DVec3> {
+    match lamp {
+        Light::Point(light) => Some(light.position),
+        Light::Luminaire(light) => Some(light.position),
+        Light::Area(_) => None,
+    }
+}
+
 /// A direction that a luminaire shines in, by its intensities.
 pub(crate) fn emitted_direction(light: &Luminaire, i: u32) -> Option<DVec3> {
     let local = light.photometry.sample_direction(square(i))?;

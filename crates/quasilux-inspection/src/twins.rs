@@ -1,8 +1,8 @@
 //! Lamps that are listed twice at one place.
 
 use crate::finding::{Check, Findings};
-use crate::lamps::position_of;
 use crate::names;
+use crate::survey::position_of;
 use glam::DVec3;
 use quasilux_scene::{Light, Scene};
 

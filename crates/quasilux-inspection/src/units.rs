@@ -2,8 +2,8 @@
 //! people in it.
 
 use crate::finding::{Check, Findings};
-use crate::lamps::position_of;
 use crate::names;
+use crate::survey::position_of;
 use glam::DVec3;
 use quasilux_scene::{LengthUnit, Scene, SensorShape};
 

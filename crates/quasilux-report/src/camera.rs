@@ -22,6 +22,12 @@ pub struct CameraReport {
     pub maximum_cd_m2: Option<f64>,
     /// Half-width of the interval of a pixel in cd/m2, mean over all that have one.
     pub mean_half_width_cd_m2: Option<f64>,
+    /// That over the mean luminance of the picture; `None` where most pixels have no interval.
+    pub relative_half_width: Option<f64>,
+    /// What was wanted of it; `None` where a number of paths was.
+    pub rel_tol: Option<f64>,
+    /// Whether the picture is what was wanted.
+    pub is_done: bool,
 }
 
 /// Names of a camera's files.
@@ -39,7 +45,8 @@ impl CameraReport {
     pub(crate) fn new(scene: &Scene, estimates: &Estimates, index: usize) -> Self {
         let camera = &scene.cameras[index];
         let found = &estimates.cameras[index];
-        assert_eq!(found.pixels.len(), camera.pixels(), "a picture of another camera");
+        let is_whole = found.pixels.len() == camera.pixels();
+        assert!(is_whole || found.samples == 0, "a picture of another camera");
         let luminances = found.pixels.iter().map(|pixel| f64::from(pixel.luminance_cd_m2));
         let half_widths = || found.pixels.iter().filter_map(|pixel| pixel.half_width_cd_m2);
         let known = half_widths().count();
@@ -49,21 +56,27 @@ impl CameraReport {
             resolution: camera.resolution,
             samples: found.samples,
             pixels: Arc::clone(&found.pixels),
-            mean_cd_m2: estimates.picture_mean(index).into(),
+            mean_cd_m2: match found.samples {
+                0 => Figure::default(),
+                _ => estimates.picture_mean(index).into(),
+            },
             maximum_cd_m2: luminances.reduce(f64::max).filter(|x| x.is_finite()),
             mean_half_width_cd_m2: (known > 0)
                 .then(|| sum / known as f64)
                 .filter(|x| x.is_finite()),
+            relative_half_width: found.relative_half_width(),
+            rel_tol: found.rel_tol,
+            is_done: found.is_done,
         }
     }
 
-    /// Names of its files.
+    /// Names of its files; `None` where there is no picture.
     #[must_use]
-    pub fn files(&self) -> CameraFiles {
-        CameraFiles {
+    pub fn files(&self) -> Option<CameraFiles> {
+        (!self.pixels.is_empty()).then(|| CameraFiles {
             exr: format!("{}.exr", self.name),
             png: format!("{}.png", self.name),
             false_colour_png: format!("{}{}.png", self.name, Camera::FALSE_COLOUR_ENDING),
-        }
+        })
     }
 }

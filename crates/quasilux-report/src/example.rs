@@ -119,11 +119,16 @@ pub(crate) fn picture(resolution: [u32; 2], luminance_cd_m2: impl Fn(u32, u32) -
         up: DVec3::Z,
         vertical_fov_rad: 1.0,
         resolution,
+        samples: None,
+        rel_tol: None,
     });
+    estimates.samples = 16;
     estimates.cameras.push(CameraEstimates {
         replicate_mean_cd_m2: vec![sum / pixels.len() as f64; 16],
         pixels: pixels.into(),
         samples: 16,
+        rel_tol: None,
+        is_done: true,
     });
     Report::new(&scene, &Settings::default(), &estimates, RunFacts::default())
 }
@@ -196,6 +201,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         confidence: 0.95,
         miss_probability: 0.025,
         tolerance_reached: true,
+        sensors_reached: true,
         convergence: Convergence {
             slope: Some(-0.72),
             samples: Some(65_536),
@@ -206,7 +212,6 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         relieved_points: 0,
         biased: false,
         warnings: Vec::new(),
-        findings: Vec::new(),
     };
     let scene = Scene {
         sensors: sensors.into_iter().map(|(sensor, _)| sensor).collect(),

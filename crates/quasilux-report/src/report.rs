@@ -148,8 +148,11 @@ pub struct Run {
     /// Factor that is in all light of the run: what lights give in use over what they give when
     /// new. 1 where the project says nothing.
     pub maintenance_factor: f64,
-    /// Whether every sensor point, or every average, reached the wanted tolerance.
+    /// Whether every sensor point, or every average, reached the wanted tolerance, and every
+    /// picture is what was wanted.
     pub tolerance_reached: bool,
+    /// The same of the sensors alone.
+    pub sensors_reached: bool,
     /// What surveys and pilots decided before the first sample.
     pub decisions: Decisions,
     /// Sensor points that bidirectional paths took over from what pilots selected.
@@ -205,6 +208,7 @@ impl Report {
                 expected_bytes: facts.expected_bytes,
                 maintenance_factor: facts.maintenance_factor.unwrap_or(1.0),
                 tolerance_reached: estimates.tolerance_reached,
+                sensors_reached: estimates.sensors_reached,
                 decisions: estimates.decisions.clone(),
                 relieved_points: estimates.relieved_points,
                 convergence: estimates.convergence,

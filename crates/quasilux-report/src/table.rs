@@ -83,7 +83,10 @@ fn cameras(report: &Report, style: Style) -> String {
         value.map_or_else(|| "-".into(), |x| format!("{before}{} cd/m²", brief(x, digits)))
     };
     let maxima = report.cameras.iter().map(|c| cd_m2(c.maximum_cd_m2, "", 4));
-    let half_widths = report.cameras.iter().map(|c| cd_m2(c.mean_half_width_cd_m2, "± ", 2));
+    let half_widths = report.cameras.iter().map(|c| {
+        let share = c.relative_half_width.map(|share| format!(" ({} %)", brief(100.0 * share, 2)));
+        cd_m2(c.mean_half_width_cd_m2, "± ", 2) + &share.unwrap_or_default()
+    });
     lines(
         vec![
             Column::left("camera", cells(|c| printable(&c.name))),
@@ -183,7 +186,10 @@ fn run_facts(report: &Report) -> String {
         brief(100.0 * run.settings.confidence, 4),
         plural(replicates, "replicate"),
         from.map(|least| format!("{} to ", count(least))).unwrap_or_default(),
-        plural(run.samples, "sample"),
+        match report.sensors.is_empty() && !report.cameras.is_empty() {
+            true => format!("{} a pixel", plural(run.samples, "path")),
+            false => plural(run.samples, "sample"),
+        },
         plural(run.rays, "ray"),
         brief(run.seconds, 3),
         earlier.map(seconds_of).unwrap_or_default(),
@@ -216,24 +222,54 @@ struct Verdict {
 
 impl Verdict {
     fn new(report: &Report) -> Self {
+        let of_sensors = Self::of_sensors(report);
+        match (report.sensors.is_empty(), report.cameras.is_empty()) {
+            (_, true) => of_sensors,
+            (true, false) => Self::of_pictures(report),
+            (false, false) => {
+                let of_pictures = Self::of_pictures(report);
+                let emphasis = match of_pictures.emphasis {
+                    Emphasis::Caution => Emphasis::Caution,
+                    _ => of_sensors.emphasis,
+                };
+                Self { emphasis, text: format!("{}; {}", of_sensors.text, of_pictures.text) }
+            }
+        }
+    }
+
+    fn of_sensors(report: &Report) -> Self {
         let settings = &report.run.settings;
         let wanted = tolerance(settings);
         let at = match settings.tolerance_on {
             ToleranceOn::Points => "at every point",
             ToleranceOn::Summary => "by every average",
         };
-        let is_reached = report.run.tolerance_reached;
-        if report.sensors.is_empty() && is_reached {
-            Self { emphasis: Emphasis::Good, text: "every picture has all its paths".into() }
-        } else if !settings.has_tolerance() {
+        if !settings.has_tolerance() {
             Self { emphasis: Emphasis::Faint, text: "no tolerance was asked for".into() }
-        } else if is_reached {
+        } else if report.run.sensors_reached {
             let text = format!("tolerance of {wanted} reached {at}");
             Self { emphasis: Emphasis::Good, text }
         } else {
             let text = format!("tolerance of {wanted} not reached");
             Self { emphasis: Emphasis::Caution, text }
         }
+    }
+
+    fn of_pictures(report: &Report) -> Self {
+        let undone = report.cameras.iter().filter(|camera| !camera.is_done).count();
+        if undone > 0 {
+            let all = plural(report.cameras.len() as u64, "picture");
+            let text = format!("{undone} of {all} stopped before the end");
+            return Self { emphasis: Emphasis::Caution, text };
+        }
+        let widest = report.cameras.iter().filter_map(|camera| camera.rel_tol).reduce(f64::max);
+        let text = match widest {
+            Some(share) => {
+                format!("pixels known to {} % of the picture's mean", brief(100.0 * share, 4))
+            }
+            None => "every picture has all its paths".into(),
+        };
+        Self { emphasis: Emphasis::Good, text }
     }
 }
 
@@ -303,7 +339,7 @@ mod tests {
         assert!(table(&report, Style::Plain).contains("of 1 024 to 65 536 samples"));
         report.run.settings.tolerance_on = ToleranceOn::Summary;
         assert!(table(&report, Style::Plain).contains("1 % reached by every average"));
-        report.run.tolerance_reached = false;
+        report.run.sensors_reached = false;
         assert!(table(&report, Style::Plain).contains("1 % not reached"));
         report.run.settings.abs_tol_lx = 2.5;
         assert!(table(&report, Style::Plain).contains("1 % or 2.5 lx not reached"));
@@ -317,9 +353,19 @@ mod tests {
         let text = table(&report, Style::Plain);
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[0].starts_with("camera   pixels    samples   mean"), "{text}");
-        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m²";
+        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m² (6.3 %)";
         assert_eq!(lines[1], wanted, "{text}");
         assert!(text.contains("every picture has all its paths"), "{text}");
+        assert!(text.contains("16 replicates of 16 paths a pixel"), "{text}");
+        for word in ["sensor", "point", "sample,"] {
+            assert!(!text.contains(word), "{word} in {text}");
+        }
+        report.cameras[0].rel_tol = Some(0.0725);
+        let text = table(&report, Style::Plain);
+        assert!(text.contains("pixels known to 7.25 % of the picture's mean"), "{text}");
+        report.cameras[0].is_done = false;
+        let text = table(&report, Style::Plain);
+        assert!(text.contains("1 of 1 picture stopped before the end"), "{text}");
         report.sensors = example::office().sensors;
         let text = table(&report, Style::Plain);
         assert!(text.contains("\n\ncamera") && text.starts_with("sensor"), "{text}");

@@ -22,6 +22,12 @@ pub struct Camera {
     pub vertical_fov_rad: f64,
     /// Width and height in pixels, at least 1 each.
     pub resolution: [u32; 2],
+    /// Paths of each pixel in each replicate, at most where there is a tolerance too; `None` leaves
+    /// them to the run.
+    pub samples: Option<u64>,
+    /// Wanted half-width of the interval of a pixel, mean over the pixels, over the mean luminance
+    /// of the picture; `None` leaves it to the run.
+    pub rel_tol: Option<f64>,
 }
 
 /// The line of sight of each place in a camera's picture.
@@ -81,6 +87,8 @@ mod tests {
             up: DVec3::new(0.0, 0.3, 2.0),
             vertical_fov_rad,
             resolution,
+            samples: None,
+            rel_tol: None,
         }
     }
 

@@ -61,7 +61,7 @@ pub use stats::estimates::{
     self, Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
 };
 pub use stats::interval::{self, Interval};
-pub use stats::observer::{self, Control, Observer, Progress, Snapshot};
+pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
 
 /// Tests the example of the README.

@@ -25,7 +25,7 @@ pub(crate) fn write(folder: &Path, report: &Report) -> Result<(), CliError> {
         }
     }
     for camera in &report.cameras {
-        let files = camera.files();
+        let Some(files) = camera.files() else { continue };
         write_atomic(&folder.join(files.exr), &exr(camera))?;
         write_atomic(&folder.join(files.png), &tone_mapped_png(camera))?;
         let false_colours = camera_false_colour_png(camera, report);

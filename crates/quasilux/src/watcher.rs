@@ -9,7 +9,7 @@ use crate::interrupt;
 use crate::print::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quasilux_report::number::{brief, count, memory};
-use quasilux_transport::{Control, Estimates, Observer, Progress, Snapshot};
+use quasilux_transport::{Control, Estimates, Observer, PictureProgress, Progress, Snapshot};
 use std::time::{Duration, Instant};
 
 /// Steps of the progress bar.
@@ -26,6 +26,8 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 const LOOK_SHARE: u32 = 50;
 /// The same for keeping the run.
 const KEEPING_SHARE: u32 = 30;
+/// Of the time that a run may take, sensors get this share where there are cameras too.
+const SENSORS_SHARE: f64 = 0.5;
 
 /// The observer of the command line.
 pub(crate) struct Watcher<'a> {
@@ -42,6 +44,8 @@ pub(crate) struct Watcher<'a> {
     look_asked: Instant,
     start: Instant,
     deadline: Option<Instant>,
+    /// When the picture was begun that is taken, and when it has to end.
+    picture: Option<Sitting>,
     /// Where the run is kept, and when it is next.
     kept: Option<Checkpoints>,
     /// Why the run was told to stop, if it was.
@@ -50,6 +54,14 @@ pub(crate) struct Watcher<'a> {
     pub(crate) earlier_rays: u64,
     /// What the run took before that, in s.
     pub(crate) earlier_seconds: f64,
+}
+
+/// A picture that is taken.
+#[derive(Clone, Copy, Debug)]
+struct Sitting {
+    camera: usize,
+    begin: Instant,
+    end: Option<Instant>,
 }
 
 /// A run that is kept on disk.
@@ -110,6 +122,7 @@ impl<'a> Watcher<'a> {
             look_asked: start,
             start,
             deadline,
+            picture: None,
             kept: None,
             stopped: None,
             earlier_rays: 0,
@@ -140,10 +153,47 @@ impl<'a> Watcher<'a> {
         self.earlier_seconds + self.start.elapsed().as_secs_f64()
     }
 
+    /// When what is done now has to end: pictures share what sensors leave of the time.
+    fn end_of_step(&self) -> Option<Instant> {
+        let (deadline, scene) = (self.deadline?, self.forecast.scene);
+        match self.picture {
+            Some(sitting) => sitting.end,
+            None if scene.sensors.is_empty() || scene.cameras.is_empty() => Some(deadline),
+            None => Some(self.start + (deadline - self.start).mul_f64(SENSORS_SHARE)),
+        }
+    }
+
+    /// Notes that a picture is taken.
+    fn sit(&mut self, picture: &PictureProgress) -> Sitting {
+        let camera = picture.camera;
+        let known = self.picture.filter(|sitting| sitting.camera == camera);
+        let sitting = known.unwrap_or_else(|| {
+            let begin = Instant::now();
+            let pictures = self.forecast.scene.cameras.len().saturating_sub(camera).max(1);
+            let share =
+                |end: Instant| begin + end.saturating_duration_since(begin) / pictures as u32;
+            Sitting { camera, begin, end: self.deadline.map(share) }
+        });
+        self.picture = Some(sitting);
+        sitting
+    }
+
+    fn show_picture(&self, progress: &Progress, picture: &PictureProgress, sitting: Sitting) {
+        let now = Instant::now();
+        let whole = sitting.end.map(|end| end.saturating_duration_since(sitting.begin));
+        let elapsed_s = (now - sitting.begin).as_secs_f64();
+        let of_time = whole.map_or(0.0, |whole| elapsed_s / whole.as_secs_f64().max(1e-3));
+        let done = progress.done.unwrap_or(0.0).max(of_time).min(1.0);
+        self.bar.set_position((done * STEPS as f64) as u64);
+        let name = &self.forecast.scene.cameras[picture.camera].name;
+        let bytes = memory(self.forecast.bytes(Some(progress.samples)));
+        self.bar.set_message(picture_message(name, picture, done, elapsed_s) + ", " + &bytes);
+    }
+
     fn control(&mut self) -> Control {
         if interrupt::requested() {
             self.stopped = Some(Stopped::Interrupt);
-        } else if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+        } else if self.end_of_step().is_some_and(|end| Instant::now() >= end) {
             self.stopped = Some(Stopped::Time);
         }
         if self.stopped.is_some() { Control::Stop } else { Control::Continue }
@@ -189,6 +239,11 @@ impl Observer for Watcher<'_> {
 
     fn progress(&mut self, progress: &Progress) -> Control {
         self.earlier_rays = progress.earlier_rays;
+        if let Some(picture) = &progress.picture {
+            let sitting = self.sit(picture);
+            self.show_picture(progress, picture, sitting);
+            return self.control();
+        }
         let elapsed_s = self.start.elapsed().as_secs_f64();
         let done = self.deadline.map_or(progress.done, |deadline| {
             let whole_s = (deadline - self.start).as_secs_f64();
@@ -241,6 +296,26 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     )
 }
 
+/// The passes of a picture, how well it is known, and the time left to its end.
+fn picture_message(name: &str, picture: &PictureProgress, done: f64, elapsed_s: f64) -> String {
+    let PictureProgress { samples, complete_samples, relative_half_width, rel_tol, .. } = *picture;
+    let known = relative_half_width.map_or_else(|| "±?".to_owned(), percent);
+    let wanted = rel_tol.map_or_else(String::new, |share| format!(" of {}", percent(share)));
+    let left = match done {
+        done if done > 0.0 => format!("{:.0} s left", elapsed_s * (1.0 - done) / done),
+        _ => "? s left".to_owned(),
+    };
+    format!(
+        "picture {name}: {} paths a pixel after {}, {known}{wanted}, {left}",
+        count(samples),
+        count(complete_samples),
+    )
+}
+
+fn percent(share: f64) -> String {
+    format!("±{:.2} %", 100.0 * share)
+}
+
 /// A line for what a sensor shows: its average, and the least and the most where they differ.
 fn value(name: &str, illuminance_lx: &[Option<f64>]) -> Option<String> {
     let known: Vec<f64> = illuminance_lx.iter().copied().flatten().collect();
@@ -275,6 +350,7 @@ mod tests {
             expected_samples: Some(1 << 16),
             expected_rays: Some(2_000_000),
             done: Some(0.001),
+            picture: None,
         };
         let text = message(&progress, progress.done, 2.0);
         assert!(
@@ -283,6 +359,22 @@ mod tests {
         );
         let text = message(&Progress { expected_rays: None, ..progress }, None, 2.0);
         assert!(text.ends_with("±10.00 %, ? s left"), "{text}");
+    }
+
+    #[test]
+    fn pictures_tell_their_passes_and_the_time_left() {
+        let picture = PictureProgress {
+            camera: 0,
+            samples: 24,
+            complete_samples: 4,
+            relative_half_width: Some(0.0456),
+            rel_tol: Some(0.02),
+        };
+        let text = picture_message("door", &picture, 0.25, 3.0);
+        assert_eq!(text, "picture door: 24 paths a pixel after 4, ±4.56 % of ±2.00 %, 9 s left");
+        let first = PictureProgress { samples: 1, ..PictureProgress::default() };
+        let text = picture_message("door", &first, 0.0, 3.0);
+        assert_eq!(text, "picture door: 1 paths a pixel after 0, ±?, ? s left");
     }
 
     #[test]

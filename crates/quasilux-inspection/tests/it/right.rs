@@ -2,14 +2,14 @@
 
 use crate::room::{Case, Face, body, inspected, plate, shell};
 use glam::DVec3;
-use quasilux_scene::Files;
+use quasilux_scene::{FileKind, Files};
 use std::path::{Path, PathBuf};
 
 /// Files of a folder.
 struct Folder(PathBuf);
 
 impl Files for Folder {
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _: FileKind) -> std::io::Result<Vec<u8>> {
         std::fs::read(self.0.join(path))
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use quasilux_bvh::TriangleBvh;
 use quasilux_inspection::{Finding, inspect};
-use quasilux_scene::{Files, load};
+use quasilux_scene::{FileKind, Files, load};
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -206,7 +206,7 @@ pub(crate) fn inspected(name: &str, project: &[u8], files: &dyn Files) -> Vec<Fi
 pub(crate) struct MapFiles(pub(crate) HashMap<String, Vec<u8>>);
 
 impl Files for MapFiles {
-    fn read(&self, path: &str) -> std::io::Result<Vec<u8>> {
+    fn read(&self, path: &str, _: FileKind) -> std::io::Result<Vec<u8>> {
         self.0.get(path).cloned().ok_or_else(|| std::io::ErrorKind::NotFound.into())
     }
 }

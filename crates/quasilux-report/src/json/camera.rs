@@ -1,7 +1,7 @@
 //! The entry of a camera in the result document.
 
 use super::FigureEntry;
-use crate::CameraReport;
+use crate::{CameraFiles, CameraReport};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -9,23 +9,30 @@ pub(super) struct CameraEntry<'a> {
     name: &'a str,
     resolution: [u32; 2],
     samples: u64,
-    files: [String; 3],
+    files: Vec<String>,
     mean_luminance_cd_m2: FigureEntry,
     maximum_luminance_cd_m2: Option<f64>,
     mean_half_width_cd_m2: Option<f64>,
+    relative_half_width: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rel_tol: Option<f64>,
+    tolerance_reached: bool,
 }
 
 impl<'a> CameraEntry<'a> {
     pub(super) fn new(camera: &'a CameraReport) -> Self {
-        let files = camera.files();
+        let names = |files: CameraFiles| vec![files.exr, files.png, files.false_colour_png];
         Self {
             name: &camera.name,
             resolution: camera.resolution,
             samples: camera.samples,
-            files: [files.exr, files.png, files.false_colour_png],
+            files: camera.files().map(names).unwrap_or_default(),
             mean_luminance_cd_m2: FigureEntry::new(camera.mean_cd_m2),
             maximum_luminance_cd_m2: camera.maximum_cd_m2,
             mean_half_width_cd_m2: camera.mean_half_width_cd_m2,
+            relative_half_width: camera.relative_half_width,
+            rel_tol: camera.rel_tol,
+            tolerance_reached: camera.is_done,
         }
     }
 }

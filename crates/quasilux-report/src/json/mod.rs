@@ -192,7 +192,7 @@ impl<'a> Document<'a> {
             biased: report.biased,
             sensors: report.sensors.iter().map(|s| SensorEntry::new(s, &report.run)).collect(),
             cameras: report.cameras.iter().map(CameraEntry::new).collect(),
-            run: RunEntry::new(&report.run),
+            run: RunEntry::new(&report.run, !report.sensors.is_empty()),
             explain: report.explanation.as_ref().map(ExplanationEntry::new),
             findings: report.findings.iter().map(FindingEntry::new).collect(),
             warnings: &report.warnings,
@@ -213,9 +213,12 @@ impl<'a> SensorEntry<'a> {
 }
 
 impl DecisionsEntry {
-    fn new(run: &Run) -> Self {
+    fn new(run: &Run, has_sensors: bool) -> Self {
         let (decisions, relieved_points) = (&run.decisions, run.relieved_points);
-        let selected = selected(run.settings.estimator, decisions);
+        let selected = match has_sensors {
+            true => selected(run.settings.estimator, decisions),
+            false => "nothing: there are cameras alone, whose pictures are made by plain paths",
+        };
         let Decisions {
             connected_photons,
             uses_importance: importance,
@@ -293,7 +296,7 @@ impl SummaryEntry {
 }
 
 impl<'a> RunEntry<'a> {
-    fn new(run: &'a Run) -> Self {
+    fn new(run: &'a Run, has_sensors: bool) -> Self {
         Self {
             version: &run.version,
             build: &run.build,
@@ -312,7 +315,7 @@ impl<'a> RunEntry<'a> {
             maintenance_factor: run.maintenance_factor,
             tolerance_reached: run.tolerance_reached,
             prediction: PredictionEntry::new(run),
-            decisions: DecisionsEntry::new(run),
+            decisions: DecisionsEntry::new(run, has_sensors),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),
@@ -416,6 +419,8 @@ mod tests {
             "mean_luminance_cd_m2": {"value": 8.0, "half_width": 0.0},
             "maximum_luminance_cd_m2": 20.0,
             "mean_half_width_cd_m2": 0.5,
+            "relative_half_width": 0.0625,
+            "tolerance_reached": true,
         });
         assert_eq!(document["cameras"], serde_json::json!([camera]));
     }

@@ -21,7 +21,7 @@ pub(super) fn convergence(report: &Report) -> Option<String> {
     }
     let left = run.convergence.samples.zip(run.convergence.rays);
     if let (false, true, Some((samples, rays))) =
-        (run.tolerance_reached, run.settings.has_tolerance(), left)
+        (run.sensors_reached, run.settings.has_tolerance(), left)
         && samples > run.samples
     {
         let all = [plural(samples, "sample"), plural(rays, "ray")];
@@ -45,7 +45,7 @@ mod tests {
     fn the_slope_is_told_and_what_is_left_where_a_limit_came_first() {
         let mut report = example::office();
         assert_eq!(convergence(&report).unwrap(), "half-widths shrink like N^-0.72");
-        report.run.tolerance_reached = false;
+        report.run.sensors_reached = false;
         report.run.convergence.slope = Some(-0.5);
         report.run.convergence.samples = Some(1 << 18);
         report.run.convergence.rays = Some(750_617_284);

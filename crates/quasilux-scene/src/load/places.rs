@@ -1,8 +1,9 @@
 //! Where the project file describes each thing of a scene, for what is said of it later.
 
+use crate::Spanned;
 use crate::geometry::Geometry;
 use crate::project::{LengthUnit, LightEntry, Project, UpAxis};
-use crate::{Position, Spanned};
+use quasilux_text::Position;
 
 /// The places of a scene's things in its project file, and what it says of the geometry files.
 #[derive(Clone, Debug)]

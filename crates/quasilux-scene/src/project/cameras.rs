@@ -6,12 +6,15 @@ use crate::{Camera, LoadError};
 use glam::DVec3;
 use quasilux_text::Position;
 
-const KEYS: [&str; 6] = ["name", "position", "target", "up", "vertical_fov_deg", "resolution"];
+const KEYS: [&str; 8] =
+    ["name", "position", "target", "up", "vertical_fov_deg", "resolution", "samples", "rel_tol"];
 
 /// Most pixels along an edge.
 const MAX_EDGE: u64 = 16_384;
 /// Most pixels that all cameras of a project may have together.
 const MAX_PIXELS: u64 = 1 << 24;
+/// Most paths of a pixel in a replicate.
+const MAX_SAMPLES: u64 = 1 << 32;
 /// Sine of the smallest angle between `up` and the line of sight: a microradian.
 const MIN_SINE: f64 = 1e-6;
 
@@ -52,7 +55,21 @@ fn camera(section: &Section<'_>, names: &mut Names, pixels: &mut u64) -> Result<
         up: up(section, forward)?,
         vertical_fov_rad: fov_deg.to_radians(),
         resolution: resolution(section, pixels)?,
+        samples: samples(section)?,
+        rel_tol: rel_tol(section)?,
     })
+}
+
+fn samples(section: &Section<'_>) -> Result<Option<u64>, LoadError> {
+    let expected = format!("a number of paths a pixel and replicate, 1 to {MAX_SAMPLES}");
+    let samples = |value: Value<'_>| value.integer(&expected, 1..=MAX_SAMPLES);
+    section.get("samples").map(samples).transpose()
+}
+
+fn rel_tol(section: &Section<'_>) -> Result<Option<f64>, LoadError> {
+    let expected = "a share above 0, such as 0.02";
+    let rel_tol = |value: Value<'_>| value.number(expected, |share| share > 0.0);
+    section.get("rel_tol").map(rel_tol).transpose()
 }
 
 /// The direction that is given, or z.

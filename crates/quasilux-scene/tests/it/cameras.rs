@@ -32,6 +32,11 @@ fn a_camera_is_what_the_file_says() {
     let plain = CAMERA.replace("up = [0, 0, 1]\n", "");
     let default = load_text(&format!("{PROJECT}{plain}"), &MapFiles::room()).unwrap();
     assert_eq!(default.scene.cameras, loaded.scene.cameras);
+    assert_eq!((camera.samples, camera.rel_tol), (None, None));
+    let told = format!("{PROJECT}{CAMERA}samples = 64\nrel_tol = 0.05\n");
+    let told = load_text(&told, &MapFiles::room()).unwrap();
+    let camera = &told.scene.cameras[0];
+    assert_eq!((camera.samples, camera.rel_tol), (Some(64), Some(0.05)));
 }
 
 #[test]
@@ -67,6 +72,8 @@ fn broken_cameras_are_refused_at_their_line() {
         ("[64, 48]", "[64.5, 48]", 23, "1 to 16384 each"),
         ("[64, 48]", "[16385, 1]", 23, "1 to 16384 each"),
         ("[64, 48]", "[16384, 16384]", 23, "at most 16777216 in all"),
+        ("[64, 48]", "[64, 48]\nsamples = 0", 24, "paths a pixel and replicate, 1 to"),
+        ("[64, 48]", "[64, 48]\nrel_tol = 0", 24, "a share above 0, such as 0.02"),
         ("vertical_fov_deg", "fov_deg", 22, "unknown key \"fov_deg\" in [[cameras]]"),
         ("[[cameras]]", "[cameras]", 17, "expected [[cameras]], in double brackets"),
     ] {

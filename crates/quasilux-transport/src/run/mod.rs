@@ -1,10 +1,11 @@
 //! A run from its start to its result: the loop over checkpoints ([`simulate`]), how far it has
-//! come ([`course`]), parts of a run on several machines ([`parts`]), pictures ([`pixels`]).
+//! come ([`course`]), parts of a run on several machines ([`parts`]), pictures ([`pictures`]).
 
 pub(crate) mod check;
 pub(crate) mod course;
 pub(crate) mod memory;
 pub(crate) mod parts;
-pub(crate) mod pixels;
+pub(crate) mod pictures;
+mod pixels;
 pub(crate) mod simulate;
 pub mod trial;

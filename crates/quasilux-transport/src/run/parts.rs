@@ -11,7 +11,7 @@ use crate::context::Context;
 use crate::estimator::witness::Witness;
 use crate::estimator::{Estimator, new_estimator};
 use crate::prepared::PreparedScene;
-use crate::run::pixels::add_pictures;
+use crate::run::pictures::add_pictures;
 use crate::run::simulate::{Look, look};
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};

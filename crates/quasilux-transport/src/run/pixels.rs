@@ -6,16 +6,10 @@
 //! estimator does at sensors, so a picture has no bias of a map. Light that no path finds comes
 //! from photon density.
 //!
-//! A picture has a fixed number of paths a pixel, not a tolerance: [`PIXEL_SAMPLES`] in each
-//! replicate, or as many as the run is limited to. It comes after the sensors, in passes of 1, 16,
-//! 256, ... paths, each from scratch: when the observer stops one, the pass before is the picture,
-//! at a price of 1/15 of the work at most.
-//!
 //! No sums are kept for a picture: a run of pixels is traced in all replicates, then summarised,
-//! and 24 bytes a pixel stay.
+//! and 24 bytes a pixel stay. `run/pictures.rs` says how many paths a pixel gets.
 
 use crate::context::{Context, Stream};
-use crate::cutoff;
 use crate::path::end::Rest;
 use crate::path::sections::WorkCounts;
 use crate::path::start::{Measurement, Start};
@@ -23,22 +17,16 @@ use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
-use crate::stats::estimates::Estimates;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::picture::{CameraEstimates, Pixel};
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::watch::Watch;
 use quasilux_sampling::{PointSet, Sampler};
-use quasilux_scene::{Camera, Scene, View};
+use quasilux_scene::{Camera, View};
 use rayon::prelude::*;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
+use std::sync::Arc;
 
-/// Paths of each pixel in each replicate, where no limit says otherwise: 256 with 16 replicates.
-const PIXEL_SAMPLES: u64 = 16;
-/// From one pass to the next the number of paths grows by this factor.
-const GROWTH: u64 = 16;
-/// Photons for each path of a pixel that look for light which paths cannot find.
-const CAUSTIC_PHOTONS: u64 = 1 << 12;
 /// Paths between two words to the observer.
 const ROUND: u64 = 1 << 17;
 /// Strips of a round at least, so that all threads have work.
@@ -46,73 +34,25 @@ const MIN_STRIPS: u64 = 256;
 /// Channels of a picture.
 const RGB: usize = 3;
 
-/// Takes the pictures of all cameras and adds them to what the sensors know.
-pub(crate) fn add_pictures<S: Spectrum>(
-    context: &Context<'_, S>,
-    scene: &Scene,
-    settings: &Settings,
-    estimates: &mut Estimates,
-    watch: &mut Watch<'_>,
-) {
-    let samples = settings.max_samples.unwrap_or(PIXEL_SAMPLES).max(1);
-    let mut work = WorkCounts::default();
-    let mut complete = true;
-    for (number, camera) in (0..).zip(&scene.cameras) {
-        let mut darkroom = Darkroom {
-            context,
-            number,
-            view: camera.view(),
-            width: camera.resolution[0] as usize,
-            replicates: settings.effective_replicates(),
-            samples: 0,
-            miss_probability: 1.0 - settings.confidence,
-            quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
-            caustics: CausticMap::new(context, settings, &[]),
-        };
-        // Part of a set whose number of points is fixed would leave part of its lights out.
-        let first = if settings.sequence.points().is_some() { samples } else { 1 };
-        let Exposure { figures, invalid } =
-            darkroom.expose_until(first.min(samples)..=samples, camera, &mut work, watch);
-        complete &= figures.samples == samples;
-        estimates.invalid_contributions +=
-            invalid + darkroom.caustics.as_ref().map_or(0, CausticMap::invalid);
-        estimates.cameras.push(figures);
-    }
-    if !complete {
-        estimates.warnings.push(format!(
-            "pictures were stopped before they had {samples} paths a pixel and replicate"
-        ));
-    }
-    if scene.sensors.is_empty() {
-        estimates.samples = estimates.cameras.iter().map(|c| c.samples).max().unwrap_or(0);
-        estimates.tolerance_reached = true;
-    }
-    estimates.tolerance_reached &= complete;
-    estimates.rays += work.rays;
-    estimates.dimensions.path.merge(&work.dimensions);
-    estimates.biased |= work.endless > 0;
-    estimates.warnings.extend(cutoff::warning(work.endless, "paths of pictures", "luminances"));
-}
-
 /// Where the picture of one camera is made.
-struct Darkroom<'a, S> {
+pub(super) struct Darkroom<'a, S> {
     context: &'a Context<'a, S>,
     number: u32,
     view: View,
     width: usize,
+    pixels: usize,
     replicates: u32,
-    /// Paths of each pixel in each replicate.
-    samples: u64,
-    miss_probability: f64,
+    /// The quantile behind the half-widths of pixels, which takes long to find.
+    t: Option<f64>,
     quantum: Quantum,
     /// Light that no path finds.
     caustics: Option<CausticMap<S>>,
 }
 
 /// A picture, and how many contributions are not in it.
-struct Exposure {
-    figures: CameraEstimates,
-    invalid: u64,
+pub(super) struct Exposure {
+    pub(super) figures: CameraEstimates,
+    pub(super) invalid: u64,
 }
 
 /// Some pixels in a row of the picture's memory.
@@ -131,61 +71,74 @@ struct PixelSums {
     reflected: u64,
 }
 
-impl<S: Spectrum> Darkroom<'_, S> {
-    /// Has as many photons look for light that no path finds as belong to this pass. Whether to go
-    /// on; it is always so where the pass may not be stopped.
-    fn trace_caustics(
+impl<'a, S: Spectrum> Darkroom<'a, S> {
+    pub(super) fn new(
+        context: &'a Context<'a, S>,
+        settings: &Settings,
+        number: u32,
+        camera: &Camera,
+    ) -> Self {
+        let replicates = settings.effective_replicates();
+        Self {
+            context,
+            number,
+            view: camera.view(),
+            width: camera.resolution[0] as usize,
+            pixels: camera.pixels(),
+            replicates,
+            t: t_quantile_for(replicates as usize, 1.0 - settings.confidence),
+            quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
+            caustics: CausticMap::new(context, settings, &[]),
+        }
+    }
+
+    /// No picture.
+    pub(super) fn unexposed(&self) -> Exposure {
+        let figures = CameraEstimates {
+            pixels: Arc::new([]),
+            replicate_mean_cd_m2: vec![0.0; self.replicates as usize],
+            samples: 0,
+            rel_tol: None,
+            is_done: false,
+        };
+        Exposure { figures, invalid: 0 }
+    }
+
+    /// Photons whose contributions are not in the pictures.
+    pub(super) fn invalid_photons(&self) -> u64 {
+        self.caustics.as_ref().map_or(0, CausticMap::invalid)
+    }
+
+    /// Has so many photons in all look for light that no path finds; `None` where the observer
+    /// stopped them, if it may.
+    pub(super) fn trace_caustics(
         &mut self,
+        photons: u64,
         may_stop: bool,
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
-    ) -> bool {
-        let Some(caustics) = &mut self.caustics else { return true };
-        let photons = self.samples.saturating_mul(CAUSTIC_PHOTONS);
+    ) -> Option<()> {
+        let Some(caustics) = &mut self.caustics else { return Some(()) };
         let mut nobody = ();
         let rays = match may_stop {
             true => caustics.grow(self.context, photons, watch),
             false => caustics.grow(self.context, photons, &mut Watch::new(&mut nobody)),
         };
-        work.rays += rays.unwrap_or_default();
-        rays.is_some()
+        work.rays += rays?;
+        Some(())
     }
 
-    /// Passes with more and more paths until the last of `paths`, or until the observer stops them:
-    /// the last complete one. The first is never stopped.
-    fn expose_until(
-        &mut self,
-        paths: RangeInclusive<u64>,
-        camera: &Camera,
-        work: &mut WorkCounts,
-        watch: &mut Watch<'_>,
-    ) -> Exposure {
-        let mut picture = None;
-        let mut next = Some(*paths.start());
-        while let Some(pass) = next {
-            self.samples = pass;
-            let may_stop = picture.is_some();
-            if !self.trace_caustics(may_stop, work, watch) {
-                break;
-            }
-            let Some(taken) = self.expose(camera, may_stop, work, watch) else { break };
-            picture = Some(taken);
-            let last = *paths.end();
-            next = (pass < last).then(|| pass.saturating_mul(GROWTH).min(last));
-        }
-        picture.expect("the first pass is never stopped")
-    }
-
-    /// One pass over the whole picture; `None` when the observer stopped it, if it may.
-    fn expose(
+    /// One pass with so many paths of each pixel in each replicate over the whole picture. `tick`
+    /// is told of paths, rays and the share of the pass that is over, and says whether to go on;
+    /// `None` where it does not.
+    pub(super) fn expose(
         &self,
-        camera: &Camera,
-        may_stop: bool,
+        samples: u64,
         work: &mut WorkCounts,
-        watch: &mut Watch<'_>,
+        mut tick: impl FnMut(u64, u64, f64) -> bool,
     ) -> Option<Exposure> {
-        let count = camera.pixels();
-        let paths_a_pixel = self.samples.saturating_mul(u64::from(self.replicates));
+        let count = self.pixels;
+        let paths_a_pixel = samples.saturating_mul(u64::from(self.replicates));
         let strip = (WAVE / paths_a_pixel).max(1) as usize;
         let round = strip * (ROUND / paths_a_pixel / strip as u64).max(MIN_STRIPS) as usize;
         let mut pixels = Vec::with_capacity(count);
@@ -196,7 +149,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
                 .into_par_iter()
                 .step_by(strip)
                 .map_init(PathWave::default, |wave, first| {
-                    self.trace(first..(first + strip).min(last), wave)
+                    self.trace(first..(first + strip).min(last), samples, wave)
                 })
                 .collect();
             let before = (work.paths, work.rays);
@@ -206,24 +159,25 @@ impl<S: Spectrum> Darkroom<'_, S> {
                 *work += found.work;
             }
             let (paths, rays) = (work.paths - before.0, work.rays - before.1);
-            let goes_on = watch.tick_picture(paths, rays, last as f64 / count as f64);
-            if may_stop && !goes_on {
+            if !tick(paths, rays, last as f64 / count as f64) && last < count {
                 return None;
             }
         }
-        let n = self.samples as f64 * count as f64;
+        let n = samples as f64 * count as f64;
         let mean = |sums: &PixelSums| self.mean(sums, n).luminance();
         let figures = CameraEstimates {
             pixels: pixels.into(),
             replicate_mean_cd_m2: sums.iter().map(mean).collect(),
-            samples: self.samples,
+            samples,
+            rel_tol: None,
+            is_done: false,
         };
         let invalid = sums.iter().flat_map(|sums| sums.channels).map(|sum| sum.invalid).sum();
         Some(Exposure { figures, invalid })
     }
 
     /// Traces all paths of some pixels and summarises each.
-    fn trace(&self, pixels: Range<usize>, wave: &mut PathWave<S>) -> Strip {
+    fn trace(&self, pixels: Range<usize>, samples: u64, wave: &mut PathWave<S>) -> Strip {
         let replicates = self.replicates as usize;
         let points: Vec<PointSet> = pixels
             .clone()
@@ -235,18 +189,18 @@ impl<S: Spectrum> Darkroom<'_, S> {
             .collect();
         let mut sums = vec![PixelSums::default(); points.len()];
         let mut work = WorkCounts::default();
-        let paths = self.samples * points.len() as u64;
+        let paths = samples * points.len() as u64;
         for first in (0..paths).step_by(WAVE as usize) {
             let numbers = first..(first + WAVE).min(paths);
             let starts = numbers.clone().map(|path| {
-                let (row, index) = ((path / self.samples) as usize, path % self.samples);
+                let (row, index) = ((path / samples) as usize, path % samples);
                 let (pixel, replicate) = (row / replicates, row % replicates);
                 self.start(pixels.start + pixel, replicate as u32, &points[row], index)
             });
             for (path, ended) in numbers.clone().zip(wave.trace(self.context, starts)) {
                 let ended = ended.end();
                 let light = ended.found.direct + ended.found.indirect;
-                let sums = &mut sums[(path / self.samples) as usize];
+                let sums = &mut sums[(path / samples) as usize];
                 for (c, channel) in sums.channels.iter_mut().enumerate().take(S::CHANNELS) {
                     channel.add(light.channel(c), self.quantum);
                 }
@@ -259,7 +213,7 @@ impl<S: Spectrum> Darkroom<'_, S> {
         for own in sums.chunks_exact(replicates) {
             of_replicates.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(*own));
         }
-        let pixels = sums.chunks_exact(replicates).map(|own| self.pixel(own)).collect();
+        let pixels = sums.chunks_exact(replicates).map(|own| self.pixel(own, samples)).collect();
         Strip { pixels, sums: of_replicates, work }
     }
 
@@ -287,17 +241,16 @@ impl<S: Spectrum> Darkroom<'_, S> {
     }
 
     /// What the replicates say together.
-    fn pixel(&self, own: &[PixelSums]) -> Pixel {
-        let n = self.samples as f64;
+    fn pixel(&self, own: &[PixelSums], samples: u64) -> Pixel {
+        let n = samples as f64;
         let means = own.iter().map(|sums| self.mean(sums, n));
         let share = 1.0 / own.len() as f64;
         let mean = means.clone().fold(S::black(), |sum, mean| sum + mean) * share;
         let is_dark = own.iter().all(PixelSums::is_zero);
         let was_looked_for = own.iter().any(|sums| sums.reflected > 0);
-        let t = t_quantile_for(own.len(), self.miss_probability);
         let interval = Interval::of_mean(
             means.map(Spectrum::luminance),
-            t.filter(|_| !(is_dark && was_looked_for)),
+            self.t.filter(|_| !(is_dark && was_looked_for)),
         );
         Pixel {
             rgb_cd_m2: std::array::from_fn(|c| mean.channel(c) as f32),

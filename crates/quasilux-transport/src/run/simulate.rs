@@ -8,7 +8,7 @@ use crate::estimator::{Estimator, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::run::check::{caveats, is_biased};
 use crate::run::course::Course;
-use crate::run::pixels::add_pictures;
+use crate::run::pictures::add_pictures;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;

@@ -37,8 +37,11 @@ pub struct Estimates {
     /// `1 - confidence`: less where the run may stop at a good look.
     pub miss_probability: f64,
     /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and
-    /// every picture got all its paths; never with fewer than 128 samples.
+    /// every picture what was wanted of it; never with fewer than 128 samples of sensors.
     pub tolerance_reached: bool,
+    /// The same of the sensors alone, once the pictures are taken.
+    #[serde(skip)]
+    pub sensors_reached: bool,
     /// How half-widths shrank so far, and what follows from that.
     pub convergence: Convergence,
     /// Sensor points where light may be that no path or photon has found: their value is what was

@@ -32,8 +32,26 @@ pub struct Progress {
     pub expected_samples: Option<u64>,
     /// Rays of the whole run up to there.
     pub expected_rays: Option<u64>,
-    /// Share in [0, 1] of the expected work that is done, `None` while nothing is known.
+    /// Share in [0, 1] of the expected work that is done, `None` while nothing is known; where a
+    /// picture is taken, of the work at it.
     pub done: Option<f64>,
+    /// The picture that is taken, once the sensors are done.
+    pub picture: Option<PictureProgress>,
+}
+
+/// How far a picture is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PictureProgress {
+    /// Number of the camera in the scene.
+    pub camera: usize,
+    /// Paths of each pixel in each replicate in the pass that is made.
+    pub samples: u64,
+    /// The same in the last complete pass; 0 before the first.
+    pub complete_samples: u64,
+    /// How well that one knows the picture ([`crate::CameraEstimates::relative_half_width`]).
+    pub relative_half_width: Option<f64>,
+    /// What is wanted of it; `None` where a number of paths is.
+    pub rel_tol: Option<f64>,
 }
 
 /// What the sensors show at a moment between two checkpoints: a look at the tallies as they are. It
@@ -72,7 +90,8 @@ pub trait Observer {
     /// Gets the snapshot that it wanted, where there is one.
     fn snapshot(&mut self, _snapshot: &Snapshot) {}
 
-    /// Called many times a second.
+    /// Called many times a second. While a picture is taken, [`Control::Stop`] ends that picture
+    /// with its last complete pass, and the next one begins.
     fn progress(&mut self, _progress: &Progress) -> Control {
         Control::Continue
     }

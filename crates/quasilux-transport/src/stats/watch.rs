@@ -2,7 +2,7 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::stats::estimates::Estimates;
-use crate::stats::observer::{Control, Observer, Progress, Snapshot};
+use crate::stats::observer::{Control, Observer, PictureProgress, Progress, Snapshot};
 use std::ops::Range;
 
 /// Tells the observer how far a run is, and remembers whether it said stop.
@@ -39,6 +39,7 @@ impl<'o> Watch<'o> {
             expected_samples: None,
             expected_rays: None,
             done: None,
+            picture: None,
         };
         let (piece, preface) = (observer.piece(), Vec::new());
         let (before, after) = (Vec::new(), Vec::new());
@@ -192,13 +193,21 @@ impl<'o> Watch<'o> {
         is_within_limit && (!self.stopped || self.piece.is_some())
     }
 
-    /// Counts the work at a picture, of whose pass a share is done. Whether to go on.
+    /// Counts work at a picture, a share of whose whole work is done. Whether to go on: no limit on
+    /// rays ends it before it has a first pass.
     #[must_use]
-    pub(crate) fn tick_picture(&mut self, paths: u64, rays: u64, share: f64) -> bool {
+    pub(crate) fn tick_picture(
+        &mut self,
+        paths: u64,
+        rays: u64,
+        at: PictureProgress,
+        done: f64,
+    ) -> bool {
         self.progress.paths = self.progress.paths.saturating_add(paths);
         self.progress.rays = self.progress.rays.saturating_add(rays);
-        self.progress.done = Some(share);
-        let may_go_on = self.progress.rays <= self.max_rays;
+        self.progress.done = Some(done.clamp(0.0, 1.0));
+        self.progress.picture = Some(at);
+        let may_go_on = self.progress.rays <= self.max_rays || at.complete_samples == 0;
         self.observer.progress(&self.progress) == Control::Continue && may_go_on
     }
 

@@ -22,6 +22,8 @@ pub(crate) fn camera(position: DVec3, target: DVec3) -> Camera {
         up: DVec3::Z,
         vertical_fov_rad: 0.9,
         resolution: [4, 3],
+        samples: None,
+        rel_tol: None,
     }
 }
 
@@ -158,26 +160,70 @@ fn a_picture_depends_on_nothing_else() {
     assert_eq!(taken(&scene, 2)[0], alone[0]);
 }
 
-/// Says stop whenever it is asked.
-struct Impatient;
+/// Says stop once a picture has a complete pass of so many paths.
+struct Impatient(u64);
 
 impl Observer for Impatient {
-    fn progress(&mut self, _progress: &Progress) -> Control {
-        Control::Stop
+    fn progress(&mut self, progress: &Progress) -> Control {
+        let complete = progress.picture.map(|picture| picture.complete_samples);
+        if complete >= Some(self.0) { Control::Stop } else { Control::Continue }
     }
 }
 
 #[test]
 fn a_stopped_picture_is_that_of_the_pass_before() {
     let (mut scene, settings) = lit_room(Rgb::grey(0.5));
-    scene.cameras.push(camera(DVec3::new(2.5, 1.3, 1.2), DVec3::new(4.0, 1.5, 1.3)));
-    let stopped = simulate(&scene, &settings, &mut Impatient);
-    let once = simulate(&scene, &Settings { max_samples: Some(1), ..settings.clone() }, &mut ());
-    assert_eq!(stopped.cameras, once.cameras);
-    assert_eq!((stopped.tolerance_reached, once.tolerance_reached), (false, true));
-    assert_eq!(stopped.warnings.len(), 1, "{:?}", stopped.warnings);
-    let unlimited = simulate(&scene, &Settings { max_samples: None, ..settings }, &mut ());
-    assert_eq!(unlimited.cameras[0].samples, 16);
+    let mut eye = camera(DVec3::new(2.5, 1.3, 1.2), DVec3::new(4.0, 1.5, 1.3));
+    // More than are traced between two words to the observer.
+    eye.resolution = [100, 90];
+    scene.cameras.push(eye);
+    let limited = |most| Settings { max_samples: Some(most), ..settings.clone() };
+    for (complete, passes) in [(1, 1), (16, 16)] {
+        let stopped = simulate(&scene, &settings, &mut Impatient(complete));
+        let once = simulate(&scene, &limited(passes), &mut ());
+        assert_eq!(stopped.cameras[0].pixels, once.cameras[0].pixels);
+        assert_eq!(stopped.cameras[0].samples, passes);
+        assert_eq!((stopped.tolerance_reached, once.tolerance_reached), (false, true));
+        assert_eq!(stopped.warnings.len(), 1, "{:?}", stopped.warnings);
+    }
+}
+
+/// Whoever stops a run before the first pass over a picture gets none, and is told.
+#[test]
+fn a_picture_may_not_have_begun() {
+    let (mut scene, settings) = lit_room(Rgb::grey(0.5));
+    let mut eye = camera(DVec3::new(2.5, 1.3, 1.2), DVec3::new(4.0, 1.5, 1.3));
+    eye.resolution = [200, 190];
+    scene.cameras = vec![eye.clone(), Camera { name: "other".to_owned(), ..eye }];
+    let estimates = simulate(&scene, &settings, &mut Impatient(0));
+    assert!(estimates.cameras.iter().all(|c| c.pixels.is_empty() && c.samples == 0));
+    assert_eq!(estimates.warnings.len(), 2, "{:?}", estimates.warnings);
+    assert!(estimates.warnings[1].contains("camera \"other\" has no picture"));
+    assert!(!estimates.tolerance_reached && estimates.sensors_reached);
+}
+
+/// A camera's own number of paths counts for it alone; its tolerance ends a picture before that.
+#[test]
+fn cameras_say_what_their_pictures_need() {
+    let (mut scene, settings) = lit_room(Rgb::grey(0.5));
+    let own = |samples, rel_tol| Camera {
+        samples,
+        rel_tol,
+        ..camera(DVec3::new(2.5, 1.3, 1.2), DVec3::new(4.0, 1.5, 1.3))
+    };
+    scene.cameras =
+        vec![own(None, None), own(Some(7), None), own(None, Some(0.03)), own(Some(8), Some(1e-9))];
+    let settings = Settings { max_samples: Some(3), max_bounces: None, ..settings };
+    let taken = simulate(&scene, &settings, &mut ()).cameras;
+    assert_eq!([0, 1, 3].map(|camera| taken[camera].samples), [3, 7, 8]);
+    assert_eq!(taken.iter().map(|c| c.is_done).collect::<Vec<_>>(), [true, true, true, false]);
+    let found = taken[2].relative_half_width().expect("a half-width");
+    assert!(found <= 0.03 && found > 0.003, "{found}");
+    // Without a word of anybody a picture ends by itself.
+    scene.cameras.truncate(1);
+    let alone = simulate(&scene, &Settings { max_samples: None, ..settings }, &mut ()).cameras;
+    assert!(alone[0].is_done && alone[0].rel_tol == Some(0.02));
+    assert!(alone[0].relative_half_width().expect("a half-width") <= 0.02);
 }
 
 /// Black, and nothing is known of it: light was looked for and none found.
@@ -216,12 +262,10 @@ fn pictures_show_light_that_only_photons_find() {
     assert!((by_photons / by_images - 1.0).abs() < 0.01, "{by_photons}, {by_images}");
     let direct = mean(None, Some(1));
     assert!(by_images > 1.5 * direct, "{by_images}, {direct}");
-    // Stopped before the second pass, it has that light as well.
-    let settings = Settings { image_depth: Some(0), ..Settings::default() };
-    let stopped = simulate(&scene, &settings, &mut Impatient);
-    let once = simulate(&scene, &Settings { max_samples: Some(1), ..settings }, &mut ());
-    assert_eq!(stopped.cameras, once.cameras);
-    assert!(stopped.picture_mean(0).value > 1.3 * direct, "{stopped:?}");
+    // With a single path a pixel, it has that light as well.
+    let settings = Settings { image_depth: Some(0), max_samples: Some(1), ..Settings::default() };
+    let once = simulate(&scene, &settings, &mut ());
+    assert!(once.picture_mean(0).value > 1.3 * direct, "{once:?}");
 }
 
 #[test]

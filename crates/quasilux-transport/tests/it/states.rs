@@ -84,6 +84,8 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         up: DVec3::Z,
         vertical_fov_rad: 1.0,
         resolution: [4, 3],
+        samples: None,
+        rel_tol: None,
     });
     let mut with_points = coloured.clone();
     with_points.sensors.push(points("points", &[(DVec3::new(1.0, 2.0, 0.7), DVec3::Z)]));

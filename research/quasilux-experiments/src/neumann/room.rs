@@ -50,6 +50,8 @@ pub(super) fn seen(resolution: [u32; 2]) -> Scene {
         up: DVec3::Z,
         vertical_fov_rad: 62.0_f64.to_radians(),
         resolution,
+        samples: None,
+        rel_tol: None,
     });
     scene
 }
