@@ -167,8 +167,8 @@ fn cure_by_move(way: &Move, scene: &Scene) -> String {
     )
 }
 
-/// A triangle of a closed body around the lamp and around no sensor or camera; nothing where no lamp
-/// lights any of these, for then these may be what is in the wrong place.
+/// A triangle of a closed body around the lamp and around no sensor or camera; nothing where no
+/// lamp lights any of these, for then these may be what is in the wrong place.
 fn around_lamp_alone(
     survey: &Survey<'_>,
     solids: &mut Option<Vec<Solid>>,

@@ -36,7 +36,8 @@ use survey::Survey;
 /// All that is probably wrong with a scene, the most telling first: a wrong unit explains the lamps
 /// that it puts outside.
 ///
-/// `places` says where its things are described; `hierarchy` is over the triangles of the scene's mesh, in their order.
+/// `places` says where its things are described; `hierarchy` is over the triangles of the scene's
+/// mesh, in their order.
 ///
 /// # Panics
 /// If the hierarchy has another number of triangles than the scene.

@@ -1,8 +1,8 @@
 //! Walks of light from the lamps and from what asks for it, and whether they meet.
 //!
 //! A vertex is a place on a surface that light of a lamp comes to, or that a sensor or camera gets
-//! light from, over some diffuse reflections. Light of a lamp reaches a sensor where a vertex of one
-//! sees a vertex of the other. That it was found is certain; that it was not is an opinion, and
+//! light from, over some diffuse reflections. Light of a lamp reaches a sensor where a vertex of
+//! one sees a vertex of the other. That it was found is certain; that it was not is an opinion, and
 //! counts only beside other evidence.
 
 use crate::probe::{Probe, Surface, cosine_direction, square};

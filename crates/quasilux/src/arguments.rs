@@ -157,7 +157,11 @@ pub(crate) struct SimulationArguments {
     #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=u64::MAX))]
     pub(crate) rays: Option<u64>,
     /// How light is followed [default: the project's, or else auto]
-    #[arg(long, value_name = "NAME", value_parser = one_of(&EstimatorKind::ALL, EstimatorKind::name))]
+    #[arg(
+        long,
+        value_name = "NAME",
+        value_parser = one_of(&EstimatorKind::ALL, EstimatorKind::name)
+    )]
     pub(crate) estimator: Option<String>,
     /// Points that drive the simulation, hammersley only with --samples [default: the project's, or
     /// else sobol]

@@ -1,5 +1,5 @@
-//! How far a job of a known length is, and how long it will take: a bar, or lines where stderr is no
-//! terminal.
+//! How far a job of a known length is, and how long it will take: a bar, or lines where stderr is
+//! no terminal.
 
 #![allow(clippy::disallowed_methods, reason = "work is watched by the clock")]
 

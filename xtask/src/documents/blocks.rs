@@ -64,7 +64,8 @@ mod tests {
     use super::*;
 
     const TEXT: &str = "Kept as `a.toml`, not `b.toml`:\n\n```toml\n[scene]\n\nup = \"z\"\n```\n\
-        Run\n\n    quasilux run\n    quasilux man\n\nwhich says\n\n```\nyes\n```\n- a list\n    goes on\n";
+        Run\n\n    quasilux run\n    quasilux man\n\n\
+        which says\n\n```\nyes\n```\n- a list\n    goes on\n";
 
     #[test]
     fn fenced_and_indented_blocks_are_found() {

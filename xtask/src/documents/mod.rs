@@ -2,8 +2,8 @@
 //! project file in it is used by such a command, what commands are said to print is compared with
 //! what they print, and pictures are those that they make.
 //!
-//! A document has a scratch folder with the files of the repository that its commands name. Examples
-//! in Rust are tests of their crates.
+//! A document has a scratch folder with the files of the repository that its commands name.
+//! Examples in Rust are tests of their crates.
 
 mod blocks;
 mod commands;

@@ -4,8 +4,8 @@
 const VARIES: [&str; 2] = [" s on ", " s before it was resumed"];
 
 /// The first line of `shown` that does not come in `printed`, in this order, where every line is
-/// looked for behind the one before; numbers of seconds and threads may differ. A document may leave
-/// lines out.
+/// looked for behind the one before; numbers of seconds and threads may differ. A document may
+/// leave lines out.
 pub(super) fn first_missing<'a>(shown: &'a [String], printed: &str) -> Option<&'a str> {
     let mut printed = printed.lines().map(without_time);
     let is_missing = |line: &&String| !printed.any(|other| other == without_time(line));

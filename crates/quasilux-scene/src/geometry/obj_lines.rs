@@ -189,7 +189,8 @@ fn statements_of(text: &str) -> impl Iterator<Item = Statement<'_>> {
     })
 }
 
-/// A line without the mark that the next one goes on with its statement; `None` where there is none.
+/// A line without the mark that the next one goes on with its statement; `None` where there is
+/// none.
 fn continued(line: &str) -> Option<&str> {
     line.trim_end().strip_suffix('\\')
 }

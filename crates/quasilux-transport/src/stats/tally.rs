@@ -61,8 +61,8 @@ impl Quantum {
     }
 }
 
-/// A sum of contributions, and how many of them could not be added. There are many: packed they take
-/// 24 bytes and not 32.
+/// A sum of contributions, and how many of them could not be added. There are many: packed they
+/// take 24 bytes and not 32.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(Rust, packed(8))]
 pub(crate) struct Sum {

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 pub(crate) struct CheckArguments {
     /// The project file
     pub(crate) project: PathBuf,
-    /// Folder for the plan, plan.png and plan.svg [default: out/NAME, NAME being the project file's]
+    /// Folder for the plan, plan.png and plan.svg [default: out/NAME, NAME being the project
+    /// file's]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print a document in JSON, format "quasilux-check/1", and nothing else

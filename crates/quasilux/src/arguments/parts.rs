@@ -16,7 +16,11 @@ pub(crate) struct PlannedArguments {
     #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 48))]
     pub(crate) samples: Option<u64>,
     /// How light is followed [default: the project's, or else auto]
-    #[arg(long, value_name = "NAME", value_parser = one_of(&EstimatorKind::ALL, EstimatorKind::name))]
+    #[arg(
+        long,
+        value_name = "NAME",
+        value_parser = one_of(&EstimatorKind::ALL, EstimatorKind::name)
+    )]
     pub(crate) estimator: Option<String>,
     /// Points that drive the simulation [default: the project's, or else sobol]
     #[arg(long, value_name = "NAME", value_parser = one_of(&Sequence::all_for(1), Sequence::name))]

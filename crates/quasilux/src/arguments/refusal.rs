@@ -1,5 +1,5 @@
-//! Arguments that make no sense: told in one line like everything else that is wrong, what it is and
-//! what was expected, and the nearest name.
+//! Arguments that make no sense: told in one line like everything else that is wrong, what it is
+//! and what was expected, and the nearest name.
 
 use super::Arguments;
 use clap::Error;

@@ -16,6 +16,9 @@ use quasilux_transport::{Estimates, PreparedScene};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+/// Estimates, or that there are none yet.
+pub(crate) type Outcome = Result<Option<Estimates>, CliError>;
+
 /// A finished simulation.
 pub(crate) struct Finished {
     pub(crate) report: Report,
@@ -116,7 +119,7 @@ pub(crate) fn work(
     project: &Project,
     door: Door,
     mut watcher: Watcher<'_>,
-    job: impl FnOnce(&PreparedScene<'_>, &mut Watcher<'_>) -> Result<Option<Estimates>, CliError> + Send,
+    job: impl FnOnce(&PreparedScene<'_>, &mut Watcher<'_>) -> Outcome + Send,
 ) -> Result<Option<Finished>, CliError> {
     let forecast = watcher.forecast;
     let Forecast { scene, settings, threads, .. } = forecast;

@@ -2,10 +2,10 @@
 //! away from the viewer. Edges between triangles of one smooth face are left out.
 //!
 //! Corners at one place are one corner, whatever their indices. Of each triangle at an edge only
-//! the direction w counts in which it leaves the edge, a unit vector square to it, so that the order
-//! of corners does not matter: where each triangle at the edge has another one that leaves about the
-//! opposite way, the surface goes on. Seen along d, it turns there if both leave to the same side of
-//! the edge's line on the sheet.
+//! the direction w counts in which it leaves the edge, a unit vector square to it, so that the
+//! order of corners does not matter: where each triangle at the edge has another one that leaves
+//! about the opposite way, the surface goes on. Seen along d, it turns there if both leave to the
+//! same side of the edge's line on the sheet.
 
 use super::model::Surfaces;
 use glam::DVec3;
@@ -38,8 +38,8 @@ struct Side {
     opposite: u32,
 }
 
-/// The edges that are seen along at most eight unit directions, in a fixed order. Edges shorter than
-/// `least_m` are left out.
+/// The edges that are seen along at most eight unit directions, in a fixed order. Edges shorter
+/// than `least_m` are left out.
 pub(crate) fn edges(surfaces: Surfaces<'_>, directions: &[DVec3], least_m: f64) -> Vec<Edge> {
     let corner_of = welded(surfaces.positions_m);
     let place = |corner: u32| surfaces.positions_m[corner as usize];

@@ -1,5 +1,5 @@
-//! Where the views lie on the sheet, and at which scale: the plan, the front elevation below it, the
-//! side elevation beside that (third-angle projection), and one scale for all.
+//! Where the views lie on the sheet, and at which scale: the plan, the front elevation below it,
+//! the side elevation beside that (third-angle projection), and one scale for all.
 
 use super::bounds::Bounds;
 use super::projection::Projection;
