@@ -32,16 +32,16 @@ const MAX_LOOP: usize = 4096;
 const MAX_LISTED: usize = 3;
 
 /// A ray that meets nothing.
-struct Leaving {
+struct EscapingRay {
     from: DVec3,
     direction: DVec3,
 }
 
 /// What rays from lit places meet.
 #[derive(Default)]
-struct Outlook {
+struct Surroundings {
     rays: usize,
-    leaving: Vec<Leaving>,
+    leaving: Vec<EscapingRay>,
     /// Rays to each of six sides: all, and those that meet something.
     sides: [Side; 6],
 }
@@ -59,13 +59,13 @@ struct Hole {
 }
 
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
-    let outlook = outlook(survey);
-    let leaving = outlook.leaving.len() as f64 / outlook.rays.max(1) as f64;
-    if leaving < MIN_LEAVING || !outlook.is_room() || is_looked_through(survey) {
+    let surroundings = surroundings(survey);
+    let leaving = surroundings.leaving.len() as f64 / surroundings.rays.max(1) as f64;
+    if leaving < MIN_LEAVING || !surroundings.is_room() || is_looked_through(survey) {
         return;
     }
     let mesh = &survey.probe.scene.mesh;
-    let holes = holes(mesh, &outlook.leaving);
+    let holes = holes(mesh, &surroundings.leaving);
     let share = format!("{:.2} % of directions from lit places lead out", 100.0 * leaving);
     let cure = "expected a closed room: the light that leaves is lost. Add the missing surface, or \
                 a dark one";
@@ -81,7 +81,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         findings.add(Check::Hole, place, message, cure).at(hole.centre());
     }
     if holes.is_empty() {
-        let at = exit(survey, &outlook.leaving[0]);
+        let at = exit(survey, &surroundings.leaving[0]);
         let message = format!(
             "the geometry has gaps between its surfaces, near {}: {share}",
             names::position(at)
@@ -91,7 +91,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
 }
 
 /// Rays from places that get light.
-fn outlook(survey: &Survey<'_>) -> Outlook {
+fn surroundings(survey: &Survey<'_>) -> Surroundings {
     let lit = survey.asked.iter().zip(&survey.asked_vertices);
     let stride = survey.asked.len().div_ceil(PLACES).max(1);
     let sensors = lit.step_by(stride).filter(|(_, vertices)| survey.is_lit(vertices));
@@ -99,19 +99,19 @@ fn outlook(survey: &Survey<'_>) -> Outlook {
     let sensors = sensors.map(|(asked, _)| asked.point.position + asked.point.normal * hair_m);
     let of_cameras = survey.camera_vertices.iter().flatten();
     let cameras = of_cameras.step_by(8).take(PLACES).map(|vertex| vertex.position);
-    let mut outlook = Outlook::default();
+    let mut surroundings = Surroundings::default();
     for from in sensors.chain(cameras) {
-        outlook.look_around(survey, from);
+        surroundings.look_around(survey, from);
         for i in 0..DIRECTIONS {
             let direction = sphere_direction(i, DIRECTIONS);
             let met = survey.probe.meets(from, direction);
-            outlook.rays += 1;
+            surroundings.rays += 1;
             if !met {
-                outlook.leaving.push(Leaving { from, direction });
+                surroundings.leaving.push(EscapingRay { from, direction });
             }
         }
     }
-    outlook
+    surroundings
 }
 
 /// Directions to one of six sides: +x, -x, +y, -y, up, down.
@@ -126,7 +126,7 @@ fn toward(side: usize) -> Vec<DVec3> {
     tangents.map(|at| direction(at).normalize()).collect()
 }
 
-impl Outlook {
+impl Surroundings {
     /// Looks to all sides.
     fn look_around(&mut self, survey: &Survey<'_>, from: DVec3) {
         for (number, side) in self.sides.iter_mut().enumerate() {
@@ -157,7 +157,7 @@ fn is_looked_through(survey: &Survey<'_>) -> bool {
 }
 
 /// Where a ray leaves the box around the geometry.
-fn exit(survey: &Survey<'_>, ray: &Leaving) -> DVec3 {
+fn exit(survey: &Survey<'_>, ray: &EscapingRay) -> DVec3 {
     let [low, high] = survey.probe.scene.mesh.bounds().unwrap_or_default();
     let end_m = (0..3)
         .map(|axis| {
@@ -170,7 +170,7 @@ fn exit(survey: &Survey<'_>, ray: &Leaving) -> DVec3 {
 }
 
 /// Loops of border edges that leaving rays go through, those of most rays first.
-fn holes(mesh: &Mesh, leaving: &[Leaving]) -> Vec<Hole> {
+fn holes(mesh: &Mesh, leaving: &[EscapingRay]) -> Vec<Hole> {
     let mut holes: Vec<Hole> = loops(&border(mesh))
         .into_iter()
         .map(|corners| {
@@ -257,7 +257,7 @@ impl Hole {
     }
 
     /// Whether a ray goes through the loop, which is taken as flat.
-    fn is_pierced(&self, ray: &Leaving) -> bool {
+    fn is_pierced(&self, ray: &EscapingRay) -> bool {
         let Some(normal) = self.area_vector().try_normalize() else { return false };
         let distance_m = (self.centre() - ray.from).dot(normal) / ray.direction.dot(normal);
         if !(distance_m.is_finite() && distance_m > 0.0) {
@@ -297,7 +297,7 @@ mod tests {
         }
         let found = loops(&border(&mesh));
         assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4]);
-        let ray = |x: f64| Leaving { from: DVec3::new(x, 0.1, -1.0), direction: DVec3::Z };
+        let ray = |x: f64| EscapingRay { from: DVec3::new(x, 0.1, -1.0), direction: DVec3::Z };
         let holes = holes(&mesh, &[ray(0.2), ray(0.3), ray(5.0)]);
         assert_eq!(holes.len(), 2);
         assert!(holes.iter().all(|hole| hole.pierced == 2));

@@ -12,9 +12,9 @@ const APART_M: f64 = 1e-3;
 const MAX_LISTED: usize = 20;
 
 pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
-    let mut lamps: Vec<Placed> = Vec::new();
+    let mut lamps: Vec<Lamp> = Vec::new();
     for (index, light) in scene.lights.iter().enumerate() {
-        lamps.extend(position_of(light).map(|position| Placed { index, position }));
+        lamps.extend(position_of(light).map(|position| Lamp { index, position }));
     }
     lamps.sort_by(|a, b| a.position.x.total_cmp(&b.position.x).then(a.index.cmp(&b.index)));
     let mut pairs: Vec<[usize; 2]> = Vec::new();
@@ -43,7 +43,7 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     }
 }
 
-struct Placed {
+struct Lamp {
     index: usize,
     position: DVec3,
 }

@@ -57,7 +57,7 @@ pub(crate) struct CheckpointWriter {
 
 /// What a run is kept with.
 #[derive(Clone, Copy)]
-pub(crate) struct Kept<'a> {
+pub(crate) struct RunPaths<'a> {
     /// The project file.
     pub(crate) file: &'a Path,
     /// Folder for the results.
@@ -91,15 +91,23 @@ impl Heading {
 
 impl CheckpointWriter {
     /// Of a run from the start: refuses to take the place of one that is not over.
-    pub(crate) fn fresh(path: &Path, project: &Project, kept: Kept<'_>) -> Result<Self, CliError> {
+    pub(crate) fn fresh(
+        path: &Path,
+        project: &Project,
+        kept: RunPaths<'_>,
+    ) -> Result<Self, CliError> {
         let writer = Self::new(path, project, kept)?;
         expect_nothing_to_lose(path, project)?;
         Ok(writer)
     }
 
     /// Makes sure that it can be.
-    pub(crate) fn new(path: &Path, project: &Project, kept: Kept<'_>) -> Result<Self, CliError> {
-        let Kept { file, out, settings } = kept;
+    pub(crate) fn new(
+        path: &Path,
+        project: &Project,
+        kept: RunPaths<'_>,
+    ) -> Result<Self, CliError> {
+        let RunPaths { file, out, settings } = kept;
         results::prepare_file(path, &[file])?;
         results::expect_text(file)?;
         results::expect_text(out)?;

@@ -5,14 +5,14 @@ use std::path::Path;
 /// Where nobody tells how much memory there is.
 const UNKNOWN_BYTES: u64 = 16 << 30;
 /// Least that a bound leaves: small runs are never refused for what others take at the moment.
-const LEAST_BYTES: u64 = 256 << 20;
+const MIN_BYTES: u64 = 256 << 20;
 
 /// Memory in bytes that the program can take before the machine has none: the least of what the
 /// system has available, what control groups leave, and what a limit of the process allows; 16 GiB
 /// where none of these can be read.
 pub(crate) fn available_bytes() -> u64 {
     let told = [of_system(), of_groups(), of_process()].into_iter().flatten().min();
-    told.unwrap_or(UNKNOWN_BYTES).max(LEAST_BYTES)
+    told.unwrap_or(UNKNOWN_BYTES).max(MIN_BYTES)
 }
 
 /// As the kernel of Linux estimates it: free, or given back when it is asked for.
@@ -79,6 +79,6 @@ mod tests {
 
     #[test]
     fn a_machine_has_memory() {
-        assert!(available_bytes() >= LEAST_BYTES);
+        assert!(available_bytes() >= MIN_BYTES);
     }
 }

@@ -50,7 +50,7 @@ pub(super) enum Line {
 }
 
 impl Line {
-    pub(super) fn of(line: &str, document: &str) -> Self {
+    pub(super) fn new(line: &str, document: &str) -> Self {
         let is_left_out = |left_out: &LeftOut| {
             line.starts_with(left_out.begins) && document.starts_with(left_out.documents)
         };
@@ -124,11 +124,11 @@ mod tests {
     #[test]
     fn lines_are_run_left_out_or_unknown() {
         let words = |text: &str| Line::Run(text.split(' ').map(str::to_owned).collect());
-        let readme = |line| Line::of(line, "README.md");
+        let readme = |line| Line::new(line, "README.md");
         assert_eq!(readme("cargo run --release -- run a.toml  # here"), words("run a.toml"));
         assert_eq!(readme("quasilux merge parts/*.part"), words("merge parts/*.part"));
         let run = "cargo run --release -- run examples/cube/cube.toml";
-        assert_eq!(Line::of(run, "examples/cube/README.md"), Line::LeftOut);
+        assert_eq!(Line::new(run, "examples/cube/README.md"), Line::LeftOut);
         assert_eq!(readme(run), words("run examples/cube/cube.toml"));
         assert_eq!(readme("cargo xtask test"), Line::LeftOut);
         assert_eq!(readme("make"), Line::Unknown);

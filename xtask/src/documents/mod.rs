@@ -132,7 +132,7 @@ impl Document {
             }
             _ => self.scratch.clone(),
         };
-        match Line::of(line, &self.name) {
+        match Line::new(line, &self.name) {
             Line::Run(arguments) => commands::output(program, &folder, &arguments).map(Some),
             Line::LeftOut => Ok(None),
             Line::Unknown => Err(format!("nobody knows the command `{line}`")),
@@ -168,7 +168,7 @@ impl Document {
     fn expect_use(&self, block: &Block, place: &str) -> Result<(), Failure> {
         let name = project_name(block, place)?;
         let lines = self.blocks.iter().filter(|b| b.language.is_none()).flat_map(|b| &b.lines);
-        let is_use = |line: &String| match Line::of(line, &self.name) {
+        let is_use = |line: &String| match Line::new(line, &self.name) {
             Line::Run(arguments) => arguments.starts_with(&["run".to_owned(), name.to_owned()]),
             _ => false,
         };
@@ -223,7 +223,7 @@ mod tests {
                 match block.language.as_deref() {
                     None => {
                         for line in &block.lines {
-                            let line = Line::of(line, &document.name);
+                            let line = Line::new(line, &document.name);
                             assert_ne!(line, Line::Unknown, "{place}");
                             commands += usize::from(line != Line::LeftOut);
                         }

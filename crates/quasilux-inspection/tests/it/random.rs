@@ -17,14 +17,14 @@ impl Dice {
     }
 }
 
-struct Random {
+struct RandomRoom {
     case: Case,
     lamps: usize,
     height_m: f64,
 }
 
 /// A room of any usual size with boxes in it and a row of lamps below the ceiling.
-fn room(seed: u64) -> Random {
+fn room(seed: u64) -> RandomRoom {
     let mut dice = Dice(seed);
     let size = DVec3::new(dice.within(2.5, 20.0), dice.within(2.5, 12.0), dice.within(2.3, 6.0));
     let origin = DVec3::new(dice.within(-5.0, 5.0), dice.within(-5.0, 5.0), 0.0);
@@ -58,7 +58,7 @@ fn room(seed: u64) -> Random {
         at.x, at.y, at.z
     );
     case.project = project;
-    Random { case, lamps, height_m: size.z }
+    RandomRoom { case, lamps, height_m: size.z }
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn random_rooms_are_right() {
 #[test]
 fn a_lamp_above_the_ceiling_is_told_in_any_room() {
     for seed in 0..60 {
-        let Random { mut case, lamps, height_m } = room(seed);
+        let RandomRoom { mut case, lamps, height_m } = room(seed);
         if lamps == 1 {
             // Without a light in the room the project is refused.
             continue;

@@ -50,7 +50,7 @@ pub(super) fn read(
     let mut material_of: HashMap<Option<usize>, u32> = HashMap::new();
     for PlacedNode { node, world_from_node } in nodes(&document).map_err(error)? {
         let Some(mesh) = node.mesh() else { continue };
-        let name = names.of(&node, &mesh);
+        let name = names.name_of(&node, &mesh);
         let object = builder.object(&name);
         for primitive in mesh.primitives() {
             let material = primitive.material();
@@ -176,7 +176,7 @@ struct Names {
 
 impl Names {
     /// That of a node, or else of its mesh, or else its number.
-    fn of(&mut self, node: &Node<'_>, mesh: &Mesh<'_>) -> Arc<str> {
+    fn name_of(&mut self, node: &Node<'_>, mesh: &Mesh<'_>) -> Arc<str> {
         match (node.name(), mesh.name()) {
             (Some(name), _) => name.into(),
             (None, Some(name)) => {

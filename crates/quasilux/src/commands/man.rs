@@ -24,9 +24,9 @@ pub(crate) fn man(arguments: &ManArguments) -> Result<Exit, CliError> {
         }
         (None, Some(name)) => {
             let command = program.find_subcommand(name).ok_or_else(|| unknown(name))?;
-            to_stdout(|out| out.write_all(&Page::of(command).roff))?;
+            to_stdout(|out| out.write_all(&Page::new(command).roff))?;
         }
-        (None, None) => to_stdout(|out| out.write_all(&Page::of(&program).roff))?,
+        (None, None) => to_stdout(|out| out.write_all(&Page::new(&program).roff))?,
     }
     Ok(Exit::Done)
 }
@@ -38,7 +38,7 @@ struct Page {
 }
 
 impl Page {
-    fn of(command: &clap::Command) -> Self {
+    fn new(command: &clap::Command) -> Self {
         let man = Man::new(command.clone().disable_help_subcommand(true));
         let mut roff = Vec::new();
         man.render(&mut roff).expect("bytes take everything");

@@ -2,7 +2,7 @@
 
 use super::run::{Folder, count, work};
 use crate::arguments::ResumeArguments;
-use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Kept, Latest};
+use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest, RunPaths};
 use crate::door::Door;
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
@@ -38,7 +38,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
         )));
     }
     let folder = Folder::prepare(&arguments.output, heading.folder().to_owned(), &project)?;
-    let kept = Kept { file: &file, out: folder.path(), settings: &settings };
+    let kept = RunPaths { file: &file, out: folder.path(), settings: &settings };
     let writer =
         CheckpointWriter::new(&arguments.checkpoint, &project, kept)?.going_on(warning.is_some());
     let threads = count(arguments.work.threads);

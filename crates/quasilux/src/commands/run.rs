@@ -2,7 +2,7 @@
 
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
 use crate::build::{BUILD, VERSION};
-use crate::checkpoint::{CheckpointWriter, Kept};
+use crate::checkpoint::{CheckpointWriter, RunPaths};
 use crate::door::{Admitted, Door};
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, CliError> {
     let forecast = Forecast::new(scene, &settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, arguments.output.quiet);
     if let Some(path) = &arguments.keeping.checkpoint {
-        let kept = Kept { file: &arguments.project, out: folder.path(), settings: &settings };
+        let kept = RunPaths { file: &arguments.project, out: folder.path(), settings: &settings };
         let writer = CheckpointWriter::fresh(path, &project, kept)?;
         watcher = watcher.checkpoints(writer, arguments.keeping.checkpoint_every);
     }

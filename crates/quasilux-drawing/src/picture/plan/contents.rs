@@ -11,7 +11,7 @@ use glam::DVec3;
 /// Things further from the geometry than this many times its longest edge do not enlarge the view.
 const NEAR: f64 = 1.2;
 /// Edges shorter than this are not looked at.
-const LEAST_PX: f64 = 0.5;
+const MIN_PX: f64 = 0.5;
 /// Sensors lie between these shares of the height where walls are cut at their height.
 const CUT_SHARES: [f64; 2] = [0.03, 0.97];
 /// Where there are no such sensors: above the floor by this, or by a share of a low room.
@@ -36,7 +36,7 @@ impl<'a> Contents<'a> {
             .unwrap_or(Bounds { low: DVec3::ZERO, high: DVec3::ONE });
         let layout = Layout::new(&geometry.with_near(things(), NEAR), top_px);
         let toward = layout.views.map(|view| view.projection.toward());
-        let least_m = LEAST_PX / layout.views[0].projection.px_per_m;
+        let least_m = MIN_PX / layout.views[0].projection.px_per_m;
         let edges = edges(picture.surfaces, &toward, least_m);
         Self { picture, geometry, layout, cut_m: cut_height_m(picture, &geometry), edges }
     }

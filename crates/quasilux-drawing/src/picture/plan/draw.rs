@@ -16,11 +16,11 @@ use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// Most lines of a kind in one view.
-const MOST_LINES: usize = 12_000;
+const MAX_LINES: usize = 12_000;
 /// Most symbols of a kind in one view.
-const MOST_SYMBOLS: usize = 2000;
+const MAX_SYMBOLS: usize = 2000;
 /// Most texts of a kind in one view.
-const MOST_TEXTS: usize = 300;
+const MAX_TEXTS: usize = 300;
 /// Sensor points shown along each edge of a grid.
 const SAMPLE: u32 = 11;
 /// A balloon's radius.
@@ -78,22 +78,22 @@ impl Painter<'_> {
             0 => plane.part_below(edge.ends_m),
             _ => Some(edge.ends_m),
         });
-        drawing.lines(&thinned(seen.map(on_sheet), frame, MOST_LINES), ink::EDGE);
+        drawing.lines(&thinned(seen.map(on_sheet), frame, MAX_LINES), ink::EDGE);
         let cut = surfaces.cut(plane).map(on_sheet);
-        drawing.lines(&thinned(cut, frame, MOST_LINES), ink::CUT);
+        drawing.lines(&thinned(cut, frame, MAX_LINES), ink::CUT);
         let sides = outlines
             .iter()
             .flat_map(|ring| (0..ring.len()).map(move |k| [ring[k], ring[(k + 1) % ring.len()]]));
         let on_edge = glowing().filter(|[a, b, c]| (*b - *a).perp_dot(*c - *a).abs() < 1.0);
         let on_edge = on_edge.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-        drawing.lines(&thinned(sides.chain(on_edge), frame, MOST_LINES), ink::GLOW_LINE);
+        drawing.lines(&thinned(sides.chain(on_edge), frame, MAX_LINES), ink::GLOW_LINE);
         self.glow_directions(drawing);
     }
 
     /// An arrow along the mean normal of each luminous surface, from its middle.
     fn glow_directions(&self, drawing: &mut Drawing) {
         let surfaces = self.contents.picture.surfaces;
-        for light in self.contents.picture.area_lights.iter().take(MOST_TEXTS) {
+        for light in self.contents.picture.area_lights.iter().take(MAX_TEXTS) {
             let corners = || light.triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
             let (mut area, mut total, mut middle) = (DVec3::ZERO, 0.0, DVec3::ZERO);
             for [a, b, c] in corners() {
@@ -112,7 +112,7 @@ impl Painter<'_> {
 
     fn grids(&mut self, drawing: &mut Drawing) {
         let projection = self.view.projection;
-        for grid in self.contents.picture.grids.iter().take(MOST_TEXTS) {
+        for grid in self.contents.picture.grids.iter().take(MAX_TEXTS) {
             let corners = symbols::corners_of(grid).map(|corner| projection.place(corner));
             let closed: Vec<[f64; 2]> =
                 corners.iter().chain(corners.first()).map(|p| p.to_array()).collect();
@@ -133,8 +133,8 @@ impl Painter<'_> {
 
     fn points(&mut self, drawing: &mut Drawing) {
         let projection = self.view.projection;
-        for named in self.contents.picture.points.iter().take(MOST_TEXTS) {
-            let step = named.points.len().div_ceil(MOST_SYMBOLS / 5).max(1);
+        for named in self.contents.picture.points.iter().take(MAX_TEXTS) {
+            let step = named.points.len().div_ceil(MAX_SYMBOLS / 5).max(1);
             for point in named.points.iter().step_by(step) {
                 let pin = self.view.pin(point.position_m);
                 drawing.disk(pin.place_px.to_array(), 2.6, ink::SENSOR);
@@ -147,7 +147,7 @@ impl Painter<'_> {
     }
 
     fn cameras(&mut self, drawing: &mut Drawing) {
-        for camera in self.contents.picture.cameras.iter().take(MOST_TEXTS) {
+        for camera in self.contents.picture.cameras.iter().take(MAX_TEXTS) {
             let pin = self.view.pin(camera.position_m);
             let place = pin.place_px;
             symbols::camera(drawing, place, camera, &self.view.projection);
@@ -161,7 +161,7 @@ impl Painter<'_> {
         // Wrong ones on top.
         for is_fault in [false, true] {
             let ink = if is_fault { Ink::FAULT } else { Ink::LAMP };
-            for luminaire in picture.luminaires.iter().take(MOST_SYMBOLS) {
+            for luminaire in picture.luminaires.iter().take(MAX_SYMBOLS) {
                 if self.outside(luminaire.position_m).is_some() != is_fault {
                     continue;
                 }
@@ -172,7 +172,7 @@ impl Painter<'_> {
                 self.labels.take(Box::around(pin.place_px, reach));
             }
         }
-        for &position_m in picture.point_lights_m.iter().take(MOST_SYMBOLS) {
+        for &position_m in picture.point_lights_m.iter().take(MAX_SYMBOLS) {
             let ink = if self.outside(position_m).is_some() { Ink::FAULT } else { Ink::LAMP };
             let pin = self.view.pin(position_m);
             symbols::star(drawing, pin.place_px, ink);
@@ -195,7 +195,7 @@ impl Painter<'_> {
 
     fn marks(&mut self, drawing: &mut Drawing) {
         let marks = self.contents.picture.marks;
-        for mark in marks.iter().take(MOST_SYMBOLS) {
+        for mark in marks.iter().take(MAX_SYMBOLS) {
             let place = self.view.pin(mark.position_m).place_px;
             let ring: Vec<[f64; 2]> = (0..=16)
                 .map(|k| {
@@ -206,7 +206,7 @@ impl Painter<'_> {
             drawing.line(&ring, ink::FAULT_LINE);
             self.labels.take(Box::around(place, DVec2::splat(5.0)));
         }
-        for mark in marks.iter().take(MOST_TEXTS) {
+        for mark in marks.iter().take(MAX_TEXTS) {
             let place = self.view.pin(mark.position_m).place_px;
             let text = mark.number.to_string();
             let size =
@@ -222,7 +222,7 @@ impl Painter<'_> {
     fn light_texts(&mut self, drawing: &mut Drawing) {
         let mut groups = self.groups();
         groups.sort_by_key(|group| group.outside.is_none());
-        for group in groups.into_iter().take(MOST_TEXTS) {
+        for group in groups.into_iter().take(MAX_TEXTS) {
             let numbers = ranges(&group.numbers);
             let (text, colour) = match (&group.outside, &group.beyond) {
                 (Some(_), Some(beyond)) => (format!("{numbers}: {beyond} away"), ink::FAULT),
@@ -234,7 +234,7 @@ impl Painter<'_> {
             };
             self.text(drawing, group.centre, group.reach, &text, colour);
         }
-        let lights = self.contents.picture.point_lights_m.iter().take(MOST_TEXTS);
+        let lights = self.contents.picture.point_lights_m.iter().take(MAX_TEXTS);
         for (number, &position_m) in lights.enumerate() {
             let pin = self.view.pin(position_m);
             let away = pin.beyond.map_or(String::new(), |beyond| format!(": {} away", beyond.text));
@@ -273,11 +273,11 @@ impl Painter<'_> {
 
     fn sensor_texts(&mut self, drawing: &mut Drawing) {
         let picture = self.contents.picture;
-        for camera in picture.cameras.iter().take(MOST_TEXTS) {
+        for camera in picture.cameras.iter().take(MAX_TEXTS) {
             let pin = self.view.pin(camera.position_m);
             self.name(drawing, camera.name, &pin, ink::CAMERA);
         }
-        for grid in picture.grids.iter().take(MOST_TEXTS) {
+        for grid in picture.grids.iter().take(MAX_TEXTS) {
             let corners = symbols::corners_of(grid);
             let places = corners.map(|corner| self.view.projection.place(corner));
             let inside = |p: &&DVec2| self.view.holds(**p);
@@ -295,7 +295,7 @@ impl Painter<'_> {
                 }
             }
         }
-        for named in picture.points.iter().take(MOST_TEXTS) {
+        for named in picture.points.iter().take(MAX_TEXTS) {
             if let Some(first) = named.points.first() {
                 let pin = self.view.pin(first.position_m);
                 self.name(drawing, named.name, &pin, ink::SENSOR);

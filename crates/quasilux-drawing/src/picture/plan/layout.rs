@@ -14,7 +14,7 @@ const GAP_PX: DVec2 = DVec2::new(64.0, 76.0);
 /// What all views have together for the geometry, from left to right and from top to bottom.
 const ROOM_PX: DVec2 = DVec2::new(900.0, 800.0);
 /// A view is at least this long and wide, also where there is nothing to be seen.
-const LEAST_PX: f64 = 150.0;
+const MIN_PX: f64 = 150.0;
 
 /// The views, and the rest of the rectangle around them.
 pub(crate) struct Layout {
@@ -33,7 +33,7 @@ impl Layout {
     pub(crate) fn new(bounds: &Bounds, top_px: f64) -> Self {
         let size_m = bounds.size_m().max(DVec3::splat(1e-9));
         let px_per_m = (ROOM_PX.x / (size_m.x + size_m.y)).min(ROOM_PX.y / (size_m.y + size_m.z));
-        let length = |size_m: f64| (size_m * px_per_m + 2.0 * MARGIN_PX).max(LEAST_PX).ceil();
+        let length = |size_m: f64| (size_m * px_per_m + 2.0 * MARGIN_PX).max(MIN_PX).ceil();
         let [x, y, z] = size_m.to_array().map(length);
         let right = LEFT_PX + x + GAP_PX.x;
         let below = top_px + y + GAP_PX.y;

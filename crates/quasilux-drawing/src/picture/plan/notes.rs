@@ -17,14 +17,14 @@ const LINE_PX: f64 = 22.0;
 /// Clear space above a heading.
 const ABOVE_PX: f64 = 12.0;
 /// Lines of one table.
-const MOST_LINES: usize = 24;
+const MAX_LINES: usize = 24;
 /// Where columns begin.
 const COLUMNS_PX: [f64; 6] = [0.0, 110.0, 330.0, 430.0, 640.0, 810.0];
 /// Room between columns.
 const BETWEEN_PX: f64 = 12.0;
 
 /// One line.
-struct Note {
+struct Remark {
     cells: Vec<String>,
     colour: Colour,
     is_heading: bool,
@@ -34,7 +34,7 @@ struct Note {
 
 /// The lines below the views.
 pub(crate) struct Notes {
-    notes: Vec<Note>,
+    notes: Vec<Remark>,
 }
 
 impl Notes {
@@ -50,7 +50,7 @@ impl Notes {
     }
 
     pub(crate) fn height_px(&self) -> f64 {
-        self.notes.iter().map(Note::height_px).sum()
+        self.notes.iter().map(Remark::height_px).sum()
     }
 
     pub(crate) fn draw(&self, drawing: &mut Drawing, corner: DVec2, width_px: f64) {
@@ -61,16 +61,16 @@ impl Notes {
         }
     }
 
-    fn table(&mut self, heading: &[&str], rows: Vec<Note>) {
+    fn table(&mut self, heading: &[&str], rows: Vec<Remark>) {
         if rows.is_empty() {
             return;
         }
         let cells = heading.iter().map(|&cell| cell.to_owned()).collect();
-        self.notes.push(Note { cells, colour: GREY, is_heading: true, balloon: None });
-        let rest = rows.len().saturating_sub(MOST_LINES);
-        self.notes.extend(rows.into_iter().take(MOST_LINES));
+        self.notes.push(Remark { cells, colour: GREY, is_heading: true, balloon: None });
+        let rest = rows.len().saturating_sub(MAX_LINES);
+        self.notes.extend(rows.into_iter().take(MAX_LINES));
         if rest > 0 {
-            self.notes.push(Note::plain(vec![format!("and {rest} more")]));
+            self.notes.push(Remark::plain(vec![format!("and {rest} more")]));
         }
     }
 
@@ -79,10 +79,10 @@ impl Notes {
         for mark in contents.picture.marks {
             texts.entry(mark.number).or_insert(&mark.text);
         }
-        let rest = texts.len().saturating_sub(MOST_LINES);
-        for (number, text) in texts.into_iter().take(MOST_LINES) {
+        let rest = texts.len().saturating_sub(MAX_LINES);
+        for (number, text) in texts.into_iter().take(MAX_LINES) {
             for (line, text) in wrapped(text, width_px - 32.0).into_iter().enumerate() {
-                self.notes.push(Note {
+                self.notes.push(Remark {
                     cells: vec![text],
                     colour: ink::FAULT,
                     is_heading: false,
@@ -91,7 +91,7 @@ impl Notes {
             }
         }
         if rest > 0 {
-            self.notes.push(Note::plain(vec![format!("and {rest} more")]).coloured(ink::FAULT));
+            self.notes.push(Remark::plain(vec![format!("and {rest} more")]).coloured(ink::FAULT));
         }
     }
 
@@ -119,7 +119,7 @@ impl Notes {
             let text = outside.map_or(String::new(), |outside| outside.text());
             let colour = if outside.is_some() { ink::FAULT } else { INK };
             let cells = vec![format!("P{}", index + 1), words::place(position_m), text];
-            Note::plain(cells).coloured(colour)
+            Remark::plain(cells).coloured(colour)
         });
         self.table(&["Point lights", "place", ""], points.take(1000).collect());
         let areas = picture.area_lights.iter().map(|light| {
@@ -129,7 +129,7 @@ impl Notes {
                 let [low, high] = [bounds.low.z, bounds.high.z].map(words::metres);
                 if low == high { format!("{low} m") } else { format!("{low} to {high} m") }
             });
-            Note::plain(vec![
+            Remark::plain(vec![
                 light.name.to_owned(),
                 format!("{} triangles", light.triangles.len()),
                 at,
@@ -149,7 +149,7 @@ impl Notes {
                     .map(|z| words::metres(z.unwrap_or(0.0)));
             let z = if low == high { format!("{low} m") } else { format!("{low}\u{2013}{high} m") };
             let extent = format!("{columns} x {rows} on {u} m x {v} m");
-            Note::plain(vec![grid.name.to_owned(), extent, z, words::facing(grid.normal)])
+            Remark::plain(vec![grid.name.to_owned(), extent, z, words::facing(grid.normal)])
         });
         let points = picture.points.iter().filter_map(|named| {
             let first = named.points.first()?;
@@ -160,7 +160,7 @@ impl Notes {
             let [low, high] = [z.low.z, z.high.z].map(words::metres);
             let z = if low == high { format!("{low} m") } else { format!("{low}\u{2013}{high} m") };
             let count = format!("{} points", named.points.len());
-            Some(Note::plain(vec![named.name.to_owned(), count, z, facing]))
+            Some(Remark::plain(vec![named.name.to_owned(), count, z, facing]))
         });
         let rows = grids.chain(points).collect();
         self.table(&["Sensors", "points", "z", "normal"], rows);
@@ -169,7 +169,7 @@ impl Notes {
     fn cameras(&mut self, contents: &Contents<'_>) {
         let rows = contents.picture.cameras.iter().map(|camera| {
             let ahead = camera.corners.iter().sum::<glam::DVec3>().normalize_or_zero();
-            Note::plain(vec![
+            Remark::plain(vec![
                 camera.name.to_owned(),
                 format!("at {}", words::place(camera.position_m)),
                 String::new(),
@@ -202,14 +202,14 @@ impl LuminaireLine {
         }
     }
 
-    fn note(self, numbers: &[usize]) -> Note {
+    fn note(self, numbers: &[usize]) -> Remark {
         let colour = if self.outside.is_empty() { INK } else { ink::FAULT };
         let cells = vec![ranges(numbers), self.name, self.z, self.aim, self.c0, self.outside];
-        Note::plain(cells).coloured(colour)
+        Remark::plain(cells).coloured(colour)
     }
 }
 
-impl Note {
+impl Remark {
     fn plain(cells: Vec<String>) -> Self {
         Self { cells, colour: INK, is_heading: false, balloon: None }
     }

@@ -9,7 +9,7 @@ use crate::style::{Colour, Stroke};
 use glam::{DVec2, DVec3};
 
 /// A luminaire's symbol is at least this long and wide.
-const LEAST_PX: f64 = 9.0;
+const MIN_PX: f64 = 9.0;
 /// Length of the tick toward C0 beyond the symbol.
 const TICK_PX: f64 = 7.0;
 /// Length of an arrow in the plane of the sheet.
@@ -34,7 +34,7 @@ impl Ink {
 /// The outline of a luminaire around the middle of its symbol: its luminous opening, or what can be
 /// seen of a smaller one.
 pub(crate) fn opening(luminaire: &PlanLuminaire, projection: &Projection) -> Vec<DVec2> {
-    let least_m = LEAST_PX / projection.px_per_m;
+    let least_m = MIN_PX / projection.px_per_m;
     let size = luminaire.opening_m;
     let [length, width] = [size.x, size.y].map(|side| 0.5 * side.max(least_m));
     let height = 0.5 * size.z.max(0.5 * least_m);
