@@ -1,6 +1,7 @@
 //! The door of a run: what is probably wrong with a scene is told before light is traced.
 
 use crate::exit::CliError;
+use crate::print::tell;
 use crate::project::Project;
 use crate::watcher::Watcher;
 use quasilux_inspection::{Finding, inspect};
@@ -45,7 +46,7 @@ impl Door {
             return Err(refusal(&admitted.findings));
         }
         if self.announces {
-            watcher.say(|| admitted.findings.iter().for_each(|it| eprintln!("warning: {it}")));
+            watcher.say(|| admitted.findings.iter().for_each(|it| tell(format!("warning: {it}"))));
         }
         Ok(admitted)
     }

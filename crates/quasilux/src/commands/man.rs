@@ -16,7 +16,7 @@ pub(crate) fn man(arguments: &ManArguments) -> Result<Exit, CliError> {
             let commands = Arguments::commands();
             let commands = commands.iter().filter_map(|name| program.find_subcommand(name));
             let mut count = 0;
-            for page in std::iter::once(&program).chain(commands).map(Page::of) {
+            for page in std::iter::once(&program).chain(commands).map(Page::new) {
                 results::write_atomic(&folder.join(page.name), &page.roff)?;
                 count += 1;
             }
