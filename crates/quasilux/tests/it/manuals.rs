@@ -2,9 +2,10 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "run",
     "validate",
+    "check",
     "experiment",
     "points",
     "photometry",
