@@ -22,9 +22,9 @@ use quasilux_scene::{Camera, Scene};
 /// Wanted of a picture where nobody says anything else.
 const REL_TOL: f64 = 0.02;
 /// Paths of each pixel in each replicate at most, where only a tolerance is wanted.
-const MOST_SAMPLES: u64 = 1 << 12;
+const MAX_SAMPLES: u64 = 1 << 12;
 /// Before so many of them no picture is called done: what few of them find says little of the rest.
-const LEAST_SAMPLES: u64 = 4;
+const MIN_SAMPLES: u64 = 4;
 /// From one pass to the next the number of paths grows by this factor at most.
 const GROWTH: u64 = 16;
 /// Half-widths shrink at least like N to this power.
@@ -83,11 +83,11 @@ impl Wish {
         let all_or_nothing = false;
         match (camera.rel_tol, camera.samples.or(settings.max_samples)) {
             (Some(_), _) => {
-                let most = camera.samples.unwrap_or(MOST_SAMPLES);
+                let most = camera.samples.unwrap_or(MAX_SAMPLES);
                 Self { rel_tol: camera.rel_tol, most, all_or_nothing }
             }
             (None, Some(most)) => Self { rel_tol: None, most, all_or_nothing },
-            (None, None) => Self { rel_tol: Some(REL_TOL), most: MOST_SAMPLES, all_or_nothing },
+            (None, None) => Self { rel_tol: Some(REL_TOL), most: MAX_SAMPLES, all_or_nothing },
         }
     }
 
@@ -97,7 +97,7 @@ impl Wish {
             None => figures.samples >= self.most,
             Some(rel_tol) => {
                 let is_known = figures.relative_half_width().is_some_and(|known| known <= rel_tol);
-                is_known && figures.samples >= LEAST_SAMPLES.min(self.most)
+                is_known && figures.samples >= MIN_SAMPLES.min(self.most)
             }
         }
     }
@@ -113,7 +113,7 @@ impl Wish {
             return None;
         }
         let most = figures.samples.saturating_mul(GROWTH).min(self.most);
-        let fewest = (2 * figures.samples).max(LEAST_SAMPLES).min(most);
+        let fewest = (2 * figures.samples).max(MIN_SAMPLES).min(most);
         Some(self.expected(figures).unwrap_or(most).clamp(fewest, most))
     }
 
