@@ -222,8 +222,8 @@ fn cameras_say_what_their_pictures_need() {
     // Without a word of anybody a picture ends by itself.
     scene.cameras.truncate(1);
     let alone = simulate(&scene, &Settings { max_samples: None, ..settings }, &mut ()).cameras;
-    assert!(alone[0].is_done && alone[0].rel_tol == Some(0.02));
-    assert!(alone[0].relative_half_width().expect("a half-width") <= 0.02);
+    assert!(alone[0].is_done && alone[0].rel_tol == Some(0.05));
+    assert!(alone[0].relative_half_width().expect("a half-width") <= 0.05);
 }
 
 /// Black, and nothing is known of it: light was looked for and none found.

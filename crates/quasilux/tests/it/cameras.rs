@@ -47,8 +47,8 @@ fn three_files_a_camera() {
     let camera = &document["cameras"][0];
     assert_eq!(camera["files"], serde_json::json!(FILES));
     assert_eq!(camera["resolution"], serde_json::json!([12, 9]));
-    assert_eq!((&camera["rel_tol"], &camera["tolerance_reached"]), (&0.02.into(), &true.into()));
-    assert!(number(camera, "/relative_half_width") <= 0.02);
+    assert_eq!((&camera["rel_tol"], &camera["tolerance_reached"]), (&0.05.into(), &true.into()));
+    assert!(number(camera, "/relative_half_width") <= 0.05);
     let mean = number(camera, "/mean_luminance_cd_m2/value");
     assert!(mean > 0.0 && mean < number(camera, "/maximum_luminance_cd_m2"));
     assert!(number(camera, "/mean_luminance_cd_m2/half_width") < 0.1 * mean);
@@ -60,7 +60,7 @@ fn cameras_alone_need_no_tolerance() {
     let folder = folder("cameras_alone");
     let run = folder.quasilux(&["run", "alone.toml", "--out", "16"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stdout.contains("pixels known to 2 % of the picture's mean"), "{}", run.stdout);
+    assert!(run.stdout.contains("pixels known to 5 % of the picture's mean"), "{}", run.stdout);
     for word in ["sensor", "point", "half-widths"] {
         assert!(!run.stdout.contains(word), "{word} in {}", run.stdout);
     }
