@@ -5,9 +5,9 @@
 //! things of a scene stand in a sensible relation to each other, and says of each that does not
 //! where it is and how it is mended. A [`Finding`] is an opinion: the scene can be simulated.
 //!
-//! Most checks rest on one question, asked by rays ([`Survey`](survey)): does light of this lamp
-//! reach any sensor or camera? A lamp in a far corner of a corridor does so over many surfaces; one
-//! above the ceiling does not, and sees the sky.
+//! Most checks rest on one question, asked by rays (`survey.rs`): does light of this lamp reach any
+//! sensor or camera? A lamp in a far corner of a corridor does so over many surfaces; one above the
+//! ceiling does not, and sees the sky.
 
 mod cameras;
 mod coincidence;
