@@ -32,8 +32,8 @@ const STEPS: [Step; 7] = [
 /// Every command of the documentation, some of which take minutes; left out by [`run_all`].
 const DOCUMENTS: Step = Step { name: "documents", run: || documents::check(&workspace_root()) };
 
-/// The other step that [`run_all`] leaves out: all tests, in the variants that take long and find smaller
-/// errors, and the program built twice.
+/// The other step that [`run_all`] leaves out: all tests, in the variants that take long and find
+/// smaller errors, and the program built twice.
 const DEEP: Step = Step {
     name: "deep",
     run: || {
