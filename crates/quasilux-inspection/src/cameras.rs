@@ -23,15 +23,9 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             camera.name,
             names::position(position)
         );
-        let cure = match units::explaining(scene, position, Thing::Other) {
-            Some(unit) => format!(
-                "it would be inside in {}: say position_units = \"{}\" in [scene] if all positions \
-                 are meant so",
-                units::in_words(unit),
-                unit.name()
-            ),
-            None => "expected a place in the room, or one that looks into it".to_owned(),
-        };
+        let cure = units::cure(scene, position, Thing::Other).unwrap_or_else(|| {
+            "expected a place in the room, or one that looks into it".to_owned()
+        });
         let place = findings.places.cameras[number];
         findings.add(Check::CameraOutside, place, message, cure).at(position);
     }

@@ -14,13 +14,7 @@ const RAYS: u32 = 2048;
 
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let (probe, scene) = (survey.probe, survey.probe.scene);
-    let vertices: Vec<_> = survey
-        .asked_vertices
-        .iter()
-        .chain(&survey.camera_vertices)
-        .chain(&survey.lamp_vertices)
-        .flatten()
-        .collect();
+    let vertices: Vec<_> = survey.eyes.iter().chain(&survey.lit).collect();
     if vertices.is_empty() {
         return;
     }

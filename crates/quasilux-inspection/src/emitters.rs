@@ -52,11 +52,8 @@ fn looks_away(survey: &Survey<'_>, light: &AreaLight, face: u32) -> bool {
     let normal = mesh.front_normal(face);
     let side =
         |normal: DVec3| Vertex { position: position + normal * probe.hair_m, normal: Some(normal) };
-    let of_sensors = survey.asked_vertices.iter().filter_map(|vertices| vertices.first());
-    let eyes: Vec<Vertex> =
-        of_sensors.chain(survey.camera_vertices.iter().flatten()).copied().collect();
-    !survey.meet(&[side(normal)], &eyes)
-        && survey.meet(&[side(-normal)], &eyes)
+    !survey.meet(&[side(normal)], &survey.receivers)
+        && survey.meet(&[side(-normal)], &survey.receivers)
         && !has_twin(survey, light, face, &side(normal))
         && lost_share(probe, light, &side(normal), mesh.area_m2(face)) >= LOST
 }

@@ -1,7 +1,7 @@
 //! Figures that cannot be meant: lamps bigger than their room, light that no lamp gives, paint that
 //! nobody sells.
 
-use crate::finding::{Check, Findings};
+use crate::finding::{Check, Findings, MAX_LISTED};
 use crate::names;
 use quasilux_scene::{Bsdf, Light, Places, Scene};
 
@@ -9,8 +9,6 @@ use quasilux_scene::{Bsdf, Light, Places, Scene};
 const HIGH_REFLECTANCE: f64 = 0.95;
 /// What leaves a luminaire is between these shares of what its lamps give.
 const OUTPUT_RATIO: [f64; 2] = [0.1, 1.15];
-/// Findings of one kind that are listed.
-const MAX_LISTED: usize = 20;
 
 pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     lamps(scene, findings);

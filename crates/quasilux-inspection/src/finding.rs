@@ -4,6 +4,9 @@ use glam::DVec3;
 use quasilux_scene::{Places, Position};
 use std::fmt;
 
+/// Findings of one kind that are listed, where each thing may have its own.
+pub(crate) const MAX_LISTED: usize = 20;
+
 /// What was looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Check {

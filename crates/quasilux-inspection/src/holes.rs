@@ -12,20 +12,24 @@ use crate::survey::position_of;
 use glam::{DVec2, DVec3};
 use quasilux_scene::Mesh;
 
-/// Places that rays leave from.
+/// Places that cameras see which rays leave from.
 const PLACES: usize = 64;
 /// Rays from each.
 const DIRECTIONS: u32 = 96;
-/// A side is closed where more than this share of directions to it meets a surface.
-const CLOSED: f64 = 0.5;
-/// Of six sides, in a room.
-const CLOSED_SIDES: usize = 5;
-/// Elevations, as tangents, at which a side is looked at: a floor is below them.
-const ELEVATIONS: [f64; 2] = [0.05, 0.15];
-/// Azimuths, as tangents from the axis.
-const AZIMUTHS: [f64; 4] = [-0.75, -0.25, 0.25, 0.75];
+/// Of level directions in a convex room, fewer than half lead to one flat wall, and nearly all to
+/// any; likewise most directions upward and downward lead to ceiling and floor.
+const MOST: f64 = 0.5;
+const NEARLY_ALL: f64 = 0.9;
+/// Elevations of level directions, as tangents: a floor is below them.
+const ELEVATIONS: [f64; 2] = [0.02, 0.06];
+/// Tangents from the vertical of directions upward and downward.
+const SLANTS: [f64; 2] = [0.2, 0.6];
+/// Azimuths of both.
+const AZIMUTHS: u32 = 12;
 /// Less than this share is taken for gaps of modelling.
 const MIN_LEAVING: f64 = 2e-4;
+/// Pairs of loops and rays that are looked at.
+const MAX_PIERCINGS: usize = 10_000_000;
 /// Edges of a loop.
 const MAX_LOOP: usize = 4096;
 /// Holes that are listed.
@@ -42,10 +46,12 @@ struct EscapingRay {
 struct Surroundings {
     rays: usize,
     leaving: Vec<EscapingRay>,
-    /// Rays to each of six sides: all, and those that meet something.
-    sides: [Side; 6],
+    level: Side,
+    up: Side,
+    down: Side,
 }
 
+/// Rays to one side: all, and those that meet something.
 #[derive(Clone, Copy, Default)]
 struct Side {
     rays: usize,
@@ -92,11 +98,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
 
 /// Rays from places that get light.
 fn surroundings(survey: &Survey<'_>) -> Surroundings {
-    let lit = survey.asked.iter().zip(&survey.asked_vertices);
-    let stride = survey.asked.len().div_ceil(PLACES).max(1);
-    let sensors = lit.step_by(stride).filter(|(_, vertices)| survey.is_lit(vertices));
-    let hair_m = survey.probe.hair_m;
-    let sensors = sensors.map(|(asked, _)| asked.point.position + asked.point.normal * hair_m);
+    let sensors = survey.lit_points().map(|point| survey.before(&point));
     let of_cameras = survey.camera_vertices.iter().flatten();
     let cameras = of_cameras.step_by(8).take(PLACES).map(|vertex| vertex.position);
     let mut surroundings = Surroundings::default();
@@ -114,32 +116,40 @@ fn surroundings(survey: &Survey<'_>) -> Surroundings {
     surroundings
 }
 
-/// Directions to one of six sides: +x, -x, +y, -y, up, down.
-fn toward(side: usize) -> Vec<DVec3> {
-    let sign = if side.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let tangents = AZIMUTHS.iter().flat_map(|&a| ELEVATIONS.map(|e| DVec2::new(a, e)));
-    let direction = |at: DVec2| match side / 2 {
-        0 => DVec3::new(sign, at.x, at.y),
-        1 => DVec3::new(at.x, sign, at.y),
-        _ => DVec3::new(at.x, 4.0 * at.y, sign),
-    };
-    tangents.map(|at| direction(at).normalize()).collect()
+impl Side {
+    fn add(&mut self, met: bool) {
+        self.rays += 1;
+        self.met += usize::from(met);
+    }
+
+    /// The share of rays that meet something.
+    fn closed(self) -> f64 {
+        self.met as f64 / self.rays.max(1) as f64
+    }
 }
 
 impl Surroundings {
     /// Looks to all sides.
     fn look_around(&mut self, survey: &Survey<'_>, from: DVec3) {
-        for (number, side) in self.sides.iter_mut().enumerate() {
-            for direction in toward(number) {
-                side.rays += 1;
-                side.met += usize::from(survey.probe.meets(from, direction));
+        let meets = |direction: DVec3| survey.probe.meets(from, direction.normalize());
+        for azimuth in 0..AZIMUTHS {
+            let turn = std::f64::consts::TAU * f64::from(azimuth) / f64::from(AZIMUTHS);
+            let (sine, cosine) = libm::sincos(turn);
+            let across = DVec3::new(cosine, sine, 0.0);
+            for elevation in ELEVATIONS {
+                self.level.add(meets(across + DVec3::Z * elevation));
+            }
+            for slant in SLANTS {
+                self.up.add(meets(across * slant + DVec3::Z));
+                self.down.add(meets(across * slant - DVec3::Z));
             }
         }
     }
 
+    /// Whether no more than one of walls, floor and ceiling can be missing.
     fn is_room(&self) -> bool {
-        let is_closed = |side: &&Side| side.met as f64 > CLOSED * side.rays.max(1) as f64;
-        self.sides.iter().filter(is_closed).count() >= CLOSED_SIDES
+        let [level, up, down] = [self.level, self.up, self.down].map(Side::closed);
+        level > MOST && up > MOST && down > MOST || level > NEARLY_ALL && up.max(down) > MOST
     }
 }
 
@@ -178,8 +188,11 @@ fn holes(mesh: &Mesh, leaving: &[EscapingRay]) -> Vec<Hole> {
             Hole { corners, pierced: 0 }
         })
         .collect();
+    // Every triangle of a mesh without shared corners is a loop of its own.
+    let stride = (holes.len() * leaving.len()).div_ceil(MAX_PIERCINGS).max(1);
     for hole in &mut holes {
-        hole.pierced = leaving.iter().filter(|ray| hole.is_pierced(ray)).count();
+        let rays = leaving.iter().step_by(stride);
+        hole.pierced = rays.filter(|ray| hole.is_pierced(ray)).count();
     }
     holes.retain(|hole| hole.pierced > 0);
     holes.sort_by_key(|hole| std::cmp::Reverse(hole.pierced));

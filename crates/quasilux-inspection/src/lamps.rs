@@ -4,7 +4,7 @@
 //! where a short move through a surface would have it shine on sensors, or where a closed body
 //! holds it and no sensor.
 
-use crate::finding::{Check, Findings};
+use crate::finding::{Check, Findings, MAX_LISTED};
 use crate::names;
 use crate::survey::{Survey, Vertex, emitted_direction, position_of};
 use crate::units::{self, Thing};
@@ -12,8 +12,8 @@ use glam::DVec3;
 use quasilux_scene::solids::{Solid, solids_of};
 use quasilux_scene::{Light, Scene};
 
-/// Lamps that are listed.
-const MAX_LISTED: usize = 20;
+/// Directions of the shortest ways out of most places.
+const AXES: [DVec3; 6] = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
 /// A lamp that hangs behind a surface by mistake is no further from it than this, in m.
 const MAX_MOVE_M: f64 = 0.5;
 /// Surfaces on the way: those of a slab, and of a ceiling below.
@@ -38,7 +38,6 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let scene = survey.probe.scene;
     let mut solids: Option<Vec<Solid>> = None;
     let before = findings.found.len();
-    let mut listed = 0;
     for (index, lamp) in scene.lights.iter().enumerate() {
         let Some(position) = position_of(lamp) else { continue };
         if lamp.flux_lm() == 0.0 {
@@ -48,10 +47,9 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             in_surface(survey, index, position, findings);
             continue;
         }
-        if listed == MAX_LISTED {
+        if findings.found.len() - before >= MAX_LISTED {
             break;
         }
-        listed = findings.found.len() - before;
         let what = names::light(findings.places, &scene.lights, index);
         let what = format!("{what} at {}", names::position(position));
         let place = findings.places.lights[index];
@@ -91,14 +89,13 @@ fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findi
         let met = survey.probe.first(at - direction * IN_SURFACE_M, direction);
         met.filter(|met| met.distance_m <= 2.0 * IN_SURFACE_M)
     };
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
-    let Some(surface) = axes.into_iter().find_map(near) else { return };
+    let Some(surface) = AXES.into_iter().find_map(near) else { return };
     let lost = (0..EMITTED).filter_map(|i| emitted_direction(light, i)).filter(|&direction| {
         let met = survey.probe.first(at, direction);
-        met.is_none_or(|met| !survey.would_serve(&Vertex::on(&met)))
+        met.is_none_or(|met| !survey.meet(&[Vertex::on(&met)], &survey.eyes))
     });
     let lost = lost.count() as f64 / f64::from(EMITTED);
-    if survey.is_open() || lost < LOST_SHARE {
+    if survey.is_open || lost < LOST_SHARE {
         return;
     }
     let object = names::object(&scene.mesh, surface.triangle);
@@ -119,8 +116,7 @@ fn shortest_move(survey: &Survey<'_>, lamp: &Light, from: DVec3) -> Option<Move>
         Light::Luminaire(light) => Some(light.world_from_luminaire * DVec3::NEG_Z),
         Light::Point(_) | Light::Area(_) => None,
     };
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
-    let ways = axes.chain(aim).filter_map(|direction| through(survey, from, direction));
+    let ways = AXES.into_iter().chain(aim).filter_map(|direction| through(survey, from, direction));
     ways.min_by(|a, b| a.length_m.total_cmp(&b.length_m))
 }
 
@@ -144,18 +140,10 @@ fn through(survey: &Survey<'_>, from: DVec3, direction: DVec3) -> Option<Move> {
 }
 
 fn cure_outside(scene: &Scene, position: DVec3, way: Option<&Move>) -> String {
-    if let Some(unit) = units::explaining(scene, position, Thing::Lamp) {
-        return format!(
-            "its position would be inside in {}: if it is meant so, say position_units = \"{}\" \
-             in [scene] for all positions, or give this one in m",
-            units::in_words(unit),
-            unit.name()
-        );
-    }
-    match way {
+    units::cure(scene, position, Thing::Lamp).unwrap_or_else(|| match way {
         Some(way) => cure_by_move(way, scene),
         None => "expected a position inside the room, in m".to_owned(),
-    }
+    })
 }
 
 fn cure_by_move(way: &Move, scene: &Scene) -> String {

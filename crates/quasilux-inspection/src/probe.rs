@@ -5,6 +5,8 @@
 
 use glam::DVec3;
 use quasilux_bvh::{Ray, TriangleBvh};
+use quasilux_sampling::radical_inverse;
+use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 use quasilux_scene::Scene;
 
 /// Rays start this share of the scene's size in front of their surface.
@@ -12,9 +14,6 @@ const HAIR: f64 = 1e-7;
 
 /// Sheets that a ray goes through before it is given up as stopped.
 const MAX_SHEETS: usize = 16;
-
-/// Golden ratio and its relatives: points i times them, modulo 1, fill the square evenly.
-const R2: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 /// A place on a surface, seen from one side.
 #[derive(Clone, Copy, Debug)]
@@ -103,25 +102,20 @@ impl<'a> Probe<'a> {
     }
 }
 
-/// Direction number `i` of `count` that cover the sphere evenly (Fibonacci's lattice).
+/// Direction number `i` of `count` that cover the sphere evenly.
 pub(crate) fn sphere_direction(i: u32, count: u32) -> DVec3 {
-    let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(count);
-    let radius = (1.0 - z * z).sqrt();
-    let (sine, cosine) =
-        libm::sincos(2.0 * std::f64::consts::PI * 0.618_033_988_749_895 * f64::from(i));
-    DVec3::new(radius * cosine, radius * sine, z)
+    let along = (f64::from(i) + 0.5) / f64::from(count);
+    DVec3::from_array(sample_uniform_sphere([along, radical_inverse(2, i.into())]))
 }
 
-/// Point `i` of a sequence that fills the square evenly (Roberts 2018, R2).
+/// Point `i` of a sequence that fills the square evenly (Halton's).
 pub(crate) fn square(i: u32) -> [f64; 2] {
-    R2.map(|step| (0.5 + step * f64::from(i)).fract())
+    [2, 3].map(|base| radical_inverse(base, u64::from(i) + 1))
 }
 
-/// A direction above a surface, in proportion to its cosine (Malley's method).
-pub(crate) fn cosine_direction(normal: DVec3, [u, v]: [f64; 2]) -> DVec3 {
-    let radius = u.sqrt();
-    let (sine, cosine) = libm::sincos(2.0 * std::f64::consts::PI * v);
-    let tangent = normal.any_orthonormal_vector();
-    let along = tangent * (radius * cosine) + normal.cross(tangent) * (radius * sine);
-    (along + normal * (1.0 - u).max(0.0).sqrt()).normalize()
+/// A direction above a surface, in proportion to its cosine.
+pub(crate) fn cosine_direction(normal: DVec3, u: [f64; 2]) -> DVec3 {
+    let [x, y, z] = sample_cosine_hemisphere(u);
+    let (tangent, bitangent) = normal.any_orthonormal_pair();
+    (tangent * x + bitangent * y + normal * z).normalize()
 }

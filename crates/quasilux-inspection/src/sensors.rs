@@ -2,7 +2,7 @@
 
 use crate::finding::{Check, Findings};
 use crate::names;
-use crate::probe::{Probe, cosine_direction, square};
+use crate::probe::{cosine_direction, square};
 use crate::survey::{Asked, Survey};
 use crate::units::{self, Thing};
 use glam::DVec3;
@@ -34,16 +34,13 @@ struct Covered {
 
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let scene = survey.probe.scene;
-    let lit: Vec<bool> =
-        survey.asked_vertices.iter().map(|vertices| survey.is_lit(vertices)).collect();
-    let is_open = survey.is_open();
     let mut odd: Vec<Odd> = scene.sensors.iter().map(|_| Odd::default()).collect();
-    for (asked, lit) in survey.asked.iter().zip(lit) {
+    for (asked, is_lit) in survey.asked.iter().zip(&survey.is_lit) {
         let odd = &mut odd[asked.sensor];
         odd.tried += 1;
-        if let Some(triangle) = covering(survey.probe, &asked.point) {
+        if let Some(triangle) = covering(survey, &asked.point) {
             odd.covered.push(Covered { position: asked.point.position, triangle });
-        } else if !lit && is_outside(survey, asked, is_open) {
+        } else if !is_lit && is_outside(survey, asked) {
             odd.outside.push(asked.point.position);
         }
     }
@@ -53,17 +50,17 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
 }
 
 /// Whether a dark point is dark because it is not in the room.
-fn is_outside(survey: &Survey<'_>, asked: &Asked, is_open: bool) -> bool {
+fn is_outside(survey: &Survey<'_>, asked: &Asked) -> bool {
     let position = asked.point.position;
     let [low, high] = survey.probe.scene.mesh.bounds().unwrap_or_default();
     let margin = DVec3::splat(0.01 * survey.probe.size_m);
     let is_beyond = position.cmplt(low - margin).any() || position.cmpgt(high + margin).any();
-    is_beyond || (!is_open && survey.is_in_the_open(survey.before(&asked.point)))
+    is_beyond || (!survey.is_open && survey.is_in_the_open(survey.before(&asked.point)))
 }
 
 /// The triangle right in front of a point, from which nearly all of its light would come.
-fn covering(probe: &Probe<'_>, point: &SensorPoint) -> Option<u32> {
-    let eye = point.position + point.normal * probe.hair_m;
+fn covering(survey: &Survey<'_>, point: &SensorPoint) -> Option<u32> {
+    let (probe, eye) = (survey.probe, survey.before(point));
     let ahead = probe.first(eye, point.normal).filter(|ahead| ahead.distance_m <= COVERED_M)?;
     let is_near = |&i: &u32| {
         let met = probe.first(eye, cosine_direction(point.normal, square(i)));
@@ -93,18 +90,14 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
             share(odd.outside.len()),
             names::position(first)
         );
-        let cure = match units::explaining(scene, first, Thing::Other) {
-            Some(unit) => format!(
-                "it would be inside in {}: say position_units = \"{}\" in [scene] if all positions \
-                 are meant so",
-                units::in_words(unit),
-                unit.name()
-            ),
-            None if odd.outside.len() < odd.tried => {
-                "expected a grid that ends at the walls".to_owned()
+        let cure = units::cure(scene, first, Thing::Other).unwrap_or_else(|| {
+            match odd.outside.len() < odd.tried {
+                true => "expected a grid that ends at the walls".to_owned(),
+                false => {
+                    "expected a place in the room, in m, its normal toward the room".to_owned()
+                }
             }
-            None => "expected a place in the room, in m, its normal toward the room".to_owned(),
-        };
+        });
         findings.add(Check::SensorOutside, place, message, cure).at(first);
     }
     if let Some(first) = odd.covered.first() {

@@ -5,8 +5,10 @@
 //! one sees a vertex of the other. That it was found is certain; that it was not is an opinion, and
 //! counts only beside other evidence.
 
-use crate::probe::{Probe, Surface, cosine_direction, square};
+use crate::probe::{Probe, Surface, cosine_direction, sphere_direction, square};
 use glam::DVec3;
+use quasilux_sampling::Discrete;
+use quasilux_sampling::warp::sample_triangle;
 use quasilux_scene::light::{AreaLight, Luminaire};
 use quasilux_scene::{Light, Mesh, SensorPoint};
 
@@ -21,6 +23,8 @@ const CAMERA_WALKS: u32 = 64;
 const BOUNCES: u32 = 6;
 /// Pairs that are tried for one answer.
 const MAX_PAIRS: usize = 2048;
+/// Lit sensor points that are looked around from.
+const LIT_POINTS: usize = 64;
 /// Lamps that are asked whether they shine straight on a place.
 const MAX_LAMPS_ASKED: usize = 64;
 /// A place from which so many directions meet nothing is not in a room: behind a large flat surface
@@ -50,12 +54,18 @@ pub(crate) struct Survey<'a> {
     pub(crate) asked_vertices: Vec<Vec<Vertex>>,
     /// What each camera gets light from.
     pub(crate) camera_vertices: Vec<Vec<Vertex>>,
-    /// What each lamp sends light to.
-    pub(crate) lamp_vertices: Vec<Vec<Vertex>>,
+    /// The asked points themselves, and what cameras get light from.
+    pub(crate) receivers: Vec<Vertex>,
+    /// What any asked point or camera gets light from.
+    pub(crate) eyes: Vec<Vertex>,
     /// Some of what all lamps send light to.
-    lit: Vec<Vertex>,
+    pub(crate) lit: Vec<Vertex>,
     /// Whether light of each lamp was found to reach a sensor or camera.
     pub(crate) reaches: Vec<bool>,
+    /// Whether light of any lamp was found to come to each asked point.
+    pub(crate) is_lit: Vec<bool>,
+    /// Whether lit sensor points are in the open, so that a place under the sky is nothing odd.
+    pub(crate) is_open: bool,
 }
 
 impl<'a> Survey<'a> {
@@ -76,17 +86,28 @@ impl<'a> Survey<'a> {
             scene.lights.iter().map(|lamp| lit_by(probe, lamp, walks)).collect();
         let all: Vec<Vertex> = lamp_vertices.iter().flatten().copied().collect();
         let stride = all.len().div_ceil(MAX_PAIRS).max(1);
-        let lit = all.into_iter().step_by(stride).collect();
-        let reaches = Vec::new();
-        let mut survey =
-            Self { probe, asked, asked_vertices, camera_vertices, lamp_vertices, lit, reaches };
-        let of_sensors = survey.asked_vertices.iter().flatten();
-        let eyes: Vec<Vertex> =
-            of_sensors.chain(survey.camera_vertices.iter().flatten()).copied().collect();
-        let lamps = scene.lights.iter().zip(&survey.lamp_vertices);
-        let reaches =
-            |lamp: &Light, lit: &[Vertex]| survey.shines(lamp, &eyes) || survey.meet(lit, &eyes);
-        survey.reaches = lamps.map(|(lamp, lit)| reaches(lamp, lit)).collect();
+        let cameras = || camera_vertices.iter().flatten().copied();
+        let points = asked_vertices.iter().filter_map(|vertices| vertices.first().copied());
+        let mut survey = Self {
+            probe,
+            receivers: points.chain(cameras()).collect(),
+            eyes: asked_vertices.iter().flatten().copied().chain(cameras()).collect(),
+            lit: all.into_iter().step_by(stride).collect(),
+            asked,
+            asked_vertices,
+            camera_vertices,
+            reaches: Vec::new(),
+            is_lit: Vec::new(),
+            is_open: false,
+        };
+        let lamps = scene.lights.iter().zip(&lamp_vertices);
+        let reaches = |(lamp, lit): (&Light, &Vec<Vertex>)| {
+            survey.shines(lamp, &survey.eyes) || survey.meet(lit, &survey.eyes)
+        };
+        survey.reaches = lamps.map(reaches).collect();
+        let is_lit = |vertices: &Vec<Vertex>| survey.is_lit(vertices);
+        survey.is_lit = survey.asked_vertices.iter().map(is_lit).collect();
+        survey.is_open = survey.is_open();
         survey
     }
 
@@ -137,21 +158,18 @@ impl<'a> Survey<'a> {
             || self.meet(&self.lit, vertices)
     }
 
-    /// Whether light from a place goes on to what sensors or cameras get light from.
-    pub(crate) fn would_serve(&self, place: &Vertex) -> bool {
-        let vertices = self.asked_vertices.iter().chain(&self.camera_vertices).flatten();
-        let vertices: Vec<Vertex> = vertices.copied().collect();
-        self.meet(&[*place], &vertices)
+    /// Whether most of the lit sensor points see the sky.
+    fn is_open(&self) -> bool {
+        let open: Vec<bool> =
+            self.lit_points().map(|point| self.is_in_the_open(self.before(&point))).collect();
+        2 * open.iter().filter(|open| **open).count() > open.len()
     }
 
-    /// Whether lit sensor points are in the open, so that a place under the sky is nothing odd.
-    pub(crate) fn is_open(&self) -> bool {
-        let stride = self.asked.len().div_ceil(64).max(1);
-        let asked = self.asked.iter().zip(&self.asked_vertices).step_by(stride);
-        let lit = asked.filter(|(_, vertices)| self.is_lit(vertices));
-        let open: Vec<bool> =
-            lit.map(|(asked, _)| self.is_in_the_open(self.before(&asked.point))).collect();
-        2 * open.iter().filter(|open| **open).count() > open.len()
+    /// Some of the asked points that light was found to come to, of all sensors.
+    pub(crate) fn lit_points(&self) -> impl Iterator<Item = SensorPoint> {
+        let stride = self.asked.len().div_ceil(LIT_POINTS).max(1);
+        let asked = self.asked.iter().zip(&self.is_lit).step_by(stride);
+        asked.filter(|(_, is_lit)| **is_lit).map(|(asked, _)| asked.point)
     }
 
     /// A hair in front of a sensor point.
@@ -215,26 +233,21 @@ fn seen_by_camera(probe: &Probe<'_>, camera: usize) -> Vec<Vertex> {
 
 /// What a lamp sends light to; of an area light its own places, too.
 fn lit_by(probe: &Probe<'_>, lamp: &Light, walks: u32) -> Vec<Vertex> {
-    let walks = (0..walks).filter_map(|i| match lamp {
+    let along = |from, direction| Some(Vertex::on(&probe.first(from, direction)?));
+    let starts: Vec<Option<Vertex>> = match lamp {
         Light::Point(light) => {
-            let direction = crate::probe::sphere_direction(i, walks);
-            lit_along(probe, light.position, direction, i)
+            (0..walks).map(|i| along(light.position, sphere_direction(i, walks))).collect()
         }
         Light::Luminaire(light) => {
-            lit_along(probe, light.position, emitted_direction(light, i)?, i)
+            (0..walks).map(|i| along(light.position, emitted_direction(light, i)?)).collect()
         }
         Light::Area(light) => {
-            let place = emitting_place(&probe.scene.mesh, light, i);
-            let position = place.position + place.normal.unwrap_or_default() * probe.hair_m;
-            Some(walk(probe, Vertex { position, ..place }, i))
+            let places = EmittingPlaces::new(&probe.scene.mesh, light);
+            (0..walks).map(|i| places.place(i, probe.hair_m)).collect()
         }
-    });
+    };
+    let walks = (0..).zip(starts).filter_map(|(i, start)| Some(walk(probe, start?, i)));
     walks.flatten().collect()
-}
-
-fn lit_along(probe: &Probe<'_>, from: DVec3, direction: DVec3, i: u32) -> Option<Vec<Vertex>> {
-    let surface = probe.first(from, direction)?;
-    Some(walk(probe, Vertex::on(&surface), i))
 }
 
 /// Where a lamp is; `None` for one that is a surface.
@@ -252,21 +265,30 @@ pub(crate) fn emitted_direction(light: &Luminaire, i: u32) -> Option<DVec3> {
     Some(light.world_from_luminaire * local)
 }
 
-/// A place on an emitting face, by area.
-pub(crate) fn emitting_place(mesh: &Mesh, light: &AreaLight, i: u32) -> Vertex {
-    let target = square(i)[0] * light.area_m2;
-    let mut before_m2 = 0.0;
-    let reaches = |&&triangle: &&u32| {
-        before_m2 += mesh.area_m2(triangle);
-        before_m2 >= target
-    };
-    let triangle = light.triangles.iter().find(reaches).or(light.triangles.last());
-    let triangle = *triangle.expect("an area light has triangles");
-    let [u, v] = square(i.wrapping_mul(31));
-    let [a, b, c] = mesh.corners(triangle);
-    let root = u.sqrt();
-    let position = a * (1.0 - root) + b * (root * (1.0 - v)) + c * (root * v);
-    Vertex { position, normal: Some(mesh.front_normal(triangle)) }
+/// Places on the faces of an area light, by area.
+struct EmittingPlaces<'m> {
+    mesh: &'m Mesh,
+    light: &'m AreaLight,
+    faces: Option<Discrete>,
+}
+
+impl<'m> EmittingPlaces<'m> {
+    fn new(mesh: &'m Mesh, light: &'m AreaLight) -> Self {
+        let areas_m2: Vec<f64> = light.triangles.iter().map(|&t| mesh.area_m2(t)).collect();
+        Self { mesh, light, faces: Discrete::new(&areas_m2) }
+    }
+
+    /// Place `i`, a hair in front of its face.
+    fn place(&self, i: u32, hair_m: f64) -> Option<Vertex> {
+        let [along, across] = square(i);
+        let face = self.faces.as_ref()?.sample(along);
+        let triangle = self.light.triangles[face.index];
+        let barycentric = sample_triangle([face.u_remapped, across]);
+        let corners = self.mesh.corners(triangle).into_iter().zip(barycentric);
+        let position: DVec3 = corners.map(|(corner, weight)| corner * weight).sum();
+        let normal = self.mesh.front_normal(triangle);
+        Some(Vertex { position: position + normal * hair_m, normal: Some(normal) })
+    }
 }
 
 impl Vertex {

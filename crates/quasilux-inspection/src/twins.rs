@@ -1,6 +1,6 @@
 //! Lamps that are listed twice at one place.
 
-use crate::finding::{Check, Findings};
+use crate::finding::{Check, Findings, MAX_LISTED};
 use crate::names;
 use crate::survey::position_of;
 use glam::DVec3;
@@ -8,8 +8,6 @@ use quasilux_scene::{Light, Scene};
 
 /// Lamps nearer to each other than this, in m, are at one place.
 const APART_M: f64 = 1e-3;
-/// Findings that are listed.
-const MAX_LISTED: usize = 20;
 
 pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     let mut lamps: Vec<Lamp> = Vec::new();

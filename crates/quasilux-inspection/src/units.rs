@@ -88,7 +88,7 @@ pub(crate) enum Thing {
 }
 
 /// A unit in which a position would be inside the geometry, where it is far outside in m.
-pub(crate) fn explaining(scene: &Scene, position: DVec3, thing: Thing) -> Option<LengthUnit> {
+fn explaining(scene: &Scene, position: DVec3, thing: Thing) -> Option<LengthUnit> {
     let geometry = geometry(scene)?;
     let nearest = position.clamp(geometry.low, geometry.high);
     if position.distance(nearest) < geometry.edges().length() {
@@ -104,8 +104,19 @@ pub(crate) fn explaining(scene: &Scene, position: DVec3, thing: Thing) -> Option
     others.into_iter().find(is_explained)
 }
 
+/// What to do about a position that would be inside in another unit; `None` where none explains it.
+pub(crate) fn cure(scene: &Scene, position: DVec3, thing: Thing) -> Option<String> {
+    let unit = explaining(scene, position, thing)?;
+    Some(format!(
+        "its position would be inside in {}: if it is meant so, say position_units = \"{}\" in \
+         [scene] for all positions, or give this one in m",
+        in_words(unit),
+        unit.name()
+    ))
+}
+
 /// A unit in running text.
-pub(crate) fn in_words(unit: LengthUnit) -> &'static str {
+fn in_words(unit: LengthUnit) -> &'static str {
     match unit {
         LengthUnit::Metre => "metres",
         LengthUnit::Centimetre => "centimetres",

@@ -23,7 +23,10 @@ const MAY_USE: [(&str, &[&str]); 14] = [
             "quasilux-photometry",
         ],
     ),
-    ("quasilux-inspection", &["quasilux-scene", "quasilux-bvh", "quasilux-photometry"]),
+    (
+        "quasilux-inspection",
+        &["quasilux-scene", "quasilux-sampling", "quasilux-bvh", "quasilux-photometry"],
+    ),
     ("quasilux-drawing", &[]),
     (
         "quasilux-report",

@@ -1,7 +1,7 @@
 //! Rooms at random, and the same rooms with one lamp moved through the ceiling.
 
 use crate::room::{Case, body, shell};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use quasilux_inspection::Check;
 
 /// Numbers from a counter (Steele, Lea and Flood 2014, SplitMix64).
@@ -40,6 +40,12 @@ fn room(seed: u64) -> RandomRoom {
             );
         case.faces.extend(body("box", corner, corner + edge));
     }
+    // Some rooms stand askew, and some far from the origin, as in a survey of a city.
+    let angle = if seed % 2 == 1 { dice.within(0.0, 6.0) } else { 0.0 };
+    let far = if seed % 4 == 3 { DVec3::new(4e5, 5e6, 0.0) } else { DVec3::ZERO };
+    let turned = |p: DVec3| DMat3::from_rotation_z(angle) * p;
+    let moved = |p: DVec3| turned(p) + far;
+    let text = |p: DVec3| format!("[{}, {}, {}]", p.x, p.y, p.z);
     let lamps = 1 + dice.within(0.0, 5.0) as usize;
     let (head, _) = case.project.split_once("[[luminaires]]").expect("a section of lamps");
     let mut project = head.to_owned();
@@ -47,23 +53,25 @@ fn room(seed: u64) -> RandomRoom {
         let x = origin.x + size.x * (k as f64 + 0.5) / lamps as f64;
         let y = origin.y + dice.within(0.2, 0.8) * size.y;
         let z = size.z - dice.within(0.02, 0.5);
-        project +=
-            &format!("[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [{x}, {y}, {z}]\n");
+        let position = text(moved(DVec3::new(x, y, z)));
+        project += "[[luminaires]]\nphotometry = \"lamp.ies\"\n";
+        project += &format!("position = {position}\n");
     }
-    let at = origin + DVec3::new(0.1, 0.1, 0.8);
-    let (u, v) = (size.x - 0.2, size.y - 0.2);
+    let at = text(moved(origin + DVec3::new(0.1, 0.1, 0.8)));
+    let u = text(turned(DVec3::X * (size.x - 0.2)));
+    let v = text(turned(DVec3::Y * (size.y - 0.2)));
     project += &format!(
-        "[[sensors]]\nname = \"plane\"\nkind = \"grid\"\norigin = [{}, {}, {}]\nu = [{u}, 0, 0]\n\
-         v = [0, {v}, 0]\nspacing = 0.5\n",
-        at.x, at.y, at.z
+        "[[sensors]]\nname = \"plane\"\nkind = \"grid\"\norigin = {at}\nu = {u}\nv = {v}\n\
+         spacing = 0.5\n"
     );
+    let mut case = case.moved(moved);
     case.project = project;
     RandomRoom { case, lamps, height_m: size.z }
 }
 
 #[test]
 fn random_rooms_are_right() {
-    for seed in 0..60 {
+    for seed in 0..4000 {
         let findings = room(seed).case.findings();
         assert!(findings.is_empty(), "room {seed}: {}", findings[0]);
     }
@@ -72,7 +80,7 @@ fn random_rooms_are_right() {
 /// In every room the lamp that hangs above the ceiling is named, and none else.
 #[test]
 fn a_lamp_above_the_ceiling_is_told_in_any_room() {
-    for seed in 0..60 {
+    for seed in 0..4000 {
         let RandomRoom { mut case, lamps, height_m } = room(seed);
         if lamps == 1 {
             // Without a light in the room the project is refused.
@@ -102,5 +110,23 @@ fn a_lamp_above_the_ceiling_is_told_in_any_room() {
         assert_eq!(findings[0].check, Check::LampOutside, "room {seed}: {}", findings[0]);
         let named = format!("luminaire {} ", wrong + 1);
         assert!(findings[0].message.starts_with(&named), "room {seed}: {}", findings[0]);
+    }
+}
+
+/// Without a wall, floor or ceiling any room has a hole, and it is where that was.
+#[test]
+fn a_missing_wall_is_told_in_any_room() {
+    for seed in 0..100 {
+        let mut case = room(seed).case;
+        let missing = case.faces.remove((Dice(seed ^ 0x77).within(0.0, 6.0) as usize).min(5));
+        // A material without faces would be refused.
+        let mut walls = case.faces.iter_mut().filter(|face| face.material == "wall");
+        walls.next().expect("a wall").material = missing.material;
+        let findings = case.findings();
+        let hole = findings.iter().find(|finding| finding.check == Check::Hole);
+        let place = hole.and_then(|hole| hole.position_m);
+        let middle = missing.corners.iter().copied().sum::<DVec3>() / 4.0;
+        let is_there = place.is_some_and(|place| place.distance(middle) < 1e-6 * middle.length());
+        assert!(is_there, "room {seed}, {}: {findings:#?}", missing.object);
     }
 }
