@@ -96,12 +96,18 @@ impl Painter {
     }
 }
 
-/// The pieces of a line in pixels; the canvas lengthens each by the width of the line (its round
+/// Dashes of one line: with more of them, whatever the canvas shows is a small part of the line.
+const MAX_DASHES: f64 = 1e5;
+
+/// The pieces of a line in pixels, without gaps where these are too many to draw; the canvas
+/// lengthens each by the width of the line (its round
 /// ends).
 fn dashed(points: &[DVec2], stroke: Stroke, scale: f64) -> Vec<Segment> {
     let lengths = stroke.dash.lengths();
     let segments = points.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b);
-    if lengths.is_empty() {
+    let whole: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let period = lengths.iter().sum::<f64>() * stroke.width_px * scale;
+    if lengths.is_empty() || !whole.is_finite() || whole > MAX_DASHES * period {
         return segments.collect();
     }
     let drawn = |part: usize| {
@@ -152,6 +158,16 @@ mod tests {
             let expected = length * share / period;
             assert!(((drawn + ends) / expected - 1.0).abs() < 0.01, "{dash:?} {drawn}");
         }
+    }
+
+    #[test]
+    fn lines_without_number_of_dashes_are_not_broken() {
+        let stroke = Stroke { colour: [0; 3], width_px: 1.5, dash: Dash::Dotted };
+        for end in [1e12, f64::INFINITY, f64::NAN] {
+            let line = [DVec2::ZERO, DVec2::X * end];
+            assert_eq!(dashed(&line, stroke, 1.0).len(), 1, "{end}");
+        }
+        assert!(dashed(&[DVec2::ZERO, DVec2::X * 100.0], stroke, 1.0).len() > 10);
     }
 
     #[test]

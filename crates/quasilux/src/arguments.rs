@@ -15,7 +15,7 @@ pub(crate) use parts::{
 };
 pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
-pub(crate) use refusal::refusal;
+pub(crate) use refusal::{refusal, unknown_command};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, Parser, Subcommand};

@@ -187,7 +187,15 @@ impl<'a> Watcher<'a> {
         self.bar.set_position((done * STEPS as f64) as u64);
         let name = &self.forecast.scene.cameras[picture.camera].name;
         let bytes = memory(self.forecast.bytes(Some(progress.samples)));
-        self.bar.set_message(picture_message(name, picture, done, elapsed_s) + ", " + &bytes);
+        self.show(picture_message(name, picture, done, elapsed_s) + ", " + &bytes, "");
+    }
+
+    /// Shows how far the run is, and behind the bar what sensors show.
+    fn show(&self, course: String, values: &str) {
+        if let Some(heartbeat) = &self.heartbeat {
+            heartbeat.set(&course);
+        }
+        self.bar.set_message(course + values);
     }
 
     fn control(&mut self) -> Control {
@@ -253,11 +261,7 @@ impl Observer for Watcher<'_> {
         let course = message(progress, done, elapsed_s);
         let bytes =
             self.forecast.bytes(progress.expected_samples.or(self.forecast.settings.max_samples));
-        let course = course + ", " + &memory(bytes);
-        if let Some(heartbeat) = &self.heartbeat {
-            heartbeat.set(&course);
-        }
-        self.bar.set_message(course + &self.values);
+        self.show(course + ", " + &memory(bytes), &self.values);
         self.control()
     }
 

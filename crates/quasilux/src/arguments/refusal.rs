@@ -16,7 +16,9 @@ pub(crate) fn refusal(error: &Error) -> Option<String> {
         ErrorKind::ValueValidation => unreadable(error),
         ErrorKind::InvalidValue => outside(error),
         ErrorKind::UnknownArgument => unknown_argument(error),
-        ErrorKind::InvalidSubcommand => unknown_command(error),
+        ErrorKind::InvalidSubcommand => {
+            unknown_command(&word(error, ContextKind::InvalidSubcommand))
+        }
         ErrorKind::MissingRequiredArgument => {
             let list = words(error, ContextKind::InvalidArg).join(", ");
             format!("{} lacks {list}{}", command(error), see(error))
@@ -60,11 +62,12 @@ fn unknown_argument(error: &Error) -> String {
     }
 }
 
-fn unknown_command(error: &Error) -> String {
-    let name = word(error, ContextKind::InvalidSubcommand);
-    let known = Arguments::commands().join(", ");
-    let nearest = nearest(error, ContextKind::SuggestedSubcommand);
-    format!("unknown command \"{name}\"; expected one of {known}{nearest}")
+/// A name that no command has.
+pub(crate) fn unknown_command(name: &str) -> String {
+    let known = Arguments::commands();
+    let near = quasilux_scene::nearest(name, known.iter().map(String::as_str));
+    let nearest = near.map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+    format!("unknown command \"{name}\"; expected one of {}{nearest}", known.join(", "))
 }
 
 fn conflict(error: &Error) -> String {

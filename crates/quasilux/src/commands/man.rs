@@ -1,11 +1,10 @@
 //! `quasilux man`: the manual, a page for the program and for each command.
 
-use crate::arguments::{Arguments, ManArguments};
+use crate::arguments::{Arguments, ManArguments, unknown_command};
 use crate::exit::{CliError, Exit};
 use crate::print::{print, to_stdout};
 use crate::results;
 use clap_mangen::Man;
-use quasilux_scene::nearest;
 
 /// Prints a page, or writes all of them.
 pub(crate) fn man(arguments: &ManArguments) -> Result<Exit, CliError> {
@@ -23,7 +22,9 @@ pub(crate) fn man(arguments: &ManArguments) -> Result<Exit, CliError> {
             print(&format!("{count} pages in {}\n", folder.display()))?;
         }
         (None, Some(name)) => {
-            let command = program.find_subcommand(name).ok_or_else(|| unknown(name))?;
+            let command = program
+                .find_subcommand(name)
+                .ok_or_else(|| CliError::new(unknown_command(name)))?;
             to_stdout(|out| out.write_all(&Page::new(command).roff))?;
         }
         (None, None) => to_stdout(|out| out.write_all(&Page::new(&program).roff))?,
@@ -44,12 +45,4 @@ impl Page {
         man.render(&mut roff).expect("bytes take everything");
         Self { name: man.get_filename(), roff }
     }
-}
-
-fn unknown(name: &str) -> CliError {
-    let known = Arguments::commands();
-    let nearest = nearest(name, known.iter().map(String::as_str))
-        .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
-    let known = known.join(", ");
-    CliError::new(format!("unknown command \"{name}\"; expected one of {known}{nearest}"))
 }

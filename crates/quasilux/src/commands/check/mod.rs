@@ -4,7 +4,7 @@
 mod document;
 mod summary;
 
-use super::run::{count, pool};
+use super::run::{Folder, count, pool};
 use crate::arguments::CheckArguments;
 use crate::door::{Admitted, prepare};
 use crate::exit::{CliError, Exit};
@@ -12,17 +12,15 @@ use crate::print::print;
 use crate::{project, results};
 use quasilux_drawing::picture::PlanMark;
 use quasilux_inspection::Finding;
-use std::path::Path;
 
 /// Looks at a project, writes its plan, and reports; findings make the exit code 1 with `--strict`.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, CliError> {
     let project = project::open(&arguments.project)?;
-    let stem = arguments.project.file_stem().unwrap_or_default();
-    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    let folder = arguments.out.clone().unwrap_or_else(|| Folder::by_name(&arguments.project));
+    let title = arguments.project.file_stem().unwrap_or_default().to_string_lossy();
     results::prepare(&folder)?;
     let Admitted { findings, .. } = pool(count(None))?.install(|| prepare(&project));
-    let plan =
-        quasilux_report::plan(&project.loaded.scene, &stem.to_string_lossy(), &marks(&findings));
+    let plan = quasilux_report::plan(&project.loaded.scene, &title, &marks(&findings));
     results::write_atomic(&folder.join("plan.png"), &plan.to_png(1.0))?;
     results::write_atomic(&folder.join("plan.svg"), plan.to_svg().as_bytes())?;
     if arguments.json {
