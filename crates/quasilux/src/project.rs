@@ -4,6 +4,7 @@ use crate::arguments::SimulationArguments;
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
 use crate::forecast;
+use crate::heartbeat::Heartbeat;
 use crate::input;
 use crate::names::{self, take_from_project as take};
 use quasilux_sampling::{Randomization, Sequence};
@@ -44,7 +45,9 @@ pub(crate) fn open(path: &Path) -> Result<Project, CliError> {
         .map_err(|error| CliError::new(format!("{name}: {error}")))?;
     let path_of_folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let folder = Folder { path: path_of_folder, read: RefCell::default() };
+    let signs_of_life = Heartbeat::new(&format!("reading {name}"));
     let loaded = load(&name, &bytes, &folder)?;
+    drop(signs_of_life);
     let own_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let own = SceneFile { path: own_name, sha256: Some(sha256_hex(&bytes)) };
     let others = folder.read.into_inner().into_iter();

@@ -253,10 +253,12 @@ impl Observer for Watcher<'_> {
             return self.control();
         }
         let elapsed_s = self.start.elapsed().as_secs_f64();
-        let done = self.deadline.map_or(progress.done, |deadline| {
-            let whole_s = (deadline - self.start).as_secs_f64();
-            Some(progress.done.unwrap_or(0.0).max((elapsed_s / whole_s).min(1.0)))
-        });
+        let of_time = self.deadline.map(|end| elapsed_s / (end - self.start).as_secs_f64());
+        // Past its time a run goes on to its first checkpoint.
+        let done = match of_time.filter(|of_time| *of_time < 1.0) {
+            Some(of_time) => Some(progress.done.unwrap_or(0.0).max(of_time)),
+            None => progress.done,
+        };
         self.bar.set_position((done.unwrap_or(0.0) * STEPS as f64) as u64);
         let course = message(progress, done, elapsed_s);
         let bytes =
@@ -282,8 +284,10 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     let slope = progress.slope.map_or_else(String::new, |slope| format!(" ~ N^{slope:.2}"));
     // What a run that was gone on with took before is told at the pace of now.
     let pace_s = elapsed_s * rays.max(1.0) / own_rays;
-    let left = match done {
-        Some(done) if done > 0.0 => format!("{:.0} s left", pace_s * (1.0 - done) / done),
+    let left = |done: f64| pace_s * (1.0 - done) / done;
+    let left = match (done, progress.done_of_first) {
+        (_, Some(done)) if done > 0.0 => format!("{:.0} s to the first values", left(done)),
+        (Some(done), _) if done > 0.0 => format!("{:.0} s left", left(done)),
         _ => "? s left".to_owned(),
     };
     let whole = progress.expected_rays.map_or_else(String::new, |expected| {
@@ -354,6 +358,7 @@ mod tests {
             expected_samples: Some(1 << 16),
             expected_rays: Some(2_000_000),
             done: Some(0.001),
+            done_of_first: None,
             picture: None,
         };
         let text = message(&progress, progress.done, 2.0);
@@ -363,6 +368,8 @@ mod tests {
         );
         let text = message(&Progress { expected_rays: None, ..progress }, None, 2.0);
         assert!(text.ends_with("±10.00 %, ? s left"), "{text}");
+        let text = message(&Progress { done_of_first: Some(0.2), ..progress }, Some(0.9), 2.0);
+        assert!(text.contains("±10.00 %, 8 s to the first values"), "{text}");
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! exactly the same position, and counts the degenerate triangles that it drops.
 
 mod builder;
+mod copies;
 mod corner_grid;
 mod data_uri;
 mod gltf;
@@ -74,6 +75,14 @@ pub(crate) fn read(
             gltf::read(&bytes, files, &mut builder, warnings)?;
         }
         builder.finish_file(warnings)?;
+    }
+    let dropped = copies::drop_copies(&mut builder.geometry.mesh);
+    if dropped > 0 {
+        let message = format!(
+            "{dropped} triangles have the corners and the material of {} others: dropped",
+            copies::MAX_COPIES
+        );
+        warnings.push(Warning::new(&project.file, None, message));
     }
     Ok(builder.geometry)
 }

@@ -5,6 +5,7 @@ use crate::bsdf::Diffuse;
 use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, Geometry};
 use crate::project::{LightEntry, MaterialEntry, Project, Scattering};
 use crate::{Bsdf, Files, LoadError, Material, Rgb, Warning};
+use std::collections::{HashMap, HashSet};
 
 /// Reflectance of what nobody defines.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
@@ -17,9 +18,10 @@ pub(super) fn resolve(
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, LoadError> {
     let names = || geometry.materials.iter().map(|material| material.name.as_str());
+    let known: HashSet<&str> = names().collect();
     for entry in &project.materials {
         let name = &entry.name;
-        if name.value != DEFAULT_MATERIAL && !names().any(|known| known == name.value) {
+        if name.value != DEFAULT_MATERIAL && !known.contains(name.value.as_str()) {
             let message = format!(
                 "no geometry uses the material \"{}\"; expected one of {}",
                 name.value,
@@ -28,7 +30,10 @@ pub(super) fn resolve(
             return Err(project.error(name.place, message).offer(&name.value, names()));
         }
     }
-    let default = entry_of(project, DEFAULT_MATERIAL);
+    let entries: HashMap<&str, &MaterialEntry> =
+        project.materials.iter().map(|entry| (entry.name.value.as_str(), entry)).collect();
+    let entry_of = |name: &str| entries.get(name).copied();
+    let default = entry_of(DEFAULT_MATERIAL);
     let mut triangles = vec![0_u64; geometry.materials.len()];
     geometry.mesh.material_of.iter().for_each(|&material| triangles[material as usize] += 1);
     let mut measured = MeasuredFiles::new(project, files);
@@ -43,7 +48,7 @@ pub(super) fn resolve(
                     Ok(Bsdf::Measured(sheet))
                 }
             };
-        let bsdf = match (entry_of(project, &material.name), material.reflectance) {
+        let bsdf = match (entry_of(&material.name), material.reflectance) {
             (Some(entry), _) => bsdf_of(entry, warnings)?,
             (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
             (None, None) => {
@@ -66,10 +71,6 @@ pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     let more = if names.len() > MAX { ", ..." } else { "" };
     format!("{}{more}", names[..names.len().min(MAX)].join(", "))
-}
-
-fn entry_of<'a>(project: &'a Project, name: &str) -> Option<&'a MaterialEntry> {
-    project.materials.iter().find(|entry| entry.name.value == name)
 }
 
 fn grey() -> Bsdf {

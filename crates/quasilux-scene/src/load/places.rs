@@ -39,10 +39,12 @@ impl Places {
         let file_of = |light: usize| {
             project.luminaires.get(light).map(|entry| entry.photometry.value.clone())
         };
-        let place_of = |name: &str| {
-            let entry = project.materials.iter().find(|entry| entry.name.value == name);
-            entry.map(|entry| entry.name.place)
-        };
+        let known: HashMap<&str, Position> = project
+            .materials
+            .iter()
+            .map(|entry| (entry.name.value.as_str(), entry.name.place))
+            .collect();
+        let place_of = |name: &str| known.get(name).copied();
         let materials: Vec<Option<Position>> =
             geometry.materials.iter().map(|material| place_of(&material.name)).collect();
         let described = geometry.materials.iter().zip(&materials);

@@ -64,6 +64,10 @@ pub(crate) struct Project {
     pub(crate) simulation: SimulationSection,
 }
 
+/// Most keys, lists and elements of lists together, as their marks are counted: each takes up to
+/// 0.1 kB once it is read, whatever it takes in the file.
+const MAX_PARTS: usize = 1 << 23;
+
 const SECTIONS: [&str; 7] =
     ["scene", "materials", "luminaires", "lights", "sensors", "cameras", "simulation"];
 
@@ -71,6 +75,12 @@ impl Project {
     pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Self, LoadError> {
         let text = text_of(file, bytes)?;
         let source = Source::new(file, text);
+        let is_part = |byte: &&u8| matches!(byte, b',' | b'=' | b'[' | b'{');
+        let parts = text.bytes().filter(|byte| is_part(&byte)).count();
+        if parts > MAX_PARTS {
+            let message = format!("the file has {parts} parts; expected at most {MAX_PARTS}");
+            return Err(source.error(0, message));
+        }
         let table = DeTable::parse(text).map_err(|error| {
             let message = error.message().replace('\n', "; ");
             let offset = error.span().map_or(0, |span| span.start);

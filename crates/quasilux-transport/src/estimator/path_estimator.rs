@@ -359,6 +359,15 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             + self.sums.iter().map(PathSums::invalid).sum::<u64>()
     }
 
+    /// Photons and paths from here to so many indices.
+    fn work_up_to(&self, samples: u64) -> u64 {
+        let joined = self.light_vertices.as_ref().map_or(0, |it| it.work_of_an_index());
+        let paths = (self.growing.len() as u64).saturating_mul(u64::from(self.replicates));
+        let photons = self.end.photons_of_an_index(self.replicates);
+        let each = paths.saturating_add(photons).saturating_add(joined);
+        each.saturating_mul(samples.saturating_sub(self.samples))
+    }
+
     /// All that was traced.
     fn costs(&self) -> Costs {
         let Self { prepared, shared, contribution, .. } = self;
@@ -372,6 +381,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
 impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        watch.foresee(self.work_up_to(samples));
         self.serve(samples, watch) && self.gather(samples, watch)
     }
 

@@ -11,6 +11,9 @@ pub(crate) struct Watch<'o> {
     progress: Progress,
     /// Rays up to the tolerance or to the limit that comes first.
     rays_to_end: Option<u64>,
+    /// Photons and paths before the first checkpoint, and how many had gone before them.
+    to_first: u64,
+    before_first: u64,
     /// Rays allowed after the first checkpoint.
     max_rays: u64,
     /// Photons or paths between states that the observer may want.
@@ -39,6 +42,7 @@ impl<'o> Watch<'o> {
             expected_samples: None,
             expected_rays: None,
             done: None,
+            done_of_first: None,
             picture: None,
         };
         let (piece, preface) = (observer.piece(), Vec::new());
@@ -49,6 +53,8 @@ impl<'o> Watch<'o> {
             observer,
             progress,
             rays_to_end,
+            to_first: 0,
+            before_first: 0,
             max_rays,
             piece,
             preface,
@@ -162,6 +168,13 @@ impl<'o> Watch<'o> {
         self.max_rays = max_rays.unwrap_or(u64::MAX);
     }
 
+    /// Says how many photons and paths come before the next checkpoint; only the first one, about
+    /// which nothing else is known, is foreseen.
+    pub(crate) fn foresee(&mut self, photons_and_paths: u64) {
+        self.to_first = photons_and_paths;
+        self.before_first = self.progress.photons.saturating_add(self.progress.paths);
+    }
+
     /// Says how many rays the whole run is expected to take, limits included.
     pub(crate) fn expect(&mut self, rays: Option<u64>) {
         self.rays_to_end = rays;
@@ -187,6 +200,10 @@ impl<'o> Watch<'o> {
         so_far.rays = so_far.rays.saturating_add(rays);
         let share = |rays: u64| (self.progress.rays as f64 / rays.max(1) as f64).clamp(0.0, 1.0);
         self.progress.done = self.rays_to_end.map(share);
+        let all = self.progress.photons.saturating_add(self.progress.paths);
+        let of_first = all.saturating_sub(self.before_first) as f64 / self.to_first.max(1) as f64;
+        let is_first = self.progress.samples == 0 && self.to_first > 0;
+        self.progress.done_of_first = is_first.then_some(of_first.min(1.0));
         let control = self.observer.progress(&self.progress);
         self.stopped = control == Control::Stop && self.obeys;
         let is_within_limit = self.progress.rays <= self.max_rays || self.progress.samples == 0;
