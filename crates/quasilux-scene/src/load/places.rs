@@ -4,6 +4,7 @@ use crate::Spanned;
 use crate::geometry::Geometry;
 use crate::project::{LengthUnit, LightEntry, Project, UpAxis};
 use quasilux_text::Position;
+use std::collections::HashMap;
 
 /// The places of a scene's things in its project file, and what it says of the geometry files.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 /// A sheet that reflects 40 % and lets 20 % through, both as Lambert says, over quarter Klems
 /// patches.
-fn sheet() -> String {
+pub(crate) fn sheet() -> String {
     let block = |direction: &str, share: f64| {
         let row = vec![format!("{:.12}", share / PI); 41].join(", ");
         let rows = vec![row; 41].join(",\n");

@@ -1,6 +1,8 @@
 //! The program from outside: arguments and files in; exit codes, messages and results out.
 
 mod area;
+#[cfg(target_os = "linux")]
+mod attacks;
 mod bad_input;
 mod bsdf;
 #[path = "../../build/fingerprint/mod.rs"]
