@@ -71,16 +71,21 @@ const MAX_PARTS: usize = 1 << 23;
 const SECTIONS: [&str; 7] =
     ["scene", "materials", "luminaires", "lights", "sensors", "cameras", "simulation"];
 
+/// Refuses a file that would take too much memory once it is read.
+fn expect_few_parts(source: &Source<'_>, text: &str) -> Result<(), LoadError> {
+    let is_part = |byte: &u8| matches!(byte, b',' | b'=' | b'[' | b'{');
+    let parts = text.as_bytes().iter().filter(|byte| is_part(byte)).count();
+    if parts <= MAX_PARTS {
+        return Ok(());
+    }
+    Err(source.error(0, format!("the file has {parts} parts; expected at most {MAX_PARTS}")))
+}
+
 impl Project {
     pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Self, LoadError> {
         let text = text_of(file, bytes)?;
         let source = Source::new(file, text);
-        let is_part = |byte: &&u8| matches!(byte, b',' | b'=' | b'[' | b'{');
-        let parts = text.bytes().filter(|byte| is_part(&byte)).count();
-        if parts > MAX_PARTS {
-            let message = format!("the file has {parts} parts; expected at most {MAX_PARTS}");
-            return Err(source.error(0, message));
-        }
+        expect_few_parts(&source, text)?;
         let table = DeTable::parse(text).map_err(|error| {
             let message = error.message().replace('\n', "; ");
             let offset = error.span().map_or(0, |span| span.start);
