@@ -20,8 +20,8 @@ fn lambertian() -> String {
 }
 
 /// 100 cd everywhere, in EULUMDAT: 100 cd/klm of 1000 lm.
-pub(crate) const EVERYWHERE_LDT: &str = "maker\n1\n1\n1\n0\n2\n180\n\nball\n\nball.ldt\n\n0\n0\n0\n0\n0\n0\n\
-    0\n0\n0\n\
+pub(crate) const EVERYWHERE_LDT: &str = "maker\n1\n1\n1\n0\n2\n180\n\nball\n\nball.ldt\n\n\
+    0\n0\n0\n0\n0\n0\n0\n0\n0\n\
     50\n100\n1\n0\n1\n1\nlamp\n1000\nwhite\n80\n10\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n180\n100\n\
     100\n";
 

@@ -31,7 +31,8 @@ const TM33: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <IESTM33-18><Version>1.1</Version><Header><Manufacturer>none</Manufacturer>
 <CatalogNumber>1</CatalogNumber><Description>disk</Description><Laboratory>none</Laboratory>
 <ReportNumber>1</ReportNumber><ReportDate>2026-01-01</ReportDate></Header>
-<Luminaire><Dimensions><Length>10</Length><Width>10</Width><Height>0</Height></Dimensions></Luminaire>
+<Luminaire><Dimensions><Length>10</Length><Width>10</Width><Height>0</Height></Dimensions>
+</Luminaire>
 <Emitter><Quantity>1</Quantity><LuminousData><LuminousIntensity><AbsolutePhotometry>true
 </AbsolutePhotometry><SymmType>Symm_None</SymmType><NumberMeasured>6</NumberMeasured>
 <NumberHorz>2</NumberHorz><NumberVert>3</NumberVert><IntData h="0" v="0">100</IntData>
