@@ -34,12 +34,12 @@ fn a_long_name_is_kept_once_for_all_instances() {
 }
 
 /// Files that count how often they are read.
-struct Counting {
+struct Recording {
     files: MapFiles,
     buffers: Cell<u32>,
 }
 
-impl Files for Counting {
+impl Files for Recording {
     fn read(&self, path: &str, kind: FileKind) -> std::io::Result<Vec<u8>> {
         self.buffers.set(self.buffers.get() + u32::from(kind == FileKind::Buffer));
         self.files.read(path, kind)
@@ -52,7 +52,7 @@ fn a_buffer_that_is_named_a_hundred_times_is_read_once() {
     let text = SQUARE.replace(buffer, &vec![buffer; 100].join(", "));
     assert_eq!(text.matches(buffer).count(), 100);
     let files = MapFiles::room().with("a.gltf", text).with("square mesh.bin", square_bytes());
-    let files = Counting { files, buffers: Cell::new(0) };
+    let files = Recording { files, buffers: Cell::new(0) };
     let project = PROJECT.replace("room.obj", "a.gltf");
     load("room.toml", project.as_bytes(), &files).unwrap();
     assert_eq!(files.buffers.get(), 1);

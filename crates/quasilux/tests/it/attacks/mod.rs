@@ -12,9 +12,9 @@ use crate::support::{Folder, Run};
 use std::process::{Command, Stdio};
 
 /// Address space of the program in KiB: the memory that it may take, and what its threads reserve.
-const MOST_KIB: u64 = 1_500_000;
+const MAX_KIB: u64 = 1_500_000;
 /// Seconds before the program is killed: no test waits for one that has no end.
-const MOST_SECONDS: &str = "60";
+const MAX_SECONDS: &str = "60";
 /// What `timeout` ends with then.
 const TIME_IS_UP: i32 = 124;
 
@@ -30,7 +30,7 @@ fn redirected(folder: &Folder, arguments: &[&str], streams: &str) -> Run {
 
 fn command(folder: &Folder, arguments: &[&str], streams: &str) -> Command {
     let script =
-        format!("ulimit -v {MOST_KIB}; exec timeout -s KILL -k 1 {MOST_SECONDS} \"$@\" {streams}");
+        format!("ulimit -v {MAX_KIB}; exec timeout -s KILL -k 1 {MAX_SECONDS} \"$@\" {streams}");
     let mut command = Command::new("sh");
     command.args(["-c", &script, "sh", env!("CARGO_BIN_EXE_quasilux")]).args(arguments);
     command.current_dir(folder.path("")).stdin(Stdio::null());
