@@ -50,8 +50,7 @@ fn looks_away(survey: &Survey<'_>, light: &AreaLight, face: u32) -> bool {
     let mesh = &probe.scene.mesh;
     let position = mesh.corners(face).into_iter().sum::<DVec3>() / 3.0;
     let normal = mesh.front_normal(face);
-    let side =
-        |normal: DVec3| Vertex { position: position + normal * probe.hair_m, normal: Some(normal) };
+    let side = |normal: DVec3| Vertex::facing(position + normal * probe.hair_m, normal);
     !survey.meet(&[side(normal)], &survey.receivers)
         && survey.meet(&[side(-normal)], &survey.receivers)
         && !has_twin(survey, light, face, &side(normal))

@@ -34,6 +34,8 @@ pub enum Check {
     SensorOutside,
     /// Sensor points lie right behind a surface.
     SensorCovered,
+    /// A run found no light at sensor points.
+    SensorDark,
     /// A grid has very many points, or one.
     GridSize,
     /// A camera is outside the geometry.
@@ -50,7 +52,7 @@ pub enum Check {
 
 impl Check {
     /// All checks.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Units,
         Self::UpAxis,
         Self::LampOutside,
@@ -63,6 +65,7 @@ impl Check {
         Self::EmitterLooksAway,
         Self::SensorOutside,
         Self::SensorCovered,
+        Self::SensorDark,
         Self::GridSize,
         Self::CameraOutside,
         Self::Hole,
@@ -87,6 +90,7 @@ impl Check {
             Self::EmitterLooksAway => "emitter-looks-away",
             Self::SensorOutside => "sensor-outside",
             Self::SensorCovered => "sensor-covered",
+            Self::SensorDark => "sensor-dark",
             Self::GridSize => "grid-size",
             Self::CameraOutside => "camera-outside",
             Self::Hole => "hole",

@@ -7,10 +7,12 @@
 //!
 //! Most checks rest on one question, asked by rays (`survey.rs`): does light of this lamp reach any
 //! sensor or camera? A lamp in a far corner of a corridor does so over many surfaces; one above the
-//! ceiling does not, and sees the sky.
+//! ceiling does not, and sees the sky. After a run [`explain_darkness`] asks it again of the sensor
+//! points at which no light was found.
 
 mod cameras;
 mod coincidence;
+mod darkness;
 mod emitters;
 mod figures;
 mod finding;
@@ -25,6 +27,7 @@ mod survey;
 mod twins;
 mod units;
 
+pub use darkness::{DarkPoints, explain_darkness};
 pub use finding::{Check, Finding};
 
 use finding::Findings;

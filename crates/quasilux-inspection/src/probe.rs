@@ -7,7 +7,7 @@ use glam::DVec3;
 use quasilux_bvh::{Ray, TriangleBvh};
 use quasilux_sampling::radical_inverse;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
-use quasilux_scene::Scene;
+use quasilux_scene::{Material, Scene};
 
 /// Rays start this share of the scene's size in front of their surface.
 const HAIR: f64 = 1e-7;
@@ -23,6 +23,8 @@ pub(crate) struct Surface {
     /// Unit normal on the side that is seen.
     pub(crate) normal: DVec3,
     pub(crate) distance_m: f64,
+    /// Whether all light ends here.
+    pub(crate) is_black: bool,
 }
 
 /// A scene that answers rays.
@@ -34,6 +36,8 @@ pub(crate) struct Probe<'a> {
     pub(crate) hair_m: f64,
     /// Of each material, whether light passes through it.
     transmits: Vec<bool>,
+    /// Of each material, whether all light ends at it.
+    is_black: Vec<bool>,
 }
 
 impl<'a> Probe<'a> {
@@ -41,7 +45,9 @@ impl<'a> Probe<'a> {
         let [low, high] = scene.mesh.bounds().unwrap_or_default();
         let size_m = (high - low).length();
         let transmits = scene.materials.iter().map(|material| material.bsdf.transmits()).collect();
-        Self { scene, hierarchy, size_m, hair_m: HAIR * size_m, transmits }
+        let is_black = |material: &Material| material.bsdf.most_kept().luminance() == 0.0;
+        let is_black = scene.materials.iter().map(is_black).collect();
+        Self { scene, hierarchy, size_m, hair_m: HAIR * size_m, transmits, is_black }
     }
 
     /// The first surface that stops light on its way.
@@ -95,7 +101,8 @@ impl<'a> Probe<'a> {
                 let normal = if is_front { front_normal } else { -front_normal };
                 let position = ray.at(hit.distance) + normal * self.hair_m;
                 let (triangle, distance_m) = (hit.triangle, hit.distance);
-                return Some(Surface { triangle, position, normal, distance_m });
+                let is_black = self.is_black[material];
+                return Some(Surface { triangle, position, normal, distance_m, is_black });
             }
             passed.push(hit.triangle);
         }

@@ -37,6 +37,8 @@ pub(crate) struct Vertex {
     pub(crate) position: DVec3,
     /// Light comes and goes on this side; `None` for places that know no side.
     pub(crate) normal: Option<DVec3>,
+    /// Whether no light goes on from here.
+    pub(crate) is_black: bool,
 }
 
 /// A sensor point that is looked at.
@@ -74,7 +76,7 @@ impl<'a> Survey<'a> {
         let asked = asked_points(probe);
         let walk_from = |(i, asked): (usize, &Asked)| {
             let SensorPoint { position, normal } = asked.point;
-            let start = Vertex { position: position + normal * probe.hair_m, normal: Some(normal) };
+            let start = Vertex::facing(position + normal * probe.hair_m, normal);
             walk(probe, start, i as u32)
         };
         let asked_vertices: Vec<_> = asked.iter().enumerate().map(walk_from).collect();
@@ -128,34 +130,29 @@ impl<'a> Survey<'a> {
     fn shines(&self, lamp: &Light, vertices: &[Vertex]) -> bool {
         let stride = vertices.len().div_ceil(MAX_PAIRS).max(1);
         let shines_on = |vertex: &Vertex| {
-            let (position, is_bright) = match lamp {
-                Light::Point(light) => (light.position, light.intensity_cd > 0.0),
-                Light::Luminaire(light) => {
-                    let toward = (vertex.position - light.position).normalize_or_zero();
-                    (light.position, light.intensity_cd(toward) > 0.0)
-                }
-                Light::Area(_) => return false,
-            };
-            is_bright && self.exchange(&Vertex { position, normal: None }, vertex)
+            let place = shining_place(lamp, vertex.position);
+            place.is_some_and(|place| self.exchange(&place, vertex))
         };
         vertices.iter().step_by(stride).any(shines_on)
     }
 
     /// Whether light goes from one vertex to the other.
     pub(crate) fn exchange(&self, a: &Vertex, b: &Vertex) -> bool {
-        let between = b.position - a.position;
-        let ahead = |normal: Option<DVec3>, to: DVec3| normal.is_none_or(|n| n.dot(to) > 0.0);
-        ahead(a.normal, between)
-            && ahead(b.normal, -between)
+        a.is_before(b.position)
+            && b.is_before(a.position)
             && self.probe.sees(a.position, b.position)
     }
 
     /// Whether light of any lamp was found to come to these vertices.
     pub(crate) fn is_lit(&self, vertices: &[Vertex]) -> bool {
+        self.any_shines(vertices) || self.meet(&self.lit, vertices)
+    }
+
+    /// Whether any lamp shines straight on one of the vertices.
+    pub(crate) fn any_shines(&self, vertices: &[Vertex]) -> bool {
         let lamps = &self.probe.scene.lights;
         let stride = lamps.len().div_ceil(MAX_LAMPS_ASKED).max(1);
         lamps.iter().step_by(stride).any(|lamp| self.shines(lamp, vertices))
-            || self.meet(&self.lit, vertices)
     }
 
     /// Whether most of the lit sensor points see the sky.
@@ -184,7 +181,7 @@ impl<'a> Survey<'a> {
 
     /// Whether a lamp at this place would shine straight on a sensor point or on what it sees.
     pub(crate) fn would_light(&self, position: DVec3) -> bool {
-        let place = Vertex { position, normal: None };
+        let place = Vertex::in_air(position);
         let first_two = self.asked_vertices.iter().flat_map(|vertices| vertices.iter().take(2));
         let stride = (2 * self.asked_vertices.len() / 256).max(1);
         let mut cameras = self.camera_vertices.iter().flatten();
@@ -206,14 +203,15 @@ fn asked_points(probe: &Probe<'_>) -> Vec<Asked> {
     points.collect()
 }
 
-/// A vertex and those that a walk over diffuse surfaces meets from it.
-fn walk(probe: &Probe<'_>, start: Vertex, number: u32) -> Vec<Vertex> {
+/// A vertex and those that a walk over surfaces of any reflectance meets from it.
+pub(crate) fn walk(probe: &Probe<'_>, start: Vertex, number: u32) -> Vec<Vertex> {
     let mut vertices = vec![start];
     let mut here = start;
     for bounce in 0..BOUNCES {
         let Some(normal) = here.normal else { break };
         let u = square(number.wrapping_mul(7).wrapping_add(bounce.wrapping_mul(977)));
-        let Some(surface) = probe.first(here.position, cosine_direction(normal, u)) else { break };
+        let direction = cosine_direction(normal, u);
+        let Some(surface) = probe.first(here.position, direction) else { break };
         here = Vertex::on(&surface);
         vertices.push(here);
     }
@@ -248,6 +246,29 @@ fn lit_by(probe: &Probe<'_>, lamp: &Light, walks: u32) -> Vec<Vertex> {
     };
     let walks = (0..).zip(starts).filter_map(|(i, start)| Some(walk(probe, start?, i)));
     walks.flatten().collect()
+}
+
+/// The place of a lamp from which it shines toward another; `None` for one that does not, or is a
+/// surface.
+fn shining_place(lamp: &Light, toward: DVec3) -> Option<Vertex> {
+    let (position, is_bright) = match lamp {
+        Light::Point(light) => (light.position, light.intensity_cd > 0.0),
+        Light::Luminaire(light) => {
+            let direction = (toward - light.position).normalize_or_zero();
+            (light.position, light.intensity_cd(direction) > 0.0)
+        }
+        Light::Area(_) => return None,
+    };
+    is_bright.then_some(Vertex::in_air(position))
+}
+
+/// Places of a lamp from which it shines toward another; of one that is a surface some.
+pub(crate) fn shining_places(probe: &Probe<'_>, lamp: &Light, toward: DVec3) -> Vec<Vertex> {
+    const PLACES: u32 = 4;
+    let Light::Area(light) = lamp else { return shining_place(lamp, toward).into_iter().collect() };
+    let places = EmittingPlaces::new(&probe.scene.mesh, light);
+    let places = (0..PLACES).filter_map(|i| places.place(i, probe.hair_m));
+    places.filter(|place| place.is_before(toward)).collect()
 }
 
 /// Where a lamp is; `None` for one that is a surface.
@@ -287,12 +308,28 @@ impl<'m> EmittingPlaces<'m> {
         let corners = self.mesh.corners(triangle).into_iter().zip(barycentric);
         let position: DVec3 = corners.map(|(corner, weight)| corner * weight).sum();
         let normal = self.mesh.front_normal(triangle);
-        Some(Vertex { position: position + normal * hair_m, normal: Some(normal) })
+        Some(Vertex::facing(position + normal * hair_m, normal))
     }
 }
 
 impl Vertex {
     pub(crate) fn on(surface: &Surface) -> Self {
-        Self { position: surface.position, normal: Some(surface.normal) }
+        let Surface { position, normal, is_black, .. } = *surface;
+        Self { position, normal: Some(normal), is_black }
+    }
+
+    /// A place that light comes from or to on the side of a normal.
+    pub(crate) fn facing(position: DVec3, normal: DVec3) -> Self {
+        Self { position, normal: Some(normal), is_black: false }
+    }
+
+    /// A place in the air.
+    pub(crate) fn in_air(position: DVec3) -> Self {
+        Self { position, normal: None, is_black: false }
+    }
+
+    /// Whether a place lies on the side where light comes and goes.
+    pub(crate) fn is_before(&self, place: DVec3) -> bool {
+        self.normal.is_none_or(|normal| normal.dot(place - self.position) > 0.0)
     }
 }

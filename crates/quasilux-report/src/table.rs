@@ -2,6 +2,7 @@
 
 mod convergence;
 mod explanation;
+mod flux;
 mod terms;
 
 pub use explanation::explanation;
@@ -48,6 +49,9 @@ pub fn table(report: &Report, style: Style) -> String {
     let verdict = style.paint(verdict.emphasis, &verdict.text);
     writeln!(text, "\n{faint}{verdict}").expect("strings grow");
     if let Some(line) = convergence::convergence(report) {
+        writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
+    }
+    if let Some(line) = flux::flux(&report.run) {
         writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
     }
     for warning in &report.warnings {

@@ -1,5 +1,6 @@
 //! Wrong scenes of which each is told by name and place, and right ones of which nothing is told.
 
+mod dark;
 mod random;
 mod right;
 mod room;

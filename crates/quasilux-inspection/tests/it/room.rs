@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use quasilux_bvh::TriangleBvh;
-use quasilux_inspection::{Finding, inspect};
-use quasilux_scene::{FileKind, Files, load};
+use quasilux_inspection::{DarkPoints, Finding, explain_darkness, inspect};
+use quasilux_scene::{FileKind, Files, Loaded, Scene, load};
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -187,19 +187,36 @@ impl Case {
 
     /// What is said of it.
     pub(crate) fn findings(&self) -> Vec<Finding> {
+        inspected("room.toml", self.project.as_bytes(), &self.files())
+    }
+
+    /// What is said after a run that found no light at the first point of these sensors.
+    pub(crate) fn darkness(&self, sensors: &[usize]) -> Vec<Finding> {
+        let loaded = load("room.toml", self.project.as_bytes(), &self.files()).unwrap();
+        let Loaded { scene, places, .. } = &loaded;
+        let dark: Vec<DarkPoints> =
+            sensors.iter().map(|&sensor| DarkPoints { sensor, points: vec![0] }).collect();
+        let hierarchy = hierarchy(scene);
+        let found = inspect(scene, places, &hierarchy);
+        explain_darkness(scene, places, &hierarchy, &dark, &found)
+    }
+
+    fn files(&self) -> MapFiles {
         let files = [("room.obj", self.obj()), ("lamp.ies", self.lamp.clone())];
         let files = files.map(|(name, text)| (name.to_owned(), text.into_bytes()));
-        inspected("room.toml", self.project.as_bytes(), &MapFiles(HashMap::from(files)))
+        MapFiles(HashMap::from(files))
     }
 }
 
 /// Loads and inspects a project.
 pub(crate) fn inspected(name: &str, project: &[u8], files: &dyn Files) -> Vec<Finding> {
     let loaded = load(name, project, files).unwrap_or_else(|error| panic!("{error}"));
-    let mesh = &loaded.scene.mesh;
-    let triangles = 0..mesh.triangles.len() as u32;
-    let hierarchy = TriangleBvh::build(triangles.map(|t| mesh.corners(t)).collect());
-    inspect(&loaded.scene, &loaded.places, &hierarchy)
+    inspect(&loaded.scene, &loaded.places, &hierarchy(&loaded.scene))
+}
+
+fn hierarchy(scene: &Scene) -> TriangleBvh {
+    let triangles = 0..scene.mesh.triangles.len() as u32;
+    TriangleBvh::build(triangles.map(|t| scene.mesh.corners(t)).collect())
 }
 
 /// Files in a map.

@@ -117,6 +117,15 @@ pub struct Dimensions {
     pub path: DimensionHistogram,
 }
 
+impl SensorEstimates {
+    /// Points at which no replicate found light.
+    #[must_use]
+    pub fn dark_points(&self) -> Vec<usize> {
+        let points = 0..self.direct_lx.len();
+        points.filter(|&point| self.replicate_lx.iter().all(|row| row[point] == 0.0)).collect()
+    }
+}
+
 impl Estimates {
     /// The interval of an average or another figure that is linear in the values of one sensor, in
     /// lx: `statistic` maps them to it. No half-width where nothing was found at a point, here and

@@ -11,6 +11,7 @@ use crate::print::{print, tell, tell_text};
 use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
+use quasilux_inspection::{DarkPoints, Finding, explain_darkness};
 use quasilux_report::{Report, RunFacts, Style, json, table};
 use quasilux_transport::{Estimates, PreparedScene};
 use std::io::IsTerminal;
@@ -124,10 +125,11 @@ pub(crate) fn work(
     let forecast = watcher.forecast;
     let Forecast { scene, settings, threads, .. } = forecast;
     let pool = pool(threads)?;
-    let Admitted { prepared, findings } = pool.install(|| door.admit(project, &watcher))?;
+    let Admitted { prepared, mut findings } = pool.install(|| door.admit(project, &watcher))?;
     let outcome = pool.install(|| job(&prepared, &mut watcher));
     let seconds = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
+    findings.extend(pool.install(|| in_the_dark(project, &prepared, &estimates, &findings)));
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {
         version: VERSION.to_owned(),
@@ -149,6 +151,21 @@ pub(crate) fn work(
     };
     let report = Report::new(scene, settings, &estimates, facts);
     Ok(Some(Finished { report, exit }))
+}
+
+/// Why no light was found at some sensor points.
+fn in_the_dark(
+    project: &Project,
+    prepared: &PreparedScene<'_>,
+    estimates: &Estimates,
+    findings: &[Finding],
+) -> Vec<Finding> {
+    let loaded = &project.loaded;
+    let dark: Vec<DarkPoints> = (0..)
+        .zip(&estimates.sensors)
+        .map(|(sensor, it)| DarkPoints { sensor, points: it.dark_points() })
+        .collect();
+    explain_darkness(&loaded.scene, &loaded.places, prepared.hierarchy(), &dark, findings)
 }
 
 /// The wanted number of threads.
