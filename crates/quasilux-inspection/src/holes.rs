@@ -26,8 +26,10 @@ const ELEVATIONS: [f64; 2] = [0.02, 0.06];
 const SLANTS: [f64; 2] = [0.2, 0.6];
 /// Azimuths of both.
 const AZIMUTHS: u32 = 12;
-/// Less than this share is taken for gaps of modelling.
+/// Less than this share is no hole, and what has no border edges less than the other no gap: models
+/// are not closed, and the other one is the tolerance that runs have by default.
 const MIN_LEAVING: f64 = 2e-4;
+const MIN_LEAVING_BY_GAPS: f64 = 0.01;
 /// Pairs of loops and rays that are looked at.
 const MAX_PIERCINGS: usize = 10_000_000;
 /// Edges of a loop.
@@ -86,7 +88,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         );
         findings.add(Check::Hole, place, message, cure).at(hole.centre());
     }
-    if holes.is_empty() {
+    if holes.is_empty() && leaving >= MIN_LEAVING_BY_GAPS {
         let at = exit(survey, &surroundings.leaving[0]);
         let message = format!(
             "the geometry has gaps between its surfaces, near {}: {share}",

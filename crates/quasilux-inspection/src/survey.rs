@@ -17,8 +17,9 @@ const LAMP_WALKS: [u32; 2] = [8, 64];
 const ALL_LAMP_WALKS: u32 = 4096;
 /// Sensor points that are looked at in all, evenly over sensors.
 const SENSOR_POINTS: usize = 512;
-/// Places of each camera's picture.
+/// Places of each camera's picture; so many more are tried where these show nothing.
 const CAMERA_WALKS: u32 = 64;
+const FINE_CAMERA_WALKS: u32 = 4096;
 /// Reflections of a walk.
 const BOUNCES: u32 = 6;
 /// Pairs that are tried for one answer.
@@ -221,12 +222,18 @@ pub(crate) fn walk(probe: &Probe<'_>, start: Vertex, number: u32) -> Vec<Vertex>
 fn seen_by_camera(probe: &Probe<'_>, camera: usize) -> Vec<Vertex> {
     let camera = &probe.scene.cameras[camera];
     let (view, [width, height]) = (camera.view(), camera.resolution.map(f64::from));
-    let seen = (0..CAMERA_WALKS).filter_map(|i| {
+    let seen = |i: u32| {
         let [u, v] = square(i);
         let surface = probe.first(camera.position, view.direction([u * width, v * height]))?;
         Some(walk(probe, Vertex::on(&surface), i))
-    });
-    seen.flatten().collect()
+    };
+    let coarse: Vec<Vertex> = (0..CAMERA_WALKS).filter_map(seen).flatten().collect();
+    if !coarse.is_empty() {
+        return coarse;
+    }
+    // A small thing in the middle of nothing.
+    let fine = (CAMERA_WALKS..FINE_CAMERA_WALKS).filter_map(seen);
+    fine.take(CAMERA_WALKS as usize).flatten().collect()
 }
 
 /// What a lamp sends light to; of an area light its own places, too.
@@ -244,8 +251,24 @@ fn lit_by(probe: &Probe<'_>, lamp: &Light, walks: u32) -> Vec<Vertex> {
             (0..walks).map(|i| places.place(i, probe.hair_m)).collect()
         }
     };
-    let walks = (0..).zip(starts).filter_map(|(i, start)| Some(walk(probe, start?, i)));
-    walks.flatten().collect()
+    let starts: Vec<Vertex> = match starts.iter().any(Option::is_some) {
+        true => starts.into_iter().flatten().collect(),
+        false => aimed_at(probe, lamp, walks),
+    };
+    (0..).zip(starts).flat_map(|(i, start)| walk(probe, start, i)).collect()
+}
+
+/// What a lamp lights that has only small things around it, of some triangles.
+fn aimed_at(probe: &Probe<'_>, lamp: &Light, count: u32) -> Vec<Vertex> {
+    let mesh = &probe.scene.mesh;
+    let stride = mesh.triangles.len().div_ceil(count as usize).max(1);
+    let lit = (0..mesh.triangles.len() as u32).step_by(stride).filter_map(|triangle| {
+        let [a, b, c] = mesh.corners(triangle);
+        let centre = (a + b + c) / 3.0;
+        let from = shining_place(lamp, centre)?.position;
+        Some(Vertex::on(&probe.first(from, (centre - from).try_normalize()?)?))
+    });
+    lit.collect()
 }
 
 /// The place of a lamp from which it shines toward another; `None` for one that does not, or is a

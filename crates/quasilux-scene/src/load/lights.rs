@@ -146,7 +146,10 @@ fn area_light(
         .filter(|&t| Some(mesh.material_of[t as usize] as usize) == index)
         .collect();
     let (Some(material), false) = (index, triangles.is_empty()) else {
-        let names = || geometry.materials.iter().map(|material| material.name.as_str());
+        let mut is_used = vec![false; geometry.materials.len()];
+        mesh.material_of.iter().for_each(|&material| is_used[material as usize] = true);
+        let used = || geometry.materials.iter().zip(&is_used).filter(|(_, is_used)| **is_used);
+        let names = || used().map(|(material, _)| material.name.as_str());
         let message = format!(
             "no triangle has the material \"{}\"; expected one of {}",
             name.value,

@@ -31,7 +31,7 @@ pub(super) fn summary(project: &Project) -> String {
     section("materials", materials(scene));
     section("lights", (0..scene.lights.len()).map(|i| light(project, i)).collect());
     let flux_lm = brief(scene.flux_lm(), 5);
-    section("flux", vec![format!("{flux_lm} lm of {} lights", scene.lights.len())]);
+    section("flux", vec![format!("{flux_lm} lm of {}", plural(scene.lights.len(), "light"))]);
     section("sensors", scene.sensors.iter().map(sensor).collect());
     section("cameras", scene.cameras.iter().map(camera).collect());
     text
@@ -57,17 +57,22 @@ fn geometry(project: &Project) -> Vec<String> {
     let (scene, places) = (&project.loaded.scene, &project.loaded.places);
     let files: Vec<&str> = places.geometry.iter().map(|file| file.value.as_str()).collect();
     let (up, unit) = (if places.y_is_up { "y" } else { "z" }, places.unit.name());
-    let triangles = count(scene.mesh.triangles.len() as u64);
+    let triangles = plural(scene.mesh.triangles.len(), "triangle");
+    let objects = plural(scene.mesh.objects.len(), "object");
     let mut lines = vec![format!(
-        "{}: {triangles} triangles in {} objects; read with {up} up, in {unit}",
-        files.join(", "),
-        scene.mesh.objects.len()
+        "{}: {triangles} in {objects}; read with {up} up, in {unit}",
+        files.join(", ")
     )];
     if let Some([low, high]) = scene.mesh.bounds() {
         let [x, y, z] = (high - low).to_array().map(|edge| brief(edge, DIGITS));
         lines.push(format!("{x} x {y} m, {z} m high, from {} to {}", place(low), place(high)));
     }
     lines
+}
+
+/// A number of things.
+fn plural(n: usize, one: &str) -> String {
+    format!("{} {one}{}", count(n as u64), if n == 1 { "" } else { "s" })
 }
 
 fn materials(scene: &Scene) -> Vec<String> {
