@@ -9,6 +9,7 @@ mod bsdf;
 mod build_fingerprint;
 mod cameras;
 mod direct;
+mod door;
 mod experiment;
 mod explain;
 mod fingerprint;
