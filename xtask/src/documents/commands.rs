@@ -65,7 +65,8 @@ impl Line {
     }
 }
 
-/// Runs the program in a folder and returns what it printed, if it ended with exit code 0.
+/// Runs the program in a folder and returns what it printed, if it ended with results: exit code 0,
+/// or 3 where a limit came before the tolerance.
 pub(super) fn output(
     program: &Path,
     folder: &Path,
@@ -78,7 +79,7 @@ pub(super) fn output(
         .current_dir(folder)
         .output()
         .map_err(|error| format!("{}: {error}", program.display()))?;
-    if output.status.success() {
+    if matches!(output.status.code(), Some(0 | 3)) {
         return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
     }
     let said = String::from_utf8_lossy(&output.stderr);

@@ -97,22 +97,26 @@ impl CellTally {
         totals.into_iter().map(|sum| self.quantum.value(sum) / photons).collect()
     }
 
-    /// What a target with this transfer got in one replicate, in lx: of one term of the Neumann
-    /// series, or of all.
-    pub(super) fn lx(
-        &self,
-        replicate: usize,
-        transfer: &CellTransfer,
-        target: usize,
-        term: Option<usize>,
-    ) -> f64 {
-        let (part, cells) = (term.map_or(0, |term| 1 + term), self.cells);
-        let of_class = |class: usize| -> f64 {
-            let leaving = self.means_lm_sr[replicate].iter().skip((part * CLASSES + class) * cells);
-            let seen = transfer.of_target(target, class == 0);
-            leaving.zip(seen).map(|(lm_sr, lx)| lm_sr * f64::from(lx)).sum()
-        };
-        (0..CLASSES).map(of_class).sum()
+    /// What all targets of a transfer got in one replicate, in lx: each of all terms of the Neumann
+    /// series together, then each of the first term, and so on.
+    pub(super) fn lx(&self, replicate: usize, transfer: &CellTransfer) -> Vec<f64> {
+        let targets = transfer.targets();
+        let mut lx = vec![0.0; (1 + self.terms) * targets];
+        let mut of_class = vec![0.0; targets];
+        let means = self.means_lm_sr[replicate].chunks_exact(self.cells.max(1));
+        for (row, means_lm_sr) in means.enumerate() {
+            let (part, class) = (row / CLASSES, row % CLASSES);
+            of_class.fill(0.0);
+            for (cell, lm_sr) in means_lm_sr.iter().enumerate().filter(|(_, lm_sr)| **lm_sr != 0.0)
+            {
+                let seen = transfer.of_cell(cell, class == 0);
+                let sums = of_class.iter_mut().zip(seen);
+                sums.for_each(|(sum, lx_sr_lm)| *sum += lm_sr * f64::from(*lx_sr_lm));
+            }
+            let sums = lx[part * targets..].iter_mut().zip(&of_class);
+            sums.for_each(|(sum, of_class)| *sum += of_class);
+        }
+        lx
     }
 
     /// Contributions that are not in the sums.

@@ -52,7 +52,7 @@ impl CellTransfer {
     }
 
     /// What all targets get from a cell, by what comes there straight from the lights or otherwise.
-    fn of_cell(&self, cell: usize, is_first: bool) -> &[f32] {
+    pub(super) fn of_cell(&self, cell: usize, is_first: bool) -> &[f32] {
         let row = cell * CLASSES + usize::from(!is_first);
         &self.lx_sr_lm[row * self.targets..(row + 1) * self.targets]
     }
@@ -67,10 +67,9 @@ impl CellTransfer {
         }
     }
 
-    /// What one target gets from all cells.
-    pub(super) fn of_target(&self, target: usize, is_first: bool) -> impl Iterator<Item = f32> {
-        let from = usize::from(!is_first) * self.targets + target;
-        self.lx_sr_lm.iter().skip(from).step_by(CLASSES * self.targets).copied()
+    /// How many targets it has.
+    pub(super) fn targets(&self) -> usize {
+        self.targets
     }
 }
 

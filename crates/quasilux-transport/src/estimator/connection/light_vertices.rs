@@ -17,6 +17,7 @@ use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
 use crate::stats::watch::Watch;
+use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -40,6 +41,9 @@ pub(crate) struct LightVertexConnections {
     scores: Vec<Mutex<Vec<Scores>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
     coarse: Option<(Vec<CellTransfer>, CellTally)>,
+    /// By group and replicate: what the latter gave so far, see [`CellTally::lx`]; empty where no
+    /// target of a group gets more.
+    counted_lx: Vec<Vec<f64>>,
     /// Rays that it took to find out what targets see.
     pub(crate) rays: u64,
     replicates: Range<u32>,
@@ -94,6 +98,7 @@ impl LightVertexConnections {
             sums,
             scores,
             coarse,
+            counted_lx: Vec::new(),
             rays,
             replicates,
             samples,
@@ -141,9 +146,19 @@ impl LightVertexConnections {
 
     /// Declares the cell sums complete up to the photons of the indices so far.
     fn count(&mut self) {
-        if let Some((_, coarse)) = &mut self.coarse {
-            coarse.freeze_converged(self.samples * self.connection.cell_photons);
-        }
+        let Some((transfers, coarse)) = &mut self.coarse else { return };
+        coarse.freeze_converged(self.samples * self.connection.cell_photons);
+        let (coarse, replicates) = (&*coarse, self.replicates.len());
+        let lx = |row: usize| {
+            let (group, replicate) = (row / replicates, row % replicates);
+            let settled = self.settled.chunks(GROUP).nth(group).unwrap_or_default();
+            if settled.iter().all(Option::is_some) {
+                return Vec::new();
+            }
+            coarse.lx(replicate, &transfers[group])
+        };
+        let rows = (0..transfers.len() * replicates).into_par_iter();
+        self.counted_lx = rows.map(lx).collect();
     }
 
     /// How much work an index is, in photons that are not connected.
@@ -242,12 +257,14 @@ impl LightVertexConnections {
 
     /// By photons that are counted, of one term or of all.
     pub(super) fn cells_lx(&self, replicate: usize, target: usize, term: Option<usize>) -> f64 {
+        let part = term.map_or(0, |term| 1 + term);
         if let Some(parts) = &self.settled[target] {
-            return parts[replicate * (1 + self.terms) + term.map_or(0, |term| 1 + term)];
+            return parts[replicate * (1 + self.terms) + part];
         }
-        self.coarse.as_ref().map_or(0.0, |(transfers, coarse)| {
-            coarse.lx(replicate, &transfers[target / GROUP], target % GROUP, term)
-        })
+        let group = target / GROUP;
+        let targets = (self.elements.len() - group * GROUP).min(GROUP);
+        let row = self.counted_lx.get(group * self.replicates.len() + replicate);
+        row.map_or(0.0, |row| row[part * targets + target % GROUP])
     }
 
     /// What it got of one term of the Neumann series; of the last, of all that follow too.
