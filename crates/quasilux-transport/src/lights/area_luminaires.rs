@@ -11,25 +11,26 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
-use crate::lights::pointlike::{LightCentre, defensive};
+use crate::lights::choice::{Asking, DEFENSIVE_SHARE, LightChoice, Surroundings};
+use crate::lights::pointlike::{LightCentre, LightChoiceWork};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::LightSample;
 use glam::DVec3;
 use quasilux_photometry::SurfacePoint;
-use quasilux_sampling::choose_weights;
 use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Light, Scene};
 use std::f64::consts::PI;
 
-/// Share of a luminaire's weight that does not trust the direction of its centre.
-const DEFENSIVE_SHARE: f64 = 0.1;
 /// Places along each coordinate from which a shape is probed for surfaces that cut it.
 const PROBES: u32 = 4;
 
 /// The luminaires with a luminous area.
-pub(crate) struct AreaLuminaires<'a>(Vec<AreaLuminaire<'a>>);
+pub(crate) struct AreaLuminaires<'a> {
+    lights: Vec<AreaLuminaire<'a>>,
+    choice: LightChoice,
+}
 
 struct AreaLuminaire<'a> {
     luminaire: &'a Luminaire,
@@ -38,7 +39,8 @@ struct AreaLuminaire<'a> {
 }
 
 impl<'a> AreaLuminaires<'a> {
-    pub(crate) fn new(scene: &'a Scene) -> Self {
+    /// `bounds` are those of the geometry.
+    pub(crate) fn new(scene: &'a Scene, bounds: Option<[DVec3; 2]>) -> Self {
         let luminaires = scene.lights.iter().filter_map(|light| match light {
             Light::Luminaire(luminaire) if luminaire.is_area() => Some(AreaLuminaire {
                 luminaire,
@@ -47,20 +49,22 @@ impl<'a> AreaLuminaires<'a> {
             }),
             _ => None,
         });
-        Self(luminaires.collect())
+        let lights: Vec<AreaLuminaire<'_>> = luminaires.collect();
+        let choice = LightChoice::new(lights.len(), bounds);
+        Self { lights, choice }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.lights.is_empty()
     }
 
     pub(crate) fn get(&self, index: usize) -> Option<&'a Luminaire> {
-        self.0.get(index).map(|light| light.luminaire)
+        self.lights.get(index).map(|light| light.luminaire)
     }
 
     /// Their centres and fluxes.
     pub(crate) fn iter(&self) -> impl Iterator<Item = LightCentre> {
-        self.0.iter().map(|&AreaLuminaire { luminaire, flux_lm, .. }| LightCentre {
+        self.lights.iter().map(|&AreaLuminaire { luminaire, flux_lm, .. }| LightCentre {
             position: luminaire.position,
             flux_lm,
         })
@@ -69,39 +73,46 @@ impl<'a> AreaLuminaires<'a> {
     /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the
     /// way.
     pub(crate) fn may_light(&self, position: DVec3, n: DVec3) -> bool {
-        self.0.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
+        self.lights.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
     }
 
     /// About what one of them gives, see [`AreaLuminaire::importance_lx`].
     pub(crate) fn importance_lx(&self, index: usize, position: DVec3, side: Option<DVec3>) -> f64 {
-        self.0[index].importance_lx(position, side)
+        self.lights[index].importance_lx(position, side)
     }
 
-    /// An estimate of what all of them give: what one place on one of them offers. `weights` is
-    /// working space.
+    /// Whether they are many, so that a choice among them takes coordinates of its own.
+    pub(crate) fn are_many(&self) -> bool {
+        self.choice.dimensions() > 1
+    }
+
+    /// An estimate of what all of them give: what one place on one of them offers. `u` leads to the
+    /// place; where they are not many its first coordinate chooses the luminaire, too.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
+        u_choice: Option<[f64; 2]>,
         u: [f64; 2],
-        weights: &mut Vec<f64>,
+        LightChoiceWork { choice, .. }: &mut LightChoiceWork<S>,
     ) -> Option<LightSample<S>> {
-        let (position, side) = (vertex.position(), vertex.only_side());
-        weights.clear();
-        weights.extend(self.0.iter().map(|light| light.importance_lx(position, side)));
-        let total = weights.iter().sum();
-        let Some(choice) = choose_weights(u[0], defensive(weights.iter().copied(), total)) else {
-            return LightSample::without_choice(total);
+        let place = Asking { position: vertex.position(), side: vertex.only_side() };
+        let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
+        let weight = |light: usize| self.lights[light].importance_lx(place.position, place.side);
+        let chosen = self.choice.choose(place, u_choice.unwrap_or(u), around, weight, choice);
+        let Some(chosen) = chosen else {
+            return LightSample::without_choice(choice.total());
         };
-        let importance_lx = weights[choice.index];
-        let light_sample = self.0[choice.index].light_sample(vertex, [choice.u_remapped, u[1]])?;
-        let light = light_sample.light * (1.0 / choice.pdf);
-        Some(LightSample { light, illuminance_lx: importance_lx, ..light_sample })
+        let u = if u_choice.is_some() { u } else { [chosen.u_remapped, u[1]] };
+        let light_sample = self.lights[chosen.light].light_sample(vertex, u)?;
+        let light = light_sample.light * (1.0 / chosen.pdf);
+        let illuminance_lx = weight(chosen.light);
+        Some(LightSample { light, illuminance_lx, ..light_sample })
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their
     /// light starts behind these.
     pub(crate) fn cut_by_surfaces<S: Spectrum>(&self, world: &World<S>) -> usize {
-        self.0.iter().filter(|light| is_cut(light.luminaire, world)).count()
+        self.lights.iter().filter(|light| is_cut(light.luminaire, world)).count()
     }
 }
 
@@ -120,6 +131,14 @@ impl AreaLuminaire<'_> {
         let mean_cd = self.flux_lm / (4.0 * PI);
         let cos = side.map_or(1.0, |n| n.dot(direction).max(0.0));
         (intensity_cd * cos + DEFENSIVE_SHARE * mean_cd) / square_m2
+    }
+
+    /// The same in some surroundings.
+    fn weight_around(&self, around: &Surroundings) -> f64 {
+        let mean_cd = self.flux_lm / (4.0 * PI);
+        let intensity_cd =
+            |direction| self.luminaire.intensity_cd(direction) + DEFENSIVE_SHARE * mean_cd;
+        around.lx(self.luminaire.position, self.radius_m, intensity_cd)
     }
 
     /// One place on the shape, with the estimator at the head of this module.

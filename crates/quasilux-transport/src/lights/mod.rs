@@ -1,15 +1,16 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
 //! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent
-//! in `pointlike`, what mirrors show of both kinds in `images`.
+//! in `pointlike`, what mirrors show of both kinds in `images`; `choice` chooses one of many.
 
 mod area_luminaires;
+mod choice;
 mod emitting_facets;
 pub(crate) mod images;
 mod pointlike;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitting_facets::Emitters;
-pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
+pub(crate) use pointlike::{Incidence, LightCentre, LightChoiceWork, PointLikes};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};
@@ -61,8 +62,8 @@ pub(crate) struct Chosen {
 
 impl<'a> Lights<'a> {
     pub(crate) fn new<S: Spectrum>(scene: &'a Scene, world: &World<S>) -> Self {
-        let pointlikes = PointLikes::new(scene);
-        let area_luminaires = AreaLuminaires::new(scene);
+        let pointlikes = PointLikes::new(scene, world.bounds());
+        let area_luminaires = AreaLuminaires::new(scene, world.bounds());
         let emitters = Emitters::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
         let centred = pointlikes.iter().chain(area_luminaires.iter());

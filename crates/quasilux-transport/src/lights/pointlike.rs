@@ -1,16 +1,20 @@
 //! Direct light of point-like lights, computed without sampling or from one light chosen by its
 //! unshadowed illuminance.
 
+use crate::lights::choice::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{LightSample, Receiver, ShadowQueue};
 use glam::DVec3;
-use quasilux_sampling::choose_weights;
 use quasilux_scene::{Light, Scene};
+use std::f64::consts::PI;
 
 /// The lights without extent: points, and luminaires without a luminous area.
-pub(crate) struct PointLikes<'a>(Vec<&'a Light>);
+pub(crate) struct PointLikes<'a> {
+    lights: Vec<&'a Light>,
+    choice: LightChoice,
+}
 
 /// The centre of a light.
 #[derive(Clone, Copy)]
@@ -20,37 +24,40 @@ pub(crate) struct LightCentre {
 }
 
 impl<'a> PointLikes<'a> {
-    pub(crate) fn new(scene: &'a Scene) -> Self {
+    /// `bounds` are those of the geometry.
+    pub(crate) fn new(scene: &'a Scene, bounds: Option<[DVec3; 2]>) -> Self {
         let is_pointlike = |light: &&Light| match light {
             Light::Point(_) => true,
             Light::Luminaire(luminaire) => !luminaire.is_area(),
             Light::Area(_) => false,
         };
-        Self(scene.lights.iter().filter(is_pointlike).collect())
+        let lights: Vec<&Light> = scene.lights.iter().filter(is_pointlike).collect();
+        let choice = LightChoice::new(lights.len(), bounds);
+        Self { lights, choice }
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.0.len()
+        self.lights.len()
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.lights.is_empty()
     }
 
     pub(crate) fn get(&self, index: usize) -> Option<&'a Light> {
-        self.0.get(index).copied()
+        self.lights.get(index).copied()
     }
 
     /// Their positions and fluxes.
     pub(crate) fn iter(&self) -> impl Iterator<Item = LightCentre> {
         let centre =
             |light: &&Light| LightCentre { position: position(light), flux_lm: light.flux_lm() };
-        self.0.iter().map(centre)
+        self.lights.iter().map(centre)
     }
 
     /// Luminous intensity in cd of the light `index` toward a unit direction.
     pub(crate) fn intensity_cd(&self, index: u32, direction: DVec3) -> f64 {
-        intensity_cd(self.0[index as usize], direction)
+        intensity_cd(self.lights[index as usize], direction)
     }
 
     /// Light of each that is not behind the side `n` of a place, or of all where both sides count,
@@ -63,7 +70,7 @@ impl<'a> PointLikes<'a> {
     ) -> impl Iterator<Item = Incidence> {
         let sides = [Some(n), takes_both_sides.then_some(-n)].into_iter().flatten();
         sides.flat_map(move |n| {
-            self.0.iter().filter_map(move |light| Incidence::new(light, place, n))
+            self.lights.iter().filter_map(move |light| Incidence::new(light, place, n))
         })
     }
 
@@ -76,7 +83,7 @@ impl<'a> PointLikes<'a> {
         shadows: &mut ShadowQueue<S>,
         mut receive: impl FnMut(u32, S, u32),
     ) {
-        for light in &self.0 {
+        for light in &self.lights {
             for Receiver { who, vertex } in receivers {
                 if let Some(light_sample) = light_sample(light, vertex) {
                     shadows.ask(*who, vertex, &light_sample);
@@ -99,46 +106,52 @@ impl<'a> PointLikes<'a> {
             let cos = n.dot(direction);
             if takes_both_sides { cos.abs() } else { cos }
         };
-        let incidence = Incidence::with_cosine(self.0[index], place, cos);
+        let incidence = Incidence::with_cosine(self.lights[index], place, cos);
         incidence.map_or(0.0, |incidence| incidence.illuminance_lx)
     }
 
-    /// An estimate of what all of them give from one light, chosen with `u` in proportion to what
-    /// it would give unshadowed, but for a [`defensive`] share. `light_samples` is working space.
+    /// Coordinates of the choice among them.
+    pub(crate) fn dimensions_of_choice(&self) -> u32 {
+        self.choice.dimensions()
+    }
+
+    /// An estimate of what all of them give from one light, chosen with `u` by what it would give
+    /// unshadowed.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
-        u: f64,
-        light_samples: &mut Vec<LightSample<S>>,
+        u: [f64; 2],
+        LightChoiceWork { light_samples, choice }: &mut LightChoiceWork<S>,
     ) -> Option<LightSample<S>> {
         light_samples.clear();
-        light_samples.extend(self.0.iter().filter_map(|light| light_sample(light, vertex)));
-        let weights = light_samples.iter().map(|light_sample| light_sample.light.luminance());
-        let total: f64 = weights.clone().sum();
-        let Some(choice) = choose_weights(u, defensive(weights, total)) else {
-            return LightSample::without_choice(total);
+        let weight = |light: usize| {
+            let light_sample = light_sample(self.lights[light], vertex);
+            light_samples.push(light_sample);
+            light_sample.map_or(0.0, |light_sample| light_sample.light.luminance())
         };
-        let chosen = light_samples[choice.index];
-        Some(LightSample { light: chosen.light * (1.0 / choice.pdf), ..chosen })
+        let around =
+            |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
+        let place = Asking { position: vertex.position(), side: vertex.only_side() };
+        let Some(chosen) = self.choice.choose(place, u, around, weight, choice) else {
+            return LightSample::without_choice(choice.total());
+        };
+        let light_sample = light_samples[chosen.asked]?;
+        Some(LightSample { light: light_sample.light * (1.0 / chosen.pdf), ..light_sample })
     }
 }
 
-/// Share of choices among lights that trusts no weight. A bright lamp behind a wall would else take
-/// all of them from a weak one that is seen.
-const DEFENSIVE_SHARE: f64 = 0.1;
+/// About what a light gives in some surroundings, in lx.
+fn weight_around(light: &Light, around: &Surroundings) -> f64 {
+    let mean_cd = light.flux_lm() / (4.0 * PI);
+    let intensity_cd = |direction| intensity_cd(light, direction) + DEFENSIVE_SHARE * mean_cd;
+    around.lx(position(light), 0.0, intensity_cd)
+}
 
-/// Weights of this sum, each with its part of the defensive share: no light that gives anything is
-/// chosen with less than `DEFENSIVE_SHARE / n` of n.
-pub(super) fn defensive(
-    weights: impl Iterator<Item = f64> + Clone,
-    total: f64,
-) -> impl Iterator<Item = f64> + Clone {
-    let count = weights.clone().filter(|weight| *weight > 0.0).count().max(1);
-    let each = DEFENSIVE_SHARE * total / count as f64;
-    let more = move |weight: f64| {
-        if weight > 0.0 { (1.0 - DEFENSIVE_SHARE) * weight + each } else { weight }
-    };
-    weights.map(more)
+/// Working space of a choice among lights.
+#[derive(Default)]
+pub(crate) struct LightChoiceWork<S> {
+    light_samples: Vec<Option<LightSample<S>>>,
+    pub(super) choice: ChoiceWork,
 }
 
 /// Light of a point-like light at a place, unless something stands in the way.

@@ -20,6 +20,7 @@ mod mirror_way;
 use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
+use crate::lights::LightChoiceWork;
 use crate::lights::images::ImageSamples;
 use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
@@ -35,7 +36,7 @@ use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Answer, LightSample, ShadowQueue};
+use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
@@ -100,9 +101,8 @@ pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
     /// What they would have asked.
     unasked: ShadowQueue<S>,
-    light_samples: Vec<LightSample<S>>,
+    choice: LightChoiceWork<S>,
     images: ImageSamples<S>,
-    weights: Vec<f64>,
     pub(crate) light_subpaths: LightSubpaths<S>,
     connections: Vec<Connection<S>>,
 }

@@ -22,6 +22,7 @@ mod furnace;
 mod glints;
 mod hall;
 mod images;
+mod many_lights;
 mod map_dimensions;
 mod materials;
 mod measured;

@@ -129,8 +129,10 @@ impl<S: Spectrum> Path<'_, S> {
         let lights = &context.lights.area_luminaires;
         if !lights.is_empty() {
             let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
+            let draw_2d = || context.draw(&mut self.sampler, place, Sampler::next_2d);
+            let choice = lights.are_many().then(draw_2d);
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            let light_sample = lights.light_sample(vertex, u, &mut work.weights);
+            let light_sample = lights.light_sample(vertex, choice, u, &mut work.choice);
             let light_sample = self.beside_landings(context, vertex, light_sample);
             self.ask(light_sample, vertex, work);
         }
@@ -146,10 +148,12 @@ impl<S: Spectrum> Path<'_, S> {
         let lights = &context.lights.pointlikes;
         if !lights.is_empty() {
             let choice = Purpose::PointLike { surface: self.bounces_asked };
-            // A single light is no choice, and takes no coordinate.
-            let draw = || context.draw(&mut self.sampler, choice, Sampler::next_1d);
-            let u = (lights.len() > 1).then(draw).unwrap_or_default();
-            let light_sample = lights.light_sample(vertex, u, &mut work.light_samples);
+            let u = match lights.dimensions_of_choice() {
+                0 => [0.0; 2],
+                1 => [context.draw(&mut self.sampler, choice, Sampler::next_1d), 0.0],
+                _ => context.draw(&mut self.sampler, choice, Sampler::next_2d),
+            };
+            let light_sample = lights.light_sample(vertex, u, &mut work.choice);
             let light_sample = self.beside_landings(context, vertex, light_sample);
             self.ask(light_sample, vertex, work);
         }

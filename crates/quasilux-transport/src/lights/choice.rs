@@ -1,0 +1,364 @@
+//! The choice of one light among several, by about what each gives to a place.
+//!
+//! Few lights are all asked what they would give, unshadowed. Of many a few candidates are drawn
+//! first, at a cost that does not grow with their number: space is cut into cubes, and each cube
+//! has, for each side that a surface in it may face, a table of about what every light gives there,
+//! made when it is first asked for. A table draws [`CANDIDATES`] of the lights, evenly spaced from
+//! one coordinate on; one of these is chosen by what it would give at the very place (resampled
+//! importance sampling: J. Talbot, D. Cline, P. Egbert, "Importance resampling for global
+//! illumination", EGSR 2005).
+//!
+//! No weight needs to be right: every light keeps a share of the choices in both steps, and the
+//! estimate is divided by the probabilities of both. Tables depend on nothing but the scene, so it
+//! does not matter who makes them.
+
+use glam::DVec3;
+use quasilux_sampling::{Discrete, choose_weights};
+use std::array;
+use std::sync::OnceLock;
+
+/// Fewer lights are all asked what they would give.
+const MIN_MANY: usize = 16;
+/// Lights that are drawn of many.
+const CANDIDATES: usize = 8;
+/// Cubes along the longest edge of the scene.
+const CUBES_ACROSS: f64 = 24.0;
+/// Entries of all tables together, if every one is made.
+const MAX_ENTRIES: usize = 1 << 24;
+/// Sides: along and against each axis, and both sides of whatever faces anywhere.
+const SIDES: usize = 7;
+/// What a cosine counts at least: surfaces in a cube do not face quite along its axis.
+const MIN_COSINE: f64 = 0.1;
+/// The least square of a distance that counts, in those of the edge of a cube.
+const MIN_SQUARE: f64 = 1.0 / 64.0;
+/// From so many edges on, light is much the same all over a cube.
+const FAR_EDGES: f64 = 8.0;
+/// Share of choices that trusts no weight. A bright lamp behind a wall would else take all of them
+/// from a weak one that is seen.
+pub(super) const DEFENSIVE_SHARE: f64 = 0.1;
+
+/// How one of some lights is chosen.
+pub(super) struct LightChoice {
+    lights: usize,
+    /// Where they are many.
+    cubes: Option<Cubes>,
+}
+
+/// A place that asks for light, on one side or on both.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asking {
+    pub(super) position: DVec3,
+    pub(super) side: Option<DVec3>,
+}
+
+/// A light that was chosen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ChosenLight {
+    pub(super) light: usize,
+    /// Its place among the lights that were asked.
+    pub(super) asked: usize,
+    /// What its light is to be divided by: the probability of the choice.
+    pub(super) pdf: f64,
+    /// The rest of the coordinate that chose it.
+    pub(super) u_remapped: f64,
+}
+
+/// Working space of a choice: the lights that were asked, and their weights.
+#[derive(Default)]
+pub(super) struct ChoiceWork {
+    asked: Vec<Asked>,
+}
+
+#[derive(Clone, Copy)]
+struct Asked {
+    light: usize,
+    /// How often it is drawn, on average.
+    expected: f64,
+    weight: f64,
+}
+
+/// A cube for which a table is made, on one side or on both.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surroundings {
+    centre: DVec3,
+    edge_m: f64,
+    side: Option<DVec3>,
+}
+
+impl LightChoice {
+    /// Among so many lights in a box around the geometry.
+    pub(super) fn new(lights: usize, bounds: Option<[DVec3; 2]>) -> Self {
+        let bounds = bounds.filter(|_| lights >= MIN_MANY);
+        Self { lights, cubes: bounds.and_then(|bounds| Cubes::new(lights, bounds)) }
+    }
+
+    /// Coordinates that it takes: a single light is no choice.
+    pub(super) fn dimensions(&self) -> u32 {
+        match self.cubes {
+            Some(_) => 2,
+            None => u32::from(self.lights > 1),
+        }
+    }
+
+    /// Chooses a light for a place; `None` where none gives anything, or one gives what is no
+    /// number. `weight_around` says about what each light gives in some surroundings, `weight` what
+    /// it would give at the place itself.
+    pub(super) fn choose(
+        &self,
+        place: Asking,
+        u: [f64; 2],
+        weight_around: impl Fn(usize, &Surroundings) -> f64,
+        mut weight: impl FnMut(usize) -> f64,
+        work: &mut ChoiceWork,
+    ) -> Option<ChosenLight> {
+        let asked = &mut work.asked;
+        asked.clear();
+        let u = if let Some(cubes) = &self.cubes {
+            let around = |around: &Surroundings| -> Vec<f64> {
+                (0..self.lights).map(|light| weight_around(light, around)).collect()
+            };
+            let table = cubes.table(place, around)?;
+            asked.extend((0..CANDIDATES).map(|number| {
+                let drawn = table.sample((u[0] + number as f64) / CANDIDATES as f64);
+                let (light, expected) = (drawn.index, drawn.pdf * CANDIDATES as f64);
+                Asked { light, expected, weight: weight(light) / expected }
+            }));
+            u[1]
+        } else {
+            let ask = |light| Asked { light, expected: 1.0, weight: weight(light) };
+            asked.extend((0..self.lights).map(ask));
+            u[0]
+        };
+        let choice = choose_weights(u, defensive(asked.iter().map(|it| it.weight)))?;
+        let Asked { light, expected, .. } = asked[choice.index];
+        let pdf = choice.pdf * expected;
+        Some(ChosenLight { light, asked: choice.index, pdf, u_remapped: choice.u_remapped })
+    }
+}
+
+impl ChoiceWork {
+    /// The sum of the weights: no number where one of them is none.
+    pub(super) fn total(&self) -> f64 {
+        self.asked.iter().map(|it| it.weight).sum()
+    }
+}
+
+/// Weights, each with its part of the defensive share: none that is not 0 is chosen with less than
+/// `DEFENSIVE_SHARE / n` of n.
+fn defensive(weights: impl Iterator<Item = f64> + Clone) -> impl Iterator<Item = f64> + Clone {
+    let total: f64 = weights.clone().sum();
+    let count = weights.clone().filter(|weight| *weight > 0.0).count().max(1);
+    let each = DEFENSIVE_SHARE * total / count as f64;
+    let more = move |weight: f64| {
+        if weight > 0.0 { (1.0 - DEFENSIVE_SHARE) * weight + each } else { weight }
+    };
+    weights.map(more)
+}
+
+/// The tables of all cubes.
+struct Cubes {
+    low: DVec3,
+    cubes_per_m: f64,
+    counts: [usize; 3],
+    /// Of side s of cube c at `c * SIDES + s`; `None` where no light comes.
+    tables: Vec<OnceLock<Option<Discrete>>>,
+}
+
+impl Cubes {
+    /// `None` for a box without extent.
+    fn new(lights: usize, [low, high]: [DVec3; 2]) -> Option<Self> {
+        let edges_m = high - low;
+        let mut across = CUBES_ACROSS;
+        loop {
+            let cubes_per_m = across / edges_m.max_element();
+            let along = |edge: f64| edge.ceil().max(1.0) as usize;
+            let counts = (edges_m * cubes_per_m).to_array().map(along);
+            let tables = counts.iter().product::<usize>() * SIDES;
+            if across <= 1.0 || tables * lights <= MAX_ENTRIES {
+                let tables = std::iter::repeat_with(OnceLock::new).take(tables).collect();
+                let cubes = Self { low, cubes_per_m, counts, tables };
+                return cubes_per_m.is_finite().then_some(cubes);
+            }
+            across -= 1.0;
+        }
+    }
+
+    /// The table for a place, made of the weights of its surroundings.
+    fn table(
+        &self,
+        Asking { position, side }: Asking,
+        weights: impl FnOnce(&Surroundings) -> Vec<f64>,
+    ) -> Option<&Discrete> {
+        let offset = (position - self.low) * self.cubes_per_m;
+        let cube: [usize; 3] =
+            array::from_fn(|axis| (offset[axis] as usize).min(self.counts[axis] - 1));
+        let axis = side.map(|n| n.abs().max_position());
+        let along = side.zip(axis).map(|(n, axis)| DVec3::AXES[axis] * n[axis].signum());
+        let number = (cube[2] * self.counts[1] + cube[1]) * self.counts[0] + cube[0];
+        let number_of_side =
+            side.zip(axis).map_or(SIDES - 1, |(n, axis)| 2 * axis + usize::from(n[axis] < 0.0));
+        let make = || {
+            let edge_m = self.cubes_per_m.recip();
+            let centre = self.low + (DVec3::from_array(cube.map(|i| i as f64)) + 0.5) * edge_m;
+            let weights = weights(&Surroundings { centre, edge_m, side: along });
+            Discrete::new(&defensive(weights.iter().copied()).collect::<Vec<f64>>())
+        };
+        self.tables[number * SIDES + number_of_side].get_or_init(make).as_ref()
+    }
+}
+
+impl Surroundings {
+    /// The root mean square of about the light in lx that a light at `from`, with an extent of
+    /// `radius_m`, gives in the cube: the variance of a choice among lights is least where the
+    /// probabilities are in proportion to it. `intensity_cd` is asked along unit directions.
+    pub(super) fn lx(
+        &self,
+        from: DVec3,
+        radius_m: f64,
+        intensity_cd: impl Fn(DVec3) -> f64,
+    ) -> f64 {
+        let lx_at = |place: DVec3| {
+            let way = place - from;
+            let square_m2 = way.length_squared() + radius_m * radius_m;
+            let direction = way.normalize_or(DVec3::NEG_Z);
+            let cosine = self.side.map_or(1.0, |n| -n.dot(direction).min(0.0));
+            let cosine = MIN_COSINE + (1.0 - MIN_COSINE) * cosine;
+            intensity_cd(direction) * cosine / square_m2.max(MIN_SQUARE * self.edge_m * self.edge_m)
+        };
+        let is_far = (self.centre - from).length() + radius_m > FAR_EDGES * self.edge_m;
+        if is_far {
+            return lx_at(self.centre);
+        }
+        let octants = (0..8_u32).map(|octant| {
+            let sign = |axis: u32| if octant >> axis & 1 == 0 { -0.25 } else { 0.25 };
+            self.centre + DVec3::new(sign(0), sign(1), sign(2)) * self.edge_m
+        });
+        let mean_square = octants.map(|place| lx_at(place)).map(|lx| lx * lx).sum::<f64>() / 8.0;
+        mean_square.sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quasilux_sampling::radical_inverse;
+
+    const BOX: [DVec3; 2] = [DVec3::ZERO, DVec3::new(20.0, 10.0, 4.0)];
+
+    fn number(index: u64) -> [f64; 3] {
+        [2, 3, 5].map(|base| radical_inverse(base, index + 1))
+    }
+
+    fn place(index: u64) -> Asking {
+        let position = DVec3::from_array(number(index)) * BOX[1] * DVec3::new(1.0, 1.0, 0.7);
+        let side = [Some(DVec3::Z), Some(DVec3::new(0.6, 0.0, 0.8)), None][index as usize % 3];
+        Asking { position, side }
+    }
+
+    /// Spots below the ceiling, of 14 degrees and 3 degrees.
+    struct Spot {
+        position: DVec3,
+        aim: DVec3,
+        narrowness: f64,
+    }
+
+    fn spots(count: u64) -> Vec<Spot> {
+        let spot = |index: u64| {
+            let [x, y, z] = number(index + 100);
+            let aim = DVec3::new(z - 0.5, x - 0.5, -1.0).normalize();
+            let narrowness = if index % 2 == 0 { 17.0 } else { 360.0 };
+            Spot { position: DVec3::new(20.0 * x, 10.0 * y, 3.8), aim, narrowness }
+        };
+        (0..count).map(spot).collect()
+    }
+
+    impl Spot {
+        fn intensity_cd(&self, direction: DVec3) -> f64 {
+            1000.0 * libm::exp(self.narrowness * (self.aim.dot(direction) - 1.0))
+        }
+
+        fn lx(&self, Asking { position, side }: Asking) -> f64 {
+            let way = position - self.position;
+            let direction = way.normalize();
+            let cosine = side.map_or(1.0, |n| -n.dot(direction)).max(0.0);
+            self.intensity_cd(direction) * cosine / way.length_squared()
+        }
+    }
+
+    fn choose(choice: &LightChoice, spots: &[Spot], place: Asking, u: [f64; 2]) -> f64 {
+        let around = |light: usize, around: &Surroundings| {
+            let spot = &spots[light];
+            around.lx(spot.position, 0.0, |direction| spot.intensity_cd(direction) + 2.0)
+        };
+        let weight = |light: usize| spots[light].lx(place);
+        let chosen = choice.choose(place, u, around, weight, &mut ChoiceWork::default());
+        chosen.map_or(0.0, |chosen| spots[chosen.light].lx(place) / chosen.pdf)
+    }
+
+    /// The mean over the square of coordinates is the sum over the lights, and estimates stay near
+    /// it where there is much light; in the tails of beams they may vary.
+    #[test]
+    fn estimates_are_those_of_all_lights() {
+        for count in [3, 15, 16, 100, 700] {
+            let spots = spots(count);
+            let choice = LightChoice::new(spots.len(), Some(BOX));
+            assert_eq!(choice.dimensions(), if count < 16 { 1 } else { 2 });
+            let (mut variances, mut errors, mut squares) = (0.0, 0.0, 0.0);
+            for place in (0..40).map(place) {
+                let all_lx: f64 = spots.iter().map(|spot| spot.lx(place)).sum();
+                const SIDE: u32 = 256;
+                let u = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE);
+                let estimates = (0..SIDE * SIDE / 4)
+                    .map(|i| choose(&choice, &spots, place, [u(i % SIDE), u(4 * (i / SIDE))]));
+                let (mut sum, mut square) = (0.0, 0.0);
+                for estimate in estimates {
+                    sum += estimate;
+                    square += estimate * estimate;
+                }
+                let n = f64::from(SIDE * SIDE / 4);
+                let (mean, variance) = (sum / n, square / n - sum * sum / (n * n));
+                errors += (mean - all_lx) * (mean - all_lx);
+                variances += variance.max(0.0);
+                squares += all_lx * all_lx;
+            }
+            let [error, deviation] = [errors, variances].map(|sum: f64| (sum / squares).sqrt());
+            assert!(error < 0.01, "{count} lights: the mean is off by {error}");
+            assert!(deviation < 0.4, "{count} lights: estimates deviate by {deviation}");
+        }
+    }
+
+    /// As bounds on contributions take it: at most 10 n / 0.1 times what a light gives.
+    #[test]
+    fn no_light_is_forgotten() {
+        let spots = spots(64);
+        let choice = LightChoice::new(spots.len(), Some(BOX));
+        for (number, place) in (0_u64..60).map(|i| (i, place(i))) {
+            for u in (0..500).map(|i| [number_of(i), number_of(i + 7)]) {
+                // All weights lie, that of one light most.
+                let around = |light: usize, _: &Surroundings| if light == 5 { 1e9 } else { 1e-9 };
+                let weight =
+                    |light: usize| if light % 2 == number as usize % 2 { 1e6 } else { 1.0 };
+                let mut work = ChoiceWork::default();
+                let chosen = choice.choose(place, u, around, weight, &mut work).unwrap();
+                let pdf = chosen.pdf;
+                assert!(pdf >= DEFENSIVE_SHARE * DEFENSIVE_SHARE / 64.0 - 1e-12, "{chosen:?}");
+            }
+        }
+    }
+
+    fn number_of(index: u64) -> f64 {
+        radical_inverse(2, index + 1)
+    }
+
+    #[test]
+    fn nothing_is_chosen_where_nothing_shines() {
+        let choice = LightChoice::new(20, Some(BOX));
+        let mut work = ChoiceWork::default();
+        let none = choice.choose(place(0), [0.5; 2], |_, _| 1.0, |_| 0.0, &mut work);
+        assert!(none.is_none() && work.total() == 0.0);
+        let odd = choice.choose(place(0), [0.5; 2], |_, _| 1.0, |_| f64::NAN, &mut work);
+        assert!(odd.is_none() && work.total().is_nan());
+        let flat = LightChoice::new(20, Some([DVec3::ONE; 2]));
+        assert_eq!(flat.dimensions(), 1);
+    }
+}
