@@ -121,13 +121,14 @@ fn dashed(points: &[DVec2], stroke: Stroke, scale: f64) -> Vec<Segment> {
         let length = from.distance(to);
         let mut at = 0.0;
         loop {
-            let end = (at + rest).min(length);
+            let ends_here = at + rest > length;
+            let end = if ends_here { length } else { at + rest };
             if part % 2 == 0 {
                 pieces.push([at, end].map(|s| from.lerp(to, s / length)));
             }
             rest -= end - at;
             at = end;
-            if rest > 0.0 {
+            if ends_here {
                 break;
             }
             part = (part + 1) % lengths.len();

@@ -12,6 +12,8 @@ use crate::ticks::Tick;
 pub struct Caption<'a> {
     /// The heading.
     pub title: &'a str,
+    /// What the picture belongs to, at the right of the heading.
+    pub project: &'a str,
     /// Facts below it; lines are broken between them.
     pub facts: &'a [String],
     /// How the values were made, at the bottom.
@@ -36,6 +38,10 @@ pub(crate) fn titled(layout: &Layout, caption: &Caption<'_>) -> Drawing {
     let title = fitted(caption.title, layout::TITLE_PX, layout.content_width());
     let style = TextStyle::new(layout::TITLE_PX, INK, Anchor::Start);
     drawing.text([left, layout.title_base()], style, &title);
+    let room_px = layout.content_width() - width_px(&title, layout::TITLE_PX) - 30.0;
+    let project = fitted(caption.project, layout::SUMMARY_PX, room_px);
+    let style = TextStyle::new(layout::SUMMARY_PX, GREY, Anchor::End);
+    drawing.text([left + layout.content_width(), layout.title_base()], style, &project);
     let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
     for (k, line) in layout.summary_lines.iter().enumerate() {
         drawing.text([left, layout.summary_base(k)], style, line);

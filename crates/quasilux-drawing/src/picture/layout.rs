@@ -1,8 +1,10 @@
 //! Where everything lies in a picture. All lengths in pixels.
 
+use super::overlay::Window;
 use crate::drawing::Frame;
 use crate::font::CAPITAL_EM;
 use crate::text::width_px;
+use glam::DVec2;
 
 /// Font size of the title.
 pub(crate) const TITLE_PX: f64 = 28.0;
@@ -35,6 +37,8 @@ pub(crate) struct Layout {
     pub(crate) size: [usize; 2],
     pub(crate) plot_corner: [usize; 2],
     pub(crate) plot_size: [usize; 2],
+    /// What the grid takes of the plot: shares of its width and height from the lower left corner.
+    grid_shares: [DVec2; 2],
     pub(crate) legend_corner: [usize; 2],
     pub(crate) legend_size: [usize; 2],
     pub(crate) summary_lines: Vec<String>,
@@ -49,6 +53,13 @@ impl Layout {
         let plot_size =
             [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
         Self::around(plot_size, BELOW_PLOT, summary)
+    }
+
+    /// The layout of a plot that shows a window around its grid.
+    pub(crate) fn of_window(window: &Window, grid_m: DVec2, summary: &[String]) -> Self {
+        let size_m = window.size_m();
+        let grid_shares = [-window.low_m, grid_m - window.low_m].map(|place| place / size_m);
+        Self { grid_shares, ..Self::new(size_m.to_array(), summary) }
     }
 
     /// The layout around a picture of this size without axes.
@@ -71,6 +82,7 @@ impl Layout {
             ],
             plot_corner,
             plot_size,
+            grid_shares: [DVec2::ZERO, DVec2::ONE],
             legend_corner: [LEFT, legend_top],
             legend_size: [content_width, LEGEND_HEIGHT],
             summary_lines,
@@ -81,6 +93,13 @@ impl Layout {
     /// The rectangle of the plot.
     pub(crate) fn plot(&self) -> Frame {
         frame(self.plot_corner, self.plot_size)
+    }
+
+    /// The rectangle of the grid in the plot.
+    pub(crate) fn grid(&self) -> Frame {
+        let [low, high] = self.grid_shares.map(|share| share.to_array());
+        let [[left, bottom], [right, top]] = [low, high].map(|share| self.plot().at(share));
+        Frame { corner_px: [left, top], size_px: [right - left, bottom - top] }
     }
 
     /// The rectangle of the colour scale.

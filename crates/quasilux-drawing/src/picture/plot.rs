@@ -3,13 +3,16 @@
 use super::cells::GridPicture;
 use super::colour_map::ink_on;
 use super::contour::{Field, Line};
+use super::extremes::{Extreme, Mark, extremes};
 use super::label::{self, LabelPlace};
 use super::layout::{Layout, capital_px};
-use super::scale::ValueScale;
+use super::overlay;
+use super::plan::{Box, Labels};
+use super::scale::{Level, ValueScale};
 use crate::canvas::mix;
 use crate::drawing::{Drawing, Frame};
-use crate::number::{decimal_exponent, to_place};
-use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle};
+use crate::number::{brief, decimal_exponent, to_place};
+use crate::style::{Anchor, Colour, Dash, GREY, Stroke, TextStyle, WHITE};
 use crate::text::width_px;
 use glam::DVec2;
 
@@ -21,6 +24,10 @@ const NUMBER_PX: [f64; 4] = [16.8, 14.0, 12.6, 11.2];
 const NUMBER_MARGIN_PX: f64 = 6.5;
 /// Width of contour lines in pixels.
 const LINE_PX: f64 = 1.7;
+/// Clear space around a number to other texts.
+const NUMBER_CLEAR_PX: f64 = 2.0;
+/// Colour of the line of what is required.
+const TARGET: Colour = [0xc4, 0x00, 0x1e];
 /// Colour of cells without a value.
 const NO_VALUE: Colour = [200, 200, 200];
 
@@ -31,7 +38,7 @@ pub(crate) fn draw(
     grid: &GridPicture<'_>,
     scale: &ValueScale,
 ) {
-    let frame = layout.plot();
+    let frame = layout.grid();
     let plot = Plot {
         counts: grid.counts.map(|n| n as usize),
         frame,
@@ -41,11 +48,59 @@ pub(crate) fn draw(
         scale,
     };
     plot.draw_cells(drawing);
-    let labels = plot.draw_contours(drawing);
-    plot.draw_numbers(drawing, &labels);
-    let [[left, top], [width, height]] = [frame.corner_px, frame.size_px];
-    let border = Frame { corner_px: [left - 0.5, top - 0.5], size_px: [width + 1.0, height + 1.0] };
-    drawing.outline(border, Stroke::solid(GREY, 1.0));
+    overlay::draw(drawing, layout, grid);
+    let around = |frame: Frame| {
+        let [[left, top], [width, height]] = [frame.corner_px, frame.size_px];
+        Frame { corner_px: [left - 0.5, top - 0.5], size_px: [width + 1.0, height + 1.0] }
+    };
+    drawing.outline(around(frame), Stroke::solid(GREY, 1.0));
+    if layout.plot() != frame {
+        drawing.outline(around(layout.plot()), Stroke::solid([0xd4; 3], 1.0));
+    }
+    let mut texts = Texts { boxes: Labels::new(frame), places: Vec::new() };
+    let marks = plot.place_extremes(&mut texts.boxes);
+    plot.draw_contours(drawing, grid, &mut texts);
+    plot.draw_numbers(drawing, &texts);
+    marks.iter().for_each(|mark| mark.draw(drawing));
+}
+
+/// The texts that others keep clear of.
+struct Texts {
+    /// Marks of extremes, on the sheet.
+    boxes: Labels,
+    /// Numbers of contour lines, from the plot's corner.
+    places: Vec<LabelPlace>,
+}
+
+impl Texts {
+    /// Whether a disk around a place, from the plot's corner, is free.
+    fn is_free(&self, corner: DVec2, centre: DVec2, radius_px: f64) -> bool {
+        let meets =
+            |label: &LabelPlace| label.centre.distance(centre) <= label.radius_px + radius_px;
+        !self.places.iter().any(meets)
+            && !self.boxes.taken().iter().any(|b| b.meets_disk(corner + centre, radius_px))
+    }
+}
+
+/// How the lines of one level are drawn.
+struct LineInk {
+    /// From below.
+    strokes: Vec<Stroke>,
+    text: Colour,
+    label: String,
+}
+
+impl LineInk {
+    fn plain(level: &Level, colour: Colour) -> Self {
+        let ink = ink_on(colour);
+        Self { strokes: vec![Stroke::solid(ink, LINE_PX)], text: ink, label: level.label.clone() }
+    }
+
+    /// The line of what is required: dashed, in a colour of its own, set off from all others.
+    fn target(label: String) -> Self {
+        let dashes = Stroke { colour: TARGET, width_px: 2.4, dash: Dash::Dashed };
+        Self { strokes: vec![Stroke::solid(WHITE, 4.2), dashes], text: TARGET, label }
+    }
 }
 
 struct Plot<'a> {
@@ -79,41 +134,70 @@ impl Plot<'_> {
         drawing.cells(self.frame, self.counts[0], colours);
     }
 
-    fn draw_contours(&self, drawing: &mut Drawing) -> Vec<LabelPlace> {
+    /// Places the marks of the smallest and the largest value before all other texts.
+    fn place_extremes(&self, boxes: &mut Labels) -> Vec<Mark> {
+        let found = extremes(&self.values, |value| brief(value, 3));
+        let mark = |extreme: &Extreme| {
+            let [i, j] = [extreme.cell % self.counts[0], extreme.cell / self.counts[0]];
+            let centre = self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
+            let colour = self.colour_of(self.values[extreme.cell]);
+            Mark::place(boxes, self.corner + centre, colour, &extreme.text)
+        };
+        found.iter().map(mark).collect()
+    }
+
+    fn draw_contours(&self, drawing: &mut Drawing, grid: &GridPicture<'_>, texts: &mut Texts) {
         let values: Vec<f64> = self.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
         let pieces = (self.cell_px().max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
-        let mut labels: Vec<LabelPlace> = Vec::new();
-        for &level in &self.scale.levels.values {
-            let ink = ink_on(self.scale.colour(level));
-            let number = self.scale.levels.label(level);
-            let length_px = width_px(&number, LABEL_PX) + 10.0;
-            for line in field.contours(level) {
-                let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
-                let place = label::place(&line, length_px, self.size, &labels);
-                for part in label::parts(&line, place) {
-                    let points: Vec<[f64; 2]> =
-                        part.iter().map(|p| (*p + self.corner).to_array()).collect();
-                    drawing.line(&points, Stroke::solid(ink, LINE_PX));
-                }
-                if let Some(place) = place {
-                    self.draw_label(drawing, &number, ink, place);
-                    labels.push(place);
-                }
+        if let Some(target) = grid.target {
+            let label = format!("{} {} required", brief(target, 4), grid.unit);
+            let lines = field.contours(target);
+            self.draw_level(drawing, lines, &LineInk::target(label), texts);
+        }
+        for level in &self.scale.levels {
+            if grid.target != Some(level.value) {
+                let ink = LineInk::plain(level, self.scale.colour(level.value));
+                self.draw_level(drawing, field.contours(level.value), &ink, texts);
             }
         }
-        labels
+    }
+
+    /// Draws the lines of one level, with numbers where there is room.
+    fn draw_level(
+        &self,
+        drawing: &mut Drawing,
+        lines: Vec<Line>,
+        ink: &LineInk,
+        texts: &mut Texts,
+    ) {
+        let length_px = width_px(&ink.label, LABEL_PX) + 10.0;
+        for line in lines {
+            let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
+            let is_free = |centre, radius| texts.is_free(self.corner, centre, radius);
+            let place = label::place(&line, length_px, self.size, is_free);
+            for part in label::parts(&line, place) {
+                let points: Vec<[f64; 2]> =
+                    part.iter().map(|p| (*p + self.corner).to_array()).collect();
+                ink.strokes.iter().for_each(|stroke| drawing.line(&points, *stroke));
+            }
+            if let Some(place) = place {
+                self.draw_label(drawing, &ink.label, ink.text, place);
+                texts.places.push(place);
+            }
+        }
     }
 
     fn draw_label(&self, drawing: &mut Drawing, number: &str, ink: Colour, place: LabelPlace) {
         let direction = place.direction.to_array();
-        let style = TextStyle { direction, ..TextStyle::new(LABEL_PX, ink, Anchor::Middle) };
+        let halo = (ink == TARGET).then_some(WHITE);
+        let style = TextStyle { direction, halo, ..TextStyle::new(LABEL_PX, ink, Anchor::Middle) };
         let down = DVec2::new(-place.direction.y, place.direction.x);
         let base = self.corner + place.centre + down * (0.5 * capital_px(LABEL_PX));
         drawing.text(base.to_array(), style, number);
     }
 
-    fn draw_numbers(&self, drawing: &mut Drawing, labels: &[LabelPlace]) {
+    fn draw_numbers(&self, drawing: &mut Drawing, texts: &Texts) {
         let largest = self.values.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
         let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
         let numbers: Vec<String> = self
@@ -131,11 +215,13 @@ impl Plot<'_> {
         for (cell, number) in numbers.iter().enumerate() {
             let [i, j] = [cell % self.counts[0], cell / self.counts[0]];
             let centre = self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
-            let half_diagonal = 0.5 * width_px(number, px).max(capital_px(px));
-            let is_covered = labels
+            let own = DVec2::new(width_px(number, px), capital_px(px));
+            let own = Box::around(self.corner + centre, 0.5 * own + NUMBER_CLEAR_PX);
+            let is_crossed = texts
+                .places
                 .iter()
-                .any(|l| l.centre.distance(centre) < l.radius_px + 0.8 * half_diagonal);
-            if is_covered {
+                .any(|place| own.meets_disk(self.corner + place.centre, place.radius_px));
+            if is_crossed || texts.boxes.taken().iter().any(|other| other.overlaps(&own)) {
                 continue;
             }
             let colour = self.colour_of(self.values[cell]);

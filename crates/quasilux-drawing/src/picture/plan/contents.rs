@@ -9,7 +9,7 @@ use super::symbols::corners_of;
 use glam::DVec3;
 
 /// Things further from the geometry than this many times its longest edge do not enlarge the view.
-const NEAR: f64 = 1.2;
+const NEAR: f64 = 1.0;
 /// Edges shorter than this are not looked at.
 const MIN_PX: f64 = 0.5;
 /// Sensors lie between these shares of the height where walls are cut at their height.

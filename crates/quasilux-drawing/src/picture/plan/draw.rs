@@ -10,7 +10,7 @@ use super::symbols::{self, Ink};
 use super::thin::thinned;
 use super::view::{Pin, View};
 use crate::drawing::Drawing;
-use crate::style::{Anchor, Colour, Stroke, TextStyle};
+use crate::style::{Anchor, Colour, INK, Stroke, TextStyle};
 use crate::text::width_px;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -50,11 +50,21 @@ struct Painter<'a> {
     labels: Labels,
 }
 
+/// What luminaires with a common label have in common.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Spot {
+    is_inside: bool,
+    /// On the sheet, in steps of a few pixels.
+    place: [i64; 2],
+    words: String,
+}
+
 /// Luminaires that are drawn at one place, and their common label.
 struct Group {
     centre: DVec2,
     reach: DVec2,
     numbers: Vec<usize>,
+    is_seen_along_aim: bool,
     outside: Option<Outside>,
     beyond: Option<String>,
 }
@@ -114,11 +124,11 @@ impl Painter<'_> {
         let projection = self.view.projection;
         for grid in self.contents.picture.grids.iter().take(MAX_TEXTS) {
             let corners = symbols::corners_of(grid).map(|corner| projection.place(corner));
-            let closed: Vec<[f64; 2]> =
-                corners.iter().chain(corners.first()).map(|p| p.to_array()).collect();
             let inside = |p: &DVec2| self.view.holds(*p);
-            if corners.iter().any(inside) {
-                drawing.line(&closed, ink::SENSOR_EDGE);
+            // Dashes are counted: only what the frame shows is drawn.
+            let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
+            for ends in thinned(sides, self.view.frame, 4) {
+                drawing.lines(&[ends], ink::SENSOR_EDGE);
             }
             let sample = symbols::sample_of(grid, SAMPLE).into_iter().map(|p| projection.place(p));
             for place in sample.filter(inside) {
@@ -150,9 +160,9 @@ impl Painter<'_> {
         for camera in self.contents.picture.cameras.iter().take(MAX_TEXTS) {
             let pin = self.view.pin(camera.position_m);
             let place = pin.place_px;
-            symbols::camera(drawing, place, camera, &self.view.projection);
+            let reach = symbols::camera(drawing, place, camera, &self.view.projection);
             self.point_out(drawing, &pin, ink::CAMERA_LINE);
-            self.labels.take(Box::around(place, DVec2::splat(6.0)));
+            self.labels.take(reach);
         }
     }
 
@@ -166,10 +176,11 @@ impl Painter<'_> {
                     continue;
                 }
                 let pin = self.view.pin(luminaire.position_m);
-                symbols::luminaire(drawing, pin.place_px, luminaire, &projection, ink);
+                let small = PlanLuminaire { opening_m: DVec3::ZERO, ..luminaire.clone() };
+                let shown = if pin.beyond.is_some() { &small } else { luminaire };
+                symbols::luminaire(drawing, pin.place_px, shown, &projection, ink);
                 self.point_out(drawing, &pin, ink.line);
-                let reach = symbols::reach(&symbols::opening(luminaire, &projection));
-                self.labels.take(Box::around(pin.place_px, reach));
+                self.labels.take(Box::around(pin.place_px, self.reach(shown)));
             }
         }
         for &position_m in picture.point_lights_m.iter().take(MAX_SYMBOLS) {
@@ -224,6 +235,9 @@ impl Painter<'_> {
         groups.sort_by_key(|group| group.outside.is_none());
         for group in groups.into_iter().take(MAX_TEXTS) {
             let numbers = ranges(&group.numbers);
+            if self.number_inside(drawing, &group, &numbers) {
+                continue;
+            }
             let (text, colour) = match (&group.outside, &group.beyond) {
                 (Some(_), Some(beyond)) => (format!("{numbers}: {beyond} away"), ink::FAULT),
                 (Some(outside), None) if self.index > 0 => {
@@ -232,7 +246,7 @@ impl Painter<'_> {
                 (Some(_), None) => (numbers, ink::FAULT),
                 (None, _) => (numbers, ink::LAMP_LINE.colour),
             };
-            self.text(drawing, group.centre, group.reach, &text, colour);
+            self.text(drawing, group.centre, group.reach + 3.0, &text, colour);
         }
         let lights = self.contents.picture.point_lights_m.iter().take(MAX_TEXTS);
         for (number, &position_m) in lights.enumerate() {
@@ -245,24 +259,42 @@ impl Painter<'_> {
         }
     }
 
+    /// Writes numbers onto a symbol without an arrow that has room for them.
+    fn number_inside(&self, drawing: &mut Drawing, group: &Group, numbers: &str) -> bool {
+        let room = group.reach * 2.0;
+        let size = DVec2::new(width_px(numbers, ink::LABEL_PX) + 4.0, 0.9 * ink::LABEL_PX);
+        let fits = size.cmple(room).all() && group.is_seen_along_aim && group.beyond.is_none();
+        if fits {
+            let colour = if group.outside.is_some() { ink::FAULT } else { INK };
+            let style = TextStyle::new(ink::LABEL_PX, colour, Anchor::Middle);
+            let base = group.centre + DVec2::Y * 0.36 * ink::LABEL_PX;
+            drawing.text(base.to_array(), style, numbers);
+        }
+        fits
+    }
+
     /// Luminaires that are drawn on top of each other.
     fn groups(&self) -> Vec<Group> {
-        let mut groups: BTreeMap<[i64; 3], Group> = BTreeMap::new();
+        let mut groups: BTreeMap<Spot, Group> = BTreeMap::new();
         for (index, luminaire) in self.contents.picture.luminaires.iter().enumerate() {
             let pin = self.view.pin(luminaire.position_m);
             let outside = self.outside(luminaire.position_m);
             let [x, y] = (pin.place_px / 4.0).to_array().map(|x| x.round() as i64);
-            let key = [i64::from(outside.is_none()), x, y];
+            let words = outside.map_or(String::new(), |outside| outside.text());
+            let key = Spot { is_inside: outside.is_none(), place: [x, y], words };
             let reach = self.reach(luminaire);
             let group = groups.entry(key).or_insert_with(|| Group {
                 centre: pin.place_px,
                 reach,
                 numbers: Vec::new(),
+                is_seen_along_aim: true,
                 outside,
                 beyond: pin.beyond.map(|beyond| beyond.text),
             });
             group.reach = group.reach.max(reach);
             group.numbers.push(index + 1);
+            let across = self.view.projection.direction(luminaire.aim);
+            group.is_seen_along_aim &= across.length() < 0.1;
         }
         groups.into_values().collect()
     }

@@ -33,6 +33,11 @@ impl Box {
         self.low.cmplt(other.high).all() && other.low.cmplt(self.high).all()
     }
 
+    /// Whether it meets a disk.
+    pub(crate) fn meets_disk(&self, centre: DVec2, radius_px: f64) -> bool {
+        centre.distance(centre.clamp(self.low, self.high)) < radius_px
+    }
+
     pub(crate) fn centre(&self) -> DVec2 {
         0.5 * (self.low + self.high)
     }
@@ -44,6 +49,11 @@ impl Labels {
         let low = DVec2::from(frame.corner_px) + 2.0;
         let high = DVec2::from(frame.corner_px) + DVec2::from(frame.size_px) - 2.0;
         Self { room: Box { low, high }, taken: Vec::new() }
+    }
+
+    /// What is taken.
+    pub(crate) fn taken(&self) -> &[Box] {
+        &self.taken
     }
 
     /// Takes a place, whatever is there already.
@@ -94,5 +104,26 @@ impl Labels {
         text: &str,
     ) -> Option<Box> {
         self.beside(centre, reach, DVec2::new(width_px(text, size_px), LINE_EM * size_px))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_keep_clear_of_each_other() {
+        let frame = Frame { corner_px: [0.0, 0.0], size_px: [300.0, 200.0] };
+        let mut labels = Labels::new(frame);
+        let mut placed = Vec::new();
+        for k in 0..200 {
+            let centre = DVec2::new(f64::from(k * 37 % 300), f64::from(k * 53 % 200));
+            placed.extend(labels.text(centre, DVec2::splat(5.0), 13.0, "12, 14"));
+        }
+        assert!(placed.len() > 10);
+        for (k, one) in placed.iter().enumerate() {
+            assert!(one.low.cmpge(DVec2::ZERO).all() && one.high.cmple(frame.size_px.into()).all());
+            assert!(placed[..k].iter().all(|other| !other.overlaps(one)), "{one:?}");
+        }
     }
 }

@@ -19,7 +19,7 @@ const ABOVE_PX: f64 = 12.0;
 /// Lines of one table.
 const MAX_LINES: usize = 24;
 /// Where columns begin.
-const COLUMNS_PX: [f64; 6] = [0.0, 110.0, 330.0, 430.0, 640.0, 810.0];
+const COLUMNS_PX: [f64; 6] = [0.0, 100.0, 290.0, 385.0, 640.0, 790.0];
 /// Room between columns.
 const BETWEEN_PX: f64 = 12.0;
 
@@ -235,9 +235,8 @@ impl Remark {
         }
         for (column, text) in self.cells.iter().enumerate() {
             let left = COLUMNS_PX.get(column).copied().unwrap_or(0.0);
-            let right = COLUMNS_PX.get(column + 1).copied().unwrap_or(width_px);
-            let is_last = self.cells[column + 1..].iter().all(String::is_empty);
-            let right = if is_last { width_px } else { right.min(width_px) };
+            let next = (column + 1..self.cells.len()).find(|&next| !self.cells[next].is_empty());
+            let right = next.and_then(|next| COLUMNS_PX.get(next)).map_or(width_px, |x| *x);
             let text = fitted(text, ink::NOTE_PX, right - left - BETWEEN_PX);
             drawing.text([base.x + left, base.y], style, &text);
         }
