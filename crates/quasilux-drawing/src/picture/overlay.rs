@@ -169,3 +169,29 @@ fn draw_luminaires(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &P
         draw_outline(drawing, &outline, (c0.length() > 0.9).then_some(tick));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::plan::fixtures::room;
+    use super::*;
+    use crate::example::Grid;
+
+    /// A grid half a metre from walls of 6 m x 4 m, and the same in a hall.
+    #[test]
+    fn the_window_holds_near_walls() {
+        let (near, grid) = (room(), Grid::new([5.0, 3.0], [5, 3], 0.0, |_, _| 1.0));
+        let surroundings = Surroundings { surfaces: near.surfaces(), ..Surroundings::default() };
+        let picture = GridPicture { surroundings, ..grid.picture("workplane") };
+        let window = Window::new(&picture);
+        let beyond = DVec2::splat(0.015 * 6.0);
+        assert!(window.low_m.distance(DVec2::splat(-0.5) - beyond) < 1e-9, "{window:?}");
+        assert!(window.high_m.distance(DVec2::new(5.5, 3.5) + beyond) < 1e-9, "{window:?}");
+        let alone = Window::new(&grid.picture("workplane"));
+        assert_eq!(alone, Window { low_m: DVec2::ZERO, high_m: DVec2::new(5.0, 3.0) });
+        let hall = super::super::plan::fixtures::Shell::default()
+            .with_box(DVec3::splat(-30.0), DVec3::splat(30.0));
+        let surroundings = Surroundings { surfaces: hall.surfaces(), ..Surroundings::default() };
+        let picture = GridPicture { surroundings, ..grid.picture("workplane") };
+        assert_eq!(Window::new(&picture), alone);
+    }
+}

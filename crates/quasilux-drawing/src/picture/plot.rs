@@ -234,3 +234,56 @@ impl Plot<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Shape;
+    use crate::example::{Grid, batwing};
+
+    /// The texts in the cells of a picture: boxes of the upright ones, disks of those along lines.
+    fn covered(drawing: &Drawing) -> [Vec<Box>; 2] {
+        let mut found = [Vec::new(), Vec::new()];
+        for shape in &drawing.shapes {
+            let Shape::Text { place_px, style, text } = shape else {
+                continue;
+            };
+            let is_value = style.halo.is_some() && style.halo != Some(WHITE);
+            let is_along = style.size_px == LABEL_PX && style.anchor == Anchor::Middle;
+            if !is_value && !is_along {
+                continue;
+            }
+            let width = width_px(text, style.size_px);
+            let right = DVec2::from(style.direction);
+            let up = DVec2::new(right.y, -right.x);
+            let capital = capital_px(style.size_px);
+            let centre = DVec2::from(*place_px) + up * (0.5 * capital);
+            let half = 0.5 * (right.abs() * width + up.abs() * capital);
+            found[usize::from(is_along)].push(Box::around(centre, half));
+        }
+        found
+    }
+
+    /// Numbers of contour lines and the texts of extremes keep clear of each other and of the values
+    /// in the cells.
+    #[test]
+    fn labels_and_values_do_not_overlap() {
+        let fields: [fn(f64, f64) -> f64; 3] =
+            [batwing, |x, y| 300.0 + 200.0 * x + 50.0 * y, |x, y| libm::exp(9.0 * x) + y];
+        for (k, lx) in fields.into_iter().enumerate() {
+            let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, lx);
+            let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
+            let [values, labels] = covered(&crate::picture::grid(&picture));
+            assert!(
+                values.len() > 100 && labels.len() > 4,
+                "{k}: {} {}",
+                values.len(),
+                labels.len()
+            );
+            for (number, label) in labels.iter().enumerate() {
+                assert!(!values.iter().any(|value| value.overlaps(label)), "{k}: {label:?}");
+                assert!(!labels[..number].iter().any(|l| l.overlaps(label)), "{k}: {label:?}");
+            }
+        }
+    }
+}

@@ -64,7 +64,7 @@ fn a_luminaire_far_outside_is_at_the_border() {
         let pin = view.pin(luminaires[1].position_m);
         assert!(view.holds(pin.place_px));
         let beyond = pin.beyond.expect("far outside");
-        assert_eq!(beyond.text, "3.68 km");
+        assert_eq!(beyond.text, "3.67 km");
         assert!(beyond.direction.x > 0.0 && beyond.direction.y < 0.0);
         assert!(view.pin(luminaires[0].position_m).beyond.is_none());
         let corner = view.projection.place(DVec3::new(6.0, 4.0, 3.0));
@@ -72,7 +72,7 @@ fn a_luminaire_far_outside_is_at_the_border() {
         assert!((corner - opposite).abs().max_element() > 150.0);
     }
     let drawing = plan(&picture);
-    assert!(texts(&drawing).iter().filter(|text| *text == "2: 3.68 km away").count() == 3);
+    assert!(texts(&drawing).iter().filter(|text| *text == "2: 3.67 km away").count() == 3);
 }
 
 #[test]
