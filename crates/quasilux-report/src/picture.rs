@@ -53,7 +53,7 @@ pub fn false_colour_png(
         counts: grid.counts,
         cells: &cells(sensor).collect::<Vec<_>>(),
         scale_cells: &shared,
-        target: None,
+        target: grid.target_lx,
         surroundings: lights.surroundings(of.scene),
     });
     Some(drawing.to_png(1.0))

@@ -14,13 +14,20 @@ const TEXT_PX: f64 = 14.0;
 const RING_PX: f64 = 5.0;
 /// Clear space in a text's box.
 const PAD_PX: f64 = 3.0;
+/// Font size of the words at cells that have their number.
+const TAG_PX: f64 = 11.5;
+/// Height of their box.
+const TAG_HIGH_PX: f64 = 13.0;
+/// Width of the border of such a cell.
+const BORDER_PX: f64 = 2.2;
 
-/// A cell with its text.
+/// A cell with what it is, and its number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Extreme {
-    /// The cell's number.
+    /// The cell's index.
     pub(super) cell: usize,
-    pub(super) text: String,
+    pub(super) word: &'static str,
+    pub(super) number: String,
 }
 
 /// The first cells with the smallest and the largest value; none where all values are equal.
@@ -30,49 +37,80 @@ pub(super) fn extremes(values: &[Option<f64>], number: impl Fn(f64) -> String) -
     let most = known().reduce(|best, next| if next.1 > best.1 { next } else { best });
     match (least, most) {
         (Some((low_cell, low)), Some((high_cell, high))) if low < high => vec![
-            Extreme { cell: low_cell, text: format!("min {}", number(low)) },
-            Extreme { cell: high_cell, text: format!("max {}", number(high)) },
+            Extreme { cell: low_cell, word: "min", number: number(low) },
+            Extreme { cell: high_cell, word: "max", number: number(high) },
         ],
         _ => Vec::new(),
     }
 }
 
-/// The mark of an extreme: a ring at a cell's centre, and the text beside it where there is room.
+/// The mark of an extreme.
 pub(super) struct Mark {
-    centre: DVec2,
     colour: Colour,
     text: String,
-    frame: Option<Frame>,
+    shape: Shape,
+}
+
+enum Shape {
+    /// A ring at a cell's centre, and a text with the number beside it where there is room.
+    Ring { centre: DVec2, text: Option<Frame> },
+    /// The border of a cell that shows its number, with a word on its upper edge.
+    Border { cell: Frame, word: Frame },
 }
 
 impl Mark {
-    /// Takes the place of a mark.
-    pub(super) fn place(labels: &mut Labels, centre: DVec2, colour: Colour, text: &str) -> Self {
-        let size = DVec2::new(width_px(text, TEXT_PX), capital_px(TEXT_PX)) + 2.0 * PAD_PX;
+    /// Takes the place of a mark at a cell without a number.
+    pub(super) fn ring(labels: &mut Labels, cell: Frame, colour: Colour, of: &Extreme) -> Self {
+        let centre = DVec2::from(cell.at([0.5, 0.5]));
+        let text = format!("{} {}", of.word, of.number);
+        let size = DVec2::new(width_px(&text, TEXT_PX), capital_px(TEXT_PX)) + 2.0 * PAD_PX;
         labels.take(Box::around(centre, DVec2::splat(RING_PX + 1.0)));
         let place = labels.beside(centre, DVec2::splat(RING_PX + 1.0), size);
-        let frame = place.map(|place| Frame {
-            corner_px: (place.centre() - 0.5 * size).to_array(),
-            size_px: size.to_array(),
-        });
-        Self { centre, colour, text: text.to_owned(), frame }
+        let place = place.map(|place| around(place.centre(), size));
+        Self { colour, text, shape: Shape::Ring { centre, text: place } }
+    }
+
+    /// Takes the place of a mark at a cell that shows its number.
+    pub(super) fn border(labels: &mut Labels, cell: Frame, colour: Colour, of: &Extreme) -> Self {
+        let size = DVec2::new(width_px(of.word, TAG_PX) + 2.0 * PAD_PX, TAG_HIGH_PX);
+        let word = around(DVec2::from(cell.at([0.5, 1.0])), size);
+        for frame in [cell, word] {
+            let half = 0.5 * DVec2::from(frame.size_px);
+            labels.take(Box::around(DVec2::from(frame.corner_px) + half, half));
+        }
+        Self { colour, text: of.word.to_owned(), shape: Shape::Border { cell, word } }
     }
 
     pub(super) fn draw(&self, drawing: &mut Drawing) {
         let ink = ink_on(self.colour);
-        let centre = self.centre.to_array();
-        drawing.disk(centre, RING_PX, ink);
-        drawing.disk(centre, RING_PX - 1.6, self.colour);
-        drawing.disk(centre, 1.6, ink);
-        let Some(frame) = self.frame else {
-            return;
-        };
+        match self.shape {
+            Shape::Ring { centre, text } => {
+                let centre = centre.to_array();
+                drawing.disk(centre, RING_PX, ink);
+                drawing.disk(centre, RING_PX - 1.6, self.colour);
+                drawing.disk(centre, 1.6, ink);
+                if let Some(frame) = text {
+                    self.draw_text(drawing, frame, TEXT_PX);
+                }
+            }
+            Shape::Border { cell, word } => {
+                drawing.outline(cell, Stroke::solid(ink, BORDER_PX));
+                self.draw_text(drawing, word, TAG_PX);
+            }
+        }
+    }
+
+    fn draw_text(&self, drawing: &mut Drawing, frame: Frame, size_px: f64) {
         drawing.fill(frame, WHITE);
         drawing.outline(frame, Stroke::solid([0x40; 3], 1.0));
         let [x, y] = frame.at([0.5, 0.5]);
-        let style = TextStyle::new(TEXT_PX, [0x16; 3], Anchor::Middle);
-        drawing.text([x, y + 0.5 * capital_px(TEXT_PX)], style, &self.text);
+        let style = TextStyle::new(size_px, [0x16; 3], Anchor::Middle);
+        drawing.text([x, y + 0.5 * capital_px(size_px)], style, &self.text);
     }
+}
+
+fn around(centre: DVec2, size: DVec2) -> Frame {
+    Frame { corner_px: (centre - 0.5 * size).to_array(), size_px: size.to_array() }
 }
 
 #[cfg(test)]
@@ -83,8 +121,11 @@ mod tests {
     fn marks_are_at_the_right_cells() {
         let values = [Some(5.0), None, Some(2.0), Some(9.0), Some(2.0), Some(9.0)];
         let found = extremes(&values, |value| value.to_string());
-        let expected = [(2, "min 2"), (3, "max 9")]
-            .map(|(cell, text)| Extreme { cell, text: text.to_owned() });
+        let expected = [(2, "min", "2"), (3, "max", "9")].map(|(cell, word, number)| Extreme {
+            cell,
+            word,
+            number: number.to_owned(),
+        });
         assert_eq!(found, expected);
         assert!(extremes(&[Some(3.0), None, Some(3.0)], |value| value.to_string()).is_empty());
         assert!(extremes(&[None], |value| value.to_string()).is_empty());

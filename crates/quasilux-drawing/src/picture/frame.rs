@@ -2,10 +2,16 @@
 
 use super::colour_map::{self, CAUTION_INK};
 use super::layout::{self, Layout, capital_px};
-use crate::drawing::Drawing;
-use crate::style::{Anchor, Colour, GREY, INK, Stroke, TextStyle};
+use crate::drawing::{Drawing, Frame};
+use crate::style::{Anchor, Colour, Dash, GREY, INK, Stroke, TextStyle, WHITE};
 use crate::text::{fitted, width_px};
 use crate::ticks::Tick;
+
+/// Colour of what is wanted.
+pub(crate) const TARGET_INK: Colour = [0xc4, 0x00, 0x1e];
+
+/// Digits of a target in texts.
+pub(crate) const TARGET_DIGITS: i32 = 4;
 
 /// The words around a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +35,16 @@ pub(crate) struct Legend<'a> {
     pub(crate) marks: Vec<f64>,
     /// Ticks below it with their numbers, ascending.
     pub(crate) ticks: Vec<Tick>,
+    /// What is wanted.
+    pub(crate) target: Option<LegendTarget>,
+}
+
+/// What is wanted, named above the colour scale.
+pub(crate) struct LegendTarget {
+    /// Its place on the scale, where the scale has it.
+    pub(crate) share: Option<f64>,
+    /// Its name.
+    pub(crate) text: String,
 }
 
 /// A sheet for a picture, with the title and the figures under it.
@@ -61,6 +77,9 @@ pub(crate) fn draw_legend(drawing: &mut Drawing, layout: &Layout, legend: &Legen
         let stroke = Stroke::solid(colour_map::ink_on(colour_map::colour(share)), 1.0);
         drawing.line(&[[place(share), top], [place(share), top + height]], stroke);
     }
+    if let Some(target) = &legend.target {
+        draw_target(drawing, frame, target);
+    }
     let style = TextStyle::new(layout::SMALL_PX, GREY, Anchor::Middle);
     let below = top + height;
     let mut free_from = f64::NEG_INFINITY;
@@ -76,6 +95,28 @@ pub(crate) fn draw_legend(drawing: &mut Drawing, layout: &Layout, legend: &Legen
     let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
     let base = top + 0.5 * (height + capital_px(layout::SUMMARY_PX));
     drawing.text([left + width + 10.0, base], style, legend.unit);
+}
+
+/// Draws a sample of the target's line with its name above the scale, and its place on it.
+fn draw_target(drawing: &mut Drawing, scale: Frame, target: &LegendTarget) {
+    let ([left, top], [width, height]) = (scale.corner_px, scale.size_px);
+    let base = top - 7.0;
+    let middle = base - 0.5 * capital_px(layout::SMALL_PX);
+    target_line(drawing, &[[left, middle], [left + 34.0, middle]]);
+    let style = TextStyle::new(layout::SMALL_PX, TARGET_INK, Anchor::Start);
+    drawing.text([left + 42.0, base], style, &target.text);
+    if let Some(share) = target.share {
+        let x = (left + share * width).floor() + 0.5;
+        drawing.line(&[[x, top - 3.0], [x, top + height + 3.0]], Stroke::solid(WHITE, 5.0));
+        drawing.line(&[[x, top - 3.0], [x, top + height + 3.0]], Stroke::solid(TARGET_INK, 2.4));
+    }
+}
+
+/// A line of what is wanted: dashed, in a colour of its own, set off from all others.
+pub(crate) fn target_line(drawing: &mut Drawing, points_px: &[[f64; 2]]) {
+    drawing.line(points_px, Stroke::solid(WHITE, 4.6));
+    let dashes = Stroke { colour: TARGET_INK, width_px: 2.6, dash: Dash::Dashed };
+    drawing.line(points_px, dashes);
 }
 
 /// Draws how the numbers were made, and what restricts them.

@@ -2,12 +2,13 @@
 
 use super::axis::{Axis, Edge};
 use super::cells::GridPicture;
-use super::frame::{self, Caption, Legend};
+use super::frame::{self, Caption, Legend, LegendTarget, TARGET_DIGITS};
 use super::layout::{self, Layout};
 use super::overlay::Window;
 use super::plot;
 use super::scale::ValueScale;
 use crate::drawing::Drawing;
+use crate::number::brief;
 use crate::style::{Anchor, GREY, Stroke, TextStyle};
 use crate::text::width_px;
 use glam::DVec3;
@@ -34,12 +35,25 @@ pub fn grid(grid: &GridPicture<'_>) -> Drawing {
         unit: grid.unit,
         marks: levels.map(|level| scale.share(level.value)).collect(),
         ticks: scale.ticks.clone(),
+        target: grid.target.map(|target| legend_target(grid, &scale, target)),
     };
     frame::draw_legend(&mut drawing, &layout, &legend);
     let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
     let method = format!("{}{kind}", grid.caption.method);
     frame::draw_footer(&mut drawing, &layout, &Caption { method: &method, ..grid.caption });
     drawing
+}
+
+/// The target's name, with the number of points that reach it.
+fn legend_target(grid: &GridPicture<'_>, scale: &ValueScale, target: f64) -> LegendTarget {
+    let reached = grid.cells.iter().filter(|cell| cell.value.is_some_and(|value| value >= target));
+    let (reached, all) = (reached.count(), grid.cells.len());
+    let text = format!(
+        "target {} {}, reached at {reached} of {all} points",
+        brief(target, TARGET_DIGITS),
+        grid.unit
+    );
+    LegendTarget { share: scale.holds(target).then(|| scale.share(target)), text }
 }
 
 fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>, window: &Window) {

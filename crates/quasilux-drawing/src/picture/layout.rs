@@ -13,8 +13,11 @@ pub(crate) const SUMMARY_PX: f64 = 15.5;
 /// Font size of numbers on axes and legend.
 pub(crate) const SMALL_PX: f64 = 12.6;
 
-/// Longer side of the grid.
+/// Longer side of the plot.
 const PLOT_LONG: f64 = 900.0;
+/// The longer side of the grid is at least this, up to a size of the plot.
+const GRID_LONG_LEAST: f64 = 560.0;
+const PLOT_LONG_MOST: f64 = 1400.0;
 /// The shorter side is at least this, also where true proportion would make it invisible.
 const PLOT_SHORT_LEAST: f64 = 24.0;
 /// Everything is at least this wide, so that the figures fit.
@@ -46,20 +49,29 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
+    /// The layout for a grid that its plot is filled with.
+    #[cfg(test)]
+    pub(crate) fn new(edges_m: [f64; 2], summary: &[String]) -> Self {
+        Self::with_axes(edges_m, PLOT_LONG, summary)
+    }
+
     /// The layout for a rectangle with these edges; `summary` is broken into lines between its
     /// pieces.
-    pub(crate) fn new([u_m, v_m]: [f64; 2], summary: &[String]) -> Self {
-        let px_per_m = PLOT_LONG / u_m.max(v_m);
+    fn with_axes([u_m, v_m]: [f64; 2], long_px: f64, summary: &[String]) -> Self {
+        let px_per_m = long_px / u_m.max(v_m);
         let plot_size =
             [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
         Self::around(plot_size, BELOW_PLOT, summary)
     }
 
-    /// The layout of a plot that shows a window around its grid.
+    /// The layout of a plot that shows a window around its grid; larger where the grid takes little
+    /// of it.
     pub(crate) fn of_window(window: &Window, grid_m: DVec2, summary: &[String]) -> Self {
         let size_m = window.size_m();
         let grid_shares = [-window.low_m, grid_m - window.low_m].map(|place| place / size_m);
-        Self { grid_shares, ..Self::new(size_m.to_array(), summary) }
+        let long_px = GRID_LONG_LEAST * size_m.max_element() / grid_m.max_element();
+        let long_px = long_px.clamp(PLOT_LONG, PLOT_LONG_MOST);
+        Self { grid_shares, ..Self::with_axes(size_m.to_array(), long_px, summary) }
     }
 
     /// The layout around a picture of this size without axes.

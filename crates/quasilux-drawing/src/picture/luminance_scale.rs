@@ -55,7 +55,7 @@ impl LuminanceScale {
         let ticks = self.decades.marks();
         let inner = ticks.get(1..ticks.len() - 1).unwrap_or_default();
         let marks = inner.iter().map(|tick| tick.share).collect();
-        Legend { unit: "cd/m²", marks, ticks }
+        Legend { unit: "cd/m²", marks, ticks, target: None }
     }
 }
 

@@ -19,6 +19,7 @@ mod label;
 mod layout;
 mod luminance;
 mod luminance_scale;
+mod numbers;
 mod overlay;
 mod plan;
 mod plot;

@@ -10,7 +10,11 @@ use crate::drawing::{Drawing, Frame};
 use crate::style::{Colour, Stroke, WHITE};
 use glam::{DVec2, DVec3};
 
-/// Room around a grid that its picture may take for what stands there, in its longer edge.
+/// A picture shows the whole section of a room that is at most this many times as long as the
+/// longer edge of the grid.
+const MOST_WHOLE: f64 = 3.0;
+/// Room around a grid that its picture may take for what stands there in a longer one, in its
+/// longer edge.
 const AROUND: f64 = 0.3;
 /// Clear space outside of the walls, in the longer edge of the picture.
 const BEYOND: f64 = 0.015;
@@ -34,7 +38,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The grid, and the walls around it where they are near.
+    /// The grid, and the room around it, or of a large one the walls that are near.
     pub(super) fn new(grid: &GridPicture<'_>) -> Self {
         let [u_m, v_m] = grid.edges_m();
         let own = Self { low_m: DVec2::ZERO, high_m: DVec2::new(u_m, v_m) };
@@ -46,12 +50,15 @@ impl Window {
         let [u, v] = grid.directions();
         let origin = DVec3::from(grid.origin_m);
         let place = |p: DVec3| DVec2::new((p - origin).dot(u), (p - origin).dot(v));
-        let cut = grid.surroundings.surfaces.cut(plane(grid));
-        let near = cut.filter_map(|ends| clipped(ends.map(place), around)).flatten();
-        let all = near.fold(own, |window, p| Self {
+        let cut = || grid.surroundings.surfaces.cut(plane(grid)).map(|ends| ends.map(place));
+        let with = |window: Self, p: DVec2| Self {
             low_m: window.low_m.min(p),
             high_m: window.high_m.max(p),
-        });
+        };
+        let mut all = cut().flatten().fold(own, with);
+        if all.size_m().max_element() > MOST_WHOLE * own.high_m.max_element() {
+            all = cut().filter_map(|ends| clipped(ends, around)).flatten().fold(own, with);
+        }
         if all == own {
             return own;
         }

@@ -4,30 +4,26 @@ use super::cells::GridPicture;
 use super::colour_map::ink_on;
 use super::contour::{Field, Line};
 use super::extremes::{Extreme, Mark, extremes};
+use super::frame::{TARGET_DIGITS, TARGET_INK, target_line};
 use super::label::{self, LabelPlace};
 use super::layout::{Layout, capital_px};
+use super::numbers::Numbers;
 use super::overlay;
-use super::plan::{Box, Labels};
+use super::plan::Labels;
 use super::scale::{Level, ValueScale};
 use crate::canvas::mix;
 use crate::drawing::{Drawing, Frame};
-use crate::number::{brief, decimal_exponent, to_place};
-use crate::style::{Anchor, Colour, Dash, GREY, Stroke, TextStyle, WHITE};
+use crate::number::brief;
+use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle, WHITE};
 use crate::text::width_px;
 use glam::DVec2;
 
 /// Font size of contour labels.
 const LABEL_PX: f64 = 14.0;
-/// Font sizes tried for the numbers in the cells, the largest that fits is taken.
-const NUMBER_PX: [f64; 4] = [16.8, 14.0, 12.6, 11.2];
-/// Clear space around a number in its cell in pixels.
-const NUMBER_MARGIN_PX: f64 = 6.5;
+/// Half the height that a label takes on its line, with clear space.
+const LABEL_HALF_PX: f64 = 7.5;
 /// Width of contour lines in pixels.
 const LINE_PX: f64 = 1.7;
-/// Clear space around a number to other texts.
-const NUMBER_CLEAR_PX: f64 = 2.0;
-/// Colour of the line of what is required.
-const TARGET: Colour = [0xc4, 0x00, 0x1e];
 /// Colour of cells without a value.
 const NO_VALUE: Colour = [200, 200, 200];
 
@@ -39,12 +35,17 @@ pub(crate) fn draw(
     scale: &ValueScale,
 ) {
     let frame = layout.grid();
+    let (counts, size) = (grid.counts.map(|n| n as usize), DVec2::from(frame.size_px));
+    let cell_px = size / DVec2::new(counts[0] as f64, counts[1] as f64);
+    let values: Vec<Option<f64>> = grid.cells.iter().map(|cell| cell.value).collect();
     let plot = Plot {
-        counts: grid.counts.map(|n| n as usize),
+        counts,
         frame,
         corner: DVec2::from(frame.corner_px),
-        size: DVec2::from(frame.size_px),
-        values: grid.cells.iter().map(|cell| cell.value).collect(),
+        size,
+        cell_px,
+        numbers: Numbers::fitting(&values, cell_px),
+        values,
         scale,
     };
     plot.draw_cells(drawing);
@@ -73,33 +74,39 @@ struct Texts {
 }
 
 impl Texts {
-    /// Whether a disk around a place, from the plot's corner, is free.
-    fn is_free(&self, corner: DVec2, centre: DVec2, radius_px: f64) -> bool {
-        let meets =
-            |label: &LabelPlace| label.centre.distance(centre) <= label.radius_px + radius_px;
-        !self.places.iter().any(meets)
-            && !self.boxes.taken().iter().any(|b| b.meets_disk(corner + centre, radius_px))
+    /// Whether a place of a label is clear of marks and other labels.
+    fn are_clear_of(&self, corner: DVec2, place: &LabelPlace) -> bool {
+        let meets = |other: &LabelPlace| {
+            other.centre.distance(place.centre) <= other.radius_px + place.radius_px
+        };
+        let is_marked =
+            |at: DVec2| self.boxes.taken().iter().any(|b| b.meets_disk(corner + at, LABEL_HALF_PX));
+        !self.places.iter().any(meets) && !place.disks(LABEL_HALF_PX).any(is_marked)
     }
 }
 
 /// How the lines of one level are drawn.
 struct LineInk {
-    /// From below.
-    strokes: Vec<Stroke>,
     text: Colour,
     label: String,
+    is_target: bool,
 }
 
 impl LineInk {
     fn plain(level: &Level, colour: Colour) -> Self {
-        let ink = ink_on(colour);
-        Self { strokes: vec![Stroke::solid(ink, LINE_PX)], text: ink, label: level.label.clone() }
+        Self { text: ink_on(colour), label: level.label.clone(), is_target: false }
     }
 
-    /// The line of what is required: dashed, in a colour of its own, set off from all others.
     fn target(label: String) -> Self {
-        let dashes = Stroke { colour: TARGET, width_px: 2.4, dash: Dash::Dashed };
-        Self { strokes: vec![Stroke::solid(WHITE, 4.2), dashes], text: TARGET, label }
+        Self { text: TARGET_INK, label, is_target: true }
+    }
+
+    fn draw(&self, drawing: &mut Drawing, points: &[[f64; 2]]) {
+        if self.is_target {
+            target_line(drawing, points);
+        } else {
+            drawing.line(points, Stroke::solid(self.text, LINE_PX));
+        }
     }
 }
 
@@ -108,7 +115,10 @@ struct Plot<'a> {
     frame: Frame,
     corner: DVec2,
     size: DVec2,
+    cell_px: DVec2,
     values: Vec<Option<f64>>,
+    /// Where they fit.
+    numbers: Option<Numbers>,
     scale: &'a ValueScale,
 }
 
@@ -120,8 +130,10 @@ impl Plot<'_> {
         DVec2::new(share.x, 1.0 - share.y) * self.size
     }
 
-    fn cell_px(&self) -> DVec2 {
-        self.size / DVec2::new(self.counts[0] as f64, self.counts[1] as f64)
+    /// The middle of a cell, from the plot's corner.
+    fn centre(&self, cell: usize) -> DVec2 {
+        let [i, j] = [cell % self.counts[0], cell / self.counts[0]];
+        self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5))
     }
 
     fn colour_of(&self, value: Option<f64>) -> Colour {
@@ -138,20 +150,24 @@ impl Plot<'_> {
     fn place_extremes(&self, boxes: &mut Labels) -> Vec<Mark> {
         let found = extremes(&self.values, |value| brief(value, 3));
         let mark = |extreme: &Extreme| {
-            let [i, j] = [extreme.cell % self.counts[0], extreme.cell / self.counts[0]];
-            let centre = self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
+            let corner = self.corner + self.centre(extreme.cell) - 0.5 * self.cell_px;
+            let frame = Frame { corner_px: corner.to_array(), size_px: self.cell_px.to_array() };
             let colour = self.colour_of(self.values[extreme.cell]);
-            Mark::place(boxes, self.corner + centre, colour, &extreme.text)
+            if self.numbers.is_some() {
+                Mark::border(boxes, frame, colour, extreme)
+            } else {
+                Mark::ring(boxes, frame, colour, extreme)
+            }
         };
         found.iter().map(mark).collect()
     }
 
     fn draw_contours(&self, drawing: &mut Drawing, grid: &GridPicture<'_>, texts: &mut Texts) {
         let values: Vec<f64> = self.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
-        let pieces = (self.cell_px().max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
+        let pieces = (self.cell_px.max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
         if let Some(target) = grid.target {
-            let label = format!("{} {} required", brief(target, 4), grid.unit);
+            let label = format!("target {}", brief(target, TARGET_DIGITS));
             let lines = field.contours(target);
             self.draw_level(drawing, lines, &LineInk::target(label), texts);
         }
@@ -174,12 +190,14 @@ impl Plot<'_> {
         let length_px = width_px(&ink.label, LABEL_PX) + 10.0;
         for line in lines {
             let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
-            let is_free = |centre, radius| texts.is_free(self.corner, centre, radius);
-            let place = label::place(&line, length_px, self.size, is_free);
+            let is_clear = |place: &LabelPlace| texts.are_clear_of(self.corner, place);
+            let hides_none = |place: &LabelPlace| is_clear(place) && !self.hides_a_number(place);
+            let place = label::place(&line, length_px, self.size, hides_none)
+                .or_else(|| label::place(&line, length_px, self.size, is_clear));
             for part in label::parts(&line, place) {
                 let points: Vec<[f64; 2]> =
                     part.iter().map(|p| (*p + self.corner).to_array()).collect();
-                ink.strokes.iter().for_each(|stroke| drawing.line(&points, *stroke));
+                ink.draw(drawing, &points);
             }
             if let Some(place) = place {
                 self.draw_label(drawing, &ink.label, ink.text, place);
@@ -190,38 +208,44 @@ impl Plot<'_> {
 
     fn draw_label(&self, drawing: &mut Drawing, number: &str, ink: Colour, place: LabelPlace) {
         let direction = place.direction.to_array();
-        let halo = (ink == TARGET).then_some(WHITE);
+        let halo = (ink == TARGET_INK).then_some(WHITE);
         let style = TextStyle { direction, halo, ..TextStyle::new(LABEL_PX, ink, Anchor::Middle) };
         let down = DVec2::new(-place.direction.y, place.direction.x);
         let base = self.corner + place.centre + down * (0.5 * capital_px(LABEL_PX));
         drawing.text(base.to_array(), style, number);
     }
 
-    fn draw_numbers(&self, drawing: &mut Drawing, texts: &Texts) {
-        let largest = self.values.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
-        let numbers: Vec<String> = self
-            .values
-            .iter()
-            .map(|value| value.map_or_else(|| "-".into(), |value| to_place(value, place)))
-            .collect();
-        let room = self.cell_px() - 2.0 * NUMBER_MARGIN_PX;
-        let fits = |px: &f64| {
-            capital_px(*px) <= room.y && numbers.iter().all(|n| width_px(n, *px) <= room.x)
+    /// Whether a label covers the number of a cell.
+    fn hides_a_number(&self, place: &LabelPlace) -> bool {
+        let Some(numbers) = &self.numbers else {
+            return false;
         };
-        let Some(&px) = NUMBER_PX.iter().find(|px| fits(px)) else {
+        place.disks(LABEL_HALF_PX).any(|at| {
+            let [i, j] = (DVec2::new(at.x, self.size.y - at.y) / self.cell_px).to_array();
+            let near = |x: f64, count: usize| {
+                let x = x.max(0.0) as usize;
+                x.saturating_sub(1)..(x + 2).min(count)
+            };
+            near(j, self.counts[1]).any(|j| {
+                near(i, self.counts[0]).any(|i| {
+                    let cell = j * self.counts[0] + i;
+                    numbers.covered(cell, self.centre(cell)).meets_disk(at, LABEL_HALF_PX)
+                })
+            })
+        })
+    }
+
+    fn draw_numbers(&self, drawing: &mut Drawing, texts: &Texts) {
+        let Some(numbers) = &self.numbers else {
             return;
         };
-        for (cell, number) in numbers.iter().enumerate() {
-            let [i, j] = [cell % self.counts[0], cell / self.counts[0]];
-            let centre = self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
-            let own = DVec2::new(width_px(number, px), capital_px(px));
-            let own = Box::around(self.corner + centre, 0.5 * own + NUMBER_CLEAR_PX);
-            let is_crossed = texts
-                .places
-                .iter()
-                .any(|place| own.meets_disk(self.corner + place.centre, place.radius_px));
-            if is_crossed || texts.boxes.taken().iter().any(|other| other.overlaps(&own)) {
+        let disks: Vec<DVec2> =
+            texts.places.iter().flat_map(|place| place.disks(LABEL_HALF_PX)).collect();
+        let px = numbers.size_px;
+        for (cell, number) in numbers.texts.iter().enumerate() {
+            let centre = self.centre(cell);
+            let own = numbers.covered(cell, centre);
+            if disks.iter().any(|at| own.meets_disk(*at, LABEL_HALF_PX)) {
                 continue;
             }
             let colour = self.colour_of(self.values[cell]);
@@ -240,32 +264,43 @@ mod tests {
     use super::*;
     use crate::drawing::Shape;
     use crate::example::{Grid, batwing};
+    use crate::picture::plan::Box;
 
-    /// The texts in the cells of a picture: boxes of the upright ones, disks of those along lines.
-    fn covered(drawing: &Drawing) -> [Vec<Box>; 2] {
-        let mut found = [Vec::new(), Vec::new()];
+    /// The texts over the cells of a picture.
+    #[derive(Default)]
+    struct Found {
+        values: Vec<Box>,
+        /// Disks along each label, as high as its letters.
+        labels: Vec<Vec<DVec2>>,
+    }
+
+    const LETTER_HALF_PX: f64 = 5.0;
+
+    fn texts_over(drawing: &Drawing) -> Found {
+        let mut found = Found::default();
         for shape in &drawing.shapes {
             let Shape::Text { place_px, style, text } = shape else {
                 continue;
             };
             let is_value = style.halo.is_some() && style.halo != Some(WHITE);
-            let is_along = style.size_px == LABEL_PX && style.anchor == Anchor::Middle;
-            if !is_value && !is_along {
-                continue;
-            }
+            let is_label = style.size_px == LABEL_PX && style.anchor == Anchor::Middle;
             let width = width_px(text, style.size_px);
             let right = DVec2::from(style.direction);
-            let up = DVec2::new(right.y, -right.x);
             let capital = capital_px(style.size_px);
-            let centre = DVec2::from(*place_px) + up * (0.5 * capital);
-            let half = 0.5 * (right.abs() * width + up.abs() * capital);
-            found[usize::from(is_along)].push(Box::around(centre, half));
+            let centre = DVec2::from(*place_px) + DVec2::new(right.y, -right.x) * (0.5 * capital);
+            if is_value {
+                let half = 0.5 * DVec2::new(width, capital);
+                found.values.push(Box::around(centre, half));
+            } else if is_label {
+                let steps = (-8..=8).map(|k| f64::from(k) / 8.0);
+                let reach = 0.5 * width - LETTER_HALF_PX;
+                found.labels.push(steps.map(|s| centre + right * (reach * s)).collect());
+            }
         }
         found
     }
 
-    /// Numbers of contour lines and the texts of extremes keep clear of each other and of the values
-    /// in the cells.
+    /// Numbers of contour lines keep clear of each other and of the values in the cells.
     #[test]
     fn labels_and_values_do_not_overlap() {
         let fields: [fn(f64, f64) -> f64; 3] =
@@ -273,17 +308,53 @@ mod tests {
         for (k, lx) in fields.into_iter().enumerate() {
             let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, lx);
             let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
-            let [values, labels] = covered(&crate::picture::grid(&picture));
-            assert!(
-                values.len() > 100 && labels.len() > 4,
-                "{k}: {} {}",
-                values.len(),
-                labels.len()
-            );
+            let Found { values, labels } = texts_over(&crate::picture::grid(&picture));
+            // Few values give way to labels.
+            assert!(values.len() > 300, "{k}: {} values", values.len());
+            assert!(labels.len() > 4, "{k}: {} labels", labels.len());
             for (number, label) in labels.iter().enumerate() {
-                assert!(!values.iter().any(|value| value.overlaps(label)), "{k}: {label:?}");
-                assert!(!labels[..number].iter().any(|l| l.overlaps(label)), "{k}: {label:?}");
+                let meets =
+                    |value: &Box| label.iter().any(|at| value.meets_disk(*at, LETTER_HALF_PX));
+                assert!(!values.iter().any(meets), "{k}: {label:?}");
+                let near =
+                    |at: &DVec2| label.iter().any(|own| own.distance(*at) < 2.0 * LETTER_HALF_PX);
+                assert!(!labels[..number].iter().flatten().any(near), "{k}: {label:?}");
             }
         }
+    }
+
+    /// The line of a target runs between cells below and above it, over the whole grid, and the
+    /// legend names it with the number of points that reach it.
+    #[test]
+    fn the_target_has_a_line_of_its_own_and_a_name() {
+        let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, |x, _| 100.0 + 400.0 * x);
+        let picture = GridPicture { target: Some(300.0), ..grid.picture("workplane") };
+        let drawing = crate::picture::grid(&picture);
+        let dashed = drawing.shapes.iter().filter_map(|shape| match shape {
+            Shape::Lines { lines, stroke } if stroke.colour == TARGET_INK => Some((lines, stroke)),
+            _ => None,
+        });
+        let frame = Layout::new([5.0, 4.0], &grid.facts).grid();
+        let [x, top] = frame.at([0.5, 1.0]);
+        let bottom = frame.at([0.5, 0.0])[1];
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (lines, stroke) in dashed {
+            assert!(stroke.width_px > LINE_PX);
+            let over = lines.iter().flatten().filter(|p| (top..=bottom).contains(&p[1]));
+            for place in over {
+                assert!((place[0] - x).abs() < 1.0, "{place:?}");
+                (low, high) = (low.min(place[1]), high.max(place[1]));
+            }
+        }
+        assert!(low < top + 1.0 && high > bottom - 1.0, "{low} {high}");
+        let is_there = |drawing: &Drawing, text: &str| drawing.to_svg().contains(text);
+        assert!(is_there(&drawing, "target 300 lx, reached at 160 of 320 points"));
+        for (target, reached) in [(5.0, 320), (4000.0, 0)] {
+            let drawing = crate::picture::grid(&GridPicture { target: Some(target), ..picture });
+            let text = format!("target {target} lx, reached at {reached} of 320 points");
+            assert!(is_there(&drawing, &text), "{text}");
+        }
+        let without = crate::picture::grid(&GridPicture { target: None, ..picture });
+        assert!(!is_there(&without, "target"));
     }
 }

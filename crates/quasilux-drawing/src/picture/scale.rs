@@ -111,6 +111,12 @@ impl ValueScale {
         }
     }
 
+    /// Whether a value lies between the ends.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        let place = if self.is_logarithmic { libm::log10(value) } else { value };
+        (self.low..=self.high).contains(&place)
+    }
+
     /// The colour of a value.
     pub(crate) fn colour(&self, value: f64) -> Colour {
         colour_map::colour(self.share(value))
