@@ -1,7 +1,7 @@
 //! The values of a rectangular grid, and the words around its picture.
 
-use super::frame::Caption;
-use super::plan::{PlanAreaLight, PlanLuminaire, Surfaces};
+use super::caption::Caption;
+use super::plan::{PlanAreaLight, PlanLuminaire, Plane, Surfaces};
 use glam::DVec3;
 
 /// A grid to be drawn in false colours.
@@ -61,5 +61,12 @@ impl GridPicture<'_> {
     /// Unit directions of both edges.
     pub(super) fn directions(&self) -> [DVec3; 2] {
         [self.u_m, self.v_m].map(|edge| DVec3::from(edge).normalize_or_zero())
+    }
+
+    /// The plane of the grid; above it is where its picture is seen from.
+    pub(super) fn plane(&self) -> Plane {
+        let [u, v] = self.directions();
+        let normal = u.cross(v).normalize_or_zero();
+        Plane { normal, offset_m: normal.dot(DVec3::from(self.origin_m)) }
     }
 }

@@ -18,8 +18,6 @@ const PAD_PX: f64 = 3.0;
 const TAG_PX: f64 = 11.5;
 /// Height of their box.
 const TAG_HIGH_PX: f64 = 13.0;
-/// Width of the border of such a cell.
-const BORDER_PX: f64 = 2.2;
 
 /// A cell with what it is, and its number.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,17 +49,25 @@ pub(super) struct Mark {
     shape: Shape,
 }
 
+/// The number of a cell, and the border to be drawn around it.
+pub(super) struct Bordered {
+    pub(super) number: Box,
+    pub(super) border: Box,
+}
+
 enum Shape {
     /// A ring at a cell's centre, and a text with the number beside it where there is room.
     Ring { centre: DVec2, text: Option<Frame> },
-    /// The border of a cell that shows its number, with a word on its upper edge.
-    Border { cell: Frame, word: Frame },
+    /// A border around the number of a cell, with a word on its upper edge.
+    Border { border: Frame, word: Box },
 }
 
 impl Mark {
+    /// Width of the border of a cell.
+    pub(super) const BORDER_PX: f64 = 2.0;
+
     /// Takes the place of a mark at a cell without a number.
-    pub(super) fn ring(labels: &mut Labels, cell: Frame, colour: Colour, of: &Extreme) -> Self {
-        let centre = DVec2::from(cell.at([0.5, 0.5]));
+    pub(super) fn ring(labels: &mut Labels, centre: DVec2, colour: Colour, of: &Extreme) -> Self {
         let text = format!("{} {}", of.word, of.number);
         let size = DVec2::new(width_px(&text, TEXT_PX), capital_px(TEXT_PX)) + 2.0 * PAD_PX;
         labels.take(Box::around(centre, DVec2::splat(RING_PX + 1.0)));
@@ -70,15 +76,20 @@ impl Mark {
         Self { colour, text, shape: Shape::Ring { centre, text: place } }
     }
 
-    /// Takes the place of a mark at a cell that shows its number.
-    pub(super) fn border(labels: &mut Labels, cell: Frame, colour: Colour, of: &Extreme) -> Self {
-        let size = DVec2::new(width_px(of.word, TAG_PX) + 2.0 * PAD_PX, TAG_HIGH_PX);
-        let word = around(DVec2::from(cell.at([0.5, 1.0])), size);
-        for frame in [cell, word] {
-            let half = 0.5 * DVec2::from(frame.size_px);
-            labels.take(Box::around(DVec2::from(frame.corner_px) + half, half));
-        }
-        Self { colour, text: of.word.to_owned(), shape: Shape::Border { cell, word } }
+    /// Takes the place of a mark around the number of a cell, which stays clear of the word.
+    pub(super) fn border(labels: &mut Labels, at: Bordered, colour: Colour, of: &Extreme) -> Self {
+        let half = 0.5 * DVec2::new(width_px(of.word, TAG_PX) + 2.0 * PAD_PX, TAG_HIGH_PX);
+        let y = at.border.low.y.min(at.number.low.y - half.y);
+        let word = Box::around(DVec2::new(at.number.centre().x, y), half);
+        labels.take(at.border);
+        labels.take(word);
+        let shape = Shape::Border { border: at.border.frame(), word };
+        Self { colour, text: of.word.to_owned(), shape }
+    }
+
+    /// Whether its word covers some of a box.
+    pub(super) fn covers(&self, other: &Box) -> bool {
+        matches!(&self.shape, Shape::Border { word, .. } if word.overlaps(other))
     }
 
     pub(super) fn draw(&self, drawing: &mut Drawing) {
@@ -93,9 +104,11 @@ impl Mark {
                     self.draw_text(drawing, frame, TEXT_PX);
                 }
             }
-            Shape::Border { cell, word } => {
-                drawing.outline(cell, Stroke::solid(ink, BORDER_PX));
-                self.draw_text(drawing, word, TAG_PX);
+            Shape::Border { border, word } => {
+                let halo = if ink == WHITE { [0x30; 3] } else { WHITE };
+                drawing.outline(border, Stroke::solid(halo, 2.0 * Self::BORDER_PX));
+                drawing.outline(border, Stroke::solid(ink, Self::BORDER_PX));
+                self.draw_text(drawing, word.frame(), TAG_PX);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! The words and the colour scale around every false-colour picture.
 
+use super::caption::Caption;
 use super::colour_map::{self, CAUTION_INK};
 use super::layout::{self, Layout, capital_px};
 use crate::drawing::{Drawing, Frame};
@@ -12,21 +13,6 @@ pub(crate) const TARGET_INK: Colour = [0xc4, 0x00, 0x1e];
 
 /// Digits of a target in texts.
 pub(crate) const TARGET_DIGITS: i32 = 4;
-
-/// The words around a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Caption<'a> {
-    /// The heading.
-    pub title: &'a str,
-    /// What the picture belongs to, at the right of the heading.
-    pub project: &'a str,
-    /// Facts below it; lines are broken between them.
-    pub facts: &'a [String],
-    /// How the values were made, at the bottom.
-    pub method: &'a str,
-    /// What restricts their use, below that; empty for nothing.
-    pub caution: &'a str,
-}
 
 /// The labels of a colour scale; places on it are shares of its length.
 pub(crate) struct Legend<'a> {

@@ -1,12 +1,13 @@
 //! The false-colour picture of a grid with its axes and legend.
 
 use super::axis::{Axis, Edge};
+use super::caption::Caption;
 use super::cells::GridPicture;
-use super::frame::{self, Caption, Legend, LegendTarget, TARGET_DIGITS};
+use super::frame::{self, Legend, LegendTarget, TARGET_DIGITS};
 use super::layout::{self, Layout};
-use super::overlay::Window;
 use super::plot;
 use super::scale::ValueScale;
+use super::window::Window;
 use crate::drawing::Drawing;
 use crate::number::brief;
 use crate::style::{Anchor, GREY, Stroke, TextStyle};

@@ -1,6 +1,6 @@
 //! Where everything lies in a picture. All lengths in pixels.
 
-use super::overlay::Window;
+use super::window::Window;
 use crate::drawing::Frame;
 use crate::font::CAPITAL_EM;
 use crate::text::width_px;

@@ -7,6 +7,7 @@
 //! beyond them up to the border).
 
 mod axis;
+mod caption;
 mod cells;
 mod colour_map;
 mod contour;
@@ -26,9 +27,10 @@ mod plot;
 mod scale;
 mod series;
 mod tone_map;
+mod window;
 
+pub use caption::Caption;
 pub use cells::{Cell, GridPicture, Surroundings};
-pub use frame::Caption;
 pub use grid::grid;
 pub use image::Image;
 pub use luminance::{LuminancePicture, luminance};

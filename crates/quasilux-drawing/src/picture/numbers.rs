@@ -8,8 +8,8 @@ use glam::DVec2;
 
 /// Font sizes tried for the numbers, the largest that fits is taken.
 const NUMBER_PX: [f64; 4] = [16.8, 14.0, 12.6, 11.2];
-/// Clear space around a number in its cell in pixels.
-const MARGIN_PX: f64 = 6.5;
+/// Clear space beside and above a number in its cell in pixels.
+const MARGINS_PX: DVec2 = DVec2::new(6.5, 3.5);
 /// Clear space around a number to other texts.
 const CLEAR_PX: f64 = 2.0;
 
@@ -26,7 +26,7 @@ impl Numbers {
         let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
         let text = |value: &Option<f64>| value.map_or_else(|| "-".into(), |x| to_place(x, place));
         let texts: Vec<String> = values.iter().map(text).collect();
-        let room = cell_px - 2.0 * MARGIN_PX;
+        let room = cell_px - 2.0 * MARGINS_PX;
         let fits = |px: &f64| {
             capital_px(*px) <= room.y && texts.iter().all(|n| width_px(n, *px) <= room.x)
         };

@@ -4,20 +4,12 @@
 use super::cells::{GridPicture, Surroundings};
 use super::layout::Layout;
 use super::plan::{
-    Bounds, Ink, Plane, Projection, TICK_PX, clipped, edges, opening, outlines, star, thinned,
+    Bounds, Ink, Plane, Projection, TICK_PX, edges, opening, outlines, star, thinned,
 };
 use crate::drawing::{Drawing, Frame};
 use crate::style::{Colour, Stroke, WHITE};
 use glam::{DVec2, DVec3};
 
-/// A picture shows the whole section of a room that is at most this many times as long as the
-/// longer edge of the grid.
-const MOST_WHOLE: f64 = 3.0;
-/// Room around a grid that its picture may take for what stands there in a longer one, in its
-/// longer edge.
-const AROUND: f64 = 0.3;
-/// Clear space outside of the walls, in the longer edge of the picture.
-const BEYOND: f64 = 0.015;
 /// Edges are shown to this depth behind the plane, or to this share of the geometry's height.
 const DEPTH_M: f64 = 2.0;
 const DEPTH_SHARE: f64 = 0.4;
@@ -29,54 +21,6 @@ const MOST_LUMINAIRES: usize = 1000;
 const CUT: Colour = [0x18; 3];
 const EDGE: Colour = [0x50; 3];
 const LAMP: Colour = [0x7a, 0x2e, 0x00];
-
-/// The part of a grid's plane that its picture shows, from the grid's corner along its edges, in m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Window {
-    pub(super) low_m: DVec2,
-    pub(super) high_m: DVec2,
-}
-
-impl Window {
-    /// The grid, and the room around it, or of a large one the walls that are near.
-    pub(super) fn new(grid: &GridPicture<'_>) -> Self {
-        let [u_m, v_m] = grid.edges_m();
-        let own = Self { low_m: DVec2::ZERO, high_m: DVec2::new(u_m, v_m) };
-        let reach_m = AROUND * own.high_m.max_element();
-        let around = Frame {
-            corner_px: (own.low_m - reach_m).to_array(),
-            size_px: (own.high_m + 2.0 * reach_m).to_array(),
-        };
-        let [u, v] = grid.directions();
-        let origin = DVec3::from(grid.origin_m);
-        let place = |p: DVec3| DVec2::new((p - origin).dot(u), (p - origin).dot(v));
-        let cut = || grid.surroundings.surfaces.cut(plane(grid)).map(|ends| ends.map(place));
-        let with = |window: Self, p: DVec2| Self {
-            low_m: window.low_m.min(p),
-            high_m: window.high_m.max(p),
-        };
-        let mut all = cut().flatten().fold(own, with);
-        if all.size_m().max_element() > MOST_WHOLE * own.high_m.max_element() {
-            all = cut().filter_map(|ends| clipped(ends, around)).flatten().fold(own, with);
-        }
-        if all == own {
-            return own;
-        }
-        let beyond_m = BEYOND * all.size_m().max_element();
-        Self { low_m: all.low_m - beyond_m, high_m: all.high_m + beyond_m }
-    }
-
-    pub(super) fn size_m(&self) -> DVec2 {
-        self.high_m - self.low_m
-    }
-}
-
-/// The plane of a grid; above it is where its picture is seen from.
-fn plane(grid: &GridPicture<'_>) -> Plane {
-    let [u, v] = grid.directions();
-    let normal = u.cross(v).normalize_or_zero();
-    Plane { normal, offset_m: normal.dot(DVec3::from(grid.origin_m)) }
-}
 
 /// Draws what stands around the grid.
 pub(super) fn draw(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>) {
@@ -115,7 +59,7 @@ fn draw_surfaces(
     projection: &Projection,
 ) {
     let surfaces = grid.surroundings.surfaces;
-    let plane = plane(grid);
+    let plane = grid.plane();
     let height_m = Bounds::of_surfaces(surfaces).map_or(0.0, |bounds| bounds.size_m().z);
     let depth_m = DEPTH_M.max(DEPTH_SHARE * height_m);
     let behind = Plane { normal: -plane.normal, offset_m: depth_m - plane.offset_m };
@@ -135,7 +79,7 @@ fn draw_surfaces(
 
 /// Luminous surfaces and point lights before the plane.
 fn draw_other_lights(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &Projection) {
-    let (plane, Surroundings { surfaces, .. }) = (plane(grid), grid.surroundings);
+    let (plane, Surroundings { surfaces, .. }) = (grid.plane(), grid.surroundings);
     let is_before = |p: &DVec3| plane.normal.dot(*p) > plane.offset_m;
     for light in grid.surroundings.area_lights.iter().take(MOST_LUMINAIRES) {
         let corners = light.triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
@@ -160,7 +104,7 @@ fn draw_outline(drawing: &mut Drawing, outline: &[DVec2], tick: Option<[DVec2; 2
 }
 
 fn draw_luminaires(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &Projection) {
-    let plane = plane(grid);
+    let plane = grid.plane();
     let before = grid
         .surroundings
         .luminaires
@@ -179,26 +123,56 @@ fn draw_luminaires(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &P
 
 #[cfg(test)]
 mod tests {
-    use super::super::plan::fixtures::room;
+    use super::super::plan::fixtures::{luminaire, room};
     use super::*;
+    use crate::drawing::Shape;
     use crate::example::Grid;
 
-    /// A grid half a metre from walls of 6 m x 4 m, and the same in a hall.
+    /// The ends of all lines of a colour over the plot.
+    fn ends(shapes: &[Shape], colour: Colour) -> Vec<DVec2> {
+        let of = |shape: &Shape| match shape {
+            Shape::Lines { lines, stroke } if stroke.colour == colour => {
+                lines.iter().flatten().map(|end| DVec2::from(*end)).collect()
+            }
+            Shape::Clipped { shapes, .. } => ends(shapes, colour),
+            _ => Vec::new(),
+        };
+        shapes.iter().flat_map(of).collect()
+    }
+
+    /// The grid of 5 m x 3 m begins at (0.5, 0.5, 0.8): its plane cuts the walls of 6 m x 4 m and
+    /// stands above the table; one luminaire hangs above it and one below.
     #[test]
-    fn the_window_holds_near_walls() {
-        let (near, grid) = (room(), Grid::new([5.0, 3.0], [5, 3], 0.0, |_, _| 1.0));
-        let surroundings = Surroundings { surfaces: near.surfaces(), ..Surroundings::default() };
-        let picture = GridPicture { surroundings, ..grid.picture("workplane") };
-        let window = Window::new(&picture);
-        let beyond = DVec2::splat(0.015 * 6.0);
-        assert!(window.low_m.distance(DVec2::splat(-0.5) - beyond) < 1e-9, "{window:?}");
-        assert!(window.high_m.distance(DVec2::new(5.5, 3.5) + beyond) < 1e-9, "{window:?}");
-        let alone = Window::new(&grid.picture("workplane"));
-        assert_eq!(alone, Window { low_m: DVec2::ZERO, high_m: DVec2::new(5.0, 3.0) });
-        let hall = super::super::plan::fixtures::Shell::default()
-            .with_box(DVec3::splat(-30.0), DVec3::splat(30.0));
-        let surroundings = Surroundings { surfaces: hall.surfaces(), ..Surroundings::default() };
-        let picture = GridPicture { surroundings, ..grid.picture("workplane") };
-        assert_eq!(Window::new(&picture), alone);
+    fn walls_table_and_luminaires_are_where_they_stand() {
+        let (shell, grid) = (room(), Grid::new([5.0, 3.0], [5, 3], 0.0, |x, _| x));
+        let luminaires = [[1.5, 2.0, 2.7], [4.5, 2.0, 0.3]].map(|at| luminaire(at.into()));
+        let surroundings = Surroundings {
+            surfaces: shell.surfaces(),
+            luminaires: &luminaires,
+            ..Surroundings::default()
+        };
+        let drawing =
+            crate::picture::grid(&GridPicture { surroundings, ..grid.picture("workplane") });
+        let px_per_m = 900.0 / 6.18;
+        let low = |colour| ends(&drawing.shapes, colour).into_iter().reduce(DVec2::min);
+        let high = |colour| ends(&drawing.shapes, colour).into_iter().reduce(DVec2::max);
+        let extent_m = |colour| {
+            let size = high(colour).expect("a line") - low(colour).expect("a line");
+            size / px_per_m
+        };
+        assert!(extent_m(CUT).distance(DVec2::new(6.0, 4.0)) < 0.01, "{}", extent_m(CUT));
+        let from_wall_m =
+            |colour| (low(colour).expect("a line") - low(CUT).expect("a wall")) / px_per_m;
+        // The floor has the edges of the walls, the table those that lie further in.
+        let table = ends(&drawing.shapes, EDGE).into_iter().filter(|end| {
+            let place = (*end - low(CUT).expect("a wall")) / px_per_m;
+            place.cmpgt(DVec2::splat(0.1)).all() && place.cmplt(DVec2::new(5.9, 3.9)).all()
+        });
+        let table = table.reduce(DVec2::min).expect("a table") - low(CUT).expect("a wall");
+        assert!((table / px_per_m).distance(DVec2::new(2.0, 2.0)) < 0.01, "{table}");
+        // 1.2 m x 0.2 m, and the tick toward C0.
+        let lamp_m = extent_m(LAMP) - DVec2::new(TICK_PX / px_per_m, 0.0);
+        assert!(lamp_m.distance(DVec2::new(1.2, 0.2)) < 0.01, "{lamp_m}");
+        assert!(from_wall_m(LAMP).distance(DVec2::new(0.9, 1.9)) < 0.01);
     }
 }

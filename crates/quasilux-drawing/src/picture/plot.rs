@@ -3,7 +3,7 @@
 use super::cells::GridPicture;
 use super::colour_map::ink_on;
 use super::contour::{Field, Line};
-use super::extremes::{Extreme, Mark, extremes};
+use super::extremes::{Bordered, Extreme, Mark, extremes};
 use super::frame::{TARGET_DIGITS, TARGET_INK, target_line};
 use super::label::{self, LabelPlace};
 use super::layout::{Layout, capital_px};
@@ -22,6 +22,8 @@ use glam::DVec2;
 const LABEL_PX: f64 = 14.0;
 /// Half the height that a label takes on its line, with clear space.
 const LABEL_HALF_PX: f64 = 7.5;
+/// Most clear space between a number and the border around it that marks an extreme.
+const MARK_CLEAR_PX: DVec2 = DVec2::new(9.0, 9.0);
 /// Width of contour lines in pixels.
 const LINE_PX: f64 = 1.7;
 /// Colour of cells without a value.
@@ -58,10 +60,10 @@ pub(crate) fn draw(
     if layout.plot() != frame {
         drawing.outline(around(layout.plot()), Stroke::solid([0xd4; 3], 1.0));
     }
-    let mut texts = Texts { boxes: Labels::new(frame), places: Vec::new() };
+    let mut texts = Texts { boxes: Labels::new(layout.plot()), places: Vec::new() };
     let marks = plot.place_extremes(&mut texts.boxes);
     plot.draw_contours(drawing, grid, &mut texts);
-    plot.draw_numbers(drawing, &texts);
+    plot.draw_numbers(drawing, &texts, &marks);
     marks.iter().for_each(|mark| mark.draw(drawing));
 }
 
@@ -150,14 +152,14 @@ impl Plot<'_> {
     fn place_extremes(&self, boxes: &mut Labels) -> Vec<Mark> {
         let found = extremes(&self.values, |value| brief(value, 3));
         let mark = |extreme: &Extreme| {
-            let corner = self.corner + self.centre(extreme.cell) - 0.5 * self.cell_px;
-            let frame = Frame { corner_px: corner.to_array(), size_px: self.cell_px.to_array() };
+            let centre = self.corner + self.centre(extreme.cell);
             let colour = self.colour_of(self.values[extreme.cell]);
-            if self.numbers.is_some() {
-                Mark::border(boxes, frame, colour, extreme)
-            } else {
-                Mark::ring(boxes, frame, colour, extreme)
-            }
+            let Some(numbers) = &self.numbers else {
+                return Mark::ring(boxes, centre, colour, extreme);
+            };
+            let number = numbers.covered(extreme.cell, centre);
+            let border = number.grown(MARK_CLEAR_PX).within(self.cell_px - Mark::BORDER_PX);
+            Mark::border(boxes, Bordered { number, border }, colour, extreme)
         };
         found.iter().map(mark).collect()
     }
@@ -235,7 +237,7 @@ impl Plot<'_> {
         })
     }
 
-    fn draw_numbers(&self, drawing: &mut Drawing, texts: &Texts) {
+    fn draw_numbers(&self, drawing: &mut Drawing, texts: &Texts, marks: &[Mark]) {
         let Some(numbers) = &self.numbers else {
             return;
         };
@@ -245,7 +247,9 @@ impl Plot<'_> {
         for (cell, number) in numbers.texts.iter().enumerate() {
             let centre = self.centre(cell);
             let own = numbers.covered(cell, centre);
-            if disks.iter().any(|at| own.meets_disk(*at, LABEL_HALF_PX)) {
+            if disks.iter().any(|at| own.meets_disk(*at, LABEL_HALF_PX))
+                || marks.iter().any(|mark| mark.covers(&own))
+            {
                 continue;
             }
             let colour = self.colour_of(self.values[cell]);

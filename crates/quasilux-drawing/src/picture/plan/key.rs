@@ -42,7 +42,7 @@ impl Key {
             (!picture.surfaces.triangles.is_empty(), "edges", draw_edges),
             (!picture.luminaires.is_empty(), "luminaire: tick to C0, arrow along aim", draw_lamp),
             (!picture.point_lights_m.is_empty(), "point light", draw_star),
-            (!picture.area_lights.is_empty(), "luminous surface", draw_glow),
+            (!picture.area_lights.is_empty(), "luminous surface, arrow where it shines", draw_glow),
             (!picture.grids.is_empty(), "sensor grid, some of its points", draw_grid),
             (has_sensors, "normal toward the viewer", draw_normal),
             (!picture.cameras.is_empty(), "camera", draw_camera),

@@ -25,6 +25,7 @@ mod labels;
 mod layout;
 mod model;
 mod notes;
+mod pieces;
 mod projection;
 mod region;
 mod sheet;

@@ -93,10 +93,16 @@ pub(crate) fn polygon(drawing: &mut Drawing, at: DVec2, outline: &[DVec2], ink: 
 
 /// An arrow along the part of a unit direction that lies in the sheet, none where that is short.
 pub(crate) fn arrow(drawing: &mut Drawing, from: DVec2, direction: DVec2, stroke: Stroke) {
-    if direction.length() > SEEN {
-        let length = ARROW_PX * direction.length().max(0.5);
-        pointer(drawing, from, from + direction.normalize() * length, stroke);
+    let tip = arrow_tip(direction);
+    if tip != DVec2::ZERO {
+        pointer(drawing, from, from + tip, stroke);
     }
+}
+
+/// Where such an arrow ends, from its beginning.
+pub(crate) fn arrow_tip(direction: DVec2) -> DVec2 {
+    let length = direction.length();
+    if length > SEEN { direction / length * (ARROW_PX * length.max(0.5)) } else { DVec2::ZERO }
 }
 
 /// A line with a head at its end.

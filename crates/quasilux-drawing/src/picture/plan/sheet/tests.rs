@@ -1,6 +1,7 @@
 //! Whole sheets: what stands on them, that they are bounded, and that nothing breaks them.
 
 use super::super::fixtures::{Shell, luminaire, room};
+use super::super::ink;
 use super::super::model::{PlanCamera, PlanGrid, PlanMark, PlanPoint, PlanPoints};
 use super::*;
 use crate::drawing::Shape;
@@ -79,7 +80,7 @@ fn a_luminaire_far_outside_is_at_the_border() {
 fn marks_have_a_balloon_in_each_view_and_a_text() {
     let shell = room();
     let mark = |number, x| PlanMark {
-        position_m: DVec3::new(x, 1.0, 1.0),
+        position_m: Some(DVec3::new(x, 1.0, 1.0)),
         number,
         text: "the wall is missing; expected it closed ".repeat(7),
     };
@@ -92,6 +93,69 @@ fn marks_have_a_balloon_in_each_view_and_a_text() {
     assert_eq!(count("1") - axes("1"), 3 + 1);
     assert_eq!(count("2") - axes("2"), 6 + 1);
     assert!(texts(&drawing).iter().filter(|text| text.contains("wall is")).count() >= 4);
+}
+
+/// A remark makes the luminaire at its place red, in views and table; one without a place has its
+/// text only.
+#[test]
+fn luminaires_that_are_remarked_on_are_red() {
+    let shell = room();
+    let luminaires = [[1.5, 2.0, 2.7], [4.5, 2.0, 2.7]].map(|at| luminaire(at.into()));
+    let mark =
+        |position_m, number, text: &str| PlanMark { position_m, number, text: text.to_owned() };
+    let marks =
+        [mark(Some(luminaires[1].position_m), 1, "in a cabinet"), mark(None, 2, "read in metres")];
+    let picture = PlanPicture { marks: &marks, ..shell.picture(&luminaires) };
+    let inked = |drawing: &Drawing, wanted: &str, colour| {
+        let is_it = |shape: &&Shape| {
+            matches!(shape, Shape::Text { style, text, .. }
+                if text == wanted && style.colour == colour)
+        };
+        let flat = drawing.shapes.iter().flat_map(|shape| match shape {
+            Shape::Clipped { shapes, .. } => shapes.iter().collect(),
+            shape => vec![shape],
+        });
+        flat.filter(is_it).count()
+    };
+    let drawing = plan(&picture);
+    for (text, views) in [("2", 3), ("remark 1", 0), ("in a cabinet", 0), ("read in metres", 0)] {
+        assert_eq!(
+            inked(&drawing, text, ink::FAULT),
+            views.max(1) + usize::from(views > 0),
+            "{text}"
+        );
+    }
+    assert_eq!(inked(&drawing, "1", ink::FAULT), 0);
+    let plain = plan(&shell.picture(&luminaires));
+    assert_eq!(inked(&plain, "2", ink::FAULT), 0);
+    let balloons = |drawing: &Drawing, number| inked(drawing, number, [255; 3]);
+    assert_eq!((balloons(&drawing, "1"), balloons(&drawing, "2")), (3 + 1, 1));
+}
+
+/// An opening of 100 m in a room of 6 m.
+#[test]
+fn a_luminaire_that_does_not_fit_does_not_hide_the_room() {
+    let shell = room();
+    let mut lamp = luminaire(DVec3::new(3.0, 2.0, 2.7));
+    lamp.opening_m = DVec3::new(100.0, 100.0, 0.0);
+    let drawing = plan(&shell.picture(&[lamp]));
+    let regions = drawing.shapes.iter().flat_map(|shape| match shape {
+        Shape::Clipped { shapes, .. } => shapes.as_slice(),
+        _ => &[],
+    });
+    let corners = regions.filter_map(|shape| match shape {
+        Shape::Region { outlines, colour } if *colour == ink::LAMP => Some(outlines),
+        _ => None,
+    });
+    let outlines: Vec<_> = corners.flatten().collect();
+    assert_eq!(outlines.len(), 3);
+    for outline in outlines {
+        let width = |axis: usize| {
+            let places = || outline.iter().map(|corner| corner[axis]);
+            places().fold(f64::MIN, f64::max) - places().fold(f64::MAX, f64::min)
+        };
+        assert!(width(0) < 12.0 && width(1) < 12.0);
+    }
 }
 
 /// More than a million triangles, all smaller than a pixel, and one box.
