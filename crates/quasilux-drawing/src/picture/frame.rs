@@ -11,6 +11,8 @@ use crate::ticks::Tick;
 /// Colour of what is wanted.
 pub(crate) const TARGET_INK: Colour = [0xc4, 0x00, 0x1e];
 
+/// The largest share of a picture's width for the name of what it belongs to.
+const MOST_PROJECT: f64 = 0.4;
 /// Digits of a target in texts.
 pub(crate) const TARGET_DIGITS: i32 = 4;
 
@@ -37,13 +39,17 @@ pub(crate) struct LegendTarget {
 pub(crate) fn titled(layout: &Layout, caption: &Caption<'_>) -> Drawing {
     let mut drawing = Drawing::new(caption.title, layout.size.map(|n| n as f64));
     let left = layout.content_left();
-    let title = fitted(caption.title, layout::TITLE_PX, layout.content_width());
-    let style = TextStyle::new(layout::TITLE_PX, INK, Anchor::Start);
+    let width = layout.content_width();
+    let project = fitted(caption.project, layout::SUMMARY_PX, MOST_PROJECT * width);
+    let taken =
+        if project.is_empty() { 0.0 } else { width_px(&project, layout::SUMMARY_PX) + 30.0 };
+    let fits = |px: &f64| width_px(caption.title, *px) <= width - taken;
+    let title_px = layout::TITLE_PX.into_iter().find(fits).unwrap_or(layout::TITLE_PX[2]);
+    let title = fitted(caption.title, title_px, width - taken);
+    let style = TextStyle::new(title_px, INK, Anchor::Start);
     drawing.text([left, layout.title_base()], style, &title);
-    let room_px = layout.content_width() - width_px(&title, layout::TITLE_PX) - 30.0;
-    let project = fitted(caption.project, layout::SUMMARY_PX, room_px);
     let style = TextStyle::new(layout::SUMMARY_PX, GREY, Anchor::End);
-    drawing.text([left + layout.content_width(), layout.title_base()], style, &project);
+    drawing.text([left + width, layout.title_base()], style, &project);
     let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
     for (k, line) in layout.summary_lines.iter().enumerate() {
         drawing.text([left, layout.summary_base(k)], style, line);

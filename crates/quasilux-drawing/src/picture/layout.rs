@@ -6,8 +6,8 @@ use crate::font::CAPITAL_EM;
 use crate::text::width_px;
 use glam::DVec2;
 
-/// Font size of the title.
-pub(crate) const TITLE_PX: f64 = 28.0;
+/// Font sizes of the title, the largest that fits is taken.
+pub(crate) const TITLE_PX: [f64; 3] = [28.0, 22.0, 17.0];
 /// Font size of the figures under it.
 pub(crate) const SUMMARY_PX: f64 = 15.5;
 /// Font size of numbers on axes and legend.

@@ -19,7 +19,7 @@ use crate::text::width_px;
 use glam::DVec2;
 
 /// Font size of contour labels.
-const LABEL_PX: f64 = 14.0;
+const LABEL_PX: f64 = 13.6;
 /// Half the height that a label takes on its line, with clear space.
 const LABEL_HALF_PX: f64 = 7.5;
 /// Most clear space between a number and the border around it that marks an extreme.
@@ -90,17 +90,19 @@ impl Texts {
 /// How the lines of one level are drawn.
 struct LineInk {
     text: Colour,
+    halo: Colour,
     label: String,
     is_target: bool,
 }
 
 impl LineInk {
     fn plain(level: &Level, colour: Colour) -> Self {
-        Self { text: ink_on(colour), label: level.label.clone(), is_target: false }
+        let label = level.label.clone();
+        Self { text: ink_on(colour), halo: colour, label, is_target: false }
     }
 
     fn target(label: String) -> Self {
-        Self { text: TARGET_INK, label, is_target: true }
+        Self { text: TARGET_INK, halo: WHITE, label, is_target: true }
     }
 
     fn draw(&self, drawing: &mut Drawing, points: &[[f64; 2]]) {
@@ -202,19 +204,21 @@ impl Plot<'_> {
                 ink.draw(drawing, &points);
             }
             if let Some(place) = place {
-                self.draw_label(drawing, &ink.label, ink.text, place);
+                self.draw_label(drawing, ink, place);
                 texts.places.push(place);
             }
         }
     }
 
-    fn draw_label(&self, drawing: &mut Drawing, number: &str, ink: Colour, place: LabelPlace) {
-        let direction = place.direction.to_array();
-        let halo = (ink == TARGET_INK).then_some(WHITE);
-        let style = TextStyle { direction, halo, ..TextStyle::new(LABEL_PX, ink, Anchor::Middle) };
+    fn draw_label(&self, drawing: &mut Drawing, ink: &LineInk, place: LabelPlace) {
+        let style = TextStyle {
+            direction: place.direction.to_array(),
+            halo: Some(ink.halo),
+            ..TextStyle::new(LABEL_PX, ink.text, Anchor::Middle)
+        };
         let down = DVec2::new(-place.direction.y, place.direction.x);
         let base = self.corner + place.centre + down * (0.5 * capital_px(LABEL_PX));
-        drawing.text(base.to_array(), style, number);
+        drawing.text(base.to_array(), style, &ink.label);
     }
 
     /// Whether a label covers the number of a cell.
@@ -241,11 +245,12 @@ impl Plot<'_> {
         let Some(numbers) = &self.numbers else {
             return;
         };
-        let disks: Vec<DVec2> =
-            texts.places.iter().flat_map(|place| place.disks(LABEL_HALF_PX)).collect();
+        let places = texts.places.iter();
+        let disks = places.flat_map(|place| place.disks(LABEL_HALF_PX).map(|at| self.corner + at));
+        let disks: Vec<DVec2> = disks.collect();
         let px = numbers.size_px;
         for (cell, number) in numbers.texts.iter().enumerate() {
-            let centre = self.centre(cell);
+            let centre = self.corner + self.centre(cell);
             let own = numbers.covered(cell, centre);
             if disks.iter().any(|at| own.meets_disk(*at, LABEL_HALF_PX))
                 || marks.iter().any(|mark| mark.covers(&own))
@@ -257,7 +262,7 @@ impl Plot<'_> {
             let ink = mix(colour, ink_on(colour), 0.85);
             let style = TextStyle { halo: Some(colour), ..TextStyle::new(px, ink, Anchor::Middle) };
             let below = DVec2::Y * (0.5 * capital_px(px));
-            let base = (self.corner + centre + below).round() + DVec2::splat(0.5);
+            let base = (centre + below).round() + DVec2::splat(0.5);
             drawing.text(base.to_array(), style, number);
         }
     }
@@ -286,8 +291,8 @@ mod tests {
             let Shape::Text { place_px, style, text } = shape else {
                 continue;
             };
-            let is_value = style.halo.is_some() && style.halo != Some(WHITE);
-            let is_label = style.size_px == LABEL_PX && style.anchor == Anchor::Middle;
+            let is_label = style.size_px == LABEL_PX;
+            let is_value = style.halo.is_some() && !is_label;
             let width = width_px(text, style.size_px);
             let right = DVec2::from(style.direction);
             let capital = capital_px(style.size_px);
@@ -313,8 +318,16 @@ mod tests {
             let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, lx);
             let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
             let Found { values, labels } = texts_over(&crate::picture::grid(&picture));
-            // Few values give way to labels.
+            // Few values give way to labels, and none to nothing.
             assert!(values.len() > 300, "{k}: {} values", values.len());
+            let frame = Layout::new([5.0, 4.0], &grid.facts).grid();
+            for cell in 0..320_u32 {
+                let [i, j] = [cell % 20, cell / 20].map(f64::from);
+                let centre = DVec2::from(frame.at([(i + 0.5) / 20.0, (j + 0.5) / 16.0]));
+                let is_near = |at: &DVec2| at.distance(centre) < 30.0;
+                let has_value = values.iter().any(|value| value.centre().distance(centre) < 2.0);
+                assert!(has_value || labels.iter().flatten().any(is_near), "{k}: {i}, {j}");
+            }
             assert!(labels.len() > 4, "{k}: {} labels", labels.len());
             for (number, label) in labels.iter().enumerate() {
                 let meets =

@@ -71,7 +71,11 @@ fn bits(place_m: DVec3) -> [u64; 3] {
 
 /// The places of everything that is not geometry.
 fn things<'a>(picture: &'a PlanPicture<'a>) -> impl Iterator<Item = DVec3> + 'a {
-    let luminaires = picture.luminaires.iter().map(|luminaire| luminaire.position_m);
+    let luminaires = picture.luminaires.iter().flat_map(|luminaire| {
+        let along = luminaire.c0 * (0.5 * luminaire.opening_m.x);
+        let across = luminaire.c0.cross(luminaire.aim) * (0.5 * luminaire.opening_m.y);
+        [DVec3::ZERO, along, -along, across, -across].map(|side| luminaire.position_m + side)
+    });
     let grids = picture.grids.iter().flat_map(corners_of);
     let points = picture.points.iter().flat_map(|named| named.points);
     luminaires

@@ -248,7 +248,7 @@ impl Painter<'_> {
             let (text, colour) = match (&group.outside, &group.beyond) {
                 (Some(_), Some(beyond)) => (format!("{numbers}: {beyond} away"), ink::FAULT),
                 (Some(outside), None) if self.index > 0 => {
-                    (format!("{numbers}: {}", outside.text()), ink::FAULT)
+                    (format!("{numbers}: {}", outside.brief_text()), ink::FAULT)
                 }
                 (Some(_), None) => (numbers, ink::FAULT),
                 (None, _) if group.is_fault => (numbers, ink::FAULT),
