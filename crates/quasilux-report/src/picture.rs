@@ -222,6 +222,8 @@ fn span(samples: &RangeInclusive<u64>) -> String {
 mod tests {
     use super::*;
     use crate::example::{office, picture};
+    use quasilux_scene::Light;
+    use quasilux_scene::light::PointLight;
 
     #[test]
     fn grids_have_pictures_and_points_have_none() {
@@ -229,6 +231,33 @@ mod tests {
         let of = PictureOf { scene: &Scene::default(), title: "office" };
         assert!(false_colour_png(&report.sensors[0], &report, of).is_some());
         assert!(false_colour_png(&report.sensors[1], &report, of).is_none());
+    }
+
+    /// The picture of a grid changes with its target, with the values of other grids, whose scale
+    /// it shares, and with what stands around.
+    #[test]
+    fn pictures_are_told_of_target_scale_and_surroundings() {
+        let report = office();
+        let scene = Scene::default();
+        let png = |report: &Report, scene: &Scene| {
+            false_colour_png(&report.sensors[0], report, PictureOf { scene, title: "office" })
+        };
+        let plain = png(&report, &scene);
+        assert_eq!(png(&report, &scene), plain);
+        let mut aimed = report.clone();
+        aimed.sensors[0].grid.as_mut().expect("a grid").target_lx = Some(400.0);
+        assert_ne!(png(&aimed, &scene), plain);
+        let mut bright = report.clone();
+        let mut other = report.sensors[0].clone();
+        for point in &mut other.points {
+            point.illuminance_lx.value = Some(2000.0);
+        }
+        bright.sensors.push(other);
+        assert_ne!(png(&bright, &scene), plain);
+        let mut lit = scene.clone();
+        let position = report.sensors[0].points[0].position_m + glam::DVec3::Z;
+        lit.lights.push(Light::Point(PointLight { position, intensity_cd: 100.0 }));
+        assert_ne!(png(&report, &lit), plain);
     }
 
     #[test]
