@@ -171,7 +171,7 @@ impl Plot<'_> {
         let pieces = (self.cell_px.max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
         if let Some(target) = grid.target {
-            let label = format!("target {}", brief(target, TARGET_DIGITS));
+            let label = brief(target, TARGET_DIGITS);
             let lines = field.contours(target);
             self.draw_level(drawing, lines, &LineInk::target(label), texts);
         }

@@ -19,7 +19,7 @@ const ABOVE_PX: f64 = 12.0;
 /// Lines of one table.
 const MAX_LINES: usize = 24;
 /// Where columns begin.
-const COLUMNS_PX: [f64; 6] = [0.0, 100.0, 290.0, 385.0, 640.0, 790.0];
+const COLUMNS_PX: [f64; 6] = [0.0, 95.0, 280.0, 370.0, 565.0, 705.0];
 /// Room between columns.
 const BETWEEN_PX: f64 = 12.0;
 
