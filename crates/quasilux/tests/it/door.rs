@@ -71,7 +71,7 @@ fn check_lists_what_is_wrong_and_draws_it() {
         assert!(check.stdout.contains(word), "{word}: {}", check.stdout);
     }
     let plan = folder.read("seen/plan.svg");
-    for words in ["<svg", "hangs outside the geometry", "50 cm above the geometry, remark 1"] {
+    for words in ["<svg", "hangs outside the geometry", "remark 1: 50 cm above"] {
         assert!(plan.contains(words), "{words}");
     }
     let png = std::fs::read(folder.path("seen/plan.png")).expect("a picture");

@@ -191,9 +191,12 @@ struct LuminaireLine {
 
 /// What is wrong with something at a place: how far it is outside, and the remark on it.
 fn fault(contents: &Contents<'_>, place_m: DVec3) -> String {
-    let outside = contents.geometry.outside(place_m).map(|outside| outside.text());
-    let remark = contents.remark_at(place_m).map(|number| format!("remark {number}"));
-    [outside, remark].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    match (contents.remark_at(place_m), contents.geometry.outside(place_m)) {
+        (Some(number), Some(outside)) => format!("remark {number}: {}", outside.brief_text()),
+        (Some(number), None) => format!("remark {number}"),
+        (None, Some(outside)) => outside.text(),
+        (None, None) => String::new(),
+    }
 }
 
 impl LuminaireLine {
