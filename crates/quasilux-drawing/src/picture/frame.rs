@@ -12,7 +12,7 @@ use crate::ticks::Tick;
 pub(crate) const TARGET_INK: Colour = [0xc4, 0x00, 0x1e];
 
 /// The largest share of a picture's width for the name of what it belongs to.
-const MOST_PROJECT: f64 = 0.4;
+const MAX_PROJECT_SHARE: f64 = 0.4;
 /// Digits of a target in texts.
 pub(crate) const TARGET_DIGITS: i32 = 4;
 
@@ -40,7 +40,7 @@ pub(crate) fn titled(layout: &Layout, caption: &Caption<'_>) -> Drawing {
     let mut drawing = Drawing::new(caption.title, layout.size.map(|n| n as f64));
     let left = layout.content_left();
     let width = layout.content_width();
-    let project = fitted(caption.project, layout::SUMMARY_PX, MOST_PROJECT * width);
+    let project = fitted(caption.project, layout::SUMMARY_PX, MAX_PROJECT_SHARE * width);
     let taken =
         if project.is_empty() { 0.0 } else { width_px(&project, layout::SUMMARY_PX) + 30.0 };
     let fits = |px: &f64| width_px(caption.title, *px) <= width - taken;

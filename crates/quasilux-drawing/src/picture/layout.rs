@@ -16,8 +16,8 @@ pub(crate) const SMALL_PX: f64 = 12.6;
 /// Longer side of the plot.
 const PLOT_LONG: f64 = 900.0;
 /// The longer side of the grid is at least this, up to a size of the plot.
-const GRID_LONG_LEAST: f64 = 560.0;
-const PLOT_LONG_MOST: f64 = 1400.0;
+const MIN_GRID_LONG: f64 = 560.0;
+const MAX_PLOT_LONG: f64 = 1400.0;
 /// The shorter side is at least this, also where true proportion would make it invisible.
 const PLOT_SHORT_LEAST: f64 = 24.0;
 /// Everything is at least this wide, so that the figures fit.
@@ -69,8 +69,8 @@ impl Layout {
     pub(crate) fn of_window(window: &Window, grid_m: DVec2, summary: &[String]) -> Self {
         let size_m = window.size_m();
         let grid_shares = [-window.low_m, grid_m - window.low_m].map(|place| place / size_m);
-        let long_px = GRID_LONG_LEAST * size_m.max_element() / grid_m.max_element();
-        let long_px = long_px.clamp(PLOT_LONG, PLOT_LONG_MOST);
+        let long_px = MIN_GRID_LONG * size_m.max_element() / grid_m.max_element();
+        let long_px = long_px.clamp(PLOT_LONG, MAX_PLOT_LONG);
         Self { grid_shares, ..Self::with_axes(size_m.to_array(), long_px, summary) }
     }
 

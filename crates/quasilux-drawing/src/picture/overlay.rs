@@ -14,9 +14,9 @@ use glam::{DVec2, DVec3};
 const DEPTH_M: f64 = 2.0;
 const DEPTH_SHARE: f64 = 0.4;
 /// Edges shorter than this are not looked at.
-const LEAST_PX: f64 = 0.5;
-const MOST_LINES: usize = 8000;
-const MOST_LUMINAIRES: usize = 1000;
+const MIN_PX: f64 = 0.5;
+const MAX_LINES: usize = 8000;
+const MAX_LUMINAIRES: usize = 1000;
 
 const CUT: Colour = [0x18; 3];
 const EDGE: Colour = [0x50; 3];
@@ -63,16 +63,16 @@ fn draw_surfaces(
     let height_m = Bounds::of_surfaces(surfaces).map_or(0.0, |bounds| bounds.size_m().z);
     let depth_m = DEPTH_M.max(DEPTH_SHARE * height_m);
     let behind = Plane { normal: -plane.normal, offset_m: depth_m - plane.offset_m };
-    let found = edges(surfaces, &[plane.normal], LEAST_PX / projection.px_per_m);
+    let found = edges(surfaces, &[plane.normal], MIN_PX / projection.px_per_m);
     let on_sheet = |ends: [DVec3; 2]| ends.map(|end| projection.place(end));
     let seen = found
         .iter()
         .filter(|edge| edge.is_seen(0))
         .filter_map(|edge| behind.part_below(plane.part_below(edge.ends_m)?));
-    let lines = thinned(seen.map(on_sheet), frame, MOST_LINES);
+    let lines = thinned(seen.map(on_sheet), frame, MAX_LINES);
     drawing.lines(&lines, Stroke::solid(WHITE, 1.8));
     drawing.lines(&lines, Stroke::solid(EDGE, 0.8));
-    let cut = thinned(surfaces.cut(plane).map(on_sheet), frame, MOST_LINES);
+    let cut = thinned(surfaces.cut(plane).map(on_sheet), frame, MAX_LINES);
     drawing.lines(&cut, Stroke::solid(WHITE, 4.0));
     drawing.lines(&cut, Stroke::solid(CUT, 2.2));
 }
@@ -81,7 +81,7 @@ fn draw_surfaces(
 fn draw_other_lights(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &Projection) {
     let (plane, Surroundings { surfaces, .. }) = (grid.plane(), grid.surroundings);
     let is_before = |p: &DVec3| plane.normal.dot(*p) > plane.offset_m;
-    for light in grid.surroundings.area_lights.iter().take(MOST_LUMINAIRES) {
+    for light in grid.surroundings.area_lights.iter().take(MAX_LUMINAIRES) {
         let corners = light.triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
         let before = corners.filter(|corners| corners.iter().any(is_before));
         let on_sheet = before.map(|corners| corners.map(|corner| projection.place(corner)));
@@ -90,7 +90,7 @@ fn draw_other_lights(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: 
         }
     }
     let points = grid.surroundings.point_lights_m.iter().filter(|p| is_before(p));
-    for &position_m in points.take(MOST_LUMINAIRES) {
+    for &position_m in points.take(MAX_LUMINAIRES) {
         star(drawing, projection.place(position_m), Ink::LAMP);
     }
 }
@@ -110,7 +110,7 @@ fn draw_luminaires(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &P
         .luminaires
         .iter()
         .filter(|luminaire| plane.normal.dot(luminaire.position_m) > plane.offset_m);
-    for luminaire in before.take(MOST_LUMINAIRES) {
+    for luminaire in before.take(MAX_LUMINAIRES) {
         let at = projection.place(luminaire.position_m);
         let outline: Vec<DVec2> =
             opening(luminaire, projection).iter().map(|corner| at + *corner).collect();

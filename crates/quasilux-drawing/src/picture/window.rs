@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 /// A picture shows the whole section of a room that is at most this many times as long as the
 /// longer edge of the grid.
-const MOST_WHOLE: f64 = 3.0;
+const MAX_WHOLE: f64 = 3.0;
 /// Room around a grid that its picture may take for what stands there in a longer one, in its
 /// longer edge.
 const AROUND: f64 = 0.3;
@@ -40,7 +40,7 @@ impl Window {
             high_m: window.high_m.max(p),
         };
         let mut all = cut().flatten().fold(own, with);
-        if all.size_m().max_element() > MOST_WHOLE * own.high_m.max_element() {
+        if all.size_m().max_element() > MAX_WHOLE * own.high_m.max_element() {
             all = cut().filter_map(|ends| clipped(ends, around)).flatten().fold(own, with);
         }
         if all == own {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// Surfaces of more triangles are one piece.
-const MOST: usize = 20_000;
+const MAX_TRIANGLES: usize = 20_000;
 
 /// Triangles that belong together.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,7 +22,8 @@ pub(crate) fn pieces(surfaces: Surfaces<'_>, triangles: &[u32]) -> Vec<Piece> {
     let corners = triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
     let corners: Vec<[DVec3; 3]> = corners.collect();
     let mut groups: BTreeMap<usize, Sum> = BTreeMap::new();
-    let roots = if corners.len() > MOST { vec![0; corners.len()] } else { roots(&corners) };
+    let roots =
+        if corners.len() > MAX_TRIANGLES { vec![0; corners.len()] } else { roots(&corners) };
     for (corners, root) in corners.iter().zip(roots) {
         groups.entry(root).or_default().add(*corners);
     }
