@@ -277,7 +277,7 @@ mod tests {
 
     /// The texts over the cells of a picture.
     #[derive(Default)]
-    struct Found {
+    struct DrawnTexts {
         values: Vec<Box>,
         /// Disks along each label, as high as its letters.
         labels: Vec<Vec<DVec2>>,
@@ -285,8 +285,8 @@ mod tests {
 
     const LETTER_HALF_PX: f64 = 5.0;
 
-    fn texts_over(drawing: &Drawing) -> Found {
-        let mut found = Found::default();
+    fn texts_over(drawing: &Drawing) -> DrawnTexts {
+        let mut found = DrawnTexts::default();
         for shape in &drawing.shapes {
             let Shape::Text { place_px, style, text } = shape else {
                 continue;
@@ -317,7 +317,7 @@ mod tests {
         for (k, lx) in fields.into_iter().enumerate() {
             let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, lx);
             let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
-            let Found { values, labels } = texts_over(&crate::picture::grid(&picture));
+            let DrawnTexts { values, labels } = texts_over(&crate::picture::grid(&picture));
             // Few values give way to labels, and none to nothing.
             assert!(values.len() > 300, "{k}: {} values", values.len());
             let frame = Layout::new([5.0, 4.0], &grid.facts).grid();

@@ -53,7 +53,7 @@ struct Painter<'a> {
 
 /// What luminaires with a common label have in common.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Spot {
+struct GroupKey {
     is_right: bool,
     /// On the sheet, in steps of a few pixels.
     place: [i64; 2],
@@ -283,14 +283,14 @@ impl Painter<'_> {
 
     /// Luminaires that are drawn on top of each other.
     fn groups(&self) -> Vec<Group> {
-        let mut groups: BTreeMap<Spot, Group> = BTreeMap::new();
+        let mut groups: BTreeMap<GroupKey, Group> = BTreeMap::new();
         for (index, luminaire) in self.contents.picture.luminaires.iter().enumerate() {
             let pin = self.view.pin(luminaire.position_m);
             let outside = self.outside(luminaire.position_m);
             let [x, y] = (pin.place_px / 4.0).to_array().map(|x| x.round() as i64);
             let words = outside.map_or(String::new(), |outside| outside.text());
             let is_fault = self.contents.is_fault(luminaire.position_m);
-            let key = Spot { is_right: !is_fault, place: [x, y], words };
+            let key = GroupKey { is_right: !is_fault, place: [x, y], words };
             let reach = self.reach(&self.shown(luminaire, &pin));
             let group = groups.entry(key).or_insert_with(|| Group {
                 centre: pin.place_px,
