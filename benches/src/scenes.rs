@@ -129,6 +129,7 @@ pub fn kitchen() -> Option<Named> {
         counts: [16, 16],
         normal: DVec3::Z,
         quantity: Quantity::Mean,
+        target_lx: None,
     };
     scene.sensors = vec![Sensor { name: "level".to_owned(), shape: SensorShape::Grid(grid) }];
     Some(Named { name: "kitchen", scene })
@@ -163,6 +164,7 @@ pub fn office_sensors() -> Vec<Sensor> {
         counts: [8, 8],
         normal: DVec3::Z,
         quantity: Quantity::Centre,
+        target_lx: None,
     };
     let desks = [(1.7, 1.89), (4.3, 1.89), (1.7, 3.11), (4.3, 3.11)];
     let desk = |(x, y)| SensorPoint { position: DVec3::new(x, y, 0.76), normal: DVec3::Z };

@@ -127,6 +127,7 @@ fn illuminance() -> Drawing {
     grid(&GridPicture {
         caption: Caption {
             title: "机の上 workplane",
+            project: "office",
             facts: &["average 498.0 ± 1.1 lx".to_owned(), "uniformity 0.43 ± 0.01".to_owned()],
             method: "path, sobol, owen, 16 x 1 024 samples, 95 % intervals",
             caution: "stopped before the wanted tolerance was reached",
@@ -137,6 +138,8 @@ fn illuminance() -> Drawing {
         v_m: [0.0, 3.0, 0.0],
         counts: [20, 12],
         cells: &cells,
+        target: Some(500.0),
+        ..GridPicture::default()
     })
 }
 

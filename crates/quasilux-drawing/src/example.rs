@@ -1,6 +1,6 @@
 //! Small made-up grids that the tests of this crate share.
 
-use crate::picture::{Caption, Cell, GridPicture};
+use crate::picture::{Caption, Cell, GridPicture, Surroundings};
 
 /// The cells of a grid in the xy plane with its corner at (0.5, 0.5, 0.8).
 pub(crate) struct Grid {
@@ -37,6 +37,7 @@ impl Grid {
         GridPicture {
             caption: Caption {
                 title,
+                project: "office",
                 facts: &self.facts,
                 method: "path, sobol, owen, 16 x 1 024 samples, 95 % intervals",
                 caution: "stopped before the wanted tolerance was reached",
@@ -47,6 +48,9 @@ impl Grid {
             v_m: [0.0, self.edges_m[1], 0.0],
             counts: self.counts,
             cells: &self.cells,
+            scale_cells: &[],
+            target: None,
+            surroundings: Surroundings::default(),
         }
     }
 }

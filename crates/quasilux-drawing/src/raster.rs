@@ -100,8 +100,7 @@ impl Painter {
 const MAX_DASHES: f64 = 1e5;
 
 /// The pieces of a line in pixels, without gaps where these are too many to draw; the canvas
-/// lengthens each by the width of the line (its round
-/// ends).
+/// lengthens each by the width of the line (its round ends).
 fn dashed(points: &[DVec2], stroke: Stroke, scale: f64) -> Vec<Segment> {
     let lengths = stroke.dash.lengths();
     let segments = points.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b);
@@ -121,13 +120,14 @@ fn dashed(points: &[DVec2], stroke: Stroke, scale: f64) -> Vec<Segment> {
         let length = from.distance(to);
         let mut at = 0.0;
         loop {
-            let end = (at + rest).min(length);
+            let ends_here = at + rest > length;
+            let end = if ends_here { length } else { at + rest };
             if part % 2 == 0 {
                 pieces.push([at, end].map(|s| from.lerp(to, s / length)));
             }
             rest -= end - at;
             at = end;
-            if rest > 0.0 {
+            if ends_here {
                 break;
             }
             part = (part + 1) % lengths.len();

@@ -41,8 +41,9 @@ enum Cause<'a> {
 /// Says of sensor points at which a run found no light why that may be: one finding for each sensor
 /// and cause, with the first such point.
 ///
-/// `found` is what [`inspect`](crate::inspect) found; sensors that it names, outside the geometry or
-/// covered, are passed over. `hierarchy` is over the triangles of the scene's mesh, in their order.
+/// `found` is what [`inspect`](crate::inspect) found; sensors that it names, outside the geometry
+/// or covered, are passed over. `hierarchy` is over the triangles of the scene's mesh, in their
+/// order.
 ///
 /// # Panics
 /// If the hierarchy has another number of triangles than the scene, or a sensor or point is none of

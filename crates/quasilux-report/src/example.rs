@@ -17,6 +17,7 @@ pub(crate) fn grid(edges_m: [f64; 2], counts: [u32; 2]) -> Grid {
         counts,
         normal: DVec3::Z,
         quantity: Quantity::Centre,
+        target_lx: None,
     }
 }
 

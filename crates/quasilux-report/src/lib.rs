@@ -22,7 +22,7 @@ pub mod table;
 
 pub use camera::{CameraFiles, CameraReport};
 pub use figure::Figure;
-pub use picture::{camera_false_colour_png, exr, false_colour_png, tone_mapped_png};
+pub use picture::{PictureOf, camera_false_colour_png, exr, false_colour_png, tone_mapped_png};
 pub use plan::plan;
 pub use quasilux_drawing::picture::PlanMark;
 pub use report::{PointReport, Report, Run, RunFacts, SensorReport, Summary, TermReport};

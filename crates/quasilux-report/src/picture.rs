@@ -1,27 +1,49 @@
 //! The results as pictures: what [`quasilux_drawing`] is told of a grid and of a camera.
 
 use crate::number::{brief, count, figure_text};
+use crate::plan::Lights;
 use crate::{CameraReport, Figure, Report, SensorReport};
 use quasilux_drawing::exr::{Channel, Layer, exr_bytes};
 use quasilux_drawing::picture::{
     self, Caption, Cell, GridPicture, Image, LabelledImage, LuminancePicture,
 };
+use quasilux_scene::Scene;
 use quasilux_transport::Pixel;
 use std::ops::RangeInclusive;
 
+/// What a picture is told beside the results.
+#[derive(Clone, Copy, Debug)]
+pub struct PictureOf<'a> {
+    /// The scene of the results.
+    pub scene: &'a Scene,
+    /// What the project is called.
+    pub title: &'a str,
+}
+
 /// The picture of a grid in false colours as a PNG file; `None` for a sensor that is not a grid.
 ///
-/// The first edge of the rectangle runs to the right, the second one upward.
+/// The first edge of the rectangle runs to the right, the second one upward. What stands around the
+/// grid, and the luminaires before it, are drawn over it. All grids of a report share one scale.
 #[must_use]
-pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8>> {
+pub fn false_colour_png(
+    sensor: &SensorReport,
+    report: &Report,
+    of: PictureOf<'_>,
+) -> Option<Vec<u8>> {
     let grid = sensor.grid?;
-    let cell = |figure: Figure| Cell { value: figure.value, half_width: figure.half_width };
-    let cells: Vec<Cell> = sensor.points.iter().map(|p| cell(p.illuminance_lx)).collect();
+    let grids = report.sensors.iter().filter(|sensor| sensor.grid.is_some());
+    let shared: Vec<Cell> = grids.clone().flat_map(cells).collect();
+    let lights = Lights::new(of.scene);
+    let mut method = method(report, &samples(sensor));
+    if grids.count() > 1 {
+        method.push_str(", one scale for all grids");
+    }
     let drawing = picture::grid(&GridPicture {
         caption: Caption {
             title: &sensor.name,
+            project: of.title,
             facts: &sensor_facts(sensor),
-            method: &method(report, &samples(sensor)),
+            method: &method,
             caution: caution(report, report.run.sensors_reached),
         },
         unit: "lx",
@@ -29,9 +51,17 @@ pub fn false_colour_png(sensor: &SensorReport, report: &Report) -> Option<Vec<u8
         u_m: grid.u.to_array(),
         v_m: grid.v.to_array(),
         counts: grid.counts,
-        cells: &cells,
+        cells: &cells(sensor).collect::<Vec<_>>(),
+        scale_cells: &shared,
+        target: grid.target_lx,
+        surroundings: lights.surroundings(of.scene),
     });
     Some(drawing.to_png(1.0))
+}
+
+fn cells(sensor: &SensorReport) -> impl Iterator<Item = Cell> + '_ {
+    let cell = |figure: Figure| Cell { value: figure.value, half_width: figure.half_width };
+    sensor.points.iter().map(move |point| cell(point.illuminance_lx))
 }
 
 /// The luminances of a camera in false colours as a PNG file.
@@ -40,6 +70,7 @@ pub fn camera_false_colour_png(camera: &CameraReport, report: &Report) -> Vec<u8
     picture::luminance(&LuminancePicture {
         caption: Caption {
             title: &camera.name,
+            project: "",
             facts: &camera_facts(camera),
             method: &method(report, &(camera.samples..=camera.samples)),
             caution: caution(report, camera.is_done),
@@ -191,12 +222,42 @@ fn span(samples: &RangeInclusive<u64>) -> String {
 mod tests {
     use super::*;
     use crate::example::{office, picture};
+    use quasilux_scene::Light;
+    use quasilux_scene::light::PointLight;
 
     #[test]
     fn grids_have_pictures_and_points_have_none() {
         let report = office();
-        assert!(false_colour_png(&report.sensors[0], &report).is_some());
-        assert!(false_colour_png(&report.sensors[1], &report).is_none());
+        let of = PictureOf { scene: &Scene::default(), title: "office" };
+        assert!(false_colour_png(&report.sensors[0], &report, of).is_some());
+        assert!(false_colour_png(&report.sensors[1], &report, of).is_none());
+    }
+
+    /// The picture of a grid changes with its target, with the values of other grids, whose scale
+    /// it shares, and with what stands around.
+    #[test]
+    fn pictures_are_told_of_target_scale_and_surroundings() {
+        let report = office();
+        let scene = Scene::default();
+        let png = |report: &Report, scene: &Scene| {
+            false_colour_png(&report.sensors[0], report, PictureOf { scene, title: "office" })
+        };
+        let plain = png(&report, &scene);
+        assert_eq!(png(&report, &scene), plain);
+        let mut aimed = report.clone();
+        aimed.sensors[0].grid.as_mut().expect("a grid").target_lx = Some(400.0);
+        assert_ne!(png(&aimed, &scene), plain);
+        let mut bright = report.clone();
+        let mut other = report.sensors[0].clone();
+        for point in &mut other.points {
+            point.illuminance_lx.value = Some(2000.0);
+        }
+        bright.sensors.push(other);
+        assert_ne!(png(&bright, &scene), plain);
+        let mut lit = scene.clone();
+        let position = report.sensors[0].points[0].position_m + glam::DVec3::Z;
+        lit.lights.push(Light::Point(PointLight { position, intensity_cd: 100.0 }));
+        assert_ne!(png(&report, &lit), plain);
     }
 
     #[test]

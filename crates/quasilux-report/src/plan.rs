@@ -4,40 +4,64 @@ use glam::DVec3;
 use quasilux_drawing::Drawing;
 use quasilux_drawing::picture::{
     self, PlanAreaLight, PlanCamera, PlanGrid, PlanLuminaire, PlanMark, PlanPicture, PlanPoint,
-    PlanPoints, Surfaces,
+    PlanPoints, Surfaces, Surroundings,
 };
 use quasilux_scene::light::{AreaLight, Luminaire};
-use quasilux_scene::{Camera, Light, Scene, Sensor, SensorPoint, SensorShape};
+use quasilux_scene::{Camera, Light, Mesh, Scene, Sensor, SensorPoint, SensorShape};
 
 /// The plan and two elevations of a scene with lights, sensors and cameras. `marks` are red
 /// balloons with a number at their places; their texts are listed below.
 #[must_use]
 pub fn plan(scene: &Scene, title: &str, marks: &[PlanMark]) -> Drawing {
-    let areas = scene.lights.iter().filter_map(|light| match light {
-        Light::Area(light) => Some(area_light(scene, light)),
-        Light::Point(_) | Light::Luminaire(_) => None,
-    });
-    let luminaires = scene.lights.iter().filter_map(|light| match light {
-        Light::Luminaire(light) => Some(luminaire(light)),
-        Light::Point(_) | Light::Area(_) => None,
-    });
-    let point_lights = scene.lights.iter().filter_map(|light| match light {
-        Light::Point(light) => Some(light.position),
-        Light::Luminaire(_) | Light::Area(_) => None,
-    });
+    let lights = Lights::new(scene);
+    let Surroundings { surfaces, luminaires, point_lights_m, area_lights } =
+        lights.surroundings(scene);
     let points: Vec<NamedPoints<'_>> = scene.sensors.iter().filter_map(named_points).collect();
     let named = points.iter().map(|NamedPoints { name, points }| PlanPoints { name, points });
     picture::plan(&PlanPicture {
         title,
-        surfaces: Surfaces { positions_m: &scene.mesh.positions, triangles: &scene.mesh.triangles },
-        area_lights: &areas.collect::<Vec<_>>(),
-        luminaires: &luminaires.collect::<Vec<_>>(),
-        point_lights_m: &point_lights.collect::<Vec<DVec3>>(),
+        surfaces,
+        area_lights,
+        luminaires,
+        point_lights_m,
         grids: &scene.sensors.iter().filter_map(grid).collect::<Vec<_>>(),
         points: &named.collect::<Vec<_>>(),
         cameras: &scene.cameras.iter().map(camera).collect::<Vec<_>>(),
         marks,
     })
+}
+
+/// The lights of a scene, each kind in its order.
+pub(crate) struct Lights<'a> {
+    luminaires: Vec<PlanLuminaire>,
+    point_lights_m: Vec<DVec3>,
+    area_lights: Vec<PlanAreaLight<'a>>,
+}
+
+impl<'a> Lights<'a> {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        let mut lights =
+            Self { luminaires: Vec::new(), point_lights_m: Vec::new(), area_lights: Vec::new() };
+        for light in &scene.lights {
+            match light {
+                Light::Luminaire(light) => lights.luminaires.push(luminaire(light)),
+                Light::Point(light) => lights.point_lights_m.push(light.position),
+                Light::Area(light) => lights.area_lights.push(area_light(scene, light)),
+            }
+        }
+        lights
+    }
+
+    /// The lights, and the surfaces of the scene.
+    pub(crate) fn surroundings(&'a self, scene: &'a Scene) -> Surroundings<'a> {
+        let Mesh { positions, triangles, .. } = &scene.mesh;
+        Surroundings {
+            surfaces: Surfaces { positions_m: positions, triangles },
+            luminaires: &self.luminaires,
+            point_lights_m: &self.point_lights_m,
+            area_lights: &self.area_lights,
+        }
+    }
 }
 
 struct NamedPoints<'a> {

@@ -45,6 +45,8 @@ pub struct Grid {
     pub normal: DVec3,
     /// What a value means.
     pub quantity: Quantity,
+    /// The illuminance in lx that is wanted everywhere, finite and above 0: pictures have its line.
+    pub target_lx: Option<f64>,
 }
 
 /// One point of measurement.

@@ -4,7 +4,7 @@
 use crate::atomic_file;
 use crate::exit::CliError;
 use quasilux_report::{
-    Report, camera_false_colour_png, csv, exr, false_colour_png, json, tone_mapped_png,
+    PictureOf, Report, camera_false_colour_png, csv, exr, false_colour_png, json, tone_mapped_png,
 };
 use std::io::{self, Write};
 use std::path::Path;
@@ -15,12 +15,12 @@ pub(crate) fn prepare(folder: &Path) -> Result<(), CliError> {
 }
 
 /// Writes everything; each file appears whole or not at all.
-pub(crate) fn write(folder: &Path, report: &Report) -> Result<(), CliError> {
+pub(crate) fn write(folder: &Path, report: &Report, of: PictureOf<'_>) -> Result<(), CliError> {
     write_atomic(&folder.join("result.json"), json::json(report).as_bytes())?;
     for sensor in &report.sensors {
         let file = |ending: &str| folder.join(format!("{}.{ending}", sensor.name));
         write_atomic(&file("csv"), csv::csv(sensor).as_bytes())?;
-        if let Some(png) = false_colour_png(sensor, report) {
+        if let Some(png) = false_colour_png(sensor, report, of) {
             write_atomic(&file("png"), &png)?;
         }
     }

@@ -1,10 +1,11 @@
 //! The values of a rectangular grid, and the words around its picture.
 
-use super::frame::Caption;
+use super::caption::Caption;
+use super::plan::{PlanAreaLight, PlanLuminaire, Plane, Surfaces};
 use glam::DVec3;
 
 /// A grid to be drawn in false colours.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct GridPicture<'a> {
     /// The words around the picture.
     pub caption: Caption<'a>,
@@ -20,6 +21,26 @@ pub struct GridPicture<'a> {
     pub counts: [u32; 2],
     /// The cells, `u` fastest.
     pub cells: &'a [Cell],
+    /// The cells of all pictures that share the scale of colours; none where it is for this one.
+    pub scale_cells: &'a [Cell],
+    /// A value that is required everywhere, drawn as a contour line of its own.
+    pub target: Option<f64>,
+    /// What stands around the grid.
+    pub surroundings: Surroundings<'a>,
+}
+
+/// What is drawn over a grid: surfaces that its plane cuts, edges of those behind it, and
+/// lights before it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Surroundings<'a> {
+    /// The surfaces.
+    pub surfaces: Surfaces<'a>,
+    /// The luminaires.
+    pub luminaires: &'a [PlanLuminaire],
+    /// Lights without extent and direction.
+    pub point_lights_m: &'a [DVec3],
+    /// Luminous surfaces.
+    pub area_lights: &'a [PlanAreaLight<'a>],
 }
 
 /// The value of one cell, as far as it is known.
@@ -35,5 +56,17 @@ impl GridPicture<'_> {
     /// Lengths of both edges in m.
     pub(super) fn edges_m(&self) -> [f64; 2] {
         [self.u_m, self.v_m].map(|edge| DVec3::from(edge).length())
+    }
+
+    /// Unit directions of both edges.
+    pub(super) fn directions(&self) -> [DVec3; 2] {
+        [self.u_m, self.v_m].map(|edge| DVec3::from(edge).normalize_or_zero())
+    }
+
+    /// The plane of the grid; above it is where its picture is seen from.
+    pub(super) fn plane(&self) -> Plane {
+        let [u, v] = self.directions();
+        let normal = u.cross(v).normalize_or_zero();
+        Plane { normal, offset_m: normal.dot(DVec3::from(self.origin_m)) }
     }
 }

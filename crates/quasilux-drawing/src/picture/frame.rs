@@ -1,24 +1,20 @@
 //! The words and the colour scale around every false-colour picture.
 
+use super::caption::Caption;
 use super::colour_map::{self, CAUTION_INK};
 use super::layout::{self, Layout, capital_px};
-use crate::drawing::Drawing;
-use crate::style::{Anchor, Colour, GREY, INK, Stroke, TextStyle};
+use crate::drawing::{Drawing, Frame};
+use crate::style::{Anchor, Colour, Dash, GREY, INK, Stroke, TextStyle, WHITE};
 use crate::text::{fitted, width_px};
 use crate::ticks::Tick;
 
-/// The words around a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Caption<'a> {
-    /// The heading.
-    pub title: &'a str,
-    /// Facts below it; lines are broken between them.
-    pub facts: &'a [String],
-    /// How the values were made, at the bottom.
-    pub method: &'a str,
-    /// What restricts their use, below that; empty for nothing.
-    pub caution: &'a str,
-}
+/// Colour of what is wanted.
+pub(crate) const TARGET_INK: Colour = [0xc4, 0x00, 0x1e];
+
+/// The largest share of a picture's width for the name of what it belongs to.
+const MAX_PROJECT_SHARE: f64 = 0.4;
+/// Digits of a target in texts.
+pub(crate) const TARGET_DIGITS: i32 = 4;
 
 /// The labels of a colour scale; places on it are shares of its length.
 pub(crate) struct Legend<'a> {
@@ -27,15 +23,33 @@ pub(crate) struct Legend<'a> {
     pub(crate) marks: Vec<f64>,
     /// Ticks below it with their numbers, ascending.
     pub(crate) ticks: Vec<Tick>,
+    /// What is wanted.
+    pub(crate) target: Option<LegendTarget>,
+}
+
+/// What is wanted, named above the colour scale.
+pub(crate) struct LegendTarget {
+    /// Its place on the scale, where the scale has it.
+    pub(crate) share: Option<f64>,
+    /// Its name.
+    pub(crate) text: String,
 }
 
 /// A sheet for a picture, with the title and the figures under it.
 pub(crate) fn titled(layout: &Layout, caption: &Caption<'_>) -> Drawing {
     let mut drawing = Drawing::new(caption.title, layout.size.map(|n| n as f64));
     let left = layout.content_left();
-    let title = fitted(caption.title, layout::TITLE_PX, layout.content_width());
-    let style = TextStyle::new(layout::TITLE_PX, INK, Anchor::Start);
+    let width = layout.content_width();
+    let project = fitted(caption.project, layout::SUMMARY_PX, MAX_PROJECT_SHARE * width);
+    let taken =
+        if project.is_empty() { 0.0 } else { width_px(&project, layout::SUMMARY_PX) + 30.0 };
+    let fits = |px: &f64| width_px(caption.title, *px) <= width - taken;
+    let title_px = layout::TITLE_PX.into_iter().find(fits).unwrap_or(layout::TITLE_PX[2]);
+    let title = fitted(caption.title, title_px, width - taken);
+    let style = TextStyle::new(title_px, INK, Anchor::Start);
     drawing.text([left, layout.title_base()], style, &title);
+    let style = TextStyle::new(layout::SUMMARY_PX, GREY, Anchor::End);
+    drawing.text([left + width, layout.title_base()], style, &project);
     let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
     for (k, line) in layout.summary_lines.iter().enumerate() {
         drawing.text([left, layout.summary_base(k)], style, line);
@@ -55,6 +69,9 @@ pub(crate) fn draw_legend(drawing: &mut Drawing, layout: &Layout, legend: &Legen
         let stroke = Stroke::solid(colour_map::ink_on(colour_map::colour(share)), 1.0);
         drawing.line(&[[place(share), top], [place(share), top + height]], stroke);
     }
+    if let Some(target) = &legend.target {
+        draw_target(drawing, frame, target);
+    }
     let style = TextStyle::new(layout::SMALL_PX, GREY, Anchor::Middle);
     let below = top + height;
     let mut free_from = f64::NEG_INFINITY;
@@ -70,6 +87,28 @@ pub(crate) fn draw_legend(drawing: &mut Drawing, layout: &Layout, legend: &Legen
     let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
     let base = top + 0.5 * (height + capital_px(layout::SUMMARY_PX));
     drawing.text([left + width + 10.0, base], style, legend.unit);
+}
+
+/// Draws a sample of the target's line with its name above the scale, and its place on it.
+fn draw_target(drawing: &mut Drawing, scale: Frame, target: &LegendTarget) {
+    let ([left, top], [width, height]) = (scale.corner_px, scale.size_px);
+    let base = top - 7.0;
+    let middle = base - 0.5 * capital_px(layout::SMALL_PX);
+    target_line(drawing, &[[left, middle], [left + 34.0, middle]]);
+    let style = TextStyle::new(layout::SMALL_PX, TARGET_INK, Anchor::Start);
+    drawing.text([left + 42.0, base], style, &target.text);
+    if let Some(share) = target.share {
+        let x = (left + share * width).floor() + 0.5;
+        drawing.line(&[[x, top - 3.0], [x, top + height + 3.0]], Stroke::solid(WHITE, 5.0));
+        drawing.line(&[[x, top - 3.0], [x, top + height + 3.0]], Stroke::solid(TARGET_INK, 2.4));
+    }
+}
+
+/// A line of what is wanted: dashed, in a colour of its own, set off from all others.
+pub(crate) fn target_line(drawing: &mut Drawing, points_px: &[[f64; 2]]) {
+    drawing.line(points_px, Stroke::solid(WHITE, 4.6));
+    let dashes = Stroke { colour: TARGET_INK, width_px: 2.6, dash: Dash::Dashed };
+    drawing.line(points_px, dashes);
 }
 
 /// Draws how the numbers were made, and what restricts them.

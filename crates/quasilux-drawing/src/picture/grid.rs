@@ -1,12 +1,15 @@
 //! The false-colour picture of a grid with its axes and legend.
 
-use super::axis::Axis;
+use super::axis::{Axis, Edge};
+use super::caption::Caption;
 use super::cells::GridPicture;
-use super::frame::{self, Legend};
+use super::frame::{self, Legend, LegendTarget, TARGET_DIGITS};
 use super::layout::{self, Layout};
 use super::plot;
 use super::scale::ValueScale;
+use super::window::Window;
 use crate::drawing::Drawing;
+use crate::number::brief;
 use crate::style::{Anchor, GREY, Stroke, TextStyle};
 use crate::text::width_px;
 use glam::DVec3;
@@ -21,28 +24,52 @@ const TICK: Stroke = Stroke::solid(GREY, 1.0);
 pub fn grid(grid: &GridPicture<'_>) -> Drawing {
     let [columns, rows] = grid.counts.map(|n| n as usize);
     assert_eq!(grid.cells.len(), columns * rows, "cells of another grid");
-    let scale = ValueScale::from_cells(grid.cells);
-    let layout = Layout::new(grid.edges_m(), grid.caption.facts);
+    let shared = if grid.scale_cells.is_empty() { grid.cells } else { grid.scale_cells };
+    let scale = ValueScale::from_cells(shared);
+    let window = Window::new(grid);
+    let layout = Layout::of_window(&window, grid.edges_m().into(), grid.caption.facts);
     let mut drawing = frame::titled(&layout, &grid.caption);
     plot::draw(&mut drawing, &layout, grid, &scale);
-    draw_axes(&mut drawing, &layout, grid);
-    let levels = scale.levels.values.iter();
+    draw_axes(&mut drawing, &layout, grid, &window);
+    let levels = scale.levels.iter();
     let legend = Legend {
         unit: grid.unit,
-        marks: levels.map(|value| scale.share(*value)).collect(),
-        ticks: scale.ticks.marks(|value| scale.share(value)),
+        marks: levels.map(|level| scale.share(level.value)).collect(),
+        ticks: scale.ticks.clone(),
+        target: grid.target.map(|target| legend_target(grid, &scale, target)),
     };
     frame::draw_legend(&mut drawing, &layout, &legend);
-    frame::draw_footer(&mut drawing, &layout, &grid.caption);
+    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
+    let method = format!("{}{kind}", grid.caption.method);
+    frame::draw_footer(&mut drawing, &layout, &Caption { method: &method, ..grid.caption });
     drawing
 }
 
-fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>) {
+/// The target's name, with the number of points that reach it.
+fn legend_target(grid: &GridPicture<'_>, scale: &ValueScale, target: f64) -> LegendTarget {
+    let reached = grid.cells.iter().filter(|cell| cell.value.is_some_and(|value| value >= target));
+    let (reached, all) = (reached.count(), grid.cells.len());
+    let text = format!(
+        "target {} {}, reached at {reached} of {all} points",
+        brief(target, TARGET_DIGITS),
+        grid.unit
+    );
+    LegendTarget { share: scale.holds(target).then(|| scale.share(target)), text }
+}
+
+fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>, window: &Window) {
     let plot = layout.plot();
     let most = |length_px: usize| (length_px / 70).max(2);
     let origin = DVec3::from(grid.origin_m);
-    let along = Axis::along_edge(origin, DVec3::from(grid.u_m), "u", most(layout.plot_size[0]));
-    let across = Axis::along_edge(origin, DVec3::from(grid.v_m), "v", most(layout.plot_size[1]));
+    let [u, v] = grid.directions();
+    let edge = |direction, axis: usize, name| Edge {
+        origin,
+        direction,
+        shown_m: [window.low_m[axis], window.high_m[axis]],
+        name,
+    };
+    let along = Axis::along_edge(&edge(u, 0, "u"), most(layout.plot_size[0]));
+    let across = Axis::along_edge(&edge(v, 1, "v"), most(layout.plot_size[1]));
     let style = |anchor| TextStyle::new(layout::SMALL_PX, GREY, anchor);
     for tick in &along.ticks {
         let [x, bottom] = plot.at([tick.share, 0.0]);

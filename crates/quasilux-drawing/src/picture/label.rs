@@ -21,12 +21,22 @@ pub(crate) struct LabelPlace {
     gap_px: [f64; 2],
 }
 
-/// The straightest place for a label of a length on a line: within `size`, and clear of `taken`.
+impl LabelPlace {
+    /// Disks of a radius that cover the text, from its beginning to its end.
+    pub(crate) fn disks(&self, radius_px: f64) -> impl Iterator<Item = DVec2> + '_ {
+        let reach_px = (self.radius_px - radius_px).max(0.0);
+        let steps = (reach_px / (0.5 * radius_px)).ceil().max(1.0) as u32;
+        let share = move |k: u32| 2.0 * f64::from(k) / f64::from(2 * steps) - 1.0;
+        (0..=2 * steps).map(move |k| self.centre + self.direction * (reach_px * share(k)))
+    }
+}
+
+/// The straightest place for a label of a length on a line: within `size`, and free.
 pub(crate) fn place(
     line: &Line,
     length_px: f64,
     size: DVec2,
-    taken: &[LabelPlace],
+    is_free: impl Fn(&LabelPlace) -> bool,
 ) -> Option<LabelPlace> {
     let lengths = lengths_along(line);
     let total = *lengths.last()?;
@@ -42,14 +52,13 @@ pub(crate) fn place(
         let centre = (ends[0] + ends[1]) / 2.0;
         let inside =
             centre.cmpgt(DVec2::splat(radius_px)).all() && centre.cmplt(size - radius_px).all();
-        let free = taken.iter().all(|t| t.centre.distance(centre) > t.radius_px + radius_px);
-        (inside && free && along.length() > 0.9 * length_px).then(|| {
-            let leftward = along.x < 0.0 || (along.x == 0.0 && along.y > 0.0);
-            let direction = along.normalize() * if leftward { -1.0 } else { 1.0 };
-            let place =
-                LabelPlace { centre, direction, radius_px, gap_px: [from, from + length_px] };
-            (place, along.length())
-        })
+        if !inside || along.length() <= 0.9 * length_px {
+            return None;
+        }
+        let leftward = along.x < 0.0 || (along.x == 0.0 && along.y > 0.0);
+        let direction = along.normalize() * if leftward { -1.0 } else { 1.0 };
+        let place = LabelPlace { centre, direction, radius_px, gap_px: [from, from + length_px] };
+        is_free(&place).then(|| (place, along.length()))
     });
     candidates
         .reduce(|best, next| if next.1 > best.1 + 1e-6 { next } else { best })
@@ -98,7 +107,7 @@ mod tests {
     fn the_straight_stretch_wins_and_the_gap_is_as_long_as_the_label() {
         let zigzag = [[10.0, 50.0], [20.0, 60.0], [30.0, 50.0], [40.0, 60.0], [160.0, 60.0]];
         let line = polyline(&zigzag);
-        let place = place(&line, 30.0, DVec2::splat(200.0), &[]).expect("room for a label");
+        let place = place(&line, 30.0, DVec2::splat(200.0), |_| true).expect("room for a label");
         assert!(place.centre.x >= 55.0 && place.centre.y == 60.0);
         assert!(place.direction.distance(DVec2::X) < 1e-12);
         let total: f64 = line.windows(2).map(|w| w[0].distance(w[1])).sum();
@@ -112,14 +121,19 @@ mod tests {
     fn labels_keep_clear_of_each_other_and_of_the_border() {
         let line = polyline(&[[0.0, 50.0], [100.0, 50.0]]);
         let size = DVec2::splat(100.0);
-        let mut taken = Vec::new();
-        while let Some(next) = place(&line, 20.0, size, &taken) {
+        let mut taken: Vec<LabelPlace> = Vec::new();
+        while let Some(next) = place(&line, 20.0, size, |next| {
+            let apart = |other: &LabelPlace| {
+                other.centre.distance(next.centre) > other.radius_px + next.radius_px
+            };
+            taken.iter().all(apart)
+        }) {
             assert!((10.0..=90.0).contains(&next.centre.x));
             taken.push(next);
         }
         assert!((3..=4).contains(&taken.len()));
         let border = polyline(&[[0.0, 2.0], [100.0, 2.0]]);
-        assert!(place(&border, 20.0, size, &[]).is_none());
-        assert!(place(&polyline(&[[40.0, 50.0], [60.0, 50.0]]), 20.0, size, &[]).is_none());
+        assert!(place(&border, 20.0, size, |_| true).is_none());
+        assert!(place(&polyline(&[[40.0, 50.0], [60.0, 50.0]]), 20.0, size, |_| true).is_none());
     }
 }

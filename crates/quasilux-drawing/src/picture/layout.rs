@@ -1,18 +1,23 @@
 //! Where everything lies in a picture. All lengths in pixels.
 
+use super::window::Window;
 use crate::drawing::Frame;
 use crate::font::CAPITAL_EM;
 use crate::text::width_px;
+use glam::DVec2;
 
-/// Font size of the title.
-pub(crate) const TITLE_PX: f64 = 28.0;
+/// Font sizes of the title, the largest that fits is taken.
+pub(crate) const TITLE_PX: [f64; 3] = [28.0, 22.0, 17.0];
 /// Font size of the figures under it.
 pub(crate) const SUMMARY_PX: f64 = 15.5;
 /// Font size of numbers on axes and legend.
 pub(crate) const SMALL_PX: f64 = 12.6;
 
-/// Longer side of the grid.
+/// Longer side of the plot.
 const PLOT_LONG: f64 = 900.0;
+/// The longer side of the grid is at least this, up to a size of the plot.
+const MIN_GRID_LONG: f64 = 560.0;
+const MAX_PLOT_LONG: f64 = 1400.0;
 /// The shorter side is at least this, also where true proportion would make it invisible.
 const PLOT_SHORT_LEAST: f64 = 24.0;
 /// Everything is at least this wide, so that the figures fit.
@@ -35,6 +40,8 @@ pub(crate) struct Layout {
     pub(crate) size: [usize; 2],
     pub(crate) plot_corner: [usize; 2],
     pub(crate) plot_size: [usize; 2],
+    /// What the grid takes of the plot: shares of its width and height from the lower left corner.
+    grid_shares: [DVec2; 2],
     pub(crate) legend_corner: [usize; 2],
     pub(crate) legend_size: [usize; 2],
     pub(crate) summary_lines: Vec<String>,
@@ -42,13 +49,29 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
+    /// The layout for a grid that its plot is filled with.
+    #[cfg(test)]
+    pub(crate) fn new(edges_m: [f64; 2], summary: &[String]) -> Self {
+        Self::with_axes(edges_m, PLOT_LONG, summary)
+    }
+
     /// The layout for a rectangle with these edges; `summary` is broken into lines between its
     /// pieces.
-    pub(crate) fn new([u_m, v_m]: [f64; 2], summary: &[String]) -> Self {
-        let px_per_m = PLOT_LONG / u_m.max(v_m);
+    fn with_axes([u_m, v_m]: [f64; 2], long_px: f64, summary: &[String]) -> Self {
+        let px_per_m = long_px / u_m.max(v_m);
         let plot_size =
             [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
         Self::around(plot_size, BELOW_PLOT, summary)
+    }
+
+    /// The layout of a plot that shows a window around its grid; larger where the grid takes little
+    /// of it.
+    pub(crate) fn of_window(window: &Window, grid_m: DVec2, summary: &[String]) -> Self {
+        let size_m = window.size_m();
+        let grid_shares = [-window.low_m, grid_m - window.low_m].map(|place| place / size_m);
+        let long_px = MIN_GRID_LONG * size_m.max_element() / grid_m.max_element();
+        let long_px = long_px.clamp(PLOT_LONG, MAX_PLOT_LONG);
+        Self { grid_shares, ..Self::with_axes(size_m.to_array(), long_px, summary) }
     }
 
     /// The layout around a picture of this size without axes.
@@ -71,6 +94,7 @@ impl Layout {
             ],
             plot_corner,
             plot_size,
+            grid_shares: [DVec2::ZERO, DVec2::ONE],
             legend_corner: [LEFT, legend_top],
             legend_size: [content_width, LEGEND_HEIGHT],
             summary_lines,
@@ -81,6 +105,13 @@ impl Layout {
     /// The rectangle of the plot.
     pub(crate) fn plot(&self) -> Frame {
         frame(self.plot_corner, self.plot_size)
+    }
+
+    /// The rectangle of the grid in the plot.
+    pub(crate) fn grid(&self) -> Frame {
+        let [low, high] = self.grid_shares.map(|share| share.to_array());
+        let [[left, bottom], [right, top]] = [low, high].map(|share| self.plot().at(share));
+        Frame { corner_px: [left, top], size_px: [right - left, bottom - top] }
     }
 
     /// The rectangle of the colour scale.

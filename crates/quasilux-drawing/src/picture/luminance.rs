@@ -1,7 +1,8 @@
 //! The false-colour picture of luminances: each pixel in the colour of its luminance, and a legend
 //! in cd/m2.
 
-use super::frame::{self, Caption};
+use super::caption::Caption;
+use super::frame;
 use super::layout::Layout;
 use super::luminance_scale::LuminanceScale;
 use crate::drawing::Drawing;

@@ -5,18 +5,14 @@
 //! those with light, at most four decades lower. What is below has the colour of its low end.
 
 use super::colour_map;
+use super::decades::Decades;
 use super::frame::Legend;
-use crate::number::brief;
 use crate::style::Colour;
-use crate::ticks::Tick;
 
 /// Share of the lit pixels that may be too dark for the scale.
 const TOO_DARK: f64 = 0.01;
 /// The largest number of decades that the scale spans.
 const MAX_DECADES: f64 = 4.0;
-
-/// Luminances in 32 bits are this near to a round number where they are meant to be one.
-const HAIR: f64 = 1e-6;
 
 /// A logarithmic scale of luminance.
 pub(crate) struct LuminanceScale {
@@ -24,7 +20,7 @@ pub(crate) struct LuminanceScale {
     low: f64,
     high: f64,
     /// The round numbers from end to end.
-    ticks: Vec<f64>,
+    decades: Decades,
 }
 
 impl LuminanceScale {
@@ -35,12 +31,10 @@ impl LuminanceScale {
         lit.sort_unstable_by(f32::total_cmp);
         let dark = lit.get((TOO_DARK * lit.len() as f64) as usize).copied();
         let (dark, bright) = (dark.unwrap_or(1.0), lit.last().copied().unwrap_or(10.0));
-        let [dark, bright] = [dark, bright].map(|x| libm::log10(f64::from(x)));
-        let first = step_below(dark.max(bright - MAX_DECADES) + HAIR);
-        let last = (step_below(bright - HAIR) + 1).max(first + 1);
-        let ticks: Vec<f64> = (first..=last).map(round_number).collect();
-        let [low, high] = [first, last].map(|step| libm::log10(round_number(step)));
-        Self { low, high, ticks }
+        let [dark, bright] = [dark, bright].map(f64::from);
+        let decades = Decades::around(dark.max(bright * libm::exp10(-MAX_DECADES)), bright);
+        let [low, high] = decades.ends();
+        Self { low, high, decades }
     }
 
     /// Place on the scale, 0 at its low end and 1 at its high one.
@@ -58,52 +52,36 @@ impl LuminanceScale {
     }
 
     pub(crate) fn legend(&self) -> Legend<'static> {
-        let tick = |value: &f64| Tick { share: self.share(*value), label: Some(brief(*value, 1)) };
-        let ticks: Vec<Tick> = self.ticks.iter().map(tick).collect();
+        let ticks = self.decades.marks();
         let inner = ticks.get(1..ticks.len() - 1).unwrap_or_default();
         let marks = inner.iter().map(|tick| tick.share).collect();
-        Legend { unit: "cd/m²", marks, ticks }
+        Legend { unit: "cd/m²", marks, ticks, target: None }
     }
-}
-
-/// The largest step whose number is at most 10^`logarithm`.
-fn step_below(logarithm: f64) -> i32 {
-    let decade = logarithm.floor();
-    let rest = logarithm - decade;
-    let within = i32::from(rest >= libm::log10(2.0)) + i32::from(rest >= libm::log10(5.0));
-    3 * decade as i32 + within
-}
-
-/// 1, 2, 5, 10, 20, ... at step 0, 1, 2, ...; a fraction is divided by a whole power of ten.
-fn round_number(step: i32) -> f64 {
-    let digit = [1.0, 2.0, 5.0][step.rem_euclid(3) as usize];
-    let decade = step.div_euclid(3);
-    let power = libm::exp10(f64::from(decade.abs()));
-    if decade < 0 { digit / power } else { digit * power }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::decades::HAIR;
     use super::*;
 
     #[test]
     fn ends_and_ticks_are_round() {
         let room = LuminanceScale::new(&[3.4, 17.0, 88.0, 410.0]);
-        assert_eq!(room.ticks, [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
+        assert_eq!(room.decades.values, [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
         assert_eq!((room.share(2.0), room.share(500.0)), (0.0, 1.0));
         assert!((room.share(libm::sqrt(1000.0)) - 0.5).abs() < 1e-12);
         let labels: Vec<String> =
             room.legend().ticks.into_iter().filter_map(|tick| tick.label).collect();
         assert_eq!(labels, ["2", "5", "10", "20", "50", "100", "200", "500"]);
         let dim = LuminanceScale::new(&[0.01, 0.05]);
-        assert_eq!(dim.ticks, [0.01, 0.02, 0.05]);
+        assert_eq!(dim.decades.values, [0.01, 0.02, 0.05]);
     }
 
     #[test]
     fn any_picture_has_a_scale() {
         for luminances in [&[][..], &[0.0], &[7.0], &[1e-30, 1.0], &[1e-30, 1e30], &[0.0, 1e-38]] {
             let scale = LuminanceScale::new(luminances);
-            assert!(scale.ticks.len() >= 2 && scale.ticks.len() <= 15, "{luminances:?}");
+            assert!((2..=15).contains(&scale.decades.values.len()), "{luminances:?}");
             assert!(luminances.iter().all(|&l| scale.share(f64::from(l)) < 1.0 + HAIR));
             assert!(!scale.legend().ticks.is_empty());
         }
@@ -113,6 +91,6 @@ mod tests {
     fn a_few_dark_pixels_do_not_stretch_it() {
         let mut luminances = vec![50.0; 200];
         luminances[0] = 1e-3;
-        assert_eq!(LuminanceScale::new(&luminances).ticks, [50.0, 100.0]);
+        assert_eq!(LuminanceScale::new(&luminances).decades.values, [50.0, 100.0]);
     }
 }

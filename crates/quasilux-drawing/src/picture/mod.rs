@@ -7,9 +7,12 @@
 //! beyond them up to the border).
 
 mod axis;
+mod caption;
 mod cells;
 mod colour_map;
 mod contour;
+mod decades;
+mod extremes;
 mod frame;
 mod grid;
 mod image;
@@ -17,14 +20,17 @@ mod label;
 mod layout;
 mod luminance;
 mod luminance_scale;
+mod numbers;
+mod overlay;
 mod plan;
 mod plot;
 mod scale;
 mod series;
 mod tone_map;
+mod window;
 
-pub use cells::{Cell, GridPicture};
-pub use frame::Caption;
+pub use caption::Caption;
+pub use cells::{Cell, GridPicture, Surroundings};
 pub use grid::grid;
 pub use image::Image;
 pub use luminance::{LuminancePicture, luminance};

@@ -3,22 +3,27 @@
 use super::cells::GridPicture;
 use super::colour_map::ink_on;
 use super::contour::{Field, Line};
+use super::extremes::{Bordered, Extreme, Mark, extremes};
+use super::frame::{TARGET_DIGITS, TARGET_INK, target_line};
 use super::label::{self, LabelPlace};
 use super::layout::{Layout, capital_px};
-use super::scale::ValueScale;
+use super::numbers::Numbers;
+use super::overlay;
+use super::plan::Labels;
+use super::scale::{Level, ValueScale};
 use crate::canvas::mix;
 use crate::drawing::{Drawing, Frame};
-use crate::number::{decimal_exponent, to_place};
-use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle};
+use crate::number::brief;
+use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle, WHITE};
 use crate::text::width_px;
 use glam::DVec2;
 
 /// Font size of contour labels.
-const LABEL_PX: f64 = 14.0;
-/// Font sizes tried for the numbers in the cells, the largest that fits is taken.
-const NUMBER_PX: [f64; 4] = [16.8, 14.0, 12.6, 11.2];
-/// Clear space around a number in its cell in pixels.
-const NUMBER_MARGIN_PX: f64 = 6.5;
+const LABEL_PX: f64 = 13.6;
+/// Half the height that a label takes on its line, with clear space.
+const LABEL_HALF_PX: f64 = 7.5;
+/// Most clear space between a number and the border around it that marks an extreme.
+const MARK_CLEAR_PX: DVec2 = DVec2::new(9.0, 9.0);
 /// Width of contour lines in pixels.
 const LINE_PX: f64 = 1.7;
 /// Colour of cells without a value.
@@ -31,21 +36,82 @@ pub(crate) fn draw(
     grid: &GridPicture<'_>,
     scale: &ValueScale,
 ) {
-    let frame = layout.plot();
+    let frame = layout.grid();
+    let (counts, size) = (grid.counts.map(|n| n as usize), DVec2::from(frame.size_px));
+    let cell_px = size / DVec2::new(counts[0] as f64, counts[1] as f64);
+    let values: Vec<Option<f64>> = grid.cells.iter().map(|cell| cell.value).collect();
     let plot = Plot {
-        counts: grid.counts.map(|n| n as usize),
+        counts,
         frame,
         corner: DVec2::from(frame.corner_px),
-        size: DVec2::from(frame.size_px),
-        values: grid.cells.iter().map(|cell| cell.value).collect(),
+        size,
+        cell_px,
+        numbers: Numbers::fitting(&values, cell_px),
+        values,
         scale,
     };
     plot.draw_cells(drawing);
-    let labels = plot.draw_contours(drawing);
-    plot.draw_numbers(drawing, &labels);
-    let [[left, top], [width, height]] = [frame.corner_px, frame.size_px];
-    let border = Frame { corner_px: [left - 0.5, top - 0.5], size_px: [width + 1.0, height + 1.0] };
-    drawing.outline(border, Stroke::solid(GREY, 1.0));
+    overlay::draw(drawing, layout, grid);
+    let around = |frame: Frame| {
+        let [[left, top], [width, height]] = [frame.corner_px, frame.size_px];
+        Frame { corner_px: [left - 0.5, top - 0.5], size_px: [width + 1.0, height + 1.0] }
+    };
+    drawing.outline(around(frame), Stroke::solid(GREY, 1.0));
+    if layout.plot() != frame {
+        drawing.outline(around(layout.plot()), Stroke::solid([0xd4; 3], 1.0));
+    }
+    let mut texts = Texts { boxes: Labels::new(layout.plot()), places: Vec::new() };
+    let marks = plot.place_extremes(&mut texts.boxes);
+    plot.draw_contours(drawing, grid, &mut texts);
+    plot.draw_numbers(drawing, &texts, &marks);
+    marks.iter().for_each(|mark| mark.draw(drawing));
+}
+
+/// The texts that others keep clear of.
+struct Texts {
+    /// Marks of extremes, on the sheet.
+    boxes: Labels,
+    /// Numbers of contour lines, from the plot's corner.
+    places: Vec<LabelPlace>,
+}
+
+impl Texts {
+    /// Whether a place of a label is clear of marks and other labels.
+    fn are_clear_of(&self, corner: DVec2, place: &LabelPlace) -> bool {
+        let meets = |other: &LabelPlace| {
+            other.centre.distance(place.centre) <= other.radius_px + place.radius_px
+        };
+        let is_marked =
+            |at: DVec2| self.boxes.taken().iter().any(|b| b.meets_disk(corner + at, LABEL_HALF_PX));
+        !self.places.iter().any(meets) && !place.disks(LABEL_HALF_PX).any(is_marked)
+    }
+}
+
+/// How the lines of one level are drawn.
+struct LineInk {
+    text: Colour,
+    halo: Colour,
+    label: String,
+    is_target: bool,
+}
+
+impl LineInk {
+    fn plain(level: &Level, colour: Colour) -> Self {
+        let label = level.label.clone();
+        Self { text: ink_on(colour), halo: colour, label, is_target: false }
+    }
+
+    fn target(label: String) -> Self {
+        Self { text: TARGET_INK, halo: WHITE, label, is_target: true }
+    }
+
+    fn draw(&self, drawing: &mut Drawing, points: &[[f64; 2]]) {
+        if self.is_target {
+            target_line(drawing, points);
+        } else {
+            drawing.line(points, Stroke::solid(self.text, LINE_PX));
+        }
+    }
 }
 
 struct Plot<'a> {
@@ -53,7 +119,10 @@ struct Plot<'a> {
     frame: Frame,
     corner: DVec2,
     size: DVec2,
+    cell_px: DVec2,
     values: Vec<Option<f64>>,
+    /// Where they fit.
+    numbers: Option<Numbers>,
     scale: &'a ValueScale,
 }
 
@@ -65,8 +134,10 @@ impl Plot<'_> {
         DVec2::new(share.x, 1.0 - share.y) * self.size
     }
 
-    fn cell_px(&self) -> DVec2 {
-        self.size / DVec2::new(self.counts[0] as f64, self.counts[1] as f64)
+    /// The middle of a cell, from the plot's corner.
+    fn centre(&self, cell: usize) -> DVec2 {
+        let [i, j] = [cell % self.counts[0], cell / self.counts[0]];
+        self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5))
     }
 
     fn colour_of(&self, value: Option<f64>) -> Colour {
@@ -79,63 +150,111 @@ impl Plot<'_> {
         drawing.cells(self.frame, self.counts[0], colours);
     }
 
-    fn draw_contours(&self, drawing: &mut Drawing) -> Vec<LabelPlace> {
+    /// Places the marks of the smallest and the largest value before all other texts.
+    fn place_extremes(&self, boxes: &mut Labels) -> Vec<Mark> {
+        let found = extremes(&self.values, |value| brief(value, 3));
+        let mark = |extreme: &Extreme| {
+            let centre = self.corner + self.centre(extreme.cell);
+            let colour = self.colour_of(self.values[extreme.cell]);
+            let Some(numbers) = &self.numbers else {
+                return Mark::ring(boxes, centre, colour, extreme);
+            };
+            let number = numbers.covered(extreme.cell, centre);
+            let border = number.grown(MARK_CLEAR_PX).within(self.cell_px - Mark::BORDER_PX);
+            Mark::border(boxes, Bordered { number, border }, colour, extreme)
+        };
+        found.iter().map(mark).collect()
+    }
+
+    fn draw_contours(&self, drawing: &mut Drawing, grid: &GridPicture<'_>, texts: &mut Texts) {
         let values: Vec<f64> = self.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
-        let pieces = (self.cell_px().max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
+        let pieces = (self.cell_px.max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
-        let mut labels: Vec<LabelPlace> = Vec::new();
-        for &level in &self.scale.levels.values {
-            let ink = ink_on(self.scale.colour(level));
-            let number = self.scale.levels.label(level);
-            let length_px = width_px(&number, LABEL_PX) + 10.0;
-            for line in field.contours(level) {
-                let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
-                let place = label::place(&line, length_px, self.size, &labels);
-                for part in label::parts(&line, place) {
-                    let points: Vec<[f64; 2]> =
-                        part.iter().map(|p| (*p + self.corner).to_array()).collect();
-                    drawing.line(&points, Stroke::solid(ink, LINE_PX));
-                }
-                if let Some(place) = place {
-                    self.draw_label(drawing, &number, ink, place);
-                    labels.push(place);
-                }
+        if let Some(target) = grid.target {
+            let label = brief(target, TARGET_DIGITS);
+            let lines = field.contours(target);
+            self.draw_level(drawing, lines, &LineInk::target(label), texts);
+        }
+        for level in &self.scale.levels {
+            if grid.target != Some(level.value) {
+                let ink = LineInk::plain(level, self.scale.colour(level.value));
+                self.draw_level(drawing, field.contours(level.value), &ink, texts);
             }
         }
-        labels
     }
 
-    fn draw_label(&self, drawing: &mut Drawing, number: &str, ink: Colour, place: LabelPlace) {
-        let direction = place.direction.to_array();
-        let style = TextStyle { direction, ..TextStyle::new(LABEL_PX, ink, Anchor::Middle) };
+    /// Draws the lines of one level, with numbers where there is room.
+    fn draw_level(
+        &self,
+        drawing: &mut Drawing,
+        lines: Vec<Line>,
+        ink: &LineInk,
+        texts: &mut Texts,
+    ) {
+        let length_px = width_px(&ink.label, LABEL_PX) + 10.0;
+        for line in lines {
+            let line: Line = line.into_iter().map(|p| self.pixels(p)).collect();
+            let is_clear = |place: &LabelPlace| texts.are_clear_of(self.corner, place);
+            let hides_none = |place: &LabelPlace| is_clear(place) && !self.hides_a_number(place);
+            let place = label::place(&line, length_px, self.size, hides_none)
+                .or_else(|| label::place(&line, length_px, self.size, is_clear));
+            for part in label::parts(&line, place) {
+                let points: Vec<[f64; 2]> =
+                    part.iter().map(|p| (*p + self.corner).to_array()).collect();
+                ink.draw(drawing, &points);
+            }
+            if let Some(place) = place {
+                self.draw_label(drawing, ink, place);
+                texts.places.push(place);
+            }
+        }
+    }
+
+    fn draw_label(&self, drawing: &mut Drawing, ink: &LineInk, place: LabelPlace) {
+        let style = TextStyle {
+            direction: place.direction.to_array(),
+            halo: Some(ink.halo),
+            ..TextStyle::new(LABEL_PX, ink.text, Anchor::Middle)
+        };
         let down = DVec2::new(-place.direction.y, place.direction.x);
         let base = self.corner + place.centre + down * (0.5 * capital_px(LABEL_PX));
-        drawing.text(base.to_array(), style, number);
+        drawing.text(base.to_array(), style, &ink.label);
     }
 
-    fn draw_numbers(&self, drawing: &mut Drawing, labels: &[LabelPlace]) {
-        let largest = self.values.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
-        let numbers: Vec<String> = self
-            .values
-            .iter()
-            .map(|value| value.map_or_else(|| "-".into(), |value| to_place(value, place)))
-            .collect();
-        let room = self.cell_px() - 2.0 * NUMBER_MARGIN_PX;
-        let fits = |px: &f64| {
-            capital_px(*px) <= room.y && numbers.iter().all(|n| width_px(n, *px) <= room.x)
+    /// Whether a label covers the number of a cell.
+    fn hides_a_number(&self, place: &LabelPlace) -> bool {
+        let Some(numbers) = &self.numbers else {
+            return false;
         };
-        let Some(&px) = NUMBER_PX.iter().find(|px| fits(px)) else {
+        place.disks(LABEL_HALF_PX).any(|at| {
+            let [i, j] = (DVec2::new(at.x, self.size.y - at.y) / self.cell_px).to_array();
+            let near = |x: f64, count: usize| {
+                let x = x.max(0.0) as usize;
+                x.saturating_sub(1)..(x + 2).min(count)
+            };
+            near(j, self.counts[1]).any(|j| {
+                near(i, self.counts[0]).any(|i| {
+                    let cell = j * self.counts[0] + i;
+                    numbers.covered(cell, self.centre(cell)).meets_disk(at, LABEL_HALF_PX)
+                })
+            })
+        })
+    }
+
+    fn draw_numbers(&self, drawing: &mut Drawing, texts: &Texts, marks: &[Mark]) {
+        let Some(numbers) = &self.numbers else {
             return;
         };
-        for (cell, number) in numbers.iter().enumerate() {
-            let [i, j] = [cell % self.counts[0], cell / self.counts[0]];
-            let centre = self.pixels(DVec2::new(i as f64 + 0.5, j as f64 + 0.5));
-            let half_diagonal = 0.5 * width_px(number, px).max(capital_px(px));
-            let is_covered = labels
-                .iter()
-                .any(|l| l.centre.distance(centre) < l.radius_px + 0.8 * half_diagonal);
-            if is_covered {
+        let places = texts.places.iter();
+        let disks = places.flat_map(|place| place.disks(LABEL_HALF_PX).map(|at| self.corner + at));
+        let disks: Vec<DVec2> = disks.collect();
+        let px = numbers.size_px;
+        for (cell, number) in numbers.texts.iter().enumerate() {
+            let centre = self.corner + self.centre(cell);
+            let own = numbers.covered(cell, centre);
+            if disks.iter().any(|at| own.meets_disk(*at, LABEL_HALF_PX))
+                || marks.iter().any(|mark| mark.covers(&own))
+            {
                 continue;
             }
             let colour = self.colour_of(self.values[cell]);
@@ -143,8 +262,116 @@ impl Plot<'_> {
             let ink = mix(colour, ink_on(colour), 0.85);
             let style = TextStyle { halo: Some(colour), ..TextStyle::new(px, ink, Anchor::Middle) };
             let below = DVec2::Y * (0.5 * capital_px(px));
-            let base = (self.corner + centre + below).round() + DVec2::splat(0.5);
+            let base = (centre + below).round() + DVec2::splat(0.5);
             drawing.text(base.to_array(), style, number);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Shape;
+    use crate::example::{Grid, batwing};
+    use crate::picture::plan::Box;
+
+    /// The texts over the cells of a picture.
+    #[derive(Default)]
+    struct DrawnTexts {
+        values: Vec<Box>,
+        /// Disks along each label, as high as its letters.
+        labels: Vec<Vec<DVec2>>,
+    }
+
+    const LETTER_HALF_PX: f64 = 5.0;
+
+    fn texts_over(drawing: &Drawing) -> DrawnTexts {
+        let mut found = DrawnTexts::default();
+        for shape in &drawing.shapes {
+            let Shape::Text { place_px, style, text } = shape else {
+                continue;
+            };
+            let is_label = style.size_px == LABEL_PX;
+            let is_value = style.halo.is_some() && !is_label;
+            let width = width_px(text, style.size_px);
+            let right = DVec2::from(style.direction);
+            let capital = capital_px(style.size_px);
+            let centre = DVec2::from(*place_px) + DVec2::new(right.y, -right.x) * (0.5 * capital);
+            if is_value {
+                let half = 0.5 * DVec2::new(width, capital);
+                found.values.push(Box::around(centre, half));
+            } else if is_label {
+                let steps = (-8..=8).map(|k| f64::from(k) / 8.0);
+                let reach = 0.5 * width - LETTER_HALF_PX;
+                found.labels.push(steps.map(|s| centre + right * (reach * s)).collect());
+            }
+        }
+        found
+    }
+
+    /// Numbers of contour lines keep clear of each other and of the values in the cells.
+    #[test]
+    fn labels_and_values_do_not_overlap() {
+        let fields: [fn(f64, f64) -> f64; 3] =
+            [batwing, |x, y| 300.0 + 200.0 * x + 50.0 * y, |x, y| libm::exp(9.0 * x) + y];
+        for (k, lx) in fields.into_iter().enumerate() {
+            let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, lx);
+            let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
+            let DrawnTexts { values, labels } = texts_over(&crate::picture::grid(&picture));
+            // Few values give way to labels, and none to nothing.
+            assert!(values.len() > 300, "{k}: {} values", values.len());
+            let frame = Layout::new([5.0, 4.0], &grid.facts).grid();
+            for cell in 0..320_u32 {
+                let [i, j] = [cell % 20, cell / 20].map(f64::from);
+                let centre = DVec2::from(frame.at([(i + 0.5) / 20.0, (j + 0.5) / 16.0]));
+                let is_near = |at: &DVec2| at.distance(centre) < 30.0;
+                let has_value = values.iter().any(|value| value.centre().distance(centre) < 2.0);
+                assert!(has_value || labels.iter().flatten().any(is_near), "{k}: {i}, {j}");
+            }
+            assert!(labels.len() > 4, "{k}: {} labels", labels.len());
+            for (number, label) in labels.iter().enumerate() {
+                let meets =
+                    |value: &Box| label.iter().any(|at| value.meets_disk(*at, LETTER_HALF_PX));
+                assert!(!values.iter().any(meets), "{k}: {label:?}");
+                let near =
+                    |at: &DVec2| label.iter().any(|own| own.distance(*at) < 2.0 * LETTER_HALF_PX);
+                assert!(!labels[..number].iter().flatten().any(near), "{k}: {label:?}");
+            }
+        }
+    }
+
+    /// The line of a target runs between cells below and above it, over the whole grid, and the
+    /// legend names it with the number of points that reach it.
+    #[test]
+    fn the_target_has_a_line_of_its_own_and_a_name() {
+        let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, |x, _| 100.0 + 400.0 * x);
+        let picture = GridPicture { target: Some(300.0), ..grid.picture("workplane") };
+        let drawing = crate::picture::grid(&picture);
+        let dashed = drawing.shapes.iter().filter_map(|shape| match shape {
+            Shape::Lines { lines, stroke } if stroke.colour == TARGET_INK => Some((lines, stroke)),
+            _ => None,
+        });
+        let frame = Layout::new([5.0, 4.0], &grid.facts).grid();
+        let [x, top] = frame.at([0.5, 1.0]);
+        let bottom = frame.at([0.5, 0.0])[1];
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (lines, stroke) in dashed {
+            assert!(stroke.width_px > LINE_PX);
+            let over = lines.iter().flatten().filter(|p| (top..=bottom).contains(&p[1]));
+            for place in over {
+                assert!((place[0] - x).abs() < 1.0, "{place:?}");
+                (low, high) = (low.min(place[1]), high.max(place[1]));
+            }
+        }
+        assert!(low < top + 1.0 && high > bottom - 1.0, "{low} {high}");
+        let is_there = |drawing: &Drawing, text: &str| drawing.to_svg().contains(text);
+        assert!(is_there(&drawing, "target 300 lx, reached at 160 of 320 points"));
+        for (target, reached) in [(5.0, 320), (4000.0, 0)] {
+            let drawing = crate::picture::grid(&GridPicture { target: Some(target), ..picture });
+            let text = format!("target {target} lx, reached at {reached} of 320 points");
+            assert!(is_there(&drawing, &text), "{text}");
+        }
+        let without = crate::picture::grid(&GridPicture { target: None, ..picture });
+        assert!(!is_there(&without, "target"));
     }
 }

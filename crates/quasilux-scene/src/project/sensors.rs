@@ -7,8 +7,19 @@ use crate::{Grid, LoadError, Quantity, Sensor, SensorPoint, SensorShape, Warning
 use glam::DVec3;
 use quasilux_text::Position;
 
-const GRID_KEYS: [&str; 10] =
-    ["name", "kind", "origin", "u", "v", "spacing", "counts", "rule", "normal", "quantity"];
+const GRID_KEYS: [&str; 11] = [
+    "name",
+    "kind",
+    "origin",
+    "u",
+    "v",
+    "spacing",
+    "counts",
+    "rule",
+    "normal",
+    "quantity",
+    "target_lx",
+];
 const POINTS_KEYS: [&str; 4] = ["name", "kind", "points", "normals"];
 
 /// Most cells that all grids of a project may have together.
@@ -69,6 +80,8 @@ fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {
         }
         _ => Quantity::Centre,
     };
+    let target_lx = section.get("target_lx");
+    let target_lx = target_lx.map(|lx| lx.number("an illuminance in lx above 0", |lx| lx > 0.0));
     Ok(Grid {
         origin,
         u,
@@ -76,6 +89,7 @@ fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {
         counts: counts(section, [u.length(), v.length()], cells)?,
         normal: section.get("normal").map_or(Ok(plane_normal), |n| normal(n, plane_normal))?,
         quantity,
+        target_lx: target_lx.transpose()?,
     })
 }
 

@@ -29,6 +29,15 @@ fn grids_by_spacing_counts_and_rule() {
 }
 
 #[test]
+fn grids_may_have_a_target() {
+    assert_eq!(grid_of(PROJECT).target_lx, None);
+    for (given, target_lx) in [("500", 500.0), ("0.5", 0.5), ("1e3", 1000.0)] {
+        let with = format!("spacing = 0.25\ntarget_lx = {given}");
+        assert_eq!(grid_of(&PROJECT.replace("spacing = 0.25", &with)).target_lx, Some(target_lx));
+    }
+}
+
+#[test]
 fn area_lights_by_luminance_and_flux() {
     let point = "kind = \"point\"\nposition = [0.5, 0.5, 2.0]\nintensity_cd = 100";
     for (amount, luminance) in [("luminance_cd_m2 = 300", 300.0), ("flux_lm = 300", 300.0 / PI)] {

@@ -164,6 +164,37 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
     case("spacing = 0.25", "counts = [4]", 15, "expected [nu, nv]"),
     case("spacing = 0.25", "counts = [4294967295, 4294967295]", 15, "at most 1e7"),
     case("spacing = 0.25", "rule = \"en12465\"", 15, "did you mean \"en12464\"?"),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\ntarget_lx = 0",
+        16,
+        "\"target_lx\" is 0; expected an illuminance in lx above 0",
+    ),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\ntarget_lx = -500",
+        16,
+        "is -500; expected an illuminance",
+    ),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\ntarget_lx = inf",
+        16,
+        "is inf; expected an illuminance",
+    ),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\ntarget_lx = nan",
+        16,
+        "is nan; expected an illuminance",
+    ),
+    case(
+        "spacing = 0.25",
+        "spacing = 0.25\ntarget_lx = \"500\"",
+        16,
+        "is \"500\"; expected an illuminance",
+    ),
+    case("spacing = 0.25", "spacing = 0.25\ntarget = 500", 16, "did you mean \"target_lx\"?"),
     case("spacing = 0.25", "spacing = 0.25\nnormal = [1, 0, 0]", 16, "in the plane of u and v"),
     case(
         "spacing = 0.25",

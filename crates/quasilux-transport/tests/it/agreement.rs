@@ -48,6 +48,7 @@ pub(crate) fn coloured_room_with_mirror() -> Scene {
             counts: [2, 2],
             normal: DVec3::Z,
             quantity: Quantity::Mean,
+            target_lx: None,
         }),
     });
     scene

@@ -315,6 +315,7 @@ fn grid() -> Sensor {
             counts: [2, 2],
             normal: DVec3::Z,
             quantity: Quantity::Mean,
+            target_lx: None,
         }),
     }
 }

@@ -28,6 +28,7 @@ fn plain(reflectance: f64) -> Scene {
             counts: [1, 1],
             normal,
             quantity: Quantity::Mean,
+            target_lx: None,
         };
         scene.sensors.push(Sensor { name: name.to_owned(), shape: SensorShape::Grid(grid) });
     }

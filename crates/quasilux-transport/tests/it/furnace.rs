@@ -61,6 +61,7 @@ fn a_deep_blue_room_has_the_light_of_its_channels() {
             counts: [1, 1],
             normal: DVec3::X,
             quantity: Quantity::Mean,
+            target_lx: None,
         }),
     });
     let channels = LUMINANCE_WEIGHTS.iter().zip(reflectance.0);

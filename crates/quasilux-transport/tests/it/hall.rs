@@ -26,6 +26,7 @@ fn hall() -> Scene {
             counts: CELLS,
             normal: DVec3::Z,
             quantity: Quantity::Mean,
+            target_lx: None,
         }),
     });
     scene

@@ -73,7 +73,8 @@ fn white_bodies_vanish_in_a_furnace() {
 #[test]
 fn photons_leave_white_bodies_for_the_walls() {
     let grid = |origin: DVec3, u: DVec3, v: DVec3, normal: DVec3| {
-        SensorShape::Grid(Grid { origin, u, v, counts: [1, 1], normal, quantity: Quantity::Mean })
+        let quantity = Quantity::Mean;
+        SensorShape::Grid(Grid { origin, u, v, counts: [1, 1], normal, quantity, target_lx: None })
     };
     for body in [
         mirror(1.0),

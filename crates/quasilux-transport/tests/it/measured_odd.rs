@@ -156,6 +156,7 @@ pub(crate) fn grid_below(origin: DVec3) -> Sensor {
         counts: [1, 1],
         normal: DVec3::NEG_Z,
         quantity: Quantity::Mean,
+        target_lx: None,
     };
     Sensor { name: "down".to_owned(), shape: SensorShape::Grid(grid) }
 }

@@ -26,6 +26,7 @@ fn lit_room(reflectance: f64) -> Scene {
         counts: [2, 2],
         normal: DVec3::Z,
         quantity: Quantity::Mean,
+        target_lx: None,
     };
     scene.sensors.push(Sensor { name: "floor".to_owned(), shape: SensorShape::Grid(grid) });
     scene
@@ -177,6 +178,7 @@ fn a_tilted_grid_is_lit_through_its_back() {
         counts: [1, 1],
         normal: DVec3::new(-1.0, 0.0, 1e-3).normalize(),
         quantity: Quantity::Mean,
+        target_lx: None,
     };
     scene.sensors.push(Sensor { name: "tilted".to_owned(), shape: SensorShape::Grid(grid) });
     let value = |scene: &Scene, image_depth| {

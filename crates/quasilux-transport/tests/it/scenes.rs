@@ -76,6 +76,7 @@ pub(crate) fn wall_grid(counts: [u32; 2]) -> Sensor {
         counts,
         normal: DVec3::X,
         quantity: Quantity::Mean,
+        target_lx: None,
     };
     Sensor { name: "grid".to_owned(), shape: SensorShape::Grid(grid) }
 }
@@ -83,6 +84,7 @@ pub(crate) fn wall_grid(counts: [u32; 2]) -> Sensor {
 /// Means over the cells of a level grid that looks up.
 pub(crate) fn level_grid(origin: DVec3, size_m: [f64; 2], counts: [u32; 2]) -> Sensor {
     let (u, v) = (DVec3::X * size_m[0], DVec3::Y * size_m[1]);
-    let grid = Grid { origin, u, v, counts, normal: DVec3::Z, quantity: Quantity::Mean };
+    let (normal, quantity) = (DVec3::Z, Quantity::Mean);
+    let grid = Grid { origin, u, v, counts, normal, quantity, target_lx: None };
     Sensor { name: "plane".to_owned(), shape: SensorShape::Grid(grid) }
 }

@@ -12,7 +12,8 @@ use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
 use quasilux_inspection::{DarkPoints, Finding, explain_darkness};
-use quasilux_report::{Report, RunFacts, Style, json, table};
+use quasilux_report::{PictureOf, Report, RunFacts, Style, json, table};
+use quasilux_scene::Scene;
 use quasilux_transport::{Estimates, PreparedScene};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -188,6 +189,9 @@ pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, CliError> {
 pub(crate) struct Folder<'a> {
     path: PathBuf,
     output: &'a OutputArguments,
+    scene: &'a Scene,
+    /// What the project is called: its file without the ending.
+    title: String,
 }
 
 impl<'a> Folder<'a> {
@@ -201,7 +205,7 @@ impl<'a> Folder<'a> {
     pub(crate) fn prepare(
         output: &'a OutputArguments,
         otherwise: PathBuf,
-        project: &Project,
+        project: &'a Project,
     ) -> Result<Self, CliError> {
         if output.json && !output.quiet {
             // The table has the warnings; the document is for programs.
@@ -211,7 +215,9 @@ impl<'a> Folder<'a> {
         }
         let path = output.out.clone().unwrap_or(otherwise);
         results::prepare(&path)?;
-        Ok(Self { path, output })
+        let file = Path::new(&project.name);
+        let title = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { path, output, scene: &project.loaded.scene, title })
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -221,7 +227,8 @@ impl<'a> Folder<'a> {
     /// Writes results and prints what was asked for.
     pub(crate) fn deliver(&self, finished: &Finished) -> Result<Exit, CliError> {
         let Finished { report, exit } = finished;
-        results::write(&self.path, report)?;
+        let of = PictureOf { scene: self.scene, title: &self.title };
+        results::write(&self.path, report, of)?;
         if self.output.json {
             print(&json::json(report))?;
             if let (Some(explanation), false) = (&report.explanation, self.output.quiet) {

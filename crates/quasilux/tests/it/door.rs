@@ -70,12 +70,34 @@ fn check_lists_what_is_wrong_and_draws_it() {
     for word in ["geometry", "materials", "lights", "sensors", "seen/plan.svg"] {
         assert!(check.stdout.contains(word), "{word}: {}", check.stdout);
     }
-    assert!(folder.read("seen/plan.svg").contains("<svg"));
+    let plan = folder.read("seen/plan.svg");
+    for words in ["<svg", "hangs outside the geometry", "remark 1: 50 cm above"] {
+        assert!(plan.contains(words), "{words}");
+    }
     let png = std::fs::read(folder.path("seen/plan.png")).expect("a picture");
     assert!(png.starts_with(b"\x89PNG"));
     let json = folder.quasilux(&["check", "room.toml", "--json"]);
     assert_eq!(checks(&parsed(&json.stdout)), ["lamp-outside"]);
     assert_eq!(folder.quasilux(&["check", "room.toml", "--strict", "--quiet"]).code, Some(1));
+}
+
+/// The target of a grid is told by `check`, and changes its picture and no result.
+#[test]
+fn a_target_is_told_and_drawn() {
+    let [plain, aimed] = ["door_plain", "door_target"].map(right);
+    let project = aimed.read("room.toml");
+    let with = project.replace("counts = [3, 2]", "counts = [3, 2]\ntarget_lx = 250");
+    aimed.write("room.toml", with);
+    let check = aimed.quasilux(&["check", "room.toml"]);
+    assert!(check.stdout.contains("normal up, target 250 lx\n"), "{}", check.stdout);
+    let files = [&plain, &aimed].map(|folder| {
+        folder.quasilux(&[&["run", "room.toml"], &SHORT[..]].concat());
+        ["csv", "png"].map(|ending| {
+            std::fs::read(folder.path(&format!("out/room/plane.{ending}"))).expect("a result")
+        })
+    });
+    assert_eq!(files[0][0], files[1][0]);
+    assert_ne!(files[0][1], files[1][1]);
 }
 
 #[test]

@@ -160,8 +160,8 @@ fn walls() -> KnownScene {
     let mut scene = room(DVec3::splat(2.0), grey(WALLS));
     lamp(&mut scene, DVec3::ONE, 100.0);
     let (u, v) = (DVec3::Y * 2.0, DVec3::Z * 2.0);
-    let quantity = Quantity::Mean;
-    let grid = Grid { origin: DVec3::ZERO, u, v, counts: [2, 2], normal: DVec3::X, quantity };
+    let (origin, normal, quantity) = (DVec3::ZERO, DVec3::X, Quantity::Mean);
+    let grid = Grid { origin, u, v, counts: [2, 2], normal, quantity, target_lx: None };
     scene.sensors.push(Sensor { name: "wall".to_owned(), shape: SensorShape::Grid(grid) });
     let truth_lx = vec![4.0 * PI * 100.0 / (24.0 * (1.0 - WALLS)); 4];
     let why = "flux over area over 1 - reflectance, by symmetry in all quarters of a wall";

@@ -35,7 +35,7 @@ pub(super) fn measured() -> Scene {
     let (u, v) = (DVec3::X * SIZE_M.x, DVec3::Y * SIZE_M.y);
     let origin = DVec3::Z * PLANE_M;
     let (counts, normal, quantity) = (CELLS, DVec3::Z, Quantity::Mean);
-    let grid = Grid { origin, u, v, counts, normal, quantity };
+    let grid = Grid { origin, u, v, counts, normal, quantity, target_lx: None };
     scene.sensors.push(Sensor { name: "plane".to_owned(), shape: SensorShape::Grid(grid) });
     scene
 }

@@ -8,9 +8,11 @@ use crate::text::width_px;
 use crate::ticks::Ticks;
 
 const TICK: Stroke = Stroke::solid(GREY, 1.0);
+/// Font size of the heading above a view.
+pub(crate) const HEADING_PX: f64 = 14.0;
 const NUMBER_PX: f64 = 12.0;
 /// About this far from one number to the next.
-const STEP_PX: f64 = 56.0;
+const STEP_PX: f64 = 50.0;
 
 /// Draws the frame, the numbers along its lower and left edges, and the heading above it.
 pub(crate) fn draw(drawing: &mut Drawing, view: &View, heading: &str, names: [&str; 2]) {
@@ -22,7 +24,7 @@ pub(crate) fn draw(drawing: &mut Drawing, view: &View, heading: &str, names: [&s
     let centre = projection.anchor_m;
     let numbers = |middle_m: f64, length_px: f64| {
         let half_m = 0.5 * length_px / projection.px_per_m;
-        let most = (length_px / STEP_PX).max(2.0) as usize;
+        let most = (length_px / STEP_PX).max(3.0) as usize;
         let ticks = Ticks::within(middle_m - half_m, middle_m + half_m, most, 0.0);
         ticks.marks(|value| 0.5 + 0.5 * (value - middle_m) / half_m)
     };
@@ -47,5 +49,5 @@ pub(crate) fn draw(drawing: &mut Drawing, view: &View, heading: &str, names: [&s
     drawing.text([left + 0.5 * width, top + height + 34.0], style(Anchor::Middle), &across);
     let base = [left - 16.0 - widest, top + 0.5 * height];
     drawing.text(base, style(Anchor::Middle).upward(), &along);
-    drawing.text([left, top - 8.0], TextStyle::new(14.0, INK, Anchor::Start), heading);
+    drawing.text([left, top - 8.0], TextStyle::new(HEADING_PX, INK, Anchor::Start), heading);
 }

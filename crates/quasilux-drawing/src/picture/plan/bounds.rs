@@ -64,12 +64,17 @@ impl Outside {
 
     /// Distance and direction in words.
     pub(crate) fn text(&self) -> String {
+        format!("{} the geometry", self.brief_text())
+    }
+
+    /// The same where the geometry is in sight.
+    pub(crate) fn brief_text(&self) -> String {
         let side = self.offset_m;
         let across = side.truncate().length();
         let way = match () {
-            () if side.z > across => "above the geometry",
-            () if -side.z > across => "below the geometry",
-            () => "outside the geometry",
+            () if side.z > across => "above",
+            () if -side.z > across => "below",
+            () => "outside",
         };
         format!("{} {way}", length_text(self.distance_m()))
     }

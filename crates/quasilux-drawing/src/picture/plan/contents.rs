@@ -7,9 +7,10 @@ use super::layout::Layout;
 use super::model::PlanPicture;
 use super::symbols::corners_of;
 use glam::DVec3;
+use std::collections::BTreeMap;
 
 /// Things further from the geometry than this many times its longest edge do not enlarge the view.
-const NEAR: f64 = 1.2;
+const NEAR: f64 = 1.0;
 /// Edges shorter than this are not looked at.
 const MIN_PX: f64 = 0.5;
 /// Sensors lie between these shares of the height where walls are cut at their height.
@@ -26,6 +27,8 @@ pub(crate) struct Contents<'a> {
     /// Height at which the plan is cut.
     pub(crate) cut_m: f64,
     pub(crate) edges: Vec<Edge>,
+    /// The numbers of the remarks at places, which have them bit by bit.
+    remarks: BTreeMap<[u64; 3], u32>,
 }
 
 impl<'a> Contents<'a> {
@@ -38,7 +41,19 @@ impl<'a> Contents<'a> {
         let toward = layout.views.map(|view| view.projection.toward());
         let least_m = MIN_PX / layout.views[0].projection.px_per_m;
         let edges = edges(picture.surfaces, &toward, least_m);
-        Self { picture, geometry, layout, cut_m: cut_height_m(picture, &geometry), edges }
+        let places = picture.marks.iter().filter_map(|m| Some((bits(m.position_m?), m.number)));
+        let remarks = places.rev().collect();
+        Self { picture, geometry, layout, cut_m: cut_height_m(picture, &geometry), edges, remarks }
+    }
+
+    /// The number of the first remark on what stands at a place.
+    pub(crate) fn remark_at(&self, place_m: DVec3) -> Option<u32> {
+        self.remarks.get(&bits(place_m)).copied()
+    }
+
+    /// Whether what stands at a place is outside of the geometry or remarked on.
+    pub(crate) fn is_fault(&self, place_m: DVec3) -> bool {
+        self.geometry.outside(place_m).is_some() || self.remark_at(place_m).is_some()
     }
 
     /// The plane in which a view is cut: the plan at the height of the sensors, elevations in the
@@ -50,9 +65,17 @@ impl<'a> Contents<'a> {
     }
 }
 
+fn bits(place_m: DVec3) -> [u64; 3] {
+    (place_m + DVec3::ZERO).to_array().map(f64::to_bits)
+}
+
 /// The places of everything that is not geometry.
 fn things<'a>(picture: &'a PlanPicture<'a>) -> impl Iterator<Item = DVec3> + 'a {
-    let luminaires = picture.luminaires.iter().map(|luminaire| luminaire.position_m);
+    let luminaires = picture.luminaires.iter().flat_map(|luminaire| {
+        let along = luminaire.c0 * (0.5 * luminaire.opening_m.x);
+        let across = luminaire.c0.cross(luminaire.aim) * (0.5 * luminaire.opening_m.y);
+        [DVec3::ZERO, along, -along, across, -across].map(|side| luminaire.position_m + side)
+    });
     let grids = picture.grids.iter().flat_map(corners_of);
     let points = picture.points.iter().flat_map(|named| named.points);
     luminaires

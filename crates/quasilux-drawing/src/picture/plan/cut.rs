@@ -70,3 +70,53 @@ impl<'a> Surfaces<'a> {
         self.corners().filter_map(move |corners| plane.cut(corners))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{Shell, room};
+    use super::*;
+
+    /// Bounds and total length of the cut at a height.
+    fn cut_at(shell: &Shell, offset_m: f64) -> Vec<[DVec3; 2]> {
+        shell.surfaces().cut(Plane { normal: DVec3::Z, offset_m }).collect()
+    }
+
+    #[test]
+    fn the_cut_of_a_box_is_its_rectangle() {
+        let lines = cut_at(&room(), 1.1);
+        let length: f64 = lines.iter().map(|[a, b]| a.distance(*b)).sum();
+        assert!((length - 20.0).abs() < 1e-12, "{length}");
+        for point in lines.iter().flatten() {
+            let on_wall = [point.x, 6.0 - point.x, point.y, 4.0 - point.y];
+            assert!(on_wall.iter().any(|distance| distance.abs() < 1e-12), "{point}");
+            assert!((point.z - 1.1).abs() < 1e-12);
+        }
+        let with_table: f64 = cut_at(&room(), 0.4).iter().map(|[a, b]| a.distance(*b)).sum();
+        assert!((with_table - 25.0).abs() < 1e-12, "{with_table}");
+    }
+
+    /// The table's top lies in the plane: it is below, and only the walls are cut.
+    #[test]
+    fn a_face_in_the_plane_is_not_cut() {
+        assert_eq!(cut_at(&room(), 0.7).len(), cut_at(&room(), 1.1).len());
+        assert!(cut_at(&room(), 3.0).is_empty());
+        assert_eq!(cut_at(&room(), 0.0).len(), cut_at(&room(), 0.4).len());
+    }
+
+    #[test]
+    fn what_is_above_is_cut_off() {
+        let plane = Plane { normal: DVec3::Z, offset_m: 1.0 };
+        let up = [DVec3::ZERO, DVec3::Z * 4.0];
+        assert_eq!(plane.part_below(up), Some([DVec3::ZERO, DVec3::Z]));
+        assert_eq!(plane.part_below([up[1], up[0]]), Some([DVec3::Z, DVec3::ZERO]));
+        assert_eq!(plane.part_below([DVec3::Z * 2.0, up[1]]), None);
+    }
+
+    #[test]
+    fn triangles_with_wrong_corners_are_left_out() {
+        let positions_m = [DVec3::ZERO, DVec3::NAN, DVec3::Z, DVec3::ONE];
+        let triangles = [[0, 1, 2], [0, 2, 9], [0, 2, 3]];
+        let surfaces = Surfaces { positions_m: &positions_m, triangles: &triangles };
+        assert_eq!(surfaces.corners().count(), 1);
+    }
+}

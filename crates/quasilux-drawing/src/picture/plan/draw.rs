@@ -5,12 +5,13 @@ use super::contents::Contents;
 use super::ink;
 use super::labels::{Box, Labels};
 use super::model::PlanLuminaire;
+use super::pieces::pieces;
 use super::region;
 use super::symbols::{self, Ink};
 use super::thin::thinned;
 use super::view::{Pin, View};
 use crate::drawing::Drawing;
-use crate::style::{Anchor, Colour, Stroke, TextStyle};
+use crate::style::{Anchor, Colour, INK, Stroke, TextStyle};
 use crate::text::width_px;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -50,17 +51,28 @@ struct Painter<'a> {
     labels: Labels,
 }
 
+/// What luminaires with a common label have in common.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct GroupKey {
+    is_right: bool,
+    /// On the sheet, in steps of a few pixels.
+    place: [i64; 2],
+    words: String,
+}
+
 /// Luminaires that are drawn at one place, and their common label.
 struct Group {
     centre: DVec2,
     reach: DVec2,
     numbers: Vec<usize>,
+    is_seen_along_aim: bool,
+    is_fault: bool,
     outside: Option<Outside>,
     beyond: Option<String>,
 }
 
 impl Painter<'_> {
-    fn surfaces(&self, drawing: &mut Drawing) {
+    fn surfaces(&mut self, drawing: &mut Drawing) {
         let (contents, projection, frame) = (self.contents, self.view.projection, self.view.frame);
         let surfaces = contents.picture.surfaces;
         let on_sheet = |ends: [DVec3; 2]| ends.map(|end| projection.place(end));
@@ -80,7 +92,9 @@ impl Painter<'_> {
         });
         drawing.lines(&thinned(seen.map(on_sheet), frame, MAX_LINES), ink::EDGE);
         let cut = surfaces.cut(plane).map(on_sheet);
-        drawing.lines(&thinned(cut, frame, MAX_LINES), ink::CUT);
+        let cut = thinned(cut, frame, MAX_LINES);
+        drawing.lines(&cut, ink::CUT);
+        self.labels.keep_off(cut);
         let sides = outlines
             .iter()
             .flat_map(|ring| (0..ring.len()).map(move |k| [ring[k], ring[(k + 1) % ring.len()]]));
@@ -90,23 +104,16 @@ impl Painter<'_> {
         self.glow_directions(drawing);
     }
 
-    /// An arrow along the mean normal of each luminous surface, from its middle.
+    /// An arrow along the mean normal of each piece of the luminous surfaces, from its middle.
     fn glow_directions(&self, drawing: &mut Drawing) {
         let surfaces = self.contents.picture.surfaces;
-        for light in self.contents.picture.area_lights.iter().take(MAX_TEXTS) {
-            let corners = || light.triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
-            let (mut area, mut total, mut middle) = (DVec3::ZERO, 0.0, DVec3::ZERO);
-            for [a, b, c] in corners() {
-                let piece = (b - a).cross(c - a);
-                area += piece;
-                total += piece.length();
-                middle += (a + b + c) * (piece.length() / 3.0);
-            }
-            if total > 0.0 && area.length() > 0.5 * total {
-                let at = self.view.projection.place(middle / total);
-                let across = self.view.projection.direction(area.normalize());
-                symbols::arrow(drawing, at, across, ink::GLOW_LINE);
-            }
+        let lights = self.contents.picture.area_lights.iter();
+        let pieces = lights.flat_map(|light| pieces(surfaces, light.triangles));
+        let seen = pieces.filter(|piece| piece.mean_normal.length() > 0.5);
+        for piece in seen.take(MAX_TEXTS) {
+            let at = self.view.projection.place(piece.middle_m);
+            let across = self.view.projection.direction(piece.mean_normal.normalize());
+            symbols::arrow(drawing, at, across, ink::GLOW_LINE);
         }
     }
 
@@ -114,11 +121,11 @@ impl Painter<'_> {
         let projection = self.view.projection;
         for grid in self.contents.picture.grids.iter().take(MAX_TEXTS) {
             let corners = symbols::corners_of(grid).map(|corner| projection.place(corner));
-            let closed: Vec<[f64; 2]> =
-                corners.iter().chain(corners.first()).map(|p| p.to_array()).collect();
             let inside = |p: &DVec2| self.view.holds(*p);
-            if corners.iter().any(inside) {
-                drawing.line(&closed, ink::SENSOR_EDGE);
+            // Dashes are counted: only what the frame shows is drawn.
+            let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
+            for ends in thinned(sides, self.view.frame, 4) {
+                drawing.lines(&[ends], ink::SENSOR_EDGE);
             }
             let sample = symbols::sample_of(grid, SAMPLE).into_iter().map(|p| projection.place(p));
             for place in sample.filter(inside) {
@@ -150,9 +157,9 @@ impl Painter<'_> {
         for camera in self.contents.picture.cameras.iter().take(MAX_TEXTS) {
             let pin = self.view.pin(camera.position_m);
             let place = pin.place_px;
-            symbols::camera(drawing, place, camera, &self.view.projection);
+            let reach = symbols::camera(drawing, place, camera, &self.view.projection);
             self.point_out(drawing, &pin, ink::CAMERA_LINE);
-            self.labels.take(Box::around(place, DVec2::splat(6.0)));
+            self.labels.take(reach);
         }
     }
 
@@ -162,23 +169,33 @@ impl Painter<'_> {
         for is_fault in [false, true] {
             let ink = if is_fault { Ink::FAULT } else { Ink::LAMP };
             for luminaire in picture.luminaires.iter().take(MAX_SYMBOLS) {
-                if self.outside(luminaire.position_m).is_some() != is_fault {
+                if self.contents.is_fault(luminaire.position_m) != is_fault {
                     continue;
                 }
                 let pin = self.view.pin(luminaire.position_m);
-                symbols::luminaire(drawing, pin.place_px, luminaire, &projection, ink);
+                let shown = self.shown(luminaire, &pin);
+                symbols::luminaire(drawing, pin.place_px, &shown, &projection, ink);
                 self.point_out(drawing, &pin, ink.line);
-                let reach = symbols::reach(&symbols::opening(luminaire, &projection));
-                self.labels.take(Box::around(pin.place_px, reach));
+                self.labels.take(Box::around(pin.place_px, self.reach(&shown)));
+                let tip = symbols::arrow_tip(projection.direction(luminaire.aim));
+                self.labels.take(Box::between(pin.place_px, pin.place_px + tip));
             }
         }
         for &position_m in picture.point_lights_m.iter().take(MAX_SYMBOLS) {
-            let ink = if self.outside(position_m).is_some() { Ink::FAULT } else { Ink::LAMP };
+            let ink = if self.contents.is_fault(position_m) { Ink::FAULT } else { Ink::LAMP };
             let pin = self.view.pin(position_m);
             symbols::star(drawing, pin.place_px, ink);
             self.point_out(drawing, &pin, ink.line);
             self.labels.take(Box::around(pin.place_px, DVec2::splat(11.0)));
         }
+    }
+
+    /// A luminaire as it is drawn: small beyond the frame, and where it would hide the room.
+    fn shown(&self, luminaire: &PlanLuminaire, pin: &Pin) -> PlanLuminaire {
+        let most_m = self.contents.geometry.size_m().max_element();
+        let is_small = pin.beyond.is_some() || luminaire.opening_m.max_element() > most_m;
+        let opening_m = if is_small { DVec3::ZERO } else { luminaire.opening_m };
+        PlanLuminaire { opening_m, ..luminaire.clone() }
     }
 
     /// An arrow toward what lies beyond the frame.
@@ -194,9 +211,11 @@ impl Painter<'_> {
     }
 
     fn marks(&mut self, drawing: &mut Drawing) {
-        let marks = self.contents.picture.marks;
-        for mark in marks.iter().take(MAX_SYMBOLS) {
-            let place = self.view.pin(mark.position_m).place_px;
+        let marks = self.contents.picture.marks.iter();
+        let marks = marks.filter_map(|mark| Some((mark.number, self.view.pin(mark.position_m?))));
+        let marks: Vec<(u32, DVec2)> =
+            marks.take(MAX_SYMBOLS).map(|(number, pin)| (number, pin.place_px)).collect();
+        for &(_, place) in &marks {
             let ring: Vec<[f64; 2]> = (0..=16)
                 .map(|k| {
                     let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(k) / 16.0);
@@ -206,9 +225,8 @@ impl Painter<'_> {
             drawing.line(&ring, ink::FAULT_LINE);
             self.labels.take(Box::around(place, DVec2::splat(5.0)));
         }
-        for mark in marks.iter().take(MAX_TEXTS) {
-            let place = self.view.pin(mark.position_m).place_px;
-            let text = mark.number.to_string();
+        for (number, place) in marks.into_iter().take(MAX_TEXTS) {
+            let text = number.to_string();
             let size =
                 DVec2::new(width_px(&text, 12.0) + 9.0, 0.0).max(DVec2::splat(2.0 * BALLOON_PX));
             if let Some(at) = self.labels.beside(place, DVec2::splat(9.0), size) {
@@ -221,48 +239,72 @@ impl Painter<'_> {
 
     fn light_texts(&mut self, drawing: &mut Drawing) {
         let mut groups = self.groups();
-        groups.sort_by_key(|group| group.outside.is_none());
+        groups.sort_by_key(|group| !group.is_fault);
         for group in groups.into_iter().take(MAX_TEXTS) {
             let numbers = ranges(&group.numbers);
+            if self.number_inside(drawing, &group, &numbers) {
+                continue;
+            }
             let (text, colour) = match (&group.outside, &group.beyond) {
                 (Some(_), Some(beyond)) => (format!("{numbers}: {beyond} away"), ink::FAULT),
                 (Some(outside), None) if self.index > 0 => {
-                    (format!("{numbers}: {}", outside.text()), ink::FAULT)
+                    (format!("{numbers}: {}", outside.brief_text()), ink::FAULT)
                 }
                 (Some(_), None) => (numbers, ink::FAULT),
+                (None, _) if group.is_fault => (numbers, ink::FAULT),
                 (None, _) => (numbers, ink::LAMP_LINE.colour),
             };
-            self.text(drawing, group.centre, group.reach, &text, colour);
+            self.text(drawing, group.centre, group.reach + 3.0, &text, colour);
         }
         let lights = self.contents.picture.point_lights_m.iter().take(MAX_TEXTS);
         for (number, &position_m) in lights.enumerate() {
             let pin = self.view.pin(position_m);
             let away = pin.beyond.map_or(String::new(), |beyond| format!(": {} away", beyond.text));
-            let is_fault = self.outside(position_m).is_some();
+            let is_fault = self.contents.is_fault(position_m);
             let colour = if is_fault { ink::FAULT } else { ink::LAMP_LINE.colour };
             let text = format!("P{}{away}", number + 1);
             self.text(drawing, pin.place_px, DVec2::splat(11.0), &text, colour);
         }
     }
 
+    /// Writes numbers onto a symbol without an arrow that has room for them.
+    fn number_inside(&self, drawing: &mut Drawing, group: &Group, numbers: &str) -> bool {
+        let room = group.reach * 2.0;
+        let size = DVec2::new(width_px(numbers, ink::LABEL_PX) + 4.0, 0.9 * ink::LABEL_PX);
+        let fits = size.cmple(room).all() && group.is_seen_along_aim && group.beyond.is_none();
+        if fits {
+            let colour = if group.is_fault { ink::FAULT } else { INK };
+            let style = TextStyle::new(ink::LABEL_PX, colour, Anchor::Middle);
+            let base = group.centre + DVec2::Y * 0.36 * ink::LABEL_PX;
+            drawing.text(base.to_array(), style, numbers);
+        }
+        fits
+    }
+
     /// Luminaires that are drawn on top of each other.
     fn groups(&self) -> Vec<Group> {
-        let mut groups: BTreeMap<[i64; 3], Group> = BTreeMap::new();
+        let mut groups: BTreeMap<GroupKey, Group> = BTreeMap::new();
         for (index, luminaire) in self.contents.picture.luminaires.iter().enumerate() {
             let pin = self.view.pin(luminaire.position_m);
             let outside = self.outside(luminaire.position_m);
             let [x, y] = (pin.place_px / 4.0).to_array().map(|x| x.round() as i64);
-            let key = [i64::from(outside.is_none()), x, y];
-            let reach = self.reach(luminaire);
+            let words = outside.map_or(String::new(), |outside| outside.text());
+            let is_fault = self.contents.is_fault(luminaire.position_m);
+            let key = GroupKey { is_right: !is_fault, place: [x, y], words };
+            let reach = self.reach(&self.shown(luminaire, &pin));
             let group = groups.entry(key).or_insert_with(|| Group {
                 centre: pin.place_px,
                 reach,
                 numbers: Vec::new(),
+                is_seen_along_aim: true,
+                is_fault,
                 outside,
                 beyond: pin.beyond.map(|beyond| beyond.text),
             });
             group.reach = group.reach.max(reach);
             group.numbers.push(index + 1);
+            let across = self.view.projection.direction(luminaire.aim);
+            group.is_seen_along_aim &= across.length() < 0.1;
         }
         groups.into_values().collect()
     }

@@ -97,3 +97,56 @@ fn edge(sides: &[Side], place: &impl Fn(u32) -> DVec3, directions: &[DVec3]) -> 
     };
     (shown != 0).then_some(Edge { ends_m, shown })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{Shell, room};
+    use super::*;
+
+    const VIEWS: [DVec3; 3] = [DVec3::Z, DVec3::NEG_Y, DVec3::X];
+
+    #[test]
+    fn a_box_has_twelve_edges() {
+        let one = Shell::default().with_box(DVec3::ZERO, DVec3::ONE);
+        let found = edges(one.surfaces(), &VIEWS, 0.0);
+        assert_eq!(found.len(), 12);
+        for edge in &found {
+            assert!((edge.ends_m[0].distance(edge.ends_m[1]) - 1.0).abs() < 1e-12);
+            assert!((0..3).all(|view| edge.is_seen(view)));
+        }
+        assert_eq!(edges(room().surfaces(), &VIEWS, 0.0).len(), 24);
+        assert!(edges(one.surfaces(), &VIEWS, 1.1).is_empty());
+    }
+
+    /// A sheet of two triangles, a sheet with two faces, and two sheets side by side.
+    #[test]
+    fn sheets_have_their_border() {
+        let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let positions_m = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+        let one = [[0, 1, 2], [0, 2, 3]];
+        let two = [[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]];
+        for triangles in [&one[..], &two[..]] {
+            let surfaces = Surfaces { positions_m: &positions_m, triangles };
+            let found = edges(surfaces, &VIEWS, 0.0);
+            assert_eq!(found.len(), 4, "{triangles:?}");
+            assert!(found.iter().all(|edge| edge.ends_m[0].distance(edge.ends_m[1]) < 1.1));
+        }
+    }
+
+    /// From each side a ball of many faces shows about a circle.
+    #[test]
+    fn a_ball_shows_its_contour() {
+        let ball = Shell::default().with_ball(DVec3::ONE, 0.5, 40);
+        let found = edges(ball.surfaces(), &VIEWS, 0.0);
+        for (view, direction) in VIEWS.iter().enumerate() {
+            let mut length = 0.0;
+            for edge in found.iter().filter(|edge| edge.is_seen(view)) {
+                let flat =
+                    edge.ends_m.map(|p| p - DVec3::ONE - *direction * (p - 1.0).dot(*direction));
+                length += flat[0].distance(flat[1]);
+                assert!(flat.iter().all(|p| (p.length() - 0.5).abs() < 0.05), "{edge:?}");
+            }
+            assert!((length / std::f64::consts::PI - 1.0).abs() < 0.1, "{length} in {view}");
+        }
+    }
+}

@@ -28,3 +28,17 @@ pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     outline.extend(half(&mut points.iter().rev().copied()));
     outline
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inner_points_and_points_on_sides_are_left_out() {
+        let points = [[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [4.0, 3.0], [0.0, 3.0], [1.0, 1.0]];
+        let found = hull(points.map(DVec2::from).to_vec());
+        assert_eq!(found, [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]].map(DVec2::from));
+        assert_eq!(hull(vec![DVec2::ONE; 3]), [DVec2::ONE]);
+        assert!(hull(vec![DVec2::NAN]).is_empty());
+    }
+}

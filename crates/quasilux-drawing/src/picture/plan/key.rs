@@ -1,7 +1,7 @@
 //! What the symbols mean, which way the axes run, and how long a metre is.
 
 use super::ink;
-use super::layout::Layout;
+use super::layout::{LEFT_PX, Layout};
 use super::model::{PlanLuminaire, PlanPicture};
 use super::projection::Projection;
 use super::symbols::{self, Ink};
@@ -14,6 +14,9 @@ use glam::{DVec2, DVec3};
 const SYMBOL_PX: f64 = 30.0;
 const AFTER_PX: f64 = 22.0;
 const LINE_PX: f64 = 26.0;
+/// The free corner of the views has the key below compass and scale bar, if it is this wide.
+const CORNER_PX: f64 = 330.0;
+const IN_CORNER_PX: f64 = 140.0;
 
 /// A symbol of the key, drawn around a place.
 type Symbol = fn(&mut Drawing, DVec2);
@@ -21,6 +24,7 @@ type Symbol = fn(&mut Drawing, DVec2);
 /// The symbols that a picture needs, each with its meaning, broken into lines.
 pub(crate) struct Key {
     lines: Vec<Vec<Entry>>,
+    is_in_corner: bool,
 }
 
 struct Entry {
@@ -30,23 +34,28 @@ struct Entry {
 }
 
 impl Key {
-    pub(crate) fn new(picture: &PlanPicture<'_>, most_px: f64) -> Self {
+    /// The key for a width; in the free corner of the views where it fits.
+    pub(crate) fn new(picture: &PlanPicture<'_>, layout: &Layout, most_px: f64) -> Self {
         let has_sensors = !picture.grids.is_empty() || !picture.points.is_empty();
         let all: [(bool, &'static str, Symbol); 8] = [
             (!picture.surfaces.triangles.is_empty(), "cut", draw_cut),
             (!picture.surfaces.triangles.is_empty(), "edges", draw_edges),
             (!picture.luminaires.is_empty(), "luminaire: tick to C0, arrow along aim", draw_lamp),
             (!picture.point_lights_m.is_empty(), "point light", draw_star),
-            (!picture.area_lights.is_empty(), "luminous surface", draw_glow),
+            (!picture.area_lights.is_empty(), "luminous surface, arrow where it shines", draw_glow),
             (!picture.grids.is_empty(), "sensor grid, some of its points", draw_grid),
             (has_sensors, "normal toward the viewer", draw_normal),
             (!picture.cameras.is_empty(), "camera", draw_camera),
         ];
+        let needed = all.iter().filter(|(is_needed, ..)| *is_needed).count();
+        let [wide, high] = layout.corner.size_px;
+        let is_in_corner = wide >= CORNER_PX && high >= IN_CORNER_PX + LINE_PX * needed as f64;
+        let most_px = if is_in_corner { 0.0 } else { most_px };
         let mut lines: Vec<Vec<Entry>> = vec![Vec::new()];
         let mut left_px = 0.0;
         for (_, text, symbol) in all.into_iter().filter(|(is_needed, ..)| *is_needed) {
             let length = SYMBOL_PX + 8.0 + width_px(text, ink::LABEL_PX) + AFTER_PX;
-            if left_px + length > most_px {
+            if left_px > 0.0 && left_px + length > most_px {
                 lines.push(Vec::new());
                 left_px = 0.0;
             }
@@ -55,14 +64,20 @@ impl Key {
             }
             left_px += length;
         }
-        Self { lines }
+        Self { lines, is_in_corner }
     }
 
+    /// The height that it takes below the views.
     pub(crate) fn height_px(&self) -> f64 {
-        LINE_PX * self.lines.len() as f64
+        if self.is_in_corner { 0.0 } else { LINE_PX * self.lines.len() as f64 }
     }
 
-    pub(crate) fn draw(&self, drawing: &mut Drawing, corner: DVec2) {
+    pub(crate) fn draw(&self, drawing: &mut Drawing, layout: &Layout) {
+        let corner = if self.is_in_corner {
+            DVec2::from(layout.corner.corner_px) + DVec2::Y * IN_CORNER_PX
+        } else {
+            DVec2::new(LEFT_PX, layout.bottom_px)
+        };
         let style = TextStyle::new(ink::LABEL_PX, GREY, Anchor::Start);
         for (number, line) in self.lines.iter().enumerate() {
             let middle = corner.y + LINE_PX * (number as f64 + 0.5);

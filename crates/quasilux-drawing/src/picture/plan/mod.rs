@@ -1,12 +1,23 @@
 //! A room in plan and elevations, with its lights, sensors and cameras, and remarks at their
 //! places.
 
+pub(super) use bounds::Bounds;
+pub(super) use cut::Plane;
+pub(super) use edges::edges;
+pub(super) use labels::{Box, Labels};
+pub(super) use projection::Projection;
+pub(super) use region::outlines;
+pub(super) use symbols::{Ink, TICK_PX, opening, star};
+pub(super) use thin::{clipped, thinned};
+
 mod axes;
 mod bounds;
 mod contents;
 mod cut;
 mod draw;
 mod edges;
+#[cfg(test)]
+pub(super) mod fixtures;
 mod hull;
 mod ink;
 mod key;
@@ -14,6 +25,7 @@ mod labels;
 mod layout;
 mod model;
 mod notes;
+mod pieces;
 mod projection;
 mod region;
 mod sheet;

@@ -32,7 +32,7 @@ pub struct PlanPicture<'a> {
     pub points: &'a [PlanPoints<'a>],
     /// Cameras.
     pub cameras: &'a [PlanCamera<'a>],
-    /// Remarks that belong to places.
+    /// Remarks. Luminaires at their places are drawn in red.
     pub marks: &'a [PlanMark],
 }
 
@@ -107,11 +107,11 @@ pub struct PlanCamera<'a> {
     pub corners: [DVec3; 4],
 }
 
-/// A remark that belongs to a place: a red balloon with its number, and the text below.
+/// A remark: a red balloon with its number at its place, and the text below.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanMark {
-    /// The place in m.
-    pub position_m: DVec3,
+    /// The place in m; `None` for a remark on the whole.
+    pub position_m: Option<DVec3>,
     /// The number in the balloon and before the text. Marks of one number share one text.
     pub number: u32,
     /// What is remarked.

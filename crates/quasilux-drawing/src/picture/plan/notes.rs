@@ -9,7 +9,7 @@ use super::words;
 use crate::drawing::Drawing;
 use crate::style::{Anchor, Colour, GREY, INK, TextStyle};
 use crate::text::{fitted, width_px};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// Height of a line.
@@ -19,7 +19,7 @@ const ABOVE_PX: f64 = 12.0;
 /// Lines of one table.
 const MAX_LINES: usize = 24;
 /// Where columns begin.
-const COLUMNS_PX: [f64; 6] = [0.0, 110.0, 330.0, 430.0, 640.0, 810.0];
+const COLUMNS_PX: [f64; 6] = [0.0, 95.0, 280.0, 370.0, 565.0, 705.0];
 /// Room between columns.
 const BETWEEN_PX: f64 = 12.0;
 
@@ -95,17 +95,17 @@ impl Notes {
         }
     }
 
-    /// Luminaires of one kind that hang and aim alike share a line; those outside of the geometry
-    /// come first.
+    /// Luminaires of one kind that hang and aim alike share a line; those that hang wrong come
+    /// first.
     fn luminaires(&mut self, contents: &Contents<'_>) {
         let mut groups: BTreeMap<LuminaireLine, Vec<usize>> = BTreeMap::new();
         for (index, luminaire) in contents.picture.luminaires.iter().enumerate() {
-            let line = LuminaireLine::new(luminaire, &contents.geometry);
+            let line = LuminaireLine::new(luminaire, contents);
             groups.entry(line).or_default().push(index + 1);
         }
         let mut groups: Vec<(LuminaireLine, Vec<usize>)> = groups.into_iter().collect();
         groups.sort_by(|a, b| {
-            (a.0.outside.is_empty(), a.1.first()).cmp(&(b.0.outside.is_empty(), b.1.first()))
+            (a.0.fault.is_empty(), a.1.first()).cmp(&(b.0.fault.is_empty(), b.1.first()))
         });
         let rows = groups.into_iter().map(|(line, numbers)| line.note(&numbers));
         let heading = ["Luminaires", "file", "z", "aim", "C0", ""];
@@ -115,9 +115,8 @@ impl Notes {
     fn other_lights(&mut self, contents: &Contents<'_>) {
         let picture = contents.picture;
         let points = picture.point_lights_m.iter().enumerate().map(|(index, &position_m)| {
-            let outside = contents.geometry.outside(position_m);
-            let text = outside.map_or(String::new(), |outside| outside.text());
-            let colour = if outside.is_some() { ink::FAULT } else { INK };
+            let text = fault(contents, position_m);
+            let colour = if text.is_empty() { INK } else { ink::FAULT };
             let cells = vec![format!("P{}", index + 1), words::place(position_m), text];
             Remark::plain(cells).coloured(colour)
         });
@@ -168,7 +167,7 @@ impl Notes {
 
     fn cameras(&mut self, contents: &Contents<'_>) {
         let rows = contents.picture.cameras.iter().map(|camera| {
-            let ahead = camera.corners.iter().sum::<glam::DVec3>().normalize_or_zero();
+            let ahead = camera.corners.iter().sum::<DVec3>().normalize_or_zero();
             Remark::plain(vec![
                 camera.name.to_owned(),
                 format!("at {}", words::place(camera.position_m)),
@@ -187,24 +186,33 @@ struct LuminaireLine {
     z: String,
     aim: String,
     c0: String,
-    outside: String,
+    fault: String,
+}
+
+/// What is wrong with something at a place: how far it is outside, and the remark on it.
+fn fault(contents: &Contents<'_>, place_m: DVec3) -> String {
+    match (contents.remark_at(place_m), contents.geometry.outside(place_m)) {
+        (Some(number), Some(outside)) => format!("remark {number}: {}", outside.brief_text()),
+        (Some(number), None) => format!("remark {number}"),
+        (None, Some(outside)) => outside.text(),
+        (None, None) => String::new(),
+    }
 }
 
 impl LuminaireLine {
-    fn new(luminaire: &PlanLuminaire, geometry: &Bounds) -> Self {
-        let outside = geometry.outside(luminaire.position_m);
+    fn new(luminaire: &PlanLuminaire, contents: &Contents<'_>) -> Self {
         Self {
             name: luminaire.name.clone(),
             z: format!("{} m", words::metres(luminaire.position_m.z)),
             aim: words::aim(luminaire.aim),
             c0: format!("toward {}", words::toward(luminaire.c0)),
-            outside: outside.map_or(String::new(), |outside| outside.text()),
+            fault: fault(contents, luminaire.position_m),
         }
     }
 
     fn note(self, numbers: &[usize]) -> Remark {
-        let colour = if self.outside.is_empty() { INK } else { ink::FAULT };
-        let cells = vec![ranges(numbers), self.name, self.z, self.aim, self.c0, self.outside];
+        let colour = if self.fault.is_empty() { INK } else { ink::FAULT };
+        let cells = vec![ranges(numbers), self.name, self.z, self.aim, self.c0, self.fault];
         Remark::plain(cells).coloured(colour)
     }
 }
@@ -235,9 +243,8 @@ impl Remark {
         }
         for (column, text) in self.cells.iter().enumerate() {
             let left = COLUMNS_PX.get(column).copied().unwrap_or(0.0);
-            let right = COLUMNS_PX.get(column + 1).copied().unwrap_or(width_px);
-            let is_last = self.cells[column + 1..].iter().all(String::is_empty);
-            let right = if is_last { width_px } else { right.min(width_px) };
+            let next = (column + 1..self.cells.len()).find(|&next| !self.cells[next].is_empty());
+            let right = next.and_then(|next| COLUMNS_PX.get(next)).map_or(width_px, |x| *x);
             let text = fitted(text, ink::NOTE_PX, right - left - BETWEEN_PX);
             drawing.text([base.x + left, base.y], style, &text);
         }

@@ -91,3 +91,42 @@ fn rings(sides: Vec<Side>) -> Vec<Vec<Corner>> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twice the area inside outlines.
+    fn double_area(rings: &[Vec<DVec2>]) -> f64 {
+        let sides = rings.iter().flat_map(|ring| {
+            (0..ring.len()).map(move |k| ring[k].perp_dot(ring[(k + 1) % ring.len()]))
+        });
+        sides.sum()
+    }
+
+    #[test]
+    fn triangles_side_by_side_have_one_outline() {
+        let [a, b, c, d] = [[0.0, 0.0], [8.0, 0.0], [8.0, 6.0], [0.0, 6.0]].map(DVec2::from);
+        // The second one runs the other way round.
+        let found = outlines([[a, b, c], [a, d, c]].into_iter());
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].len(), 4);
+        assert_eq!(double_area(&found), 2.0 * 48.0);
+        assert!(outlines([[a, b, b], [a, a, a]].into_iter()).is_empty());
+    }
+
+    #[test]
+    fn many_triangles_keep_their_area_and_few_sides() {
+        let corner = |x: u32, y: u32| DVec2::new(f64::from(x), f64::from(y)) * 0.7;
+        let cells = (0..300_u32).flat_map(|x| (0..200_u32).map(move |y| [x, y]));
+        // A chessboard: each field keeps its border until the lattice is coarse.
+        let triangles = cells.filter(|[x, y]| (x + y) % 2 == 0).flat_map(|[x, y]| {
+            let [a, b, c, d] =
+                [corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        let found = outlines(triangles);
+        assert!(found.iter().map(Vec::len).sum::<usize>() <= MOST);
+        assert!(double_area(&found) > 0.0);
+    }
+}

@@ -9,7 +9,7 @@ use super::words::metres;
 use super::{axes, draw};
 use crate::drawing::Drawing;
 use crate::style::{Anchor, GREY, INK, TextStyle};
-use crate::text::fitted;
+use crate::text::{fitted, width_px};
 use glam::DVec2;
 
 const TITLE_PX: f64 = 26.0;
@@ -29,7 +29,7 @@ pub fn plan(picture: &PlanPicture<'_>) -> Drawing {
     let contents = Contents::new(picture, TOP_PX);
     let layout = &contents.layout;
     let content_px = layout.width_px - LEFT_PX - RIGHT_PX;
-    let key = Key::new(picture, content_px);
+    let key = Key::new(picture, layout, content_px);
     let notes = Notes::new(&contents, content_px);
     let notes_top = layout.bottom_px + key.height_px() + 8.0;
     let size_px = [layout.width_px, notes_top + notes.height_px() + BOTTOM_PX];
@@ -40,22 +40,30 @@ pub fn plan(picture: &PlanPicture<'_>) -> Drawing {
     let style = TextStyle::new(15.0, GREY, Anchor::Start);
     let facts = fitted(&facts(&contents), 15.0, content_px);
     drawing.text([LEFT_PX, FACTS_BASE_PX], style, &facts);
-    let [x, y, z] = contents.geometry.centre_m().to_array();
+    let [x, y, _] = contents.geometry.centre_m().to_array();
     let headings = [
-        format!("Plan, cut at z = {} m", metres(contents.cut_m)),
-        format!("Front, seen along +y, cut at y = {} m", metres(y)),
-        format!("Side, seen along \u{2212}x, cut at x = {} m", metres(x)),
+        ["Plan", "", "z", &metres(contents.cut_m)],
+        ["Front", " (toward +y)", "y", &metres(y)],
+        ["Side", " (toward \u{2212}x)", "x", &metres(x)],
     ];
-    let _ = z;
     let names = [["x", "y"], ["x", "z"], ["y", "z"]];
-    for (index, (heading, names)) in headings.iter().zip(names).enumerate() {
+    for (index, (words, names)) in headings.into_iter().zip(names).enumerate() {
+        let view = &layout.views[index];
         draw::draw(&mut drawing, &contents, index);
-        axes::draw(&mut drawing, &layout.views[index], heading, names);
+        axes::draw(&mut drawing, view, &heading(words, view.frame.size_px[0]), names);
     }
     key::compass_and_scale(&mut drawing, layout);
-    key.draw(&mut drawing, DVec2::new(LEFT_PX, layout.bottom_px));
+    key.draw(&mut drawing, layout);
     notes.draw(&mut drawing, DVec2::new(LEFT_PX, notes_top), content_px);
     drawing
+}
+
+/// What a view is, which way it looks, and where it is cut; as much as has room.
+fn heading([name, way, axis, place]: [&str; 4], most_px: f64) -> String {
+    let cut = format!("cut at {axis} = {place} m");
+    let all = [format!("{name}{way}, {cut}"), format!("{name}, {cut}")];
+    let fits = |text: &&String| width_px(text, axes::HEADING_PX) <= most_px;
+    all.iter().find(fits).cloned().unwrap_or_else(|| name.to_owned())
 }
 
 /// Size and place of the geometry.
@@ -72,3 +80,6 @@ fn facts(contents: &Contents<'_>) -> String {
         "{x} m x {y} m x {z} m, {triangles} triangles (x {along_x}, y {along_y}, z {along_z} m)"
     )
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,6 +2,7 @@
 
 use super::hull::hull;
 use super::ink;
+use super::labels::Box;
 use super::model::{PlanCamera, PlanGrid, PlanLuminaire};
 use super::projection::Projection;
 use crate::drawing::Drawing;
@@ -11,7 +12,7 @@ use glam::{DVec2, DVec3};
 /// A luminaire's symbol is at least this long and wide.
 const MIN_PX: f64 = 9.0;
 /// Length of the tick toward C0 beyond the symbol.
-const TICK_PX: f64 = 7.0;
+pub(crate) const TICK_PX: f64 = 7.0;
 /// Length of an arrow in the plane of the sheet.
 const ARROW_PX: f64 = 24.0;
 /// An arrow shorter than this share of its length is not drawn.
@@ -92,10 +93,16 @@ pub(crate) fn polygon(drawing: &mut Drawing, at: DVec2, outline: &[DVec2], ink: 
 
 /// An arrow along the part of a unit direction that lies in the sheet, none where that is short.
 pub(crate) fn arrow(drawing: &mut Drawing, from: DVec2, direction: DVec2, stroke: Stroke) {
-    if direction.length() > SEEN {
-        let length = ARROW_PX * direction.length().max(0.5);
-        pointer(drawing, from, from + direction.normalize() * length, stroke);
+    let tip = arrow_tip(direction);
+    if tip != DVec2::ZERO {
+        pointer(drawing, from, from + tip, stroke);
     }
+}
+
+/// Where such an arrow ends, from its beginning.
+pub(crate) fn arrow_tip(direction: DVec2) -> DVec2 {
+    let length = direction.length();
+    if length > SEEN { direction / length * (ARROW_PX * length.max(0.5)) } else { DVec2::ZERO }
 }
 
 /// A line with a head at its end.
@@ -161,13 +168,13 @@ pub(crate) fn sample_of(grid: &PlanGrid<'_>, most: u32) -> Vec<DVec3> {
     shares[1].iter().flat_map(row).collect()
 }
 
-/// A camera: the pyramid of what it sees, cut off near its place.
+/// Draws a camera, the pyramid of what it sees cut off near its place, and returns what it covers.
 pub(crate) fn camera(
     drawing: &mut Drawing,
     at: DVec2,
     camera: &PlanCamera<'_>,
     projection: &Projection,
-) -> DVec2 {
+) -> Box {
     const DEPTH_PX: f64 = 34.0;
     let ahead = camera.corners.iter().sum::<DVec3>().normalize_or_zero();
     let corner = |direction: &DVec3| {
@@ -178,5 +185,9 @@ pub(crate) fn camera(
     let outline = hull(apex.chain(camera.corners.iter().map(corner)).collect());
     polygon(drawing, at, &outline, Ink { fill: ink::CAMERA_FILL, line: ink::CAMERA_LINE });
     drawing.disk(at.to_array(), 3.5, ink::CAMERA);
-    reach(&outline)
+    let (low, high) =
+        outline.iter().fold((DVec2::splat(-3.0), DVec2::splat(3.0)), |(low, high), p| {
+            (low.min(*p), high.max(*p))
+        });
+    Box { low: at + low, high: at + high }
 }

@@ -39,7 +39,7 @@ pub(crate) fn thinned(
 
 /// The part of a segment inside a frame (Liang and Barsky 1984, "A new concept and method for line
 /// clipping").
-fn clipped([a, b]: [DVec2; 2], frame: Frame) -> Option<[DVec2; 2]> {
+pub(crate) fn clipped([a, b]: [DVec2; 2], frame: Frame) -> Option<[DVec2; 2]> {
     let low = DVec2::from(frame.corner_px);
     let high = low + DVec2::from(frame.size_px);
     let along = b - a;
@@ -57,4 +57,36 @@ fn clipped([a, b]: [DVec2; 2], frame: Frame) -> Option<[DVec2; 2]> {
         }
     }
     (from <= to).then(|| [from, to].map(|t| a + along * t))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: Frame = Frame { corner_px: [10.0, 20.0], size_px: [100.0, 50.0] };
+
+    fn line(from: [f64; 2], to: [f64; 2]) -> [DVec2; 2] {
+        [from, to].map(DVec2::from)
+    }
+
+    #[test]
+    fn lines_end_at_the_frame_and_appear_once() {
+        let lines = [
+            line([0.0, 30.0], [200.0, 30.0]),
+            line([1e12, 30.0], [-1e12, 30.0]),
+            line([0.0, 0.0], [5.0, 5.0]),
+            line([50.0, 40.0], [50.05, 40.0]),
+        ];
+        let found = thinned(lines.into_iter(), FRAME, 100);
+        assert_eq!(found, [line([10.0, 30.0], [110.0, 30.0])]);
+    }
+
+    #[test]
+    fn however_many_there_are_few_are_left() {
+        let place =
+            |k: u32| [10.0 + f64::from(k % 997) / 10.0, 20.0 + f64::from(k / 997 % 499) / 10.0];
+        let lines = (0..200_000).map(|k| line(place(k), place(k * 7 + 3)));
+        let found = thinned(lines, FRAME, 500);
+        assert!((50..=500).contains(&found.len()), "{}", found.len());
+    }
 }

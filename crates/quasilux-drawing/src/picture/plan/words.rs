@@ -14,7 +14,7 @@ pub(crate) fn metres(length_m: f64) -> String {
 }
 
 fn digits_before(length_m: f64) -> i32 {
-    crate::number::decimal_exponent(length_m).map_or(0, |e| e.clamp(0, 6)) - 1
+    crate::number::decimal_exponent(length_m).map_or(0, |e| e.clamp(0, 6))
 }
 
 /// A place by its coordinates.
@@ -37,6 +37,7 @@ pub(crate) fn aim(direction: DVec3) -> String {
 
 /// A direction; one that is level is named by its axis or its angle from +x.
 pub(crate) fn toward(direction: DVec3) -> String {
+    let direction = direction.normalize_or_zero();
     if direction.z.abs() > COS_NEAR {
         return (if direction.z > 0.0 { "+z" } else { "-z" }).replace('-', "\u{2212}");
     }
@@ -62,5 +63,28 @@ pub(crate) fn facing(normal: DVec3) -> String {
             let way = if z > 0.0 { "up" } else { "down" };
             format!("facing {}, {}\u{b0} {way}", toward(normal), brief(angle.abs(), 2))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_named_as_people_name_them() {
+        assert_eq!(aim(DVec3::NEG_Z), "straight down");
+        let tilted = DVec3::new(0.5, 0.0, -libm::sqrt(0.75));
+        assert_eq!(aim(tilted), "tilted 30\u{b0} toward +x");
+        assert_eq!(toward(DVec3::new(1.0, 1.0, 0.0)), "45\u{b0} from +x");
+        assert_eq!(toward(DVec3::NEG_Y), "\u{2212}y");
+        assert_eq!(facing(DVec3::Z), "facing up");
+        assert_eq!(facing(DVec3::NEG_X), "facing \u{2212}x");
+        assert_eq!(facing(DVec3::new(0.0, 1.0, 1.0)), "facing +y, 45\u{b0} up");
+    }
+
+    #[test]
+    fn lengths_keep_their_millimetres() {
+        let texts = [0.0, 2.85, 12.3456, 2700.0, 0.0001].map(metres);
+        assert_eq!(texts, ["0", "2.85", "12.346", "2700", "0.0001"]);
     }
 }

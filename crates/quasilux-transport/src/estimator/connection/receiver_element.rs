@@ -157,6 +157,7 @@ mod tests {
             counts: [2, 1],
             normal: DVec3::Z,
             quantity: Quantity::Mean,
+            target_lx: None,
         };
         let element = ReceiverElement::for_cell(&grid, 1, 0.0);
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 7);

@@ -128,7 +128,8 @@ fn square<S: Spectrum>(world: &World<S>, point: &SensorPoint, edge_m: f64) -> Gr
     let edge_m = fits_m.max(MIN_HAIRS * world.hair_m());
     let [u, v] = [DVec3::X, DVec3::Y].map(|edge| frame.to_world(edge) * edge_m);
     let origin = position - (u + v) / 2.0;
-    Grid { origin, u, v, counts: [1, 1], normal, quantity: Quantity::Mean }
+    let quantity = Quantity::Mean;
+    Grid { origin, u, v, counts: [1, 1], normal, quantity, target_lx: None }
 }
 
 /// Distance to the nearest light: to its position, or to a corner of its facets or their middle.

@@ -37,12 +37,11 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, CliError> {
     Ok(if arguments.strict && !findings.is_empty() { Exit::CheckFailed } else { Exit::Done })
 }
 
-/// A balloon for each finding that has a place, numbered as in the list.
+/// A remark for each finding, numbered as in the list.
 fn marks(findings: &[Finding]) -> Vec<PlanMark> {
     let mark = |(number, finding): (usize, &Finding)| {
         let text = format!("{}; {}", finding.message, finding.cure);
-        let position_m = finding.position_m?;
-        Some(PlanMark { position_m, number: number as u32 + 1, text })
+        PlanMark { position_m: finding.position_m, number: number as u32 + 1, text }
     };
-    findings.iter().enumerate().filter_map(mark).collect()
+    findings.iter().enumerate().map(mark).collect()
 }

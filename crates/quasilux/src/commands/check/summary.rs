@@ -136,11 +136,12 @@ fn sensor(sensor: &quasilux_scene::Sensor) -> String {
         SensorShape::Grid(grid) => {
             let [columns, rows] = grid.counts;
             let [u, v] = [grid.u, grid.v].map(|edge| brief(edge.length(), DIGITS));
-            format!(
-                "{name}: grid of {columns} x {rows} points on {u} x {v} m from {}, normal {}",
-                place(grid.origin),
-                direction(grid.normal)
-            )
+            let (from, normal) = (place(grid.origin), direction(grid.normal));
+            let target = grid.target_lx.map(|lx| format!(", target {} lx", brief(lx, DIGITS)));
+            let target = target.unwrap_or_default();
+            format!("{name}: grid of {columns} x {rows} points on {u} x {v} m from {from}, normal ")
+                + &normal
+                + &target
         }
         SensorShape::Points(points) => {
             let first = points.first().map_or_else(String::new, |p| place(p.position));

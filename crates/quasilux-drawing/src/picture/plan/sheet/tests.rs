@@ -1,0 +1,210 @@
+//! Whole sheets: what stands on them, that they are bounded, and that nothing breaks them.
+
+use super::super::fixtures::{Shell, luminaire, room};
+use super::super::ink;
+use super::super::model::{PlanCamera, PlanGrid, PlanMark, PlanPoint, PlanPoints};
+use super::*;
+use crate::drawing::Shape;
+use glam::DVec3;
+
+/// All texts of a drawing.
+fn texts(drawing: &Drawing) -> Vec<String> {
+    fn add(shapes: &[Shape], texts: &mut Vec<String>) {
+        for shape in shapes {
+            match shape {
+                Shape::Text { text, .. } => texts.push(text.clone()),
+                Shape::Clipped { shapes, .. } => add(shapes, texts),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    add(&drawing.shapes, &mut found);
+    found
+}
+
+/// Lines and texts of a drawing.
+fn elements(shapes: &[Shape]) -> usize {
+    let count = |shape: &Shape| match shape {
+        Shape::Lines { lines, .. } => lines.len(),
+        Shape::Region { outlines, .. } => outlines.iter().map(Vec::len).sum(),
+        Shape::Clipped { shapes, .. } => elements(shapes),
+        _ => 1,
+    };
+    shapes.iter().map(count).sum()
+}
+
+fn has(drawing: &Drawing, wanted: &str) -> bool {
+    texts(drawing).iter().any(|text| text == wanted)
+}
+
+/// The third one hangs 5 cm above the ceiling: both elevations and the list say so.
+#[test]
+fn a_luminaire_above_the_ceiling_is_told() {
+    let places = [[1.5, 2.0, 2.95], [3.0, 2.0, 2.95], [4.5, 2.0, 3.05]];
+    let luminaires = places.map(|place| luminaire(DVec3::from(place)));
+    let shell = room();
+    let drawing = plan(&shell.picture(&luminaires));
+    let told = "3: 5 cm above".to_owned();
+    assert_eq!(texts(&drawing).iter().filter(|text| **text == told).count(), 2);
+    assert!(has(&drawing, "5 cm above the geometry") && has(&drawing, "3.05 m"));
+    assert!(has(&drawing, "1, 2") && has(&drawing, "2.95 m"));
+    let right = plan(&shell.picture(&luminaires[..2]));
+    assert!(!texts(&right).iter().any(|text| text.contains("geometry")));
+}
+
+/// In millimetres it is far away: the room keeps its size, and the luminaire stands at the border.
+#[test]
+fn a_luminaire_far_outside_is_at_the_border() {
+    let luminaires = [[1.5, 2.0, 2.7], [1500.0, 2000.0, 2700.0]];
+    let luminaires = luminaires.map(|place| luminaire(DVec3::from(place)));
+    let shell = room();
+    let picture = shell.picture(&luminaires);
+    let contents = Contents::new(&picture, TOP_PX);
+    for view in contents.layout.views {
+        let pin = view.pin(luminaires[1].position_m);
+        assert!(view.holds(pin.place_px));
+        let beyond = pin.beyond.expect("far outside");
+        assert_eq!(beyond.text, "3.67 km");
+        assert!(beyond.direction.x > 0.0 && beyond.direction.y < 0.0);
+        assert!(view.pin(luminaires[0].position_m).beyond.is_none());
+        let corner = view.projection.place(DVec3::new(6.0, 4.0, 3.0));
+        let opposite = view.projection.place(DVec3::ZERO);
+        assert!((corner - opposite).abs().max_element() > 150.0);
+    }
+    let drawing = plan(&picture);
+    assert!(texts(&drawing).iter().filter(|text| *text == "2: 3.67 km away").count() == 3);
+}
+
+#[test]
+fn marks_have_a_balloon_in_each_view_and_a_text() {
+    let shell = room();
+    let mark = |number, x| PlanMark {
+        position_m: Some(DVec3::new(x, 1.0, 1.0)),
+        number,
+        text: "the wall is missing; expected it closed ".repeat(7),
+    };
+    let marks = [mark(1, 0.0), mark(2, 6.0), mark(2, 5.0)];
+    let drawing = plan(&PlanPicture { marks: &marks, ..shell.picture(&[]) });
+    let count = |wanted: &str| texts(&drawing).iter().filter(|text| *text == wanted).count();
+    // Besides, axes have these numbers.
+    let plain = plan(&shell.picture(&[]));
+    let axes = |wanted: &str| texts(&plain).iter().filter(|text| *text == wanted).count();
+    assert_eq!(count("1") - axes("1"), 3 + 1);
+    assert_eq!(count("2") - axes("2"), 6 + 1);
+    assert!(texts(&drawing).iter().filter(|text| text.contains("wall is")).count() >= 4);
+}
+
+/// A remark makes the luminaire at its place red, in views and table; one without a place has its
+/// text only.
+#[test]
+fn luminaires_that_are_remarked_on_are_red() {
+    let shell = room();
+    let luminaires = [[1.5, 2.0, 2.7], [4.5, 2.0, 2.7]].map(|at| luminaire(at.into()));
+    let mark =
+        |position_m, number, text: &str| PlanMark { position_m, number, text: text.to_owned() };
+    let marks =
+        [mark(Some(luminaires[1].position_m), 1, "in a cabinet"), mark(None, 2, "read in metres")];
+    let picture = PlanPicture { marks: &marks, ..shell.picture(&luminaires) };
+    let inked = |drawing: &Drawing, wanted: &str, colour| {
+        let is_it = |shape: &&Shape| {
+            matches!(shape, Shape::Text { style, text, .. }
+                if text == wanted && style.colour == colour)
+        };
+        let flat = drawing.shapes.iter().flat_map(|shape| match shape {
+            Shape::Clipped { shapes, .. } => shapes.iter().collect(),
+            shape => vec![shape],
+        });
+        flat.filter(is_it).count()
+    };
+    let drawing = plan(&picture);
+    for (text, views) in [("2", 3), ("remark 1", 0), ("in a cabinet", 0), ("read in metres", 0)] {
+        assert_eq!(
+            inked(&drawing, text, ink::FAULT),
+            views.max(1) + usize::from(views > 0),
+            "{text}"
+        );
+    }
+    assert_eq!(inked(&drawing, "1", ink::FAULT), 0);
+    let plain = plan(&shell.picture(&luminaires));
+    assert_eq!(inked(&plain, "2", ink::FAULT), 0);
+    let balloons = |drawing: &Drawing, number| inked(drawing, number, [255; 3]);
+    assert_eq!((balloons(&drawing, "1"), balloons(&drawing, "2")), (3 + 1, 1));
+}
+
+/// An opening of 100 m in a room of 6 m.
+#[test]
+fn a_luminaire_that_does_not_fit_does_not_hide_the_room() {
+    let shell = room();
+    let mut lamp = luminaire(DVec3::new(3.0, 2.0, 2.7));
+    lamp.opening_m = DVec3::new(100.0, 100.0, 0.0);
+    let drawing = plan(&shell.picture(&[lamp]));
+    let regions = drawing.shapes.iter().flat_map(|shape| match shape {
+        Shape::Clipped { shapes, .. } => shapes.as_slice(),
+        _ => &[],
+    });
+    let corners = regions.filter_map(|shape| match shape {
+        Shape::Region { outlines, colour } if *colour == ink::LAMP => Some(outlines),
+        _ => None,
+    });
+    let outlines: Vec<_> = corners.flatten().collect();
+    assert_eq!(outlines.len(), 3);
+    for outline in outlines {
+        let width = |axis: usize| {
+            let places = || outline.iter().map(|corner| corner[axis]);
+            places().fold(f64::MIN, f64::max) - places().fold(f64::MAX, f64::min)
+        };
+        assert!(width(0) < 12.0 && width(1) < 12.0);
+    }
+}
+
+/// More than a million triangles, all smaller than a pixel, and one box.
+#[test]
+fn a_million_triangles_are_few_lines() {
+    let shell = room().with_ball(DVec3::new(4.0, 2.0, 1.5), 1.0, 720);
+    assert!(shell.triangles.len() > 1_000_000);
+    let drawing = plan(&shell.picture(&[]));
+    let elements = elements(&drawing.shapes);
+    assert!((50..60_000).contains(&elements), "{elements}");
+    assert!(drawing.to_svg().len() < 3_000_000);
+}
+
+#[test]
+fn odd_scenes_do_not_break() {
+    let sheet =
+        Shell { positions_m: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
+    let huge = Shell::default().with_box(DVec3::splat(-1e300), DVec3::splat(1e300));
+    let tiny = Shell::default().with_box(DVec3::ONE, DVec3::ONE + 1e-12);
+    let thin = Shell::default().with_box(DVec3::ZERO, DVec3::new(1e4, 1e-3, 1e-3));
+    let point = Shell { positions_m: vec![DVec3::ONE; 3], triangles: vec![[0, 1, 2]] };
+    let far = [DVec3::splat(1e200), DVec3::NAN, DVec3::ZERO].map(luminaire);
+    let points = [PlanPoint { position_m: DVec3::splat(-1e9), normal: DVec3::Z }; 3];
+    let grid = PlanGrid {
+        name: "a grid",
+        origin_m: DVec3::ZERO,
+        edges_m: [DVec3::X * 1e12, DVec3::Y],
+        counts: [u32::MAX, 0],
+        normal: DVec3::Z,
+    };
+    let camera = PlanCamera { name: "", position_m: DVec3::ZERO, corners: [DVec3::X; 4] };
+    for shell in [Shell::default(), sheet, huge, tiny, thin, point] {
+        let picture = PlanPicture {
+            grids: &[grid],
+            points: &[PlanPoints { name: "probes", points: &points }],
+            cameras: &[camera],
+            ..shell.picture(&far)
+        };
+        for picture in [picture, shell.picture(&[])] {
+            let drawing = plan(&picture);
+            let [width, height] = drawing.size_px;
+            assert!((700.0..1700.0).contains(&width) && (400.0..2500.0).contains(&height));
+            assert!(drawing.to_png(1.0).starts_with(b"\x89PNG"));
+            let file = drawing.to_svg();
+            for number in ["NaN", "inf"] {
+                for place in ["=\"", ",", "M", "L"] {
+                    assert!(!file.contains(&format!("{place}{number}")), "{place}{number}");
+                }
+            }
+        }
+    }
+}
