@@ -103,6 +103,15 @@ impl<'a> PointLikes<'a> {
         incidence.map_or(0.0, |incidence| incidence.illuminance_lx)
     }
 
+    /// What one of them gives to a place if nothing stands in the way.
+    pub(crate) fn light_sample_of<S: Spectrum>(
+        &self,
+        index: usize,
+        vertex: &Vertex<'_, S>,
+    ) -> Option<LightSample<S>> {
+        light_sample(self.0[index], vertex)
+    }
+
     /// An estimate of what all of them give from one light, chosen with `u` in proportion to what
     /// it would give unshadowed, but for a [`defensive`] share. `light_samples` is working space.
     pub(crate) fn light_sample<S: Spectrum>(
