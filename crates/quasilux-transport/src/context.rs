@@ -92,6 +92,8 @@ pub(crate) enum Stream {
     EyeSubpaths(u64),
     /// Light subpaths for the same sensor point.
     LightSubpaths(u64),
+    /// Photons that leave virtual lights for pictures.
+    PictureLights,
     /// Paths through one pixel of one camera.
     Pixel {
         /// Number of the camera.
@@ -117,6 +119,7 @@ impl Stream {
             Self::ConnectionPlaces(group) => (1 << 62) + 3 + 2 * group,
             Self::WitnessPhotons => u64::MAX - 66,
             Self::WitnessPlaces => u64::MAX - 67,
+            Self::PictureLights => u64::MAX - 68,
             Self::WitnessPaths(point) => (1 << 61) + point,
             Self::Paths(point) => 2 + point,
             Self::EyeSubpaths(point) => (1 << 60) + 2 * point,
@@ -144,6 +147,7 @@ impl Stream {
                 | Self::CellPhotons
                 | Self::Survey(_)
                 | Self::WitnessPhotons
+                | Self::PictureLights
                 | Self::WitnessPaths(_)
                 | Self::EyeSubpaths(_)
                 | Self::LightSubpaths(_),
@@ -243,8 +247,8 @@ mod tests {
     fn streams_have_numbers_of_their_own() {
         use Stream::{
             CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, EyeSubpaths,
-            FirstShotPilots, LightSubpaths, MapPilots, Paths, Photons, PlanPhotons, Survey,
-            WindowPilots, WitnessPaths, WitnessPhotons, WitnessPlaces,
+            FirstShotPilots, LightSubpaths, MapPilots, Paths, Photons, PictureLights, PlanPhotons,
+            Survey, WindowPilots, WitnessPaths, WitnessPhotons, WitnessPlaces,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -256,7 +260,7 @@ mod tests {
             [ConnectedPhotons, ConnectionPlaces, Paths, EyeSubpaths, LightSubpaths, WitnessPaths]
                 .map(|stream| stream(number))
         });
-        let others = [CellPhotons, WitnessPhotons, WitnessPlaces];
+        let others = [CellPhotons, WitnessPhotons, WitnessPlaces, PictureLights];
         let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();

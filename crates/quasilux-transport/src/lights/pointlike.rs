@@ -110,6 +110,15 @@ impl<'a> PointLikes<'a> {
         incidence.map_or(0.0, |incidence| incidence.illuminance_lx)
     }
 
+    /// What one of them gives to a place if nothing stands in the way.
+    pub(crate) fn light_sample_of<S: Spectrum>(
+        &self,
+        index: usize,
+        vertex: &Vertex<'_, S>,
+    ) -> Option<LightSample<S>> {
+        light_sample(self.lights[index], vertex)
+    }
+
     /// Coordinates of the choice among them.
     pub(crate) fn dimensions_of_choice(&self) -> u32 {
         self.choice.dimensions()

@@ -8,6 +8,7 @@ pub(crate) mod lobes;
 pub(crate) mod partition;
 pub(crate) mod russian_roulette;
 pub(crate) mod sections;
+pub(crate) mod sketch;
 pub(crate) mod specular_hits;
 pub(crate) mod start;
 pub(crate) mod subpath_weights;

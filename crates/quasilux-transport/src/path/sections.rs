@@ -146,6 +146,8 @@ impl<S: Spectrum> Section<'_, S> {
             let from = context.world.ray_origin_of_sensor(position, n);
             let measurement = Measurement::Illuminance { n, tests_pointlikes };
             Start {
+                virtual_lights: None,
+                pixel: None,
                 from,
                 measurement,
                 rest: &self.rest,

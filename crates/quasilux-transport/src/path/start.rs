@@ -2,6 +2,7 @@
 
 use crate::path::end::Rest;
 use crate::path::partition::Partition;
+use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::photon::caustics::CausticLookup;
 use crate::spectrum::Spectrum;
 use crate::world::RayOrigin;
@@ -18,6 +19,10 @@ pub(crate) struct Start<'p, S> {
     pub(crate) caustics: Option<CausticLookup<'p, S>>,
     /// What photons leave to it.
     pub(crate) partition: Option<&'p Partition>,
+    /// What stands for the light that comes from diffuse surfaces to its first.
+    pub(crate) virtual_lights: Option<&'p ProbedLights<'p, S>>,
+    /// What is known of the pixel that it starts from.
+    pub(crate) pixel: Option<&'p PixelSketch>,
     /// The coordinates of a light subpath that it is connected to; `None` for plain paths.
     pub(crate) light_subpath: Option<Sampler<'p>>,
     pub(crate) sampler: Sampler<'p>,

@@ -10,12 +10,14 @@
 //! are: the map is a control variate, its elements cause no bias, and no light is lost with those
 //! that end.
 //!
-//! Read on at `direct_light` for next-event estimation, at `map_end` for ends on maps.
+//! Read on at `direct_light` for next-event estimation, at `map_end` for ends on maps, at
+//! `virtual_light` for what pixels get.
 
 mod connect;
 mod direct_light;
 mod map_end;
 mod mirror_way;
+mod virtual_light;
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
@@ -28,10 +30,12 @@ use crate::path::light_subpath::{LightSubpaths, scattered};
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
+use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::path::start::{Measurement, Start};
 use crate::path::subpath_weights::SubpathWeights;
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
+use crate::photon::virtual_lights::Sums;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
@@ -66,6 +70,11 @@ pub(crate) struct Path<'p, S> {
     rest: &'p Rest<'p, S>,
     caustics: Option<CausticLookup<'p, S>>,
     partition: Option<&'p Partition>,
+    /// What finds the light at its first surface beside it; `None` past that, where they do not.
+    virtual_lights: Option<&'p ProbedLights<'p, S>>,
+    /// Whether its last vertex has asked them.
+    has_asked_virtual: bool,
+    pixel: Option<&'p PixelSketch>,
     /// What its vertex weighs beside those of a light subpath, if it has one.
     subpath: Option<SubpathWeights>,
     /// The parts that it is to find of the light at its first surface.
@@ -103,6 +112,7 @@ pub(crate) struct PathWork<S> {
     unasked: ShadowQueue<S>,
     choice: LightChoiceWork<S>,
     images: ImageSamples<S>,
+    sums: Sums,
     pub(crate) light_subpaths: LightSubpaths<S>,
     connections: Vec<Connection<S>>,
 }
@@ -135,8 +145,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, measurement, rest, caustics, partition, light_subpath, mut sampler } =
-            start;
+        let Start { from, measurement, rest, caustics, partition, virtual_lights, .. } = start;
+        let Start { light_subpath, pixel, mut sampler, .. } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -151,6 +161,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
             rest,
             caustics,
             partition,
+            virtual_lights,
+            has_asked_virtual: false,
+            pixel,
             subpath: light_subpath.map(|_| SubpathWeights::SENSOR),
             weights_of_paths: PartitionWeights::ALL,
             sampler,
@@ -202,7 +215,12 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// The ray along which it goes on.
     pub(crate) fn query(&self) -> RayQuery {
-        self.from.query(self.direction)
+        let query = self.from.query(self.direction);
+        let probed = self.virtual_lights.filter(|_| self.has_asked_virtual);
+        match probed.and_then(|probed| probed.lights.reach_m) {
+            Some(reach_m) => RayQuery { ray: query.ray.up_to(reach_m), ..query },
+            None => query,
+        }
     }
 
     /// What became of light that the path asked for.
@@ -259,6 +277,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
         let Some(at) = at else { return false };
         let bsdf = context.world.bsdf(at);
+        if !self.takes_from_virtual_lights(bsdf, at) {
+            return false;
+        }
         let wo = context.world.frame(at).to_local(-self.direction);
         let goes_on = self.beta * bsdf.albedo(wo, at.front, TransportMode::Radiance);
         let is_last = context.max_bounces.is_some_and(|most| bounces >= most);
@@ -305,6 +326,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if bsdf.keeps_illuminance() {
             self.add_caustics(context, bounces, at);
         }
+        self.ask_virtual_lights(context, bounces, at, work);
     }
 
     /// Draws the direction in which it goes on; whether there is one.

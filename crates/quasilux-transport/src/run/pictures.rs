@@ -3,15 +3,15 @@
 //! A picture comes after the sensors, in passes with more and more paths a pixel, each from scratch
 //! (`run/pixels.rs`). It is done when the half-width of a pixel, on average, is the wanted share of
 //! its mean luminance, or when it has the wanted number of paths; only complete passes are looked
-//! at. The number of paths of a pass follows from the half-widths of the one before, so most of the
-//! work is in the last. When the observer stops a pass, the one before is the picture; before the
-//! first there is none.
+//! at. The number of paths of a pass follows from the half-widths of the one before, that of the
+//! first from a sample of the picture's blocks, so most of the work is in the last. When the
+//! observer stops a pass, the one before is the picture; before the first there is none.
 
 use crate::context::Context;
 use crate::cutoff;
 use crate::path::sections::WorkCounts;
-use crate::run::pixels::{Darkroom, Exposure};
-use crate::settings::Settings;
+use crate::run::pixels::{Darkroom, Exposure, Part};
+use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::PictureProgress;
@@ -23,8 +23,14 @@ use quasilux_scene::{Camera, Scene};
 const REL_TOL: f64 = 0.05;
 /// Paths of each pixel in each replicate at most, where only a tolerance is wanted.
 const MAX_SAMPLES: u64 = 1 << 12;
-/// Before so many of them no picture is called done: what few of them find says little of the rest.
+/// Before so many of them no picture is called done: what few of them find says little of the rest;
+/// of plain paths, and beside virtual lights.
 const MIN_SAMPLES: u64 = 4;
+const MIN_SAMPLES_BESIDE_LIGHTS: u64 = 2;
+/// A picture of fewer blocks has no sample.
+const MIN_BLOCKS: usize = 64;
+/// Paths of a first pass at most, so that there soon is a picture.
+const MAX_FIRST: u64 = 4;
 /// From one pass to the next the number of paths grows by this factor at most.
 const GROWTH: u64 = 16;
 /// Half-widths shrink at least like N to this power.
@@ -70,24 +76,27 @@ struct Wish {
     rel_tol: Option<f64>,
     /// Paths of each pixel in each replicate, at most.
     most: u64,
+    /// Before so many it is not done.
+    min_samples: u64,
     /// Whether only all of them make a picture.
     all_or_nothing: bool,
 }
 
 impl Wish {
     fn new(camera: &Camera, settings: &Settings) -> Self {
+        let min_samples = match settings.estimator {
+            EstimatorKind::Path => MIN_SAMPLES,
+            _ => MIN_SAMPLES_BESIDE_LIGHTS,
+        };
+        let limited = |rel_tol, most| Self { rel_tol, most, min_samples, all_or_nothing: false };
         // Part of a set whose number of points is fixed would leave part of its lights out.
         if let Some(points) = settings.sequence.points() {
-            return Self { rel_tol: None, most: points.max(1), all_or_nothing: true };
+            return Self { all_or_nothing: true, ..limited(None, points.max(1)) };
         }
-        let all_or_nothing = false;
         match (camera.rel_tol, camera.samples.or(settings.max_samples)) {
-            (Some(_), _) => {
-                let most = camera.samples.unwrap_or(MAX_SAMPLES);
-                Self { rel_tol: camera.rel_tol, most, all_or_nothing }
-            }
-            (None, Some(most)) => Self { rel_tol: None, most, all_or_nothing },
-            (None, None) => Self { rel_tol: Some(REL_TOL), most: MAX_SAMPLES, all_or_nothing },
+            (Some(_), _) => limited(camera.rel_tol, camera.samples.unwrap_or(MAX_SAMPLES)),
+            (None, Some(most)) => limited(None, most),
+            (None, None) => limited(Some(REL_TOL), MAX_SAMPLES),
         }
     }
 
@@ -97,7 +106,7 @@ impl Wish {
             None => figures.samples >= self.most,
             Some(rel_tol) => {
                 let is_known = figures.relative_half_width().is_some_and(|known| known <= rel_tol);
-                is_known && figures.samples >= MIN_SAMPLES.min(self.most)
+                is_known && figures.samples >= self.min_samples.min(self.most)
             }
         }
     }
@@ -113,7 +122,7 @@ impl Wish {
             return None;
         }
         let most = figures.samples.saturating_mul(GROWTH).min(self.most);
-        let fewest = (2 * figures.samples).max(MIN_SAMPLES).min(most);
+        let fewest = (2 * figures.samples).max(self.min_samples).min(most);
         Some(self.expected(figures).unwrap_or(most).clamp(fewest, most))
     }
 
@@ -171,7 +180,7 @@ impl<S: Spectrum> Sitting<'_, S> {
     /// Pass after pass up to what is wanted, or until the observer stops one.
     fn take(&mut self, work: &mut WorkCounts, watch: &mut Watch<'_>) -> Exposure {
         let mut taken = self.darkroom.unexposed();
-        let mut next = Some(self.wish.first());
+        let mut next = Some(self.first(work, watch));
         while let Some(samples) = next {
             let Some(exposure) = self.pass(samples, &taken.figures, work, watch) else { break };
             taken = exposure;
@@ -182,6 +191,33 @@ impl<S: Spectrum> Sitting<'_, S> {
         taken
     }
 
+    /// Paths of the first pass: those that a sample of the picture says are enough, if few are.
+    fn first(&self, work: &mut WorkCounts, watch: &mut Watch<'_>) -> u64 {
+        let Self { wish, darkroom, .. } = self;
+        let first = wish.first();
+        let is_sampled = wish.rel_tol.is_some() && darkroom.has_virtual_lights();
+        if !is_sampled || darkroom.block_count() < MIN_BLOCKS {
+            return first;
+        }
+        let at = self.progress(first, &darkroom.unexposed().figures);
+        let sample = darkroom.expose(first, Part::Sample, work, |paths, rays, _| {
+            watch.tick_picture(paths, rays, at, 0.0)
+        });
+        let expected = sample.and_then(|sample| wish.expected(&sample.figures));
+        expected
+            .map_or(first, |expected| expected.max(wish.min_samples).min(MAX_FIRST).min(wish.most))
+    }
+
+    fn progress(&self, samples: u64, before: &CameraEstimates) -> PictureProgress {
+        PictureProgress {
+            camera: self.number,
+            samples,
+            complete_samples: before.samples,
+            relative_half_width: before.relative_half_width(),
+            rel_tol: self.wish.rel_tol,
+        }
+    }
+
     /// One pass after another one; `None` where the observer stopped it.
     fn pass(
         &mut self,
@@ -190,18 +226,12 @@ impl<S: Spectrum> Sitting<'_, S> {
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> Option<Exposure> {
-        let at = PictureProgress {
-            camera: self.number,
-            samples,
-            complete_samples: before.samples,
-            relative_half_width: before.relative_half_width(),
-            rel_tol: self.wish.rel_tol,
-        };
+        let at = self.progress(samples, before);
         // Earlier passes have taken as many again as a share of the last.
         let expected = self.wish.expected(before).unwrap_or(self.wish.most);
         let all = expected.clamp(samples, self.wish.most.max(samples)) as f64;
         self.darkroom.trace_caustics(samples * CAUSTIC_PHOTONS, before.samples > 0, work, watch)?;
-        self.darkroom.expose(samples, work, |paths, rays, share| {
+        self.darkroom.expose(samples, Part::All, work, |paths, rays, share| {
             watch.tick_picture(paths, rays, at, samples as f64 * share / all)
         })
     }

@@ -20,7 +20,7 @@ pub struct CameraEstimates {
 }
 
 /// The mean over a pixel, which is a square of the picture plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pixel {
     /// Linear RGB in cd/m^2, mean over the replicates.
     pub rgb_cd_m2: [f32; 3],

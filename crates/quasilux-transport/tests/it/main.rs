@@ -33,6 +33,7 @@ mod mirrored_light;
 mod narrow_lobes;
 mod openings;
 mod photon_orders;
+mod pictures;
 mod ranges;
 mod scenes;
 mod selection;
