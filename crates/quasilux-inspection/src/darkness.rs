@@ -6,6 +6,7 @@ use crate::probe::{Probe, cosine_direction, square};
 use crate::survey::{Survey, Vertex, shining_places, walk};
 use glam::DVec3;
 use quasilux_bvh::TriangleBvh;
+use quasilux_scene::solids::{Solid, solids_of};
 use quasilux_scene::{Places, Scene, SensorPoint};
 
 /// Points of one sensor that are asked why.
@@ -42,7 +43,7 @@ enum Cause<'a> {
 /// and cause, with the first such point.
 ///
 /// `found` is what [`inspect`](crate::inspect) found; sensors that it names, outside the geometry
-/// or covered, are passed over. `hierarchy` is over the triangles of the scene's mesh, in their
+/// or covered, are passed over, and so are points in closed bodies, which loaders tell. `hierarchy` is over the triangles of the scene's mesh, in their
 /// order.
 ///
 /// # Panics
@@ -71,12 +72,18 @@ pub fn explain_darkness(
     let survey = Survey::new(&probe);
     // What lamps light and sends light on.
     let bright: Vec<Vertex> = survey.lit.iter().filter(|it| !it.is_black).copied().collect();
+    let mesh = &scene.mesh;
+    let opaque: Vec<Solid> =
+        solids_of(mesh).into_iter().filter(|solid| !solid.transmits(scene)).collect();
     for dark in unnamed {
         let sensor = &scene.sensors[dark.sensor];
         let stride = dark.points.len().div_ceil(MAX_POINTS);
-        let ask =
-            |&point: &usize| Asked { point, cause: cause(&survey, &bright, &sensor.point(point)) };
-        let asked: Vec<Asked<'_>> = dark.points.iter().step_by(stride).map(ask).collect();
+        let ask = |&point: &usize| {
+            let at = sensor.point(point);
+            let is_in_body = opaque.iter().any(|solid| solid.contains(mesh, at.position));
+            (!is_in_body).then(|| Asked { point, cause: cause(&survey, &bright, &at) })
+        };
+        let asked: Vec<Asked<'_>> = dark.points.iter().step_by(stride).filter_map(ask).collect();
         report(scene, dark, &asked, &mut findings);
     }
     findings.found
@@ -139,7 +146,7 @@ fn report(scene: &Scene, dark: &DarkPoints, asked: &[Asked<'_>], findings: &mut 
         let points: Vec<usize> =
             asked.iter().filter(|it| it.cause == cause).map(|it| it.point).collect();
         let first = sensor.point(points[0]).position;
-        let of_which = match asked.len() == dark.points.len() {
+        let of_which = match dark.points.len() <= MAX_POINTS {
             true => sensor.len().to_string(),
             false => format!("{} dark ones that were asked, of {}", asked.len(), sensor.len()),
         };

@@ -103,7 +103,7 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
     if let Some(first) = odd.covered.first() {
         let object = names::object(&scene.mesh, first.triangle);
         let message = format!(
-            "{} right before \"{object}\" and looks at it, as at {}",
+            "{} right before \"{object}\", facing it, as at {}",
             share(odd.covered.len()),
             names::position(first.position)
         );

@@ -69,7 +69,8 @@ pub(crate) fn glass_must_be_closed(scene: &Scene, project: &Project, warnings: &
 
 impl Solid {
     /// Whether light passes through some of it.
-    pub(crate) fn transmits(&self, scene: &Scene) -> bool {
+    #[must_use]
+    pub fn transmits(&self, scene: &Scene) -> bool {
         self.triangles.iter().any(|&triangle| scene.material(triangle).bsdf.transmits())
     }
 

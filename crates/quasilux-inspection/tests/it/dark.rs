@@ -83,3 +83,13 @@ fn sensors_that_were_named_before_are_passed_over() {
     assert_eq!(case.darkness(&[1]), []);
     assert_eq!(Case::new().darkness(&[]), []);
 }
+
+/// Which loaders tell: a point of a grid in a table leg is no second fault.
+#[test]
+fn points_in_closed_bodies_are_told_by_loaders_alone() {
+    let table = body("table", v(2.0, 1.5, 0.1), v(3.0, 2.5, 1.2));
+    let grid = "[[sensors]]\nname = \"grid\"\nkind = \"grid\"\norigin = [2.4, 1.9, 0.8]\n\
+                u = [3, 0, 0]\nv = [0, 0.2, 0]\ncounts = [6, 1]\n";
+    assert_eq!(Case::new().with(table).add(grid).darkness(&[1]), []);
+    assert_eq!(Case::new().add(grid).darkness(&[1]).len(), 1);
+}

@@ -49,7 +49,6 @@ pub fn load(
     enclosures::light_must_end(&scene, &project)?;
     enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
     checks::places_in_walls(&scene, &project, &mut warnings)?;
-    warnings.extend(project.sensors.iter().filter_map(|entry| entry.oddity.clone()));
     let Project { simulation, maintenance_factor, .. } = project;
     Ok(Loaded { scene, places, maintenance_factor, simulation, warnings })
 }

@@ -4,7 +4,7 @@
 //! what is expected, so that each refusal can.
 
 use super::renamed::RenamedKey;
-use crate::{LoadError, Spanned, Warning};
+use crate::{LoadError, Spanned};
 use glam::DVec3;
 use quasilux_text::Position;
 use std::ops::Range;
@@ -205,10 +205,6 @@ impl<'a> Value<'a> {
 
     pub(super) fn error(&self, message: impl Into<String>) -> LoadError {
         self.source.error(self.value.span().start, message)
-    }
-
-    pub(super) fn warning(&self, message: impl Into<String>) -> Warning {
-        Warning::new(self.source.file, Some(self.place()), message)
     }
 
     pub(super) fn spanned<T>(&self, value: T) -> Spanned<T> {

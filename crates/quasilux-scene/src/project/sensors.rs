@@ -3,7 +3,7 @@
 use super::document::{Section, Value};
 use super::grid::{cells_along, en12464_cell_m};
 use super::names::Names;
-use crate::{Grid, LoadError, Quantity, Sensor, SensorPoint, SensorShape, Warning};
+use crate::{Grid, LoadError, Quantity, Sensor, SensorPoint, SensorShape};
 use glam::DVec3;
 use quasilux_text::Position;
 
@@ -32,8 +32,6 @@ pub(crate) struct SensorEntry {
     /// The place of each point of a `points` sensor; empty for a grid.
     pub(crate) point_places: Vec<Position>,
     pub(crate) sensor: Sensor,
-    /// What is odd about it and was lived with.
-    pub(crate) oddity: Option<Warning>,
 }
 
 pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<SensorEntry>, LoadError> {
@@ -46,14 +44,12 @@ pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<SensorEn
         let name = names.of_sensor(&section)?;
         let place = section.place();
         entries.push(if kind == "grid" {
-            let grid = grid(&section, &mut cells)?;
-            let oddity = spacing_beyond(&section, &grid, &name);
-            let sensor = Sensor { name, shape: SensorShape::Grid(grid) };
-            SensorEntry { place, point_places: Vec::new(), sensor, oddity }
+            let shape = SensorShape::Grid(grid(&section, &mut cells)?);
+            SensorEntry { place, point_places: Vec::new(), sensor: Sensor { name, shape } }
         } else {
             let PlacedPoints { points, places: point_places } = points(&section)?;
             let shape = SensorShape::Points(points);
-            SensorEntry { place, point_places, sensor: Sensor { name, shape }, oddity: None }
+            SensorEntry { place, point_places, sensor: Sensor { name, shape } }
         });
     }
     Ok(entries)
@@ -91,21 +87,6 @@ fn grid(section: &Section<'_>, cells: &mut f64) -> Result<Grid, LoadError> {
         quantity,
         target_lx: target_lx.transpose()?,
     })
-}
-
-/// Told where the spacing is longer than both edges: the one point that is left is seldom meant.
-fn spacing_beyond(section: &Section<'_>, grid: &Grid, name: &str) -> Option<Warning> {
-    let value = section.get("spacing")?;
-    let edges_m = [grid.u.length(), grid.v.length()];
-    let spacing_m = value.length_m("a length above 0").ok()?;
-    if spacing_m <= edges_m[0].max(edges_m[1]) {
-        return None;
-    }
-    let [u_m, v_m] = edges_m.map(|edge_m| (1000.0 * edge_m).round() / 1000.0);
-    Some(value.warning(format!(
-        "\"spacing\" is {spacing_m} m, and the plane of \"{name}\" measures {u_m} m x {v_m} m: one \
-         point stands for all of it; expected a spacing below its edges"
-    )))
 }
 
 fn counts(

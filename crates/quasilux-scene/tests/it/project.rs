@@ -80,20 +80,6 @@ fn tolerances_above_one_half_are_written_in_percent() {
 }
 
 #[test]
-fn a_spacing_beyond_the_plane_is_told() {
-    let warnings = |spacing: &str| {
-        let project = PROJECT.replace("spacing = 0.25", spacing);
-        warnings_of(&load_text(&project, &MapFiles::room()).unwrap())
-    };
-    let [told] = warnings("spacing = 25").try_into().unwrap();
-    assert!(told.starts_with("room.toml:15:11: \"spacing\" is 25 m"), "{told}");
-    assert!(told.contains("1 m x 1 m"), "{told}");
-    for fine in ["spacing = 1", "spacing = 0.3", "counts = [1, 1]"] {
-        assert_eq!(warnings(fine), Vec::<String>::new(), "{fine}");
-    }
-}
-
-#[test]
 fn luminaires_share_their_photometry() {
     let one =
         "[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\nrotation_deg = 90\n";
