@@ -1,0 +1,1 @@
+"""The same rooms through quasilux and its peers: errors against time."""

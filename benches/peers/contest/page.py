@@ -1,0 +1,170 @@
+"""docs/comparison.md: tables of a sweep in words."""
+
+import math
+
+from contest.curves import Found
+from contest.errors import Deviation
+from contest.results import Line, Results, RoomResult
+
+FIRST = "quasilux"
+
+HEAD = """# Against other programs
+
+    python3 benches/peers/compare.py
+
+The same rooms through quasilux, Mitsuba 3, Radiance and LuxCore: illuminances in lux at the same
+sensor points, and how long each program takes until they are right. `benches/peers/README.md` says
+what to install; a program that is missing is left out. This page is written by the command.
+"""
+
+METHOD = """## What is measured
+An error is the Euclidean norm of the differences at all sensors over that of the reference. Each
+program runs at rising levels of effort; all take turns, in {rounds} rounds with different seeds.
+A level has the median of its times and the root of the mean of its squared errors; between levels
+time is interpolated in logarithms. Runs that would take over {cap:g} s are not made: `~` means drawn
+out from the last level at the rate of random points (four times the time for half the error), `<`
+that the least effort was enough. In brackets: the time over that of quasilux.
+
+| program | how it runs | what its time holds |
+|---|---|---|
+| quasilux | `quasilux run --rel-tol`, 16 % and then half as much each level; two threads | everything: start-up, loading, checks, surveys, error bars, files |
+| quasilux path | the same with `--estimator path` | everything |
+| Mitsuba | `path`, `independent` sampler, `llvm_ad_mono`; rays look at white tiles of 2 mm at the sensors | a run on the loaded scene, after one that compiled (listed below) |
+| Radiance | `rtrace -I -n`, no ambient cache (`-aa 0 -as 0 -ab 100 -dt 0 -dc 1 -lr -100 -lw 1/ad`, with panels `-dj 1 -ds 0.02`), `-ad` makes the effort | `rtrace` with reading the octree; not `oconv`, `ies2rad`, `obj2mesh` |
+| LuxCore | `BAKECPU` onto white tiles of 2 mm, `RANDOM` sampler | from start to end of the session |
+
+Luminaires are points with the intensities of their IES file in all programs: quasilux reads the
+file, Radiance by `ies2rad -i`. Mitsuba reads none: an emitter in Python looks the same table up.
+It chooses among luminaires as Mitsuba chooses among emitters.
+"""
+
+AGREEMENT = """## Do they compute the same room?
+By how much the average over all sensors differs from the reference's, in %, at the highest level of
+effort, with the joint standard error of both. **Bold**: more than three standard errors and more
+than 0.1 %; such a program is biased here (or its input means something else), and its curve is not
+drawn out.
+"""
+
+REFERENCES = """## References
+Each is the mean of two plain path tracers that share no code, with random points: Mitsuba's `path`
+and quasilux's `path --sequence random`, weighted by their variances. `benches/peers/references/`
+has them, with numbers of paths and the command that makes them again:
+
+    python3 benches/peers/compare.py --references
+
+"between the two" is the difference of their averages with its standard error; z is the root of the
+mean of the squared differences at the sensors in units of their standard errors (1 is chance; 16
+batches make it 1.07).
+"""
+
+
+def write(results: Results) -> str:
+    """The whole page."""
+    machine = results.machine
+    versions = ", ".join(f"{name} {version}" for name, version in machine.versions.items())
+    parts = [
+        HEAD,
+        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}, with a load of\n"
+        f"{machine.load_before:.1f} from other work before it began. {versions}.\n",
+        *_times(results),
+        METHOD.format(rounds=machine.rounds, cap=machine.cap_seconds),
+        _warm_ups(results),
+        AGREEMENT,
+        _agreement(results),
+        REFERENCES,
+        _references(results),
+        "## Pictures\nDashed: the goal. Dotted: the standard error of the reference.\n",
+        *[f"![{room.title}](comparison/{room.name}.svg)\n" for room in results.rooms],
+    ]
+    return "\n".join(parts)
+
+
+def _times(results: Results) -> list[str]:
+    goals = sorted({goal for room in results.rooms for goal in room.goals}, reverse=True)
+    parts = []
+    for goal in goals:
+        rooms = [room for room in results.rooms if goal in room.goals]
+        names = [line.program for line in rooms[0].lines]
+        rows = [_row(room, goal) for room in rooms]
+        head = ["room", "triangles", "lights", "sensors", *names]
+        parts.append(f"## Time to an error of {100 * goal:.1g} %\n")
+        parts.append(_table(head, rows))
+    return parts
+
+
+def _row(room: RoomResult, goal: float) -> list[str]:
+    first = next((line for line in room.lines if line.program == FIRST), None)
+    base = first.time_to(goal).seconds if first else math.inf
+    counts = [f"{room.triangles:,}".replace(",", " "), str(room.lights), str(room.sensors)]
+    return [room.title, *counts, *[_cell(line, goal, base) for line in room.lines]]
+
+
+def _cell(line: Line, goal: float, base: float) -> str:
+    if line.cannot is not None:
+        return "cannot"
+    reached = line.time_to(goal)
+    if reached.found is Found.NEVER:
+        least = min(point.error for point in line.points)
+        return f"not reached ({100 * least:.1f} %)"
+    sign = {Found.BEFORE: "< ", Found.BEYOND: "~ "}.get(reached.found, "")
+    said = f"{sign}{_figures(reached.seconds)} s"
+    if line.program == FIRST or math.isinf(base):
+        return said
+    return f"{said} ({_figures(reached.seconds / base)})"
+
+
+def _warm_ups(results: Results) -> str:
+    said = [
+        f"{room.name} {_figures(line.warm_up_seconds)} s"
+        for room in results.rooms
+        for line in room.lines
+        if line.warm_up_seconds is not None
+    ]
+    if not said:
+        return ""
+    return "Loading and compiling in Mitsuba, not counted above: " + ", ".join(said) + ".\n"
+
+
+def _agreement(results: Results) -> str:
+    names = [line.program for line in results.rooms[0].lines]
+    rows = []
+    for room in results.rooms:
+        cells = []
+        for line in room.lines:
+            if line.deviation is None:
+                cells.append(line.cannot or "-")
+            else:
+                said = _percent(line.deviation)
+                cells.append(said if line.agrees() else f"**{said}**")
+        rows.append([room.title, *cells])
+    return _table(["room", *names], rows)
+
+
+def _references(results: Results) -> str:
+    rows = [
+        [
+            room.title,
+            f"{100 * room.reference_error:.2g} %",
+            f"{_percent(room.reference_deviation)} %",
+            f"{room.reference_rms_z:.2f}",
+        ]
+        for room in results.rooms
+    ]
+    return _table(["room", "standard error (L2)", "between the two", "z"], rows)
+
+
+def _percent(share: Deviation) -> str:
+    return f"{100 * share.share:+.2f} ± {100 * share.standard_error:.2f}"
+
+
+def _figures(value: float) -> str:
+    """Two digits, without an exponent."""
+    if value >= 10:
+        return f"{value:.0f}"
+    return f"{value:.2g}"
+
+
+def _table(head: list[str], rows: list[list[str]]) -> str:
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"

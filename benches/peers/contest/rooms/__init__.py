@@ -1,0 +1,1 @@
+"""The rooms of the contest, one module each."""
