@@ -19,6 +19,8 @@ from contest.programs.program import Run
 from contest.room import Diffuse, Luminaire, Material, Mirror, Pane, Room
 from contest.tiles import merged, tiles, two_each
 
+SPOT = 0.9
+REACH = 0.05
 WORKER = Path(__file__).with_name("luxcore_worker.py")
 
 
@@ -140,7 +142,8 @@ def _luminaire(light: str, luminaire: Luminaire) -> list[str]:
     return [
         f"{light}.type = mappoint",
         f"{light}.iesfile = {luminaire.file}",
-        f"{light}.color = {_grey(photometry.read(luminaire.file).flux_lm())}",
+        f"{light}.flipz = 1",
+        f"{light}.color = {_grey(4 * np.pi * photometry.read(luminaire.file).flux_lm())}",
         f"{light}.transformation = {_words(tuple(matrix.ravel()))}",
     ]
 
@@ -166,10 +169,11 @@ def _object(name: str) -> list[str]:
 
 
 def _texels(count: int) -> np.ndarray:
-    left = np.arange(count) / count
-    right = (np.arange(count) + 1) / count
-    zero, one = np.zeros(count), np.ones(count)
-    corners = [[left, zero], [right, zero], [right, one], [left, one]]
+    """A spot for each tile that falls into its texel alone: baking is half a texel off."""
+    middle = (np.arange(count) + SPOT) / count
+    left, right = middle - REACH / count, middle + REACH / count
+    low, high = np.full(count, 0.5 - REACH), np.full(count, 0.5 + REACH)
+    corners = [[left, low], [right, low], [right, high], [left, high]]
     return np.moveaxis(np.array(corners), 2, 0).reshape(-1, 2)
 
 
