@@ -103,10 +103,10 @@ def _make_references(rooms: list[Room], options: argparse.Namespace) -> int:
             command += f" --seconds {options.seconds:g}"
         made = long_runs.make(room, quasilux, options.seconds, command)
         agreed &= made.agreement.holds()
+        sides = made.agreement
         said = f"standard error {100 * made.error_l2:.3f} %, between the two "
-        said += f"{100 * made.agreement.deviation:+.3f} % ± {100 * made.agreement.standard_error:.3f}"
-        said += f", z {made.agreement.rms_z:.2f}"
-        _say(f"{room.name}: {said}{'' if made.agreement.holds() else ': THEY DISAGREE'}")
+        said += f"{100 * sides.deviation:+.3f} % ± {100 * sides.standard_error:.3f}"
+        _say(f"{room.name}: {said}, z {sides.rms_z:.2f}{'' if sides.holds() else ': DISAGREE'}")
     return 0 if agreed else 1
 
 

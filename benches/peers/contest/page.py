@@ -17,25 +17,45 @@ sensor points, and how long each program takes until they are right. `benches/pe
 what to install; a program that is missing is left out. This page is written by the command.
 """
 
+PROGRAMS = [
+    [
+        "quasilux",
+        "`quasilux run --samples N --rel-tol 0.1%`, `N` makes the effort",
+        "everything: start-up, loading, checks, surveys, error bars, files",
+    ],
+    ["quasilux path", "the same with `--estimator path`", "everything"],
+    [
+        "Mitsuba",
+        "`path`, `independent` sampler, `llvm_ad_mono`; rays look at white tiles of 2 mm at the"
+        " sensors",
+        "a run on the loaded scene, after one that compiled (listed below)",
+    ],
+    [
+        "Radiance",
+        "`rtrace -I -n`, no ambient cache (`-aa 0 -as 0 -ab 100 -dt 0 -dc 1 -lr -100 -lw 1/ad`,"
+        " with panels `-dj 1 -ds 0.02`), `-ad` makes the effort",
+        "`rtrace` with reading the octree; not `oconv`, `ies2rad`, `obj2mesh`",
+    ],
+    [
+        "LuxCore",
+        "`BAKECPU` onto white tiles of 2 mm, `SOBOL` sampler, up to 100 bounces",
+        "from start to end of a session on the loaded scene, its ray structure included",
+    ],
+]
+
 METHOD = """## What is measured
 An error is the Euclidean norm of the differences at all sensors over that of the reference. Each
 program runs at rising levels of effort; all take turns, in {rounds} rounds with different seeds.
-A level has the median of its times and the root of the mean of its squared errors; between levels
-time is interpolated in logarithms. Runs that would take over {cap:g} s are not made: `~` means drawn
-out from the last level at the rate of random points (four times the time for half the error), `<`
-that the least effort was enough. In brackets: the time over that of quasilux.
+A level has the median of its times and the root of the mean of its squared errors, from which the
+variance of the reference is taken off; between levels time is interpolated in logarithms. Runs that would
+take over some {cap:g} s are not made: `~` means drawn out from the last level at the rate of random
+points (four times the work for half the error), `<` that the least effort was enough. In brackets: the time over that of quasilux.
 
-| program | how it runs | what its time holds |
-|---|---|---|
-| quasilux | `quasilux run --rel-tol`, 16 % and then half as much each level; two threads | everything: start-up, loading, checks, surveys, error bars, files |
-| quasilux path | the same with `--estimator path` | everything |
-| Mitsuba | `path`, `independent` sampler, `llvm_ad_mono`; rays look at white tiles of 2 mm at the sensors | a run on the loaded scene, after one that compiled (listed below) |
-| Radiance | `rtrace -I -n`, no ambient cache (`-aa 0 -as 0 -ab 100 -dt 0 -dc 1 -lr -100 -lw 1/ad`, with panels `-dj 1 -ds 0.02`), `-ad` makes the effort | `rtrace` with reading the octree; not `oconv`, `ies2rad`, `obj2mesh` |
-| LuxCore | `BAKECPU` onto white tiles of 2 mm, `RANDOM` sampler | from start to end of the session |
-
-Luminaires are points with the intensities of their IES file in all programs: quasilux reads the
-file, Radiance by `ies2rad -i`. Mitsuba reads none: an emitter in Python looks the same table up.
-It chooses among luminaires as Mitsuba chooses among emitters.
+{programs}
+Luminaires are points with the intensities of their IES file in all programs: quasilux
+and LuxCore read the file, Radiance by `ies2rad -i`. Mitsuba reads none: an emitter of
+`benches/peers` looks the same table up, and chooses among luminaires as Mitsuba chooses among
+emitters.
 """
 
 AGREEMENT = """## Do they compute the same room?
@@ -64,10 +84,14 @@ def write(results: Results) -> str:
     versions = ", ".join(f"{name} {version}" for name, version in machine.versions.items())
     parts = [
         HEAD,
-        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}, with a load of\n"
-        f"{machine.load_before:.1f} from other work before it began. {versions}.\n",
+        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}; other work\n"
+        f"made a load of {machine.load_before:.1f} before it began. {versions}.\n",
         *_times(results),
-        METHOD.format(rounds=machine.rounds, cap=machine.cap_seconds),
+        METHOD.format(
+            rounds=machine.rounds,
+            cap=machine.cap_seconds,
+            programs=_table(["program", "how it runs", "what its time holds"], PROGRAMS),
+        ),
         _warm_ups(results),
         AGREEMENT,
         _agreement(results),

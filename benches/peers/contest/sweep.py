@@ -12,14 +12,13 @@ from statistics import median
 
 import numpy as np
 
-from contest.curves import Point
-from contest.errors import Deviation, deviation, relative_l2
+from contest.curves import GROWTH, Point
+from contest.errors import Deviation, deviation, relative_l2, without_reference
 from contest.programs.program import Loaded, Program, Run
 from contest.references import Reference
 from contest.room import Room
 
 REPEATED_LEVELS = 3
-GROWTH = 4
 
 
 @dataclass(frozen=True)
@@ -43,10 +42,7 @@ class Series:
     def points(self, reference: Reference) -> list[Point]:
         """For each level the median time and the root of the mean square error."""
         return [
-            Point(
-                median(run.seconds for run in runs),
-                float(np.sqrt(np.mean([_error(run, reference) ** 2 for run in runs]))),
-            )
+            Point(median(run.seconds for run in runs), _own_error(runs, reference))
             for _, runs in sorted(self.levels.items())
         ]
 
@@ -89,19 +85,30 @@ def measure(
 
 
 def _climb(row: Series, loaded: Loaded, reference: Reference, effort: Effort) -> None:
-    level = 0
+    level, before_seconds = 0, 0.0
     while True:
         run = loaded.run(level, seed=1)
         row.levels[level] = [run]
-        well_below = _error(run, reference) <= 0.7 * effort.goal
-        if well_below or GROWTH * run.seconds > effort.cap_seconds:
+        well_below = _own_error([run], reference) <= 0.7 * effort.goal
+        if well_below or _next_seconds(run.seconds, before_seconds) > effort.cap_seconds:
             return
-        level += 1
+        level, before_seconds = level + 1, run.seconds
+
+
+def _next_seconds(seconds: float, before_seconds: float) -> float:
+    """What the next level takes: the part that grew grows on, start-up does not."""
+    grown = max(seconds - before_seconds, 0.0)
+    return min(GROWTH * seconds, seconds + GROWTH * grown)
 
 
 def _error(run: Run, reference: Reference) -> float:
     """Points without a value count as dark."""
     return relative_l2(np.nan_to_num(run.illuminances_lx), reference.illuminances_lx)
+
+
+def _own_error(runs: list[Run], reference: Reference) -> float:
+    square = float(np.mean([_error(run, reference) ** 2 for run in runs]))
+    return without_reference(square, reference.error_l2)
 
 
 def _said(row: Series, reference: Reference) -> str:

@@ -94,9 +94,8 @@ class LoadedMitsuba:
         point = dr.gather(mi.Point3f, _points(self.room.sensors.positions), sensor)
         ray = mi.Ray3f(point + normal * (TILE_M / 4), -normal)
         radiance, _, _ = self.integrator.sample(self.scene, sampler, ray)
-        sums = dr.zeros(mi.Float, count)
-        dr.scatter_reduce(dr.ReduceOp.Add, sums, radiance[0], sensor)
-        return np.pi * np.array(sums, dtype=np.float64) / samples
+        sums = dr.block_sum(mi.Float64(radiance[0]), samples)
+        return np.pi * np.array(sums) / samples
 
     def close(self) -> None:
         """Frees scene and memory."""

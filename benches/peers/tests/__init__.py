@@ -1,0 +1,1 @@
+"""Tests of what needs no other program: `python3 -m unittest` in benches/peers."""
