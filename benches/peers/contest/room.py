@@ -29,9 +29,22 @@ class Mirror:
 
 @dataclass(frozen=True)
 class Pane:
-    """A clear flat pane drawn as one sheet: light goes straight through or is mirrored."""
+    """A clear flat pane drawn as one sheet: light goes straight through or is mirrored.
+
+    All inner reflections are summed, with the reflectance of unpolarised light at each surface, as
+    Mitsuba has it. (Light is polarised after the first surface, and a real pane mirrors less.)
+    """
 
     eta: float
+
+    def reflectance(self, angle_deg: float) -> float:
+        """The share that is mirrored; the rest goes through."""
+        outer = np.cos(np.radians(angle_deg))
+        inner = np.sqrt(1 - (1 - outer**2) / self.eta**2)
+        across = (outer - self.eta * inner) / (outer + self.eta * inner)
+        along = (self.eta * outer - inner) / (self.eta * outer + inner)
+        once = float(across**2 + along**2) / 2
+        return 2 * once / (1 + once)
 
 
 Material = Diffuse | Mirror | Pane

@@ -7,11 +7,18 @@ import numpy as np
 
 from compare import ROOMS
 from contest import references
-from contest.room import Room
+from contest.room import Pane, Room
 
 
 def room(name: str) -> Room:
     return import_module(f"contest.rooms.{name}").room()
+
+
+class Panes(unittest.TestCase):
+    def test_head_on_and_grazing(self) -> None:
+        pane = Pane(1.5)
+        self.assertAlmostEqual(pane.reflectance(0.0), 2 * 0.04 / 1.04)
+        self.assertAlmostEqual(pane.reflectance(90.0), 1.0)
 
 
 class Rooms(unittest.TestCase):

@@ -121,5 +121,10 @@ def _material(kind: Material) -> str:
             return f"{{ reflectance = {reflectance} }}"
         case Mirror(reflectance):
             return f'{{ kind = "mirror", reflectance = {reflectance} }}'
-        case Pane(eta):
-            return f'{{ kind = "pane", eta = {eta} }}'
+        case Pane() as pane:
+            angles = [*range(0, 60), *(60 + i / 4 for i in range(121))]
+            mirrored = [(angle, pane.reflectance(angle)) for angle in angles]
+            reflectance = ", ".join(f"[{angle}, {share:.7f}]" for angle, share in mirrored)
+            transmittance = ", ".join(f"[{angle}, {1 - share:.7f}]" for angle, share in mirrored)
+            keys = f"transmittance = [{transmittance}], reflectance = [{reflectance}]"
+            return f'{{ kind = "pane", {keys} }}'
