@@ -1,6 +1,7 @@
 """docs/comparison.md: tables of a sweep in words."""
 
 import math
+import textwrap
 
 from contest.curves import Found
 from contest.errors import Deviation
@@ -84,8 +85,8 @@ def write(results: Results) -> str:
     versions = ", ".join(f"{name} {version}" for name, version in machine.versions.items())
     parts = [
         HEAD,
-        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}; other work\n"
-        f"made a load of {machine.load_before:.1f} before it began. {versions}.\n",
+        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}; other work made a"
+        f" load of {machine.load_before:.1f} before it began. {versions}.\n",
         *_times(results),
         METHOD.format(
             rounds=machine.rounds,
@@ -100,7 +101,18 @@ def write(results: Results) -> str:
         "## Pictures\nDashed: the goal. Dotted: the standard error of the reference.\n",
         *[f"![{room.title}](comparison/{room.name}.svg)\n" for room in results.rooms],
     ]
-    return "\n".join(parts)
+    return "\n\n".join(map(_wrapped, "\n".join(parts).split("\n\n")))
+
+
+def _wrapped(block: str) -> str:
+    """Prose at 100 columns; tables, headings and commands as they are."""
+    if block.startswith("#") and "\n" in block:
+        heading, rest = block.split("\n", 1)
+        return f"{heading}\n{_wrapped(rest)}"
+    if block.lstrip("\n").startswith(("|", "#", "!", "    ")):
+        return block
+    end = "\n" if block.endswith("\n") else ""
+    return textwrap.fill(block, 100, break_long_words=False, break_on_hyphens=False) + end
 
 
 def _times(results: Results) -> list[str]:
@@ -113,7 +125,23 @@ def _times(results: Results) -> list[str]:
         head = ["room", "triangles", "lights", "sensors", *names]
         parts.append(f"## Time to an error of {100 * goal:.1g} %\n")
         parts.append(_table(head, rows))
-    return parts
+    return [*parts, _faster(results)]
+
+
+def _faster(results: Results) -> str:
+    """Where a peer is ahead, in so many words."""
+    said = []
+    for room in results.rooms:
+        own = next((line for line in room.lines if line.program == FIRST), None)
+        for goal in room.goals if own else []:
+            base = own.time_to(goal).seconds
+            for line in room.lines:
+                ratio = line.time_to(goal).seconds / base
+                if not line.program.startswith(FIRST) and ratio < 1:
+                    said.append(f"{line.program} in {room.name} to {100 * goal:.1g} %")
+    if not said:
+        return "In none of these is a peer faster than quasilux.\n"
+    return f"Faster than quasilux: {', '.join(said)}.\n"
 
 
 def _row(room: RoomResult, goal: float) -> list[str]:
@@ -146,7 +174,10 @@ def _warm_ups(results: Results) -> str:
     ]
     if not said:
         return ""
-    return "Loading and compiling in Mitsuba, not counted above: " + ", ".join(said) + ".\n"
+    return (
+        f"Loading and compiling in Mitsuba, not counted above: {', '.join(said)}. Kernels that an"
+        " earlier run compiled come from a cache on disk.\n"
+    )
 
 
 def _agreement(results: Results) -> str:

@@ -13,6 +13,7 @@ from contest.programs.program import Run
 from contest.room import Diffuse, Material, Mirror, Pane, Room
 
 REPOSITORY = Path(__file__).resolve().parents[4]
+BUILT_HERE = REPOSITORY / "target/release/quasilux"
 
 
 @dataclass
@@ -24,7 +25,7 @@ class Quasilux:
 
     name: str
     estimator: str
-    binary: Path = REPOSITORY / "target/release/quasilux"
+    binary: Path = BUILT_HERE
 
     def missing(self) -> str | None:
         """The release build has to exist."""
@@ -33,11 +34,14 @@ class Quasilux:
         return f"no {self.binary}; cargo build --release -p quasilux"
 
     def version(self) -> str:
-        """As the program states it, with the commit of the tree."""
+        """As the program states it, and the commit of the tree where it was built in it."""
         said = subprocess.run([self.binary, "--version"], capture_output=True, text=True)
+        number = said.stdout.split()[-1]
+        if self.binary != BUILT_HERE:
+            return number
         words = ["git", "-C", str(REPOSITORY), "rev-parse", "--short", "HEAD"]
         commit = subprocess.run(words, capture_output=True, text=True)
-        return f"{said.stdout.split()[-1]} ({commit.stdout.strip()})"
+        return f"{number} ({commit.stdout.strip()})"
 
     def cannot(self, room: Room) -> str | None:
         """It can."""
