@@ -19,7 +19,7 @@ from contest.programs.mitsuba import Mitsuba
 from contest.programs.program import Program
 from contest.programs.quasilux import REPOSITORY, Quasilux
 from contest.programs.radiance import Radiance
-from contest.results import Machine, Results
+from contest.results import Machine, Results, RoomResult
 from contest.room import Room
 from contest.sweep import Effort, measure
 
@@ -50,7 +50,7 @@ def main() -> int:
             own = Effort(min(goals), effort.cap_seconds, effort.rounds)
             series = measure(room, reference, programs, own, Path(folder), _say)
             found.append(results.room_result(room, goals, reference, series))
-    measured = Results(_machine(programs, effort, load_before), found)
+    measured = Results(_machine(programs, effort, load_before), _with_others(found))
     MEASURED.parent.mkdir(exist_ok=True)
     results.save(measured, MEASURED)
     _write_page(measured)
@@ -108,6 +108,13 @@ def _make_references(rooms: list[Room], options: argparse.Namespace) -> int:
         said += f"{100 * sides.deviation:+.3f} % ± {100 * sides.standard_error:.3f}"
         _say(f"{room.name}: {said}, z {sides.rms_z:.2f}{'' if sides.holds() else ': DISAGREE'}")
     return 0 if agreed else 1
+
+
+def _with_others(found: list[RoomResult]) -> list[RoomResult]:
+    """What was measured now, and before in rooms that are not among them."""
+    kept = {room.name: room for room in results.load(MEASURED).rooms} if MEASURED.exists() else {}
+    kept |= {room.name: room for room in found}
+    return [kept[name] for name in ROOMS if name in kept]
 
 
 def _room(name: str) -> Room:

@@ -1,7 +1,8 @@
 """Radiance: `rtrace -I` without the ambient cache, at settings that do not bias it.
 
 Every light is asked with certainty (-dt 0 -dc 1), Russian roulette ends paths (-lr -100) and the
-number of ambient divisions makes the effort. Area lights are sampled all over (-dj 1 -ds 0.02).
+number of ambient divisions makes the effort. Panels are sampled all over (-dj 1 -ds 0.1), once a
+sensor however many divisions there are: in rooms with panels sensors are asked again and again.
 Luminaires go through `ies2rad -i`, a small sphere with the file's intensities, as the other
 programs have points. Radiance counts in watts: lumens over 179. Timed is rtrace, which reads the
 octree; `oconv`, `ies2rad` and `obj2mesh` are not.
@@ -27,7 +28,10 @@ MESH_FROM = 20000
 
 
 class Radiance:
-    """16 ambient divisions at the first level, then four times as many each."""
+    """16 ambient divisions at the first level, then four times as many each.
+
+    With panels 256 divisions at all levels, sensors once at the first and four times as often each.
+    """
 
     name = "Radiance"
 
@@ -67,17 +71,17 @@ class LoadedRadiance:
     def run(self, effort: int, seed: int) -> Run:
         """Radiance has no seed: each run of a level gives nearly the same."""
         del seed
-        divisions = 16 * 4**effort
+        divisions, repeats = (256, 4**effort) if self.has_panels else (16 * 4**effort, 1)
         options = ["-h", "-I", "-n", str(os.cpu_count()), "-dt", "0", "-dc", "1"]
         options += ["-ab", "100", "-aa", "0", "-as", "0", "-ad", str(divisions)]
         options += ["-lr", "-100", "-lw", repr(1 / divisions)]
         if self.has_panels:
-            options += ["-dj", "1", "-ds", "0.02"]
+            options += ["-dj", "1", "-ds", "0.1"]
         begin = time.perf_counter()
-        said = _tool("rtrace", [*options, "room.oct"], self.folder, self.points)
+        said = _tool("rtrace", [*options, "room.oct"], self.folder, repeats * self.points)
         seconds = time.perf_counter() - begin
-        rows = np.array(said.split(), dtype=np.float64).reshape(-1, 3)
-        return Run(LUMENS_A_WATT * rows[:, 1], seconds)
+        rows = np.array(said.split(), dtype=np.float64).reshape(repeats, -1, 3)
+        return Run(LUMENS_A_WATT * rows[:, :, 1].mean(axis=0), seconds)
 
     def close(self) -> None:
         """Files stay for who wants to look."""
