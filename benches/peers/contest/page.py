@@ -48,9 +48,11 @@ METHOD = """## What is measured
 An error is the Euclidean norm of the differences at all sensors over that of the reference. Each
 program runs at rising levels of effort; all take turns, in {rounds} rounds with different seeds.
 A level has the median of its times and the root of the mean of its squared errors, from which the
-variance of the reference is taken off; between levels time is interpolated in logarithms. Runs that would
+variance of the reference is taken off; between levels time is interpolated in logarithms. Runs
+that would
 take over some {cap:g} s are not made: `~` means drawn out from the last level at the rate of random
-points (four times the work for half the error), `<` that the least effort was enough. In brackets: the time over that of quasilux.
+points (four times the work for half the error), `<` that the least effort was enough. In
+brackets: the time over that of quasilux.
 
 {programs}
 Luminaires are points with the intensities of their IES file in all programs: quasilux
