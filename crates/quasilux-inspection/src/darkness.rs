@@ -16,6 +16,8 @@ const WALKS: u32 = 16;
 const DIRECTIONS: u32 = 64;
 /// Lamps that are asked what stands between them and the point.
 const MAX_LAMPS: usize = 64;
+/// Lit places that are looked for in bodies.
+const MAX_LIT: usize = 64;
 
 /// The points of one sensor at which no light was found.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,21 +74,31 @@ pub fn explain_darkness(
     let survey = Survey::new(&probe);
     // What lamps light and sends light on.
     let bright: Vec<Vertex> = survey.lit.iter().filter(|it| !it.is_black).copied().collect();
-    let mesh = &scene.mesh;
-    let opaque: Vec<Solid> =
-        solids_of(mesh).into_iter().filter(|solid| !solid.transmits(scene)).collect();
+    let dark_bodies = dark_bodies(&survey);
     for dark in unnamed {
         let sensor = &scene.sensors[dark.sensor];
         let stride = dark.points.len().div_ceil(MAX_POINTS);
         let ask = |&point: &usize| {
             let at = sensor.point(point);
-            let is_in_body = opaque.iter().any(|solid| solid.contains(mesh, at.position));
+            let is_in_body = dark_bodies.iter().any(|it| it.contains(&scene.mesh, at.position));
             (!is_in_body).then(|| Asked { point, cause: cause(&survey, &bright, &at) })
         };
         let asked: Vec<Asked<'_>> = dark.points.iter().step_by(stride).filter_map(ask).collect();
         report(scene, dark, &asked, &mut findings);
     }
     findings.found
+}
+
+/// Closed bodies that no light gets into; a room is one that light is in.
+fn dark_bodies(survey: &Survey<'_>) -> Vec<Solid> {
+    let scene = survey.probe.scene;
+    let stride = survey.lit.len().div_ceil(MAX_LIT).max(1);
+    let holds_light = |solid: &Solid| {
+        let mut lit = survey.lit.iter().step_by(stride);
+        lit.any(|vertex| solid.contains(&scene.mesh, vertex.position))
+    };
+    let bodies = solids_of(&scene.mesh).into_iter();
+    bodies.filter(|solid| !solid.transmits(scene) && !holds_light(solid)).collect()
 }
 
 /// A point and its cause.

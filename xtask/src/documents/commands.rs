@@ -8,12 +8,13 @@ use xtask::workspace::Failure;
 const CALLS: [&str; 2] = ["cargo run --release -- ", "quasilux "];
 
 /// Commands that are not run here, by how they begin, and the documents where they are not.
-const LEFT_OUT: [LeftOut; 10] = [
+const LEFT_OUT: [LeftOut; 11] = [
     LeftOut::anywhere("cargo xtask ", "what runs the commands of the documents"),
     LeftOut::anywhere("cargo test ", "`cargo xtask test tests` runs all tests"),
     LeftOut::anywhere("cargo install ", "installs what has been published"),
     LeftOut::anywhere("cargo run --release -p ", "benchmarks: minutes, and times of one machine"),
     LeftOut::anywhere("cargo run --release -- experiment coverage", "40 minutes"),
+    LeftOut::anywhere("python3 benches/peers/compare.py", "needs other programs"),
     LeftOut::anywhere("sh local.sh ", "`cargo xtask test examples` does the same"),
     LeftOut::anywhere("shards=$(sbatch ", "needs a cluster"),
     LeftOut::anywhere("sbatch ", "needs a cluster"),
