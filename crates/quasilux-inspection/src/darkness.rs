@@ -45,8 +45,8 @@ enum Cause<'a> {
 /// and cause, with the first such point.
 ///
 /// `found` is what [`inspect`](crate::inspect) found; sensors that it names, outside the geometry
-/// or covered, are passed over, and so are points in closed bodies, which loaders tell. `hierarchy` is over the triangles of the scene's mesh, in their
-/// order.
+/// or covered, are passed over, and so are points in closed bodies, which loaders tell. `hierarchy`
+/// is over the triangles of the scene's mesh, in their order.
 ///
 /// # Panics
 /// If the hierarchy has another number of triangles than the scene, or a sensor or point is none of
