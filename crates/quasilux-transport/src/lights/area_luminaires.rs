@@ -11,8 +11,8 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
-use crate::lights::choice::{Asking, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::lights::pointlike::{LightCentre, LightChoiceWork};
+use crate::lights::selection::{Asking, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;

@@ -1,12 +1,12 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
 //! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent
-//! in `pointlike`, what mirrors show of both kinds in `images`; `choice` chooses one of many.
+//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several.
 
 mod area_luminaires;
-mod choice;
 mod emitting_facets;
 pub(crate) mod images;
 mod pointlike;
+mod selection;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitting_facets::Emitters;

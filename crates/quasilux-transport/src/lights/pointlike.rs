@@ -1,7 +1,7 @@
 //! Direct light of point-like lights, computed without sampling or from one light chosen by its
 //! unshadowed illuminance.
 
-use crate::lights::choice::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice, Surroundings};
+use crate::lights::selection::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;

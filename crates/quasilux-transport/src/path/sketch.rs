@@ -7,7 +7,7 @@
 //! corners are probes: they ask for all virtual lights.
 
 use crate::context::Context;
-use crate::photon::virtual_lights::{MAX_PROBES, Site, VirtualLights, Way};
+use crate::photon::virtual_lights::{MAX_PROBES, ShadowSegment, Site, VirtualLights};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::{Interaction, RayOrigin, World};
@@ -142,7 +142,9 @@ impl Sketch {
         work.clear();
         for (place, Probe { site, from }) in self.probes.iter().enumerate() {
             for light in 0..lights.len() {
-                if let Some(Way { direction, distance_m, facet }) = lights.way(light, site) {
+                if let Some(ShadowSegment { direction, distance_m, facet }) =
+                    lights.way(light, site)
+                {
                     let query = from.shadow_ray(direction, distance_m, facet);
                     work.ask(Asked { place, light }, query);
                 }

@@ -326,7 +326,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if bsdf.keeps_illuminance() {
             self.add_caustics(context, bounces, at);
         }
-        self.ask_virtual_lights(context, bounces, at, work);
+        self.sample_direct_virtual_lights(context, bounces, at, work);
     }
 
     /// Draws the direction in which it goes on; whether there is one.

@@ -13,10 +13,10 @@
 //!
 //! A block of pixels takes some of the lights (`choice`), and its places sum over those (`sum`).
 
-mod choice;
+mod selection;
 mod sum;
 
-pub(crate) use sum::{AskedLight, MAX_PROBES, Place, Sums};
+pub(crate) use sum::{AskedLight, MAX_PROBES, Receiving, Sums};
 
 use crate::bsdf::TransportMode;
 use crate::context::{Context, Stream};
@@ -79,7 +79,7 @@ pub(crate) struct Site {
 }
 
 /// The way to a light.
-pub(crate) struct Way {
+pub(crate) struct ShadowSegment {
     /// Unit direction.
     pub(crate) direction: DVec3,
     pub(crate) distance_m: f64,
@@ -140,7 +140,7 @@ impl<S: Spectrum> VirtualLights<S> {
     }
 
     /// The way to a light, if it and a site face each other.
-    pub(crate) fn way(&self, number: usize, site: &Site) -> Option<Way> {
+    pub(crate) fn way(&self, number: usize, site: &Site) -> Option<ShadowSegment> {
         let light = &self.lights[number];
         let to_light = light.position - site.position;
         let faces = site.n.dot(to_light) > 0.0 && light.n.dot(to_light) < 0.0;
@@ -166,10 +166,10 @@ impl<S: Spectrum> VirtualLights<S> {
 }
 
 impl<S> VirtualLight<S> {
-    fn way(&self, site: &Site) -> Way {
+    fn way(&self, site: &Site) -> ShadowSegment {
         let to_light = self.position - site.position;
         let distance_m = to_light.length();
-        Way { direction: to_light / distance_m, distance_m, facet: self.facet }
+        ShadowSegment { direction: to_light / distance_m, distance_m, facet: self.facet }
     }
 
     /// Neighbours that face one way follow each other: along a curve through cells of space (Morton
@@ -231,7 +231,7 @@ mod tests {
     fn what_is_bounded_is_left_to_paths() {
         let lights = lights(vec![light(0.0, 0.0, 1.0), light(3.0, 0.0, 1.0)]);
         for light in &lights.lights {
-            let Way { direction, distance_m, .. } = light.way(&FLOOR);
+            let ShadowSegment { direction, distance_m, .. } = light.way(&FLOOR);
             let g = direction.z * direction.z / (distance_m * distance_m);
             let left = lights.left_to_paths(direction.z * FRAC_1_PI, direction.z, distance_m);
             assert!((lights.bounded(light, &FLOOR) - g * (1.0 - left)).abs() < 1e-15);

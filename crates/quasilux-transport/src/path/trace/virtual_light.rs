@@ -4,14 +4,14 @@
 use super::{Path, PathWork};
 use crate::bsdf::Bsdf;
 use crate::context::Context;
-use crate::photon::virtual_lights::{AskedLight, Place, Site, Way};
+use crate::photon::virtual_lights::{AskedLight, Receiving, ShadowSegment, Site};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 
 impl<S: Spectrum> Path<'_, S> {
     /// Takes the light of the virtual lights at a surface, if that is a diffuse one, and asks some
     /// of them; a path does so once.
-    pub(super) fn ask_virtual_lights(
+    pub(super) fn sample_direct_virtual_lights(
         &mut self,
         context: &Context<'_, S>,
         bounces: u32,
@@ -29,7 +29,7 @@ impl<S: Spectrum> Path<'_, S> {
         }
         let (from, to_start) = (context.world.ray_origin(at), self.weight(context, at));
         let site = Site::new(at);
-        let place = Place {
+        let place = Receiving {
             site,
             seen_by: &probed.seen_by,
             probes: if bounces == 0 { probed.probes_near(&site) } else { 0 },
@@ -37,8 +37,11 @@ impl<S: Spectrum> Path<'_, S> {
         };
         let (number, PathWork { shadows, sums, .. }) = (self.number, work);
         let expected_lx = probed.lights.illuminance_lx(&place, sums, |asked: AskedLight<S>| {
-            let AskedLight { way: Way { direction, distance_m, facet }, bounces, if_seen_lx } =
-                asked;
+            let AskedLight {
+                way: ShadowSegment { direction, distance_m, facet },
+                bounces,
+                if_seen_lx,
+            } = asked;
             let ray = from.shadow_ray(direction, distance_m, facet);
             shadows.push_connection(number, to_start * if_seen_lx, bounces, ray);
         });

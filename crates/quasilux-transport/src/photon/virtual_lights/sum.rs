@@ -11,7 +11,7 @@
 //! in the open and to how little the probes agree; where they agree, it is next to nothing.
 //! Whatever the probes say, the mean is right.
 
-use super::{Site, VirtualLights, Way};
+use super::{ShadowSegment, Site, VirtualLights};
 use crate::spectrum::Spectrum;
 
 /// Probes of a block, one bit each.
@@ -24,7 +24,7 @@ const NOISE: f64 = 0.1;
 const MAX_ASKED: f64 = 16.0;
 
 /// A place that wants to know its light.
-pub(crate) struct Place<'s> {
+pub(crate) struct Receiving<'s> {
     pub(crate) site: Site,
     /// Of each light the probes that see it, one bit each.
     pub(crate) seen_by: &'s [u8],
@@ -36,7 +36,7 @@ pub(crate) struct Place<'s> {
 
 /// A light that is to be asked.
 pub(crate) struct AskedLight<S> {
-    pub(crate) way: Way,
+    pub(crate) way: ShadowSegment,
     /// Reflections of its light, its own too.
     pub(crate) bounces: u32,
     /// What it adds in lx if nothing stands in the way.
@@ -76,7 +76,7 @@ impl<S: Spectrum> VirtualLights<S> {
     /// are to be asked, whose terms are taken out before.
     pub(crate) fn illuminance_lx(
         &self,
-        place: &Place<'_>,
+        place: &Receiving<'_>,
         sums: &mut Sums,
         ask: impl FnMut(AskedLight<S>),
     ) -> S {
@@ -106,7 +106,7 @@ impl<S: Spectrum> VirtualLights<S> {
     /// times. Returns what was expected of them.
     fn draw(
         &self,
-        place: &Place<'_>,
+        place: &Receiving<'_>,
         doubts: &[f64],
         count: f64,
         mut ask: impl FnMut(AskedLight<S>),
@@ -153,10 +153,10 @@ mod tests {
             let mean = (0..steps)
                 .map(|i| {
                     let u = (f64::from(i) + 0.5) / f64::from(steps);
-                    let place = Place { site: FLOOR, seen_by: &seen_by, probes, u };
+                    let place = Receiving { site: FLOOR, seen_by: &seen_by, probes, u };
                     let mut asked = 0.0;
                     let expected = all.illuminance_lx(&place, &mut sums, |light| {
-                        let Way { direction, distance_m, .. } = light.way;
+                        let ShadowSegment { direction, distance_m, .. } = light.way;
                         rays += 1;
                         if is_seen(direction.x * distance_m) {
                             asked += light.if_seen_lx;
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn without_lights_there_is_nothing_to_ask() {
-        let place = Place { site: FLOOR, seen_by: &[], probes: 0, u: 0.5 };
+        let place = Receiving { site: FLOOR, seen_by: &[], probes: 0, u: 0.5 };
         let none = lights(Vec::new());
         let lx = none.illuminance_lx(&place, &mut Sums::default(), |_| panic!("no light"));
         assert_eq!(lx, 0.0);

@@ -256,23 +256,23 @@ mod tests {
     }
 
     /// Spots below the ceiling, of 14 degrees and 3 degrees.
-    struct Spot {
+    struct Beam {
         position: DVec3,
         aim: DVec3,
         narrowness: f64,
     }
 
-    fn spots(count: u64) -> Vec<Spot> {
-        let spot = |index: u64| {
+    fn beams(count: u64) -> Vec<Beam> {
+        let beam = |index: u64| {
             let [x, y, z] = number(index + 100);
             let aim = DVec3::new(z - 0.5, x - 0.5, -1.0).normalize();
             let narrowness = if index % 2 == 0 { 17.0 } else { 360.0 };
-            Spot { position: DVec3::new(20.0 * x, 10.0 * y, 3.8), aim, narrowness }
+            Beam { position: DVec3::new(20.0 * x, 10.0 * y, 3.8), aim, narrowness }
         };
-        (0..count).map(spot).collect()
+        (0..count).map(beam).collect()
     }
 
-    impl Spot {
+    impl Beam {
         fn intensity_cd(&self, direction: DVec3) -> f64 {
             1000.0 * libm::exp(self.narrowness * (self.aim.dot(direction) - 1.0))
         }
@@ -285,14 +285,14 @@ mod tests {
         }
     }
 
-    fn choose(choice: &LightChoice, spots: &[Spot], place: Asking, u: [f64; 2]) -> f64 {
+    fn choose(choice: &LightChoice, beams: &[Beam], place: Asking, u: [f64; 2]) -> f64 {
         let around = |light: usize, around: &Surroundings| {
-            let spot = &spots[light];
-            around.lx(spot.position, 0.0, |direction| spot.intensity_cd(direction) + 2.0)
+            let beam = &beams[light];
+            around.lx(beam.position, 0.0, |direction| beam.intensity_cd(direction) + 2.0)
         };
-        let weight = |light: usize| spots[light].lx(place);
+        let weight = |light: usize| beams[light].lx(place);
         let chosen = choice.choose(place, u, around, weight, &mut ChoiceWork::default());
-        chosen.map_or(0.0, |chosen| spots[chosen.light].lx(place) / chosen.pdf)
+        chosen.map_or(0.0, |chosen| beams[chosen.light].lx(place) / chosen.pdf)
     }
 
     /// The mean over the square of coordinates is the sum over the lights, and estimates stay near
@@ -300,16 +300,16 @@ mod tests {
     #[test]
     fn estimates_are_those_of_all_lights() {
         for count in [3, 15, 16, 100, 700] {
-            let spots = spots(count);
-            let choice = LightChoice::new(spots.len(), Some(BOX));
+            let beams = beams(count);
+            let choice = LightChoice::new(beams.len(), Some(BOX));
             assert_eq!(choice.dimensions(), if count < 16 { 1 } else { 2 });
             let (mut variances, mut errors, mut squares) = (0.0, 0.0, 0.0);
             for place in (0..40).map(place) {
-                let all_lx: f64 = spots.iter().map(|spot| spot.lx(place)).sum();
+                let all_lx: f64 = beams.iter().map(|beam| beam.lx(place)).sum();
                 const SIDE: u32 = 256;
                 let u = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE);
                 let estimates = (0..SIDE * SIDE / 4)
-                    .map(|i| choose(&choice, &spots, place, [u(i % SIDE), u(4 * (i / SIDE))]));
+                    .map(|i| choose(&choice, &beams, place, [u(i % SIDE), u(4 * (i / SIDE))]));
                 let (mut sum, mut square) = (0.0, 0.0);
                 for estimate in estimates {
                     sum += estimate;
@@ -330,8 +330,8 @@ mod tests {
     /// As bounds on contributions take it: at most 10 n / 0.1 times what a light gives.
     #[test]
     fn no_light_is_forgotten() {
-        let spots = spots(64);
-        let choice = LightChoice::new(spots.len(), Some(BOX));
+        let beams = beams(64);
+        let choice = LightChoice::new(beams.len(), Some(BOX));
         for (number, place) in (0_u64..60).map(|i| (i, place(i))) {
             for u in (0..500).map(|i| [number_of(i), number_of(i + 7)]) {
                 // All weights lie, that of one light most.
