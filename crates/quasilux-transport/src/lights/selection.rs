@@ -233,7 +233,7 @@ impl Surroundings {
             let sign = |axis: u32| if octant >> axis & 1 == 0 { -0.25 } else { 0.25 };
             self.centre + DVec3::new(sign(0), sign(1), sign(2)) * self.edge_m
         });
-        let mean_square = octants.map(|place| lx_at(place)).map(|lx| lx * lx).sum::<f64>() / 8.0;
+        let mean_square = octants.map(lx_at).map(|lx| lx * lx).sum::<f64>() / 8.0;
         mean_square.sqrt()
     }
 }
