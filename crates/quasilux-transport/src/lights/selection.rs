@@ -266,7 +266,7 @@ mod tests {
         let beam = |index: u64| {
             let [x, y, z] = number(index + 100);
             let aim = DVec3::new(z - 0.5, x - 0.5, -1.0).normalize();
-            let narrowness = if index % 2 == 0 { 17.0 } else { 360.0 };
+            let narrowness = if index.is_multiple_of(2) { 17.0 } else { 360.0 };
             Beam { position: DVec3::new(20.0 * x, 10.0 * y, 3.8), aim, narrowness }
         };
         (0..count).map(beam).collect()
