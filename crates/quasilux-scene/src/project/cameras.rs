@@ -2,6 +2,7 @@
 
 use super::document::{Section, Value};
 use super::names::Names;
+use super::simulation::tolerance;
 use crate::{Camera, LoadError};
 use glam::DVec3;
 use quasilux_text::Position;
@@ -67,9 +68,7 @@ fn samples(section: &Section<'_>) -> Result<Option<u64>, LoadError> {
 }
 
 fn rel_tol(section: &Section<'_>) -> Result<Option<f64>, LoadError> {
-    let expected = "a share above 0, such as 0.02";
-    let rel_tol = |value: Value<'_>| value.number(expected, |share| share > 0.0);
-    section.get("rel_tol").map(rel_tol).transpose()
+    section.get("rel_tol").map(|value| tolerance(&value)).transpose()
 }
 
 /// The direction that is given, or z.

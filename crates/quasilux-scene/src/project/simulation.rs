@@ -171,7 +171,7 @@ fn integer<'a>(
 }
 
 /// A share as a number, or with a percent sign as text.
-fn tolerance(value: &Value<'_>) -> Result<f64, LoadError> {
+pub(super) fn tolerance(value: &Value<'_>) -> Result<f64, LoadError> {
     let expected = "a share above 0, at most 0.5, such as 0.01, or percent, such as \"1%\"";
     if value.is_string() {
         let percent = value.string(expected)?.strip_suffix('%');
