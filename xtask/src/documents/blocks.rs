@@ -44,7 +44,8 @@ pub(super) fn blocks(text: &str) -> Vec<Block> {
             }
             paragraph += line;
             paragraph.push('\n');
-            is_fresh = is_blank;
+            // Indented lines go on with a paragraph, and not with a heading.
+            is_fresh = is_blank || line.starts_with('#');
         }
     }
     blocks
