@@ -69,6 +69,12 @@ pub fn exact(x: f64) -> String {
     format!("{x:?}")
 }
 
+/// A number of things: `2 048 samples`, `1 thread`.
+#[must_use]
+pub fn plural(n: u64, one: &str) -> String {
+    format!("{} {one}{}", count(n), if n == 1 { "" } else { "s" })
+}
+
 /// A count with its thousands set apart by spaces: `1 048 576`.
 #[must_use]
 pub fn count(n: u64) -> String {

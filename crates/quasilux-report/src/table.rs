@@ -7,7 +7,7 @@ mod terms;
 
 pub use explanation::explanation;
 
-use crate::number::{FigureText, brief, count, exact, figure_text};
+use crate::number::{FigureText, brief, count, exact, figure_text, plural};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
 use quasilux_transport::{Settings, ToleranceOn};
 use std::fmt::Write;
@@ -200,11 +200,6 @@ fn run_facts(report: &Report) -> String {
         plural(run.threads as u64, "thread"),
         maintained.map(factor_of).unwrap_or_default(),
     )
-}
-
-/// A number of things.
-fn plural(n: u64, one: &str) -> String {
-    format!("{} {one}{}", count(n), if n == 1 { "" } else { "s" })
 }
 
 /// The wanted tolerance in words.

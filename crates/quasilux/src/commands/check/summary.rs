@@ -4,7 +4,7 @@ use crate::commands::inputs::printable;
 use crate::project::Project;
 use glam::DVec3;
 use quasilux_inspection::Finding;
-use quasilux_report::number::{brief, count};
+use quasilux_report::number::{brief, plural};
 use quasilux_scene::{Light, Scene, SensorShape};
 use std::fmt::Write;
 
@@ -31,7 +31,10 @@ pub(super) fn summary(project: &Project) -> String {
     section("materials", materials(scene));
     section("lights", (0..scene.lights.len()).map(|i| light(project, i)).collect());
     let flux_lm = brief(scene.flux_lm(), 5);
-    section("flux", vec![format!("{flux_lm} lm of {}", plural(scene.lights.len(), "light"))]);
+    section(
+        "flux",
+        vec![format!("{flux_lm} lm of {}", plural(scene.lights.len() as u64, "light"))],
+    );
     section("sensors", scene.sensors.iter().map(sensor).collect());
     section("cameras", scene.cameras.iter().map(camera).collect());
     text
@@ -57,8 +60,8 @@ fn geometry(project: &Project) -> Vec<String> {
     let (scene, places) = (&project.loaded.scene, &project.loaded.places);
     let files: Vec<&str> = places.geometry.iter().map(|file| file.value.as_str()).collect();
     let (up, unit) = (if places.y_is_up { "y" } else { "z" }, places.unit.name());
-    let triangles = plural(scene.mesh.triangles.len(), "triangle");
-    let objects = plural(scene.mesh.objects.len(), "object");
+    let triangles = plural(scene.mesh.triangles.len() as u64, "triangle");
+    let objects = plural(scene.mesh.objects.len() as u64, "object");
     let mut lines = vec![format!(
         "{}: {triangles} in {objects}; read with {up} up, in {unit}",
         files.join(", ")
@@ -68,11 +71,6 @@ fn geometry(project: &Project) -> Vec<String> {
         lines.push(format!("{x} x {y} m, {z} m high, from {} to {}", place(low), place(high)));
     }
     lines
-}
-
-/// A number of things.
-fn plural(n: usize, one: &str) -> String {
-    format!("{} {one}{}", count(n as u64), if n == 1 { "" } else { "s" })
 }
 
 fn materials(scene: &Scene) -> Vec<String> {
