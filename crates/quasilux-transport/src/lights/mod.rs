@@ -11,6 +11,7 @@ mod selection;
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use emitting_facets::Emitters;
 pub(crate) use pointlike::{Incidence, LightCentre, LightChoiceWork, PointLikes};
+pub(crate) use selection::tables_bytes;
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};

@@ -155,6 +155,14 @@ fn defensive(weights: impl Iterator<Item = f64> + Clone) -> impl Iterator<Item =
     weights.map(more)
 }
 
+/// Bytes of the tables of so many lights in a box around the geometry, if every one is made.
+pub(crate) fn tables_bytes(lights: usize, bounds: Option<[DVec3; 2]>) -> u64 {
+    let LightChoice { cubes, .. } = LightChoice::new(lights, bounds);
+    let entries = cubes.map_or(0, |cubes| cubes.tables.len() * lights);
+    // A probability, and an entry of the guide table.
+    entries as u64 * (size_of::<f64>() + size_of::<u32>()) as u64
+}
+
 /// The tables of all cubes.
 struct Cubes {
     low: DVec3,
@@ -348,6 +356,15 @@ mod tests {
 
     fn number_of(index: u64) -> f64 {
         radical_inverse(2, index + 1)
+    }
+
+    #[test]
+    fn tables_take_no_more_than_there_may_be() {
+        let bytes = |lights| tables_bytes(lights, Some(BOX));
+        assert_eq!(bytes(15), 0);
+        // 24 x 12 x 5 cubes of 7 sides.
+        assert_eq!(bytes(100), 24 * 12 * 5 * 7 * 100 * 12);
+        assert!(bytes(100_000) <= 12 * MAX_ENTRIES as u64);
     }
 
     #[test]

@@ -7,6 +7,7 @@
 use crate::estimator::control_variate::MAX_PHOTONS;
 use crate::estimator::witness;
 use crate::importance::{MAX_NODES, Node};
+use crate::lights::tables_bytes;
 use crate::path::frozen_map;
 use crate::path::sections::PathSums;
 use crate::photon::map::{
@@ -48,7 +49,7 @@ const LANDINGS: u64 = 8;
 /// on top.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryNeed {
-    /// Triangles, and the hierarchy over them.
+    /// Triangles, the hierarchy over them, and tables by which one of many lights is chosen.
     pub scene_bytes: u64,
     /// Sums and values of all sensor points in all replicates.
     pub sums_bytes: u64,
@@ -73,7 +74,9 @@ impl MemoryNeed {
             width.saturating_mul(height)
         });
         let need = Self {
-            scene_bytes: triangles.saturating_mul(TRIANGLE_BYTES),
+            scene_bytes: triangles
+                .saturating_mul(TRIANGLE_BYTES)
+                .saturating_add(tables_bytes(scene.lights.len(), scene.mesh.bounds())),
             sums_bytes: points.saturating_mul(point_bytes(settings)),
             cells_bytes: cells_bytes(settings, points),
             pictures_bytes: total(pixels)
