@@ -39,10 +39,7 @@ pub(crate) fn check(root: &Path) -> Result<(), Failure> {
     let program = commands::build(root)?;
     for name in documents(root)? {
         let document = Document::open(root, &name)?;
-        document.check(&program)?;
-        if name == pictures::DOCUMENT {
-            pictures::compare(root, &document.scratch)?;
-        }
+        document.check(root, &program)?;
         // What a failed run left behind is where the search for its cause begins.
         let _ = fs::remove_dir_all(&document.scratch);
     }
@@ -91,7 +88,7 @@ impl Document {
         Ok(Self { name: name.to_owned(), blocks, scratch })
     }
 
-    fn check(&self, program: &Path) -> Result<(), Failure> {
+    fn check(&self, root: &Path, program: &Path) -> Result<(), Failure> {
         self.write_projects()?;
         let mut printed: Option<String> = None;
         for block in &self.blocks {
@@ -99,7 +96,7 @@ impl Document {
             match block.language.as_deref() {
                 None => {
                     for line in &block.lines {
-                        let ran = self.run(program, line);
+                        let ran = self.run(root, program, line);
                         printed = ran.map_err(|failure| format!("{place}: {failure}"))?.or(printed);
                     }
                 }
@@ -122,8 +119,9 @@ impl Document {
         Ok(())
     }
 
-    /// What a line of a block printed, where it is run.
-    fn run(&self, program: &Path, line: &str) -> Result<Option<String>, Failure> {
+    /// What a line of a block printed, where it is run. A picture that the document shows is
+    /// compared at once: later commands may write another one in its place.
+    fn run(&self, root: &Path, program: &Path, line: &str) -> Result<Option<String>, Failure> {
         let folder = match self.name.rsplit_once('/') {
             Some((folder, _))
                 if line.starts_with("quasilux ") && folder.starts_with("examples/") =>
@@ -133,7 +131,13 @@ impl Document {
             _ => self.scratch.clone(),
         };
         match Line::new(line, &self.name) {
-            Line::Run(arguments) => commands::output(program, &folder, &arguments).map(Some),
+            Line::Run(arguments) => {
+                let printed = commands::output(program, &folder, &arguments)?;
+                if self.name == pictures::DOCUMENT {
+                    pictures::compare(root, &folder, &arguments)?;
+                }
+                Ok(Some(printed))
+            }
             Line::LeftOut => Ok(None),
             Line::Unknown => Err(format!("nobody knows the command `{line}`")),
         }
