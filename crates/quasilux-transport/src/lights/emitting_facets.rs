@@ -4,7 +4,8 @@
 //! Light that reaches a surface straight from an area light is estimated both by a point on the
 //! light, uniform over its area within equal luminance, and by the direction in which the path goes
 //! on, which may happen to meet a light; each is weighted by the balance heuristic (Veach 1997,
-//! section 9.2.2). Densities are compared in solid angle, sr^-1.
+//! section 9.2.2). Densities are compared in solid angle, sr^-1. Flat panes between change no
+//! direction: light through them is estimated in both ways, too.
 
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -98,9 +99,8 @@ impl Emitters {
         let lx_sr = facet.emitted_cd_m2 * cos;
         let illuminance_lx = lx_sr / (pdf_light + beside_sr(direction, lx_sr));
         let light = vertex.weight(direction) * illuminance_lx;
-        let facet = place.facet;
-        let light_sample = LightSample { direction, distance_m, facet, light, illuminance_lx };
-        (light.luminance() != 0.0).then_some(light_sample)
+        let light_sample = LightSample::unless_dark(direction, distance_m, light, illuminance_lx)?;
+        Some(LightSample { facet: place.facet, ..light_sample })
     }
 
     /// Density in sr^-1 with which [`Self::light_sample`] finds a point on a facet of this

@@ -42,7 +42,8 @@ struct LightSubpath<'p, S> {
     light: usize,
     /// [`LightPathClass::Found`] after the first surface, and from emitting facets.
     path_class: LightPathClass,
-    /// The image of its emitting facet that mirrors show, as long as nothing else scattered it.
+    /// The image of its emitting facet that mirrors show, or the facet itself behind panes, as
+    /// long as nothing else scattered it.
     image: Option<EmitterImage>,
     weights: SubpathWeights,
     gain: Gain,
@@ -57,6 +58,8 @@ struct EmitterImage {
     emitted_cd_m2: f64,
     /// Density in m^-2 sr^-1 of photons that leave the facet as this one did.
     emission: f64,
+    /// Whether there are panes between.
+    behind_panes: bool,
 }
 
 /// Working space of light subpaths that are traced together.
@@ -126,6 +129,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
                 distance_m: 0.0,
                 emitted_cd_m2,
                 emission: per_m2_sr,
+                behind_panes: false,
             });
         }
         let flux_lm = S::white() * lights.flux_lm;
@@ -172,7 +176,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let next = bsdf.sample(wo, at.front, TransportMode::Importance, &mut self.sampler);
         let Some(next) = next else { return false };
         self.weights = scattered(self.weights, bsdf, wo, next.wi);
-        self.image = self.image.filter(|_| next.wi.z > 0.0);
+        self.image =
+            self.image.and_then(|image| image.past(context, bsdf, at.facet, next.wi.z > 0.0));
         self.path_class = self.path_class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
         self.flux_lm = self.flux_lm * next.weight * factor;
         let from: RayOrigin =
@@ -182,19 +187,42 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
     }
 }
 
-impl<S: Spectrum> LightSubpath<'_, S> {
-    /// Follows the image of its emitting facet over a mirror, or weighs that an eye subpath asks
-    /// for it where a surface of another kind is met, at this cosine.
-    fn land(&mut self, context: &Context<'_, S>, at: &Interaction, cos: f64) {
+impl EmitterImage {
+    /// After one more specular surface, which mirrored it or did not; `None` where no vertex asks
+    /// for light that came so.
+    fn past<S: Spectrum>(
+        self,
+        context: &Context<'_, S>,
+        bsdf: &Bsdf<S>,
+        facet: u32,
+        is_mirrored: bool,
+    ) -> Option<Self> {
         let images = &context.images;
+        if is_mirrored {
+            let plane = images.plane_of(facet).filter(|_| !self.behind_panes)?;
+            return Some(Self { number: images.emitter_in(self.number, plane)?, ..self });
+        }
+        let is_let_through = bsdf.straight_transmittance(1.0).is_some();
+        let passes = is_let_through && !images.is_mirrored_emitter(self.number);
+        passes.then_some(Self { behind_panes: true, ..self })
+    }
+}
+
+impl<S: Spectrum> LightSubpath<'_, S> {
+    /// Follows the image of its emitting facet, or weighs that an eye subpath asks for it where a
+    /// surface that is not specular is met, at this cosine.
+    fn land(&mut self, context: &Context<'_, S>, at: &Interaction, cos: f64) {
+        let Context { world, images, lights, .. } = context;
         let Some(mut image) = self.image.take() else { return };
         image.distance_m += at.distance_m;
-        if context.world.bsdf(at).is_specular() {
-            let plane = images.plane_of(at.facet);
-            let next = plane.and_then(|plane| images.emitter_in(image.number, plane));
-            self.image = next.map(|number| EmitterImage { number, ..image });
-        } else if images.is_mirrored_emitter(image.number) {
-            let pdf_m2 = images.asked_m2(image.number, image.emitted_cd_m2);
+        let emitters = lights.emitters.as_ref().filter(|_| image.behind_panes);
+        if world.bsdf(at).is_specular() {
+            self.image = Some(image);
+        } else if emitters.is_some() || images.is_mirrored_emitter(image.number) {
+            let pdf_m2 = emitters.map_or_else(
+                || images.asked_m2(image.number, image.emitted_cd_m2),
+                |emitters| emitters.pdf_m2(image.emitted_cd_m2),
+            );
             let vcm = pdf_m2 / image.emission * image.distance_m * image.distance_m / cos;
             self.weights = self.weights.unfolded(vcm);
         }

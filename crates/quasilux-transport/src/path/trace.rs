@@ -16,7 +16,7 @@
 mod connect;
 mod direct_light;
 mod map_end;
-mod mirror_way;
+mod specular_way;
 mod virtual_light;
 
 use crate::bsdf::TransportMode;
@@ -44,10 +44,10 @@ use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
-use mirror_way::{Asked, MirrorWay};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
+use specular_way::{Asked, SpecularWay};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A path that is over.
@@ -85,8 +85,8 @@ pub(crate) struct Path<'p, S> {
     direction: DVec3,
     /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
     pdf_sr: Option<f64>,
-    /// The mirrors since then, where its last vertex asked for what they show of area lights.
-    mirror_way: Option<MirrorWay>,
+    /// The mirrors or panes since then, where its last vertex asked for area lights behind them.
+    specular_way: Option<SpecularWay>,
     /// Factors from radiance along the path to what its start seeks.
     beta: S,
     /// The same for what the next surface emits itself.
@@ -170,7 +170,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             from,
             direction,
             pdf_sr,
-            mirror_way: None,
+            specular_way: None,
             beta,
             beta_emitted: beta,
             bounces_asked: 0,
@@ -206,9 +206,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_emitter_images(context, &vertex, work);
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.connect(context, &vertex, work);
-        if self.asks_for_emitter_images(context) {
-            self.mirror_way = self.pdf_sr.map(MirrorWay::new);
-        }
+        self.specular_way = self.pdf_sr.and_then(|pdf_sr| self.specular_way(context, pdf_sr));
         let cos = n.dot(self.direction);
         self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
     }
@@ -354,7 +352,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 },
             );
         }
-        self.note_mirrors(context, at, wo, &next);
+        self.note_specular_way(context, at, wo, &next);
         self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;
         self.from =
@@ -450,7 +448,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 pdf_m2: emitters.pdf_m2(emitted_cd_m2),
                 inverse_of_direction_m2: at.distance_m * at.distance_m / (cos * pdf_sr),
             }),
-            None => self.asked_image(context, at),
+            None => self.asked_past_specular(context, at),
         };
         if bounces > 0 && asked.is_none() {
             self.found.specular_hits.push(context.world.facet(at).material);
@@ -460,9 +458,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
             None => 1.0 / (1.0 + pdf_m2 * inverse_of_direction_m2),
             Some(subpath) => {
                 let emission = emitted_cd_m2 * cos / context.lights.flux_lm;
-                let is_mirrored = self.pdf_sr.is_none();
+                let is_past_specular = self.pdf_sr.is_none();
                 let unfolded = subpath.unfolded(inverse_of_direction_m2);
-                let subpath = if is_mirrored { unfolded } else { subpath };
+                let subpath = if is_past_specular { unfolded } else { subpath };
                 subpath.of_hit(pdf_m2, emission)
             }
         };

@@ -23,6 +23,8 @@ pub(crate) struct LightSample<S> {
     pub(crate) light: S,
     /// Illuminance in lx that the light gives to the place, about what photons of it bring there.
     pub(crate) illuminance_lx: f64,
+    /// Whether it is asked for through panes, too.
+    pub(crate) through_panes: bool,
 }
 
 /// Somebody who asks for light at a place.
@@ -78,8 +80,9 @@ impl<S: Spectrum> LightSample<S> {
         light: S,
         illuminance_lx: f64,
     ) -> Option<Self> {
-        let facet = RayQuery::NONE;
-        let light_sample = Self { direction, distance_m, facet, light, illuminance_lx };
+        let (facet, through_panes) = (RayQuery::NONE, true);
+        let light_sample =
+            Self { direction, distance_m, facet, light, illuminance_lx, through_panes };
         // What is not a number counts: the tally must refuse it.
         (light.luminance() != 0.0).then_some(light_sample)
     }
@@ -93,6 +96,7 @@ impl<S: Spectrum> LightSample<S> {
             facet: RayQuery::NONE,
             light: S::white() * f64::NAN,
             illuminance_lx: 0.0,
+            through_panes: true,
         })
     }
 }
@@ -119,14 +123,15 @@ impl<S: Spectrum> ShadowQueue<S> {
             light_sample.distance_m,
             light_sample.facet,
         ));
-        let max_panes = self.max_panes(light_sample.facet, 0);
+        let max_panes = if light_sample.through_panes { self.max_bounces } else { 0 };
         let question =
             Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, max_panes };
         self.questions.push(question);
     }
 
     /// Notes that `who` gets this light if nothing stands in any of the rays that `look` adds, as
-    /// they follow a way over this many mirrors to a light on this facet or on none.
+    /// they follow a way over this many mirrors to a light on this facet or on none. Paths run into
+    /// facets that emit, behind mirrors and panes too: only other light is let through panes.
     pub(crate) fn push_polyline(
         &mut self,
         who: u32,
@@ -138,14 +143,9 @@ impl<S: Spectrum> ShadowQueue<S> {
         let before = self.shadow_rays.len();
         look(&mut self.shadow_rays);
         let shadow_rays = (self.shadow_rays.len() - before) as u32;
-        let max_panes = self.max_panes(facet, mirrors);
+        let is_open = facet == RayQuery::NONE;
+        let max_panes = if is_open { self.max_bounces.saturating_sub(mirrors) } else { 0 };
         self.questions.push(Question { who, light, shadow_rays, mirrors, max_panes });
-    }
-
-    /// So many panes may stand in the way of light from a facet, or from none. Paths run into
-    /// facets that emit, behind panes too: only light of other places is let through.
-    fn max_panes(&self, facet: u32, mirrors: u32) -> u32 {
-        if facet == RayQuery::NONE { self.max_bounces.saturating_sub(mirrors) } else { 0 }
     }
 
     /// Notes that `who` gets this light, which was reflected `bounces` times, if nothing at all

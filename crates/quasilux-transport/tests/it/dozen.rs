@@ -19,7 +19,7 @@ use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, 
 const REPLICATES: u32 = 32;
 /// Scenes of this module, and comparisons in each: every estimator without bias with every other,
 /// and paths with the map.
-const FAMILY: usize = 16 * 11;
+const FAMILY: usize = 17 * 11;
 const SIGNIFICANCE: f64 = 0.05;
 /// What the joint half-width may be, relative.
 const WIDEST: f64 = 0.003;
@@ -165,6 +165,11 @@ fn between_coloured_mirrors() {
 #[test]
 fn through_a_pane() {
     assert_agree(&scenes::pane());
+}
+
+#[test]
+fn from_above_a_pane() {
+    assert_agree(&scenes::pane_below_ceiling());
 }
 
 #[test]

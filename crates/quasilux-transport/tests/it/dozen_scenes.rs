@@ -102,6 +102,15 @@ pub(crate) fn pane() -> Scene {
     scene
 }
 
+/// Clear, half-way below a ceiling that shines.
+pub(crate) fn pane_below_ceiling() -> Scene {
+    let mut scene = plain(0.5);
+    let clear = Bsdf::Pane(Pane::Clear { eta: 1.5 });
+    add_panel(&mut scene, at(0.0, 0.0, 1.9), DVec3::X * 2.2, DVec3::Y * 3.0, clear);
+    add_shining_ceiling(&mut scene);
+    scene
+}
+
 /// A slab of glass above the cells, under a ceiling that shines.
 pub(crate) fn glass_slab() -> Scene {
     let mut scene = plain(0.4);

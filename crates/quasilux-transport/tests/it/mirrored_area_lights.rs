@@ -19,10 +19,10 @@ const STEPS: u32 = 400;
 const FEW_STEPS: u32 = 16;
 
 #[derive(Clone, Copy)]
-struct Panel {
-    corner: DVec3,
-    u: DVec3,
-    v: DVec3,
+pub(crate) struct Panel {
+    pub(crate) corner: DVec3,
+    pub(crate) u: DVec3,
+    pub(crate) v: DVec3,
 }
 
 impl Panel {
@@ -69,16 +69,16 @@ impl Panel {
 }
 
 /// Numbers in [0, 1) that look random.
-struct Dice(u64);
+pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    fn point(&mut self, low: DVec3, high: DVec3) -> DVec3 {
+    pub(crate) fn point(&mut self, low: DVec3, high: DVec3) -> DVec3 {
         DVec3::new(
             self.between(low.x, high.x),
             self.between(low.y, high.y),
@@ -87,7 +87,7 @@ impl Dice {
     }
 }
 
-fn add_light(scene: &mut Scene, Panel { corner, u, v }: Panel) {
+pub(crate) fn add_light(scene: &mut Scene, Panel { corner, u, v }: Panel) {
     let first = scene.mesh.triangles.len() as u32;
     add_panel(scene, corner, u, v, diffuse(0.0));
     let material = scene.mesh.material_of[first as usize];
@@ -98,7 +98,7 @@ fn add_light(scene: &mut Scene, Panel { corner, u, v }: Panel) {
 
 /// By paths, and by bidirectional paths: each point within 4 standard errors and the error of the
 /// reference, and known to 1 %.
-fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
+pub(crate) fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
     let settings = Settings {
         estimator: EstimatorKind::Path,
         max_samples: Some(1 << 11),
@@ -177,7 +177,7 @@ fn a_mirror_shows_what_its_frame_lets_through() {
 
 /// The light of a polygon on a surface that sees all of it (Lambert 1760): half the luminance times
 /// the sum over the edges of their angle times the cosine of their plane's normal.
-fn polygon_lx(corners: &[DVec3], place: DVec3, n: DVec3) -> f64 {
+pub(crate) fn polygon_lx(corners: &[DVec3], place: DVec3, n: DVec3) -> f64 {
     let of_edge = |i: usize| {
         let [a, b] = [i, (i + 1) % corners.len()].map(|i| (corners[i] - place).normalize());
         libm::acos(a.dot(b).clamp(-1.0, 1.0)) * n.dot(a.cross(b).normalize())

@@ -4,8 +4,8 @@
 //! unfolded. A vertex that chooses this chain and the point with the density p in m^-2 finds it
 //! with `p D^2 / cos` in sr^-1, cos at the facet. A direction from the vertex that is mirrored into
 //! the same facet is weighted against that by the balance heuristic (Veach 1997, section 9.2.2), as
-//! it is where no mirror is between. What no image shows, chains past the last level and light
-//! through glass, is left to directions alone.
+//! it is where no mirror is between. What no image shows, chains past the last level and light that
+//! comes over mirrors and through panes, is left to directions alone.
 
 use super::ImageQuery;
 use super::chain::Links;

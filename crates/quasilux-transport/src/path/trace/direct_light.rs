@@ -77,6 +77,8 @@ impl<S: Spectrum> Path<'_, S> {
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
             let beside_sr = self.beside_emitter_samples(context, vertex);
             let light_sample = emitters.light_sample(&context.world, vertex, u, beside_sr);
+            let through_panes = self.asks_for_emitters_through_panes(context);
+            let light_sample = light_sample.map(|it| LightSample { through_panes, ..it });
             self.ask(light_sample, vertex, work);
         }
     }

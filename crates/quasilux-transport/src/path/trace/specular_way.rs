@@ -1,0 +1,148 @@
+//! The way of a path over plane mirrors or through panes, since the vertex that asked for the light
+//! of area lights behind them.
+
+use super::Path;
+use crate::bsdf::BsdfSample;
+use crate::context::Context;
+use crate::path::end::Rest;
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use glam::DVec3;
+
+/// Mirrors or panes that a path met one after the other, and nothing else since it last asked for
+/// light.
+pub(super) struct SpecularWay {
+    /// Density in sr^-1 of the direction in which it left.
+    pdf_sr: f64,
+    /// Over all of them, in m.
+    distance_m: f64,
+    passed: Passed,
+}
+
+enum Passed {
+    Nothing,
+    /// Mirrors, by the numbers of their planes.
+    Mirrors(Vec<u32>),
+    Panes,
+}
+
+/// How the last vertex of a path asks for the place on an area light that it ran into.
+#[derive(Default)]
+pub(super) struct Asked {
+    /// Density in m^-2 with which it does.
+    pub(super) pdf_m2: f64,
+    /// One over the density in m^-2 with which its direction there leads to it.
+    pub(super) inverse_of_direction_m2: f64,
+}
+
+impl SpecularWay {
+    /// At the vertex.
+    pub(super) fn new(pdf_sr: f64) -> Self {
+        Self { pdf_sr, distance_m: 0.0, passed: Passed::Nothing }
+    }
+
+    /// After one more specular surface, which mirrored it or let it straight through; `None` where
+    /// it did neither, or where nobody asks for light by mirrors and panes in turn.
+    fn past<S: Spectrum>(
+        self,
+        context: &Context<'_, S>,
+        at: &Interaction,
+        is_mirrored: bool,
+    ) -> Option<Self> {
+        let passed = if is_mirrored {
+            let plane = context.images.plane_of(at.facet)?;
+            match self.passed {
+                Passed::Nothing => Passed::Mirrors(vec![plane]),
+                Passed::Mirrors(mut planes) => {
+                    planes.push(plane);
+                    Passed::Mirrors(planes)
+                }
+                Passed::Panes => return None,
+            }
+        } else {
+            context.world.bsdf(at).straight_transmittance(1.0)?;
+            match self.passed {
+                Passed::Nothing | Passed::Panes => Passed::Panes,
+                Passed::Mirrors(_) => return None,
+            }
+        };
+        Some(Self { passed, distance_m: self.distance_m + at.distance_m, ..self })
+    }
+}
+
+impl<S: Spectrum> Path<'_, S> {
+    /// Whether it asks for images of area lights: not where it ends on a map or might, which holds
+    /// their light.
+    pub(super) fn asks_for_emitter_images(&self, context: &Context<'_, S>) -> bool {
+        context.images.show_emitters() && self.is_on_no_map()
+    }
+
+    /// Whether it would, if it did not note where it might have ended.
+    pub(super) fn would_ask_for_emitter_images(&self, context: &Context<'_, S>) -> bool {
+        context.images.show_emitters() && matches!(self.rest, Rest::Recorded)
+    }
+
+    /// Whether it asks for the light of area lights through panes, by the same rule.
+    pub(super) fn asks_for_emitters_through_panes(&self, context: &Context<'_, S>) -> bool {
+        context.world.has_panes() && self.is_on_no_map()
+    }
+
+    fn is_on_no_map(&self) -> bool {
+        self.bounces_asked == 0 || matches!(self.rest, Rest::Path)
+    }
+
+    /// Where a specular way begins, if what is behind specular surfaces was asked for there.
+    pub(super) fn specular_way(
+        &self,
+        context: &Context<'_, S>,
+        pdf_sr: f64,
+    ) -> Option<SpecularWay> {
+        let asks =
+            self.asks_for_emitter_images(context) || self.asks_for_emitters_through_panes(context);
+        (asks && context.lights.emitters.is_some()).then(|| SpecularWay::new(pdf_sr))
+    }
+
+    /// Notes that it goes on from a surface, from `wo` in its frame to what was drawn.
+    pub(super) fn note_specular_way(
+        &mut self,
+        context: &Context<'_, S>,
+        at: &Interaction,
+        wo: DVec3,
+        next: &BsdfSample<S>,
+    ) {
+        let way = self.specular_way.take();
+        self.specular_way = match next.pdf_sr {
+            Some(pdf_sr) => {
+                let of_partition = |_| context.world.bsdf(at).partition_pdf_sr(wo, next.wi);
+                self.specular_way(context, self.subpath.map_or(pdf_sr, of_partition))
+            }
+            None => way.and_then(|way| way.past(context, at, next.wi.z > 0.0)),
+        };
+    }
+
+    /// How its last vertex asks for the place on an area light that it came to over mirrors or
+    /// through panes.
+    pub(super) fn asked_past_specular(
+        &self,
+        context: &Context<'_, S>,
+        at: &Interaction,
+    ) -> Option<Asked> {
+        let way = self.specular_way.as_ref()?;
+        let facet = context.world.facet(at);
+        let pdf_m2 = match &way.passed {
+            Passed::Nothing => return None,
+            Passed::Panes => context.lights.emitters.as_ref()?.pdf_m2(facet.emitted_cd_m2),
+            Passed::Mirrors(planes) => {
+                let images = &context.images;
+                let light = images.emitter(facet.material)?;
+                let mut planes = planes.iter().rev();
+                let image = planes.try_fold(light, |image, plane| images.emitter_in(image, *plane));
+                images.asked_m2(image?, facet.emitted_cd_m2)
+            }
+        };
+        let distance_m = way.distance_m + at.distance_m;
+        let cos = at.n.dot(self.direction).abs();
+        let inverse_of_direction_m2 = distance_m * distance_m / (cos * way.pdf_sr);
+        Some(Asked { pdf_m2, inverse_of_direction_m2 })
+    }
+}
