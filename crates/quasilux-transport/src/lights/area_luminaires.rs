@@ -11,8 +11,9 @@
 //! The shapes are no surfaces: they cast no shadow, reflect nothing, and no path finds light by
 //! running into one.
 
-use crate::lights::pointlike::{LightCentre, LightChoiceWork};
-use crate::lights::selection::{Asking, DEFENSIVE_SHARE, LightChoice, Surroundings};
+use crate::lights::coarse_lights::CoarseLights;
+use crate::lights::pointlike::LightCentre;
+use crate::lights::selection::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
@@ -29,6 +30,8 @@ const PROBES: u32 = 4;
 /// The luminaires with a luminous area.
 pub(crate) struct AreaLuminaires<'a> {
     lights: Vec<AreaLuminaire<'a>>,
+    /// The same luminaires.
+    coarse: CoarseLights<'a>,
     choice: LightChoice,
 }
 
@@ -50,8 +53,11 @@ impl<'a> AreaLuminaires<'a> {
             _ => None,
         });
         let lights: Vec<AreaLuminaire<'_>> = luminaires.collect();
+        let origin = bounds.map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high));
+        let luminaires = lights.iter().map(|light| light.luminaire);
+        let coarse = CoarseLights::with_areas(origin, luminaires);
         let choice = LightChoice::new(lights.len(), bounds);
-        Self { lights, choice }
+        Self { lights, coarse, choice }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -93,19 +99,19 @@ impl<'a> AreaLuminaires<'a> {
         vertex: &Vertex<'_, S>,
         u_choice: Option<[f64; 2]>,
         u: [f64; 2],
-        LightChoiceWork { choice, .. }: &mut LightChoiceWork<S>,
+        work: &mut ChoiceWork,
     ) -> Option<LightSample<S>> {
         let place = Asking { position: vertex.position(), side: vertex.only_side() };
         let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
-        let weight = |light: usize| self.lights[light].importance_lx(place.position, place.side);
-        let chosen = self.choice.choose(place, u_choice.unwrap_or(u), around, weight, choice);
+        let weigh = |lights: &[usize]| self.coarse.weights(lights, place);
+        let chosen = self.choice.choose(place, u_choice.unwrap_or(u), around, weigh, work);
         let Some(chosen) = chosen else {
-            return LightSample::without_choice(choice.total());
+            return LightSample::without_choice(work.total());
         };
         let u = if u_choice.is_some() { u } else { [chosen.u_remapped, u[1]] };
         let light_sample = self.lights[chosen.light].light_sample(vertex, u)?;
         let light = light_sample.light * (1.0 / chosen.pdf);
-        let illuminance_lx = weight(chosen.light);
+        let illuminance_lx = self.importance_lx(chosen.light, place.position, place.side);
         Some(LightSample { light, illuminance_lx, ..light_sample })
     }
 

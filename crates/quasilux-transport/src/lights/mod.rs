@@ -1,17 +1,20 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
 //! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent
-//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several.
+//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses
+//! one of several, by what `coarse_lights` says.
 
 mod area_luminaires;
+mod coarse_lights;
 mod emitting_facets;
 pub(crate) mod images;
 mod pointlike;
 mod selection;
 
 pub(crate) use area_luminaires::AreaLuminaires;
+pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::Emitters;
-pub(crate) use pointlike::{Incidence, LightCentre, LightChoiceWork, PointLikes};
-pub(crate) use selection::tables_bytes;
+pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
+pub(crate) use selection::{ChoiceWork, tables_bytes};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};

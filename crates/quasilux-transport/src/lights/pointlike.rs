@@ -1,6 +1,7 @@
 //! Direct light of point-like lights, computed without sampling or from one light chosen by its
 //! unshadowed illuminance.
 
+use crate::lights::coarse_lights::CoarseLights;
 use crate::lights::selection::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -13,6 +14,8 @@ use std::f64::consts::PI;
 /// The lights without extent: points, and luminaires without a luminous area.
 pub(crate) struct PointLikes<'a> {
     lights: Vec<&'a Light>,
+    /// The same lights.
+    coarse: CoarseLights<'a>,
     choice: LightChoice,
 }
 
@@ -32,8 +35,10 @@ impl<'a> PointLikes<'a> {
             Light::Area(_) => false,
         };
         let lights: Vec<&Light> = scene.lights.iter().filter(is_pointlike).collect();
+        let origin = bounds.map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high));
+        let coarse = CoarseLights::points(origin, &lights);
         let choice = LightChoice::new(lights.len(), bounds);
-        Self { lights, choice }
+        Self { lights, coarse, choice }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -124,27 +129,34 @@ impl<'a> PointLikes<'a> {
         self.choice.dimensions()
     }
 
-    /// An estimate of what all of them give from one light, chosen with `u` by what it would give
-    /// unshadowed.
+    /// An estimate of what all of them give from one light, chosen with `u` by about what it would
+    /// give unshadowed.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
         u: [f64; 2],
-        LightChoiceWork { light_samples, choice }: &mut LightChoiceWork<S>,
+        work: &mut ChoiceWork,
     ) -> Option<LightSample<S>> {
-        light_samples.clear();
-        let weight = |light: usize| {
-            let light_sample = light_sample(self.lights[light], vertex);
-            light_samples.push(light_sample);
-            light_sample.map_or(0.0, |light_sample| light_sample.light.luminance())
+        if let [only] = self.lights[..] {
+            return light_sample(only, vertex);
+        }
+        let place = Asking { position: vertex.position(), side: vertex.only_side() };
+        let weigh = |lights: &[usize]| {
+            let mut weights = self.coarse.weights(lights, place);
+            if !vertex.is_plain() {
+                for (weight, light) in weights.iter_mut().zip(lights) {
+                    let toward = position(self.lights[*light]) - place.position;
+                    *weight *= vertex.weight(toward.normalize_or_zero()).luminance();
+                }
+            }
+            weights
         };
         let around =
             |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
-        let place = Asking { position: vertex.position(), side: vertex.only_side() };
-        let Some(chosen) = self.choice.choose(place, u, around, weight, choice) else {
-            return LightSample::without_choice(choice.total());
+        let Some(chosen) = self.choice.choose(place, u, around, weigh, work) else {
+            return LightSample::without_choice(work.total());
         };
-        let light_sample = light_samples[chosen.asked]?;
+        let light_sample = light_sample(self.lights[chosen.light], vertex)?;
         Some(LightSample { light: light_sample.light * (1.0 / chosen.pdf), ..light_sample })
     }
 }
@@ -154,13 +166,6 @@ fn weight_around(light: &Light, around: &Surroundings) -> f64 {
     let mean_cd = light.flux_lm() / (4.0 * PI);
     let intensity_cd = |direction| intensity_cd(light, direction) + DEFENSIVE_SHARE * mean_cd;
     around.lx(position(light), 0.0, intensity_cd)
-}
-
-/// Working space of a choice among lights.
-#[derive(Default)]
-pub(crate) struct LightChoiceWork<S> {
-    light_samples: Vec<Option<LightSample<S>>>,
-    pub(super) choice: ChoiceWork,
 }
 
 /// Light of a point-like light at a place, unless something stands in the way.

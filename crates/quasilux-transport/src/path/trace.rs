@@ -22,7 +22,7 @@ mod virtual_light;
 use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
-use crate::lights::LightChoiceWork;
+use crate::lights::ChoiceWork;
 use crate::lights::images::ImageSamples;
 use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
@@ -110,7 +110,7 @@ pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
     /// What they would have asked.
     unasked: ShadowQueue<S>,
-    choice: LightChoiceWork<S>,
+    choice: ChoiceWork,
     images: ImageSamples<S>,
     sums: Sums,
     pub(crate) light_subpaths: LightSubpaths<S>,

@@ -7,7 +7,7 @@
 use crate::estimator::control_variate::MAX_PHOTONS;
 use crate::estimator::witness;
 use crate::importance::{MAX_NODES, Node};
-use crate::lights::tables_bytes;
+use crate::lights::{coarse_tables_bytes, tables_bytes};
 use crate::path::frozen_map;
 use crate::path::sections::PathSums;
 use crate::photon::map::{
@@ -76,7 +76,8 @@ impl MemoryNeed {
         let need = Self {
             scene_bytes: triangles
                 .saturating_mul(TRIANGLE_BYTES)
-                .saturating_add(tables_bytes(scene.lights.len(), scene.mesh.bounds())),
+                .saturating_add(tables_bytes(scene.lights.len(), scene.mesh.bounds()))
+                .saturating_add(coarse_tables_bytes(&scene.lights)),
             sums_bytes: points.saturating_mul(point_bytes(settings)),
             cells_bytes: cells_bytes(settings, points),
             pictures_bytes: total(pixels)

@@ -81,6 +81,11 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         }
     }
 
+    /// Whether that is the same from everywhere on the only side.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.surface.is_none_or(|surface| surface.bsdf.keeps_illuminance())
+    }
+
     /// Density in sr^-1 with which a path goes on from here along `direction`.
     pub(crate) fn pdf_sr(&self, direction: DVec3) -> f64 {
         match &self.surface {
