@@ -5,21 +5,22 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
+use super::sine::sine_and_cosine_of_eighth;
+
 use crate::unit::clamp_to_unit;
 
 /// A point of the unit disk, uniform in area.
+#[inline]
 #[must_use]
 pub fn sample_disk(u: [f64; 2]) -> [f64; 2] {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
-    let (r, phi_rad) = if a == 0.0 && b == 0.0 {
-        return [0.0, 0.0];
-    } else if a.abs() > b.abs() {
-        (a, FRAC_PI_4 * (b / a))
-    } else {
-        (b, FRAC_PI_2 - FRAC_PI_4 * (a / b))
-    };
-    let (sin, cos) = libm::sincos(phi_rad);
-    [r * cos, r * sin]
+    // The azimuth from the nearer axis is an eighth of a turn at most.
+    let is_near_x = a.abs() > b.abs();
+    let (r, across) = if is_near_x { (a, b) } else { (b, a) };
+    let from_axis_rad = FRAC_PI_4 * (across / if r == 0.0 { 1.0 } else { r });
+    let (sin, cos) = sine_and_cosine_of_eighth(from_axis_rad);
+    let (along, across) = (r * cos, r * sin);
+    if is_near_x { [along, across] } else { [across, along] }
 }
 
 /// Density of [`sample_disk`] with respect to area (per square radius).

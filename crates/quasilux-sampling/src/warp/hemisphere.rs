@@ -11,6 +11,7 @@ use crate::unit::clamp_to_unit;
 ///
 /// A point of the concentric disk is lifted (J. Malley). z is positive even where u lies on the
 /// edge of the square.
+#[inline]
 #[must_use]
 pub fn sample_cosine_hemisphere(u: [f64; 2]) -> [f64; 3] {
     let [x, y] = sample_disk(u);

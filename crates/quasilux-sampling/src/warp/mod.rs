@@ -11,6 +11,7 @@
 mod disk;
 mod hemisphere;
 mod linear_triangle;
+mod sine;
 mod sphere;
 mod triangle;
 

@@ -14,6 +14,7 @@ pub(crate) struct Diffuse<S> {
 
 impl<S: Spectrum> Diffuse<S> {
     /// Draws a direction in proportion to its cosine.
+    #[inline]
     pub(crate) fn sample(&self, u: [f64; 2]) -> BsdfSample<S> {
         let wi = DVec3::from_array(sample_cosine_hemisphere(u));
         BsdfSample { wi, weight: self.reflectance, pdf_sr: Some(wi.z * FRAC_1_PI) }

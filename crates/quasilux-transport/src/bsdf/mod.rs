@@ -249,6 +249,7 @@ impl<S: Spectrum> Bsdf<S> {
 
     /// Draws the direction in which light goes on; `None` where none does. What choices left of the
     /// open coordinate is used first.
+    #[inline(always)]
     pub(crate) fn sample(
         &self,
         wo: DVec3,
@@ -256,10 +257,23 @@ impl<S: Spectrum> Bsdf<S> {
         mode: TransportMode,
         sampler: &mut Sampler<'_>,
     ) -> Option<BsdfSample<S>> {
+        // Most surfaces are, and what is drawn there stays in registers.
+        if let Self::Diffuse(diffuse) = self {
+            return Some(diffuse.sample([sampler.remapped_1d(), sampler.next_1d()]));
+        }
+        self.sample_other(wo, front, mode, sampler)
+    }
+
+    #[inline(never)]
+    fn sample_other(
+        &self,
+        wo: DVec3,
+        front: bool,
+        mode: TransportMode,
+        sampler: &mut Sampler<'_>,
+    ) -> Option<BsdfSample<S>> {
         match self {
-            Self::Diffuse(diffuse) => {
-                Some(diffuse.sample([sampler.remapped_1d(), sampler.next_1d()]))
-            }
+            Self::Diffuse(_) => None,
             Self::Mirror(mirror) => Some(mirror.sample(wo)),
             Self::Translucent(translucent) => Some(translucent.sample(sampler)),
             Self::Dielectric(dielectric) => Some(dielectric.sample(wo, front, mode, sampler)),

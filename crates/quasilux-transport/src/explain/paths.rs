@@ -131,7 +131,7 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         let paths = wave.trace(self.context, section.starts(self.context));
         let rays = wave.take_rays();
         let mut piece = Piece { values: Vec::new(), rays, dimensions: DimensionHistogram::new() };
-        for path in paths {
+        for mut path in paths {
             let path = path.end();
             let value_lx = given_lx + (path.found.direct + path.found.indirect).luminance();
             // The run counts and reports what is no number.

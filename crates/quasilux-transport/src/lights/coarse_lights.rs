@@ -23,7 +23,7 @@ const PER_CELL: usize = 2;
 /// More than the rounding of cosines, and of lengths over that of the scene.
 const SLACK: f32 = 1e-4;
 /// The least square of a distance: weights are numbers at a light, too.
-const LEAST_M2: f32 = 1e-12;
+const MIN_SQUARE_M2: f32 = 1e-12;
 
 /// What is known of some lights.
 pub(super) struct CoarseLights<'a> {
@@ -180,7 +180,7 @@ impl Geometry {
             let height_m = n.x * x + n.y * y + n.z * z;
             let distance_m = way_m2.sqrt();
             let cos = (height_m / distance_m).max(0.0);
-            let square_m2 = (way_m2 + radius_m * radius_m).max(LEAST_M2);
+            let square_m2 = (way_m2 + radius_m * radius_m).max(MIN_SQUARE_M2);
             let is_before = height_m + radius_m > -SLACK * (distance_m + radius_m);
             cosines[lane] = cos;
             per_m2[lane] = if is_before { 1.0 / square_m2 } else { 0.0 };

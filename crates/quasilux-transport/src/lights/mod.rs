@@ -1,7 +1,7 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
 //! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent
-//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses
-//! one of several, by what `coarse_lights` says.
+//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several,
+//! by what `coarse_lights` says.
 
 mod area_luminaires;
 mod coarse_lights;

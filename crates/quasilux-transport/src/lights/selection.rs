@@ -138,7 +138,7 @@ impl LightChoice {
             u[0]
         };
         let shares = Defensive::new(asked.iter().map(|it| it.weight));
-        asked.iter_mut().for_each(|it| it.weight = shares.of(it.weight));
+        asked.iter_mut().for_each(|it| it.weight = shares.raise(it.weight));
         let choice = choose_weights(u, asked.iter().map(|it| it.weight))?;
         let Asked { light, expected, .. } = asked[choice.index];
         let pdf = choice.pdf * expected;
@@ -167,7 +167,7 @@ impl Defensive {
         Self { each: DEFENSIVE_SHARE * total / f64::max(count, 1.0) }
     }
 
-    fn of(&self, weight: f64) -> f64 {
+    fn raise(&self, weight: f64) -> f64 {
         if weight > 0.0 { (1.0 - DEFENSIVE_SHARE) * weight + self.each } else { weight }
     }
 }
@@ -227,7 +227,7 @@ impl Cubes {
             let centre = self.low + (DVec3::from_array(cube.map(|i| i as f64)) + 0.5) * edge_m;
             let weights = weights(&Surroundings { centre, edge_m, side: along });
             let shares = Defensive::new(weights.iter().copied());
-            Discrete::new(&weights.into_iter().map(|it| shares.of(it)).collect::<Vec<f64>>())
+            Discrete::new(&weights.into_iter().map(|it| shares.raise(it)).collect::<Vec<f64>>())
         };
         self.tables[number * SIDES + number_of_side].get_or_init(make).as_ref()
     }

@@ -13,7 +13,7 @@ use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
-use crate::world::vertex::Vertex;
+use crate::world::vertex::{Surface, Vertex};
 use crate::world::{Interaction, RayOrigin};
 use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
@@ -235,7 +235,8 @@ impl<S: Spectrum> LightSubpath<'_, S> {
         let is_light = |image: u32| image as usize == self.light;
         match self.path_class {
             LightPathClass::Shown(image) if !is_light(image) => {
-                let vertex = &Vertex::surface(world, at, self.start.direction, S::white());
+                let surface = Surface::new(world, at, self.start.direction);
+                let vertex = &Vertex::on(world, at, &surface, S::white());
                 let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: 0, vertex };
                 Some(images.illuminance_lx(&query, image, &mut Links::default())? / lights.flux_lm)
             }

@@ -105,7 +105,8 @@ pub(crate) fn trace_and_visit<S: Spectrum>(
     mut look: impl FnMut(&mut PathResult<S>),
 ) -> Piece {
     let starts = sections.iter().flat_map(|section| section.starts(context));
-    let mut paths = wave.trace(context, starts).into_iter();
+    let mut paths = wave.trace(context, starts);
+    let mut paths = paths.iter_mut();
     let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
     let mut all_scores = Vec::with_capacity(sections.len());
     let mut add = |section: &Section<'_, S>| {

@@ -9,7 +9,7 @@
 use crate::context::Context;
 use crate::photon::virtual_lights::{MAX_PROBES, ShadowSegment, Site, VirtualLights};
 use crate::spectrum::Spectrum;
-use crate::world::vertex::Vertex;
+use crate::world::vertex::{Surface, Vertex};
 use crate::world::{Interaction, RayOrigin, World};
 use quasilux_bvh::{Hit, RayQuery};
 use quasilux_scene::View;
@@ -269,7 +269,8 @@ fn see_lights<S: Spectrum>(
     for (place, corner) in corners.iter().enumerate() {
         let Some(Corner { at, is_diffuse: true, .. }) = corner else { continue };
         let direction = (at.position - view.position).normalize();
-        let vertex = Vertex::surface(world, at, direction, S::white());
+        let surface = Surface::new(world, at, direction);
+        let vertex = Vertex::on(world, at, &surface, S::white());
         for light in 0..lights.len() {
             if let Some(sample) = lights.light_sample_of(light, &vertex) {
                 let from = vertex.ray_origin(sample.direction);

@@ -39,7 +39,7 @@ use crate::photon::virtual_lights::Sums;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
-use crate::world::vertex::Vertex;
+use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
@@ -126,11 +126,10 @@ struct Onward {
 }
 
 /// A path at a surface that it leaves again.
-struct Scattering<S> {
+struct Scattering<'w, S> {
     /// Reflections before this one.
     bounces: u32,
-    /// Direction that it came from, in the surface's frame.
-    wo: DVec3,
+    surface: &'w Surface<'w, S>,
     /// Its throughput times the albedo.
     goes_on: S,
     onward: Onward,
@@ -274,17 +273,17 @@ impl<'p, S: Spectrum> Path<'p, S> {
             record.begin([before, self.found.indirect]);
         }
         let Some(at) = at else { return false };
-        let bsdf = context.world.bsdf(at);
+        let surface = &Surface::new(&context.world, at, self.direction);
+        let &Surface { bsdf, wo, .. } = surface;
         if !self.takes_from_virtual_lights(bsdf, at) {
             return false;
         }
-        let wo = context.world.frame(at).to_local(-self.direction);
         let goes_on = self.beta * bsdf.albedo(wo, at.front, TransportMode::Radiance);
         let is_last = context.max_bounces.is_some_and(|most| bounces >= most);
         if is_last || goes_on.max_channel() == 0.0 {
             return false;
         }
-        self.gather(context, bounces, at, work);
+        self.gather(context, bounces, at, surface, work);
         let albedo = goes_on.max_channel() / self.beta.max_channel();
         if !self.gain.grow(albedo, bounces) {
             self.cut();
@@ -297,7 +296,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if onward.everything == 0.0 && !seeks_emitters {
             return false;
         }
-        self.scatter(context, at, &Scattering { bounces, wo, goes_on, onward })
+        self.scatter(context, at, &Scattering { bounces, surface, goes_on, onward })
     }
 
     /// Next-event estimation at a surface: the light that comes there straight from the lights, and
@@ -307,9 +306,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         context: &Context<'_, S>,
         bounces: u32,
         at: &Interaction,
+        surface: &Surface<'_, S>,
         work: &mut PathWork<S>,
     ) {
-        let bsdf = context.world.bsdf(at);
+        let bsdf = surface.bsdf;
         // Past mirrors alone, paths find nothing but facets that emit.
         self.found.reflected |= !bsdf.is_specular() || context.lights.emitters.is_some();
         self.bounces_asked = bounces + 1;
@@ -319,7 +319,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             self.weights_of_paths = self.weights_at(partition, at);
         }
         if !bsdf.is_specular() {
-            self.sample_direct_all(context, bounces + 1, at, work);
+            self.sample_direct_all(context, bounces + 1, at, surface, work);
         }
         if bsdf.keeps_illuminance() {
             self.add_caustics(context, bounces, at);
@@ -332,10 +332,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         &mut self,
         context: &Context<'_, S>,
         at: &Interaction,
-        scattering: &Scattering<S>,
+        scattering: &Scattering<'_, S>,
     ) -> bool {
-        let &Scattering { bounces, wo, goes_on, ref onward } = scattering;
-        let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
+        let &Scattering { bounces, surface, goes_on, ref onward } = scattering;
+        let &Surface { bsdf, frame, wo, .. } = surface;
         let bounce = Purpose::Bounce { surface: bounces + 1 };
         let next = context.draw(&mut self.sampler, bounce, |sampler| {
             bsdf.sample(wo, at.front, TransportMode::Radiance, sampler)
@@ -365,17 +365,17 @@ impl<'p, S: Spectrum> Path<'p, S> {
         true
     }
 
-    /// What it found. All that it asked for must have arrived.
-    pub(crate) fn end(mut self) -> PathResult<S> {
+    /// What it found, once. All that it asked for must have arrived.
+    pub(crate) fn end(&mut self) -> PathResult<S> {
         self.add_arrived();
         self.found.add(0, self.pointlikes);
         for record in &mut self.records {
             record.end(self.found.indirect);
         }
         PathResult {
-            found: self.found,
+            found: std::mem::take(&mut self.found),
             dimensions: self.sampler.used(),
-            records: self.records,
+            records: std::mem::take(&mut self.records),
             flights: self.flights,
             rays_unasked: self.rays_unasked,
         }
@@ -388,7 +388,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// What a lux at a diffuse surface that it meets counts at its start.
     fn weight(&self, context: &Context<'_, S>, at: &Interaction) -> S {
-        Vertex::surface(&context.world, at, self.direction, self.beta).weight(at.n)
+        let surface = Surface::new(&context.world, at, self.direction);
+        Vertex::on(&context.world, at, &surface, self.beta).weight(at.n)
     }
 
     /// The parts of the light at its first surface that it is to find beside photons.

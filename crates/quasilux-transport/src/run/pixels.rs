@@ -372,7 +372,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
                 pixel: sketch.map(|sketch| sketch.pixel(pixel)),
                 ..self.start(places[pixel], replicate, &points[pixel], path)
             });
-            for (number, ended) in together.iter().zip(work.wave.trace(self.context, starts)) {
+            for (number, mut ended) in together.iter().zip(work.wave.trace(self.context, starts)) {
                 let ended = ended.end();
                 sums[number.pixel].add(&ended.found, paths[number.pixel], self.quantum);
                 counts.add(&ended);

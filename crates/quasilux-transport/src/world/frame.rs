@@ -15,6 +15,7 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The frame around a unit vector.
+    #[inline]
     pub(crate) fn around(n: DVec3) -> Self {
         let sign = 1.0_f64.copysign(n.z);
         let a = -1.0 / (sign + n.z);
@@ -36,11 +37,13 @@ impl Frame {
     }
 
     /// A local direction in world coordinates.
+    #[inline]
     pub(crate) fn to_world(self, local: DVec3) -> DVec3 {
         self.tangent * local.x + self.bitangent * local.y + self.n * local.z
     }
 
     /// A direction of the world in this frame.
+    #[inline]
     pub(crate) fn to_local(self, world: DVec3) -> DVec3 {
         DVec3::new(self.tangent.dot(world), self.bitangent.dot(world), self.n.dot(world))
     }

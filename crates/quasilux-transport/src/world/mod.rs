@@ -158,16 +158,19 @@ impl<S: Spectrum> World<S> {
     }
 
     /// How the surface scatters there.
+    #[inline]
     pub(crate) fn bsdf(&self, at: &Interaction) -> &Bsdf<S> {
         self.bsdf_of(self.facet(at))
     }
 
     /// The local frame of that on the side that was hit.
+    #[inline]
     pub(crate) fn frame(&self, at: &Interaction) -> Frame {
         self.bsdf(at).up().map_or_else(|| Frame::around(at.n), |up| Frame::upright(at.n, up))
     }
 
     /// How a facet scatters.
+    #[inline]
     pub(crate) fn bsdf_of(&self, facet: &Facet) -> &Bsdf<S> {
         &self.bsdfs[facet.material as usize]
     }
@@ -264,6 +267,7 @@ impl<S: Spectrum> World<S> {
         flush.and_then(|flush| flush.before(&hit, ray, from)).unwrap_or(hit)
     }
 
+    #[inline]
     fn interaction(&self, hit: &Hit, direction: DVec3) -> Interaction {
         let front = self.facets[hit.triangle as usize].front_normal.dot(direction) < 0.0;
         let at = self.interaction_on(hit.triangle, front, hit.barycentric);
@@ -271,6 +275,7 @@ impl<S: Spectrum> World<S> {
     }
 
     /// The place with these weights on one side of a facet, as if a ray of no length had met it.
+    #[inline]
     pub(crate) fn interaction_on(
         &self,
         number: u32,

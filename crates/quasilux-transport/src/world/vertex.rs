@@ -15,18 +15,30 @@ pub(crate) struct Vertex<'w, S> {
     n: DVec3,
     /// What light that arrives here counts where the path starts, but for the scattering here.
     beta: S,
-    surface: Option<Surface<'w, S>>,
+    surface: Option<&'w Surface<'w, S>>,
 }
 
-/// A surface between the light and the start of the path.
+/// A surface that a path meets.
 #[derive(Clone, Copy, Debug)]
-struct Surface<'w, S> {
-    bsdf: &'w Bsdf<S>,
-    frame: Frame,
-    wo: DVec3,
+pub(crate) struct Surface<'w, S> {
+    pub(crate) bsdf: &'w Bsdf<S>,
+    pub(crate) frame: Frame,
+    /// Direction that the path came from, in that frame.
+    pub(crate) wo: DVec3,
     front: bool,
     /// Where light from the other side passes through.
     behind: Option<RayOrigin>,
+}
+
+impl<'w, S: Spectrum> Surface<'w, S> {
+    /// Met along `direction`.
+    #[inline(always)]
+    pub(crate) fn new(world: &'w World<S>, at: &Interaction, direction: DVec3) -> Self {
+        let bsdf = world.bsdf(at);
+        let frame = world.frame(at);
+        let behind = bsdf.transmits().then(|| world.ray_origin_behind(at));
+        Self { bsdf, frame, wo: frame.to_local(-direction), front: at.front, behind }
+    }
 }
 
 impl<'w, S: Spectrum> Vertex<'w, S> {
@@ -35,17 +47,14 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         Self { from, n, beta: S::white(), surface: None }
     }
 
-    /// A surface that a path meets along `direction`.
-    pub(crate) fn surface(
-        world: &'w World<S>,
+    /// A place on a surface.
+    #[inline]
+    pub(crate) fn on(
+        world: &World<S>,
         at: &Interaction,
-        direction: DVec3,
+        surface: &'w Surface<'w, S>,
         beta: S,
     ) -> Self {
-        let (bsdf, frame) = (world.bsdf(at), world.frame(at));
-        let behind = bsdf.transmits().then(|| world.ray_origin_behind(at));
-        let wo = frame.to_local(-direction);
-        let surface = Surface { bsdf, frame, wo, front: at.front, behind };
         Self { from: world.ray_origin(at), n: at.n, beta, surface: Some(surface) }
     }
 

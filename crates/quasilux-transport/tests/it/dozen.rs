@@ -24,7 +24,7 @@ const SIGNIFICANCE: f64 = 0.05;
 /// What the joint half-width may be, relative.
 const WIDEST: f64 = 0.003;
 /// The standard error of each that leads there.
-const STANDARD_ERROR: f64 = 0.00057;
+const STANDARD_ERROR: f64 = 0.00055;
 const MIN_SAMPLES: u64 = 1 << 9;
 const MAX_SAMPLES: u64 = 1 << 17;
 /// Of bidirectional paths in each replicate.

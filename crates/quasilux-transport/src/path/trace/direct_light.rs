@@ -10,7 +10,7 @@ use crate::photon::virtual_lights::Site;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use crate::world::vertex::Vertex;
+use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::LightSample;
 use glam::DVec3;
 use quasilux_sampling::Sampler;
@@ -25,9 +25,10 @@ impl<S: Spectrum> Path<'_, S> {
         context: &Context<'_, S>,
         bounces: u32,
         at: &Interaction,
+        surface: &Surface<'_, S>,
         work: &mut PathWork<S>,
     ) {
-        let vertex = Vertex::surface(&context.world, at, self.direction, self.beta);
+        let vertex = Vertex::on(&context.world, at, surface, self.beta);
         work.shadows.max_bounces = context.max_bounces.map_or(u32::MAX, |most| most - bounces);
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_pointlikes(context, &vertex, work);
