@@ -111,12 +111,13 @@ impl<S: Spectrum> Tried<S> {
         let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
         let recorded: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
         let Outcome { variances, rays } = paths.records.alone(&wanted);
+        let rays = rays + sample.beside_rays();
         let variances = recorded.iter().zip(variances).map(|(v, more)| v + more).collect();
         Self { sample, paths, wanted, recorded, plain: Outcome { variances, rays } }
     }
 
     fn recorded(&self) -> PilotCost<'_> {
-        PilotCost::of_paths(&self.recorded, self.paths.trial.rays)
+        PilotCost::of_paths(&self.recorded, self.paths.trial.rays + self.sample.beside_rays())
     }
 
     fn plain(&self) -> PilotCost<'_> {
@@ -136,7 +137,8 @@ impl<S: Spectrum> Tried<S> {
         watch: &mut Watch<'_>,
     ) -> Option<MapPilot<S>> {
         let (recorded, alone) = (&self.recorded(), &self.plain());
-        let paths = PathPilot { records: &self.paths.records, recorded, alone };
+        let beside_rays = self.sample.beside_rays();
+        let paths = PathPilot { records: &self.paths.records, recorded, alone, beside_rays };
         MapPilot::new(context, settings, &paths, &self.wanted, watch)
     }
 

@@ -82,7 +82,7 @@ const KNOWN: [&str; 7] = [
     "e2006d5de6bc7648",
     "0fa5f8e77f24593d",
     "f462945a0aee9b9d",
-    "abd1eab7c5591829",
+    "7eb67f9986264416",
     "994502bd6a2375ab",
     "f462945a0aee9b9d",
 ];

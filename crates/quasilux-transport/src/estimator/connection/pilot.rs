@@ -241,7 +241,7 @@ impl PathsAlone<'_> {
         }
         let missed = wanted.shortfall(|target| self.sampled_lx(sample, target), noise);
         let variances: Vec<f64> = wanted.variances(self.trial).iter().map(|v| v + missed).collect();
-        let plain = PilotCost::of_paths(&variances, self.trial.rays);
+        let plain = PilotCost::of_paths(&variances, self.trial.rays + sample.beside_rays());
         pilot.doubt * wanted.rays(&plain, &numbers.pilot_cost())
             < self.part * wanted.rays(&plain, &plain)
     }
@@ -308,7 +308,8 @@ impl ConnectionPilot {
                 })
                 .collect();
             let of_photons = self.light_vertices.rays * of_connected + self.cells.rays * of_cells;
-            let (of_paths, beforehand) = (self.beside.rays, self.beforehand);
+            let of_paths = self.beside.rays + sample.beside_rays();
+            let beforehand = self.beforehand;
             PhotonNumbers { connected, cell_photons, variances, of_paths, of_photons, beforehand }
         };
         let counts_cells = self.cells.rays > 0.0;

@@ -128,7 +128,7 @@ fn assert_predicted(what: &str, scene: &Scene, max_bounces: Option<u32>) {
     let plain = PilotCost::of_paths(&alone.variances, alone.rays);
     let mut observer = ();
     let mut watch = Watch::new(&mut observer);
-    let paths = PathPilot { records: &records, recorded: &noted, alone: &plain };
+    let paths = PathPilot { records: &records, recorded: &noted, alone: &plain, beside_rays: 0.0 };
     let choice = MapPilot::new(&context, &settings, &paths, &bench.wanted, &mut watch).unwrap();
     assert!(!choice.misses_light);
     let pilot_cost = choice.pilot_cost();
@@ -174,7 +174,12 @@ fn paths_that_know_nothing_of_a_map_go_alone() {
     let sample = Sample::new(&targets(&scene), &exact(&context, &targets(&scene), &mut 0));
     let wanted = ErrorTarget::new(&settings, &sample, vec![1000.0]);
     let none = PilotCost::of_paths(&[], 0.0);
-    let paths = PathPilot { records: &PathRecords::default(), recorded: &none, alone: &none };
+    let paths = PathPilot {
+        records: &PathRecords::default(),
+        recorded: &none,
+        alone: &none,
+        beside_rays: 0.0,
+    };
     let choice = MapPilot::new(&context, &settings, &paths, &wanted, &mut watch);
     let map = choice.unwrap().freeze(&context, vec![0.0], &mut watch).map;
     let place =

@@ -17,6 +17,9 @@ use std::ops::Range;
 pub(crate) const REPLICATES: Range<u32> = 1 << 24..(1 << 24) + 8;
 /// Paths from each target.
 pub(crate) const SAMPLES: u64 = 16;
+/// What a path costs beside its rays, in rays of paths: its start, its sums, and what becomes of it
+/// where it ends. Measured on the office and the cube.
+const RAYS_OF_A_PATH: f64 = 1.5;
 /// Targets that are looked at, spread over all.
 const TARGETS: usize = 64;
 
@@ -54,6 +57,11 @@ impl Sample {
     /// How many there are for each that is looked at.
     pub(crate) fn targets_for_each(&self) -> f64 {
         self.all as f64 / self.targets.len().max(1) as f64
+    }
+
+    /// What the paths of a trial cost beside their rays, in rays.
+    pub(crate) fn beside_rays(&self) -> f64 {
+        RAYS_OF_A_PATH * (self.targets.len() * REPLICATES.len()) as f64 * SAMPLES as f64
     }
 
     /// Values of the sample, out of those of all targets.
