@@ -29,6 +29,9 @@ const MIN_SQUARE_M2: f32 = 1e-12;
 pub(super) struct CoarseLights<'a> {
     /// Positions are told from here.
     origin: DVec3,
+    /// The mean intensity of all lights together, in cd: weights are relative to it, so that they
+    /// are numbers in single precision, the same for lights that are all dimmed.
+    mean_cd: f64,
     lights: Vec<CoarseLight>,
     tables: Vec<Table<'a>>,
 }
@@ -39,35 +42,27 @@ struct CoarseLight {
     position: Vec3,
     radius_m: f32,
     luminaire_from_world: Mat3,
-    /// Factor on the table.
-    factor: f32,
-    /// What it has beside the intensity along its centre, in cd.
-    spread_cd: f32,
+    /// Its mean intensity.
+    mean: f32,
+    /// What it has beside the intensity along its centre.
+    spread: f32,
     table: usize,
 }
 
-/// About the intensities of a file in cd, or of 1 cd on all sides.
+/// About the intensities of a file over their mean, or the same on all sides.
 enum Table<'a> {
     Point,
     File(&'a Photometry, OnceLock<Box<[f32]>>),
 }
 
 impl<'a> CoarseLights<'a> {
-    /// None yet, near this place.
-    pub(super) fn new(origin: DVec3) -> Self {
-        Self { origin, lights: Vec::new(), tables: vec![Table::Point] }
-    }
-
     pub(super) fn points(origin: DVec3, lights: &[&'a Light]) -> Self {
-        let mut all = Self::new(origin);
+        let mut all = Self::new(origin, lights.iter().map(|light| light.flux_lm()));
         let mut table_of = BTreeMap::new();
         for light in lights {
             match light {
                 Light::Point(point) => all.push_point(point),
-                Light::Luminaire(luminaire) => {
-                    let spread_cd = SLACK * (luminaire.flux_lm() / (4.0 * PI)) as f32;
-                    all.push(luminaire, spread_cd, &mut table_of);
-                }
+                Light::Luminaire(luminaire) => all.push(luminaire, SLACK, &mut table_of),
                 Light::Area(_) => unreachable!("area lights are not point-like"),
             }
         }
@@ -77,54 +72,62 @@ impl<'a> CoarseLights<'a> {
     /// With a share for what their shapes have beside their centres.
     pub(super) fn with_areas(
         origin: DVec3,
-        luminaires: impl Iterator<Item = &'a Luminaire>,
+        luminaires: impl Iterator<Item = &'a Luminaire> + Clone,
     ) -> Self {
-        let mut all = Self::new(origin);
+        let mut all = Self::new(origin, luminaires.clone().map(Luminaire::flux_lm));
         let mut table_of = BTreeMap::new();
         for luminaire in luminaires {
-            let spread_cd = DEFENSIVE_SHARE * luminaire.flux_lm() / (4.0 * PI);
-            all.push(luminaire, spread_cd as f32, &mut table_of);
+            all.push(luminaire, DEFENSIVE_SHARE as f32, &mut table_of);
         }
         all
     }
 
+    /// None yet.
+    fn new(origin: DVec3, fluxes_lm: impl Iterator<Item = f64>) -> Self {
+        let mean_cd = fluxes_lm.sum::<f64>() / (4.0 * PI);
+        let mean_cd = if mean_cd > 0.0 { mean_cd } else { 1.0 };
+        Self { origin, mean_cd, lights: Vec::new(), tables: vec![Table::Point] }
+    }
+
     fn push_point(&mut self, &PointLight { position, intensity_cd }: &PointLight) {
+        let mean = (intensity_cd / self.mean_cd) as f32;
         self.lights.push(CoarseLight {
             position: (position - self.origin).as_vec3(),
             radius_m: 0.0,
             luminaire_from_world: Mat3::IDENTITY,
-            factor: intensity_cd as f32,
-            spread_cd: SLACK * intensity_cd as f32,
+            mean,
+            spread: SLACK * mean,
             table: 0,
         });
     }
 
-    /// Luminaires of one file share its table.
+    /// Luminaires of one file share its table. `spread` is told over the mean intensity.
     fn push(
         &mut self,
         luminaire: &'a Luminaire,
-        spread_cd: f32,
+        spread: f32,
         table_of: &mut BTreeMap<*const Photometry, usize>,
     ) {
-        let Self { origin, lights, tables } = self;
+        let Self { origin, mean_cd, lights, tables } = self;
         let photometry = &*luminaire.photometry;
         let table = *table_of.entry(photometry).or_insert_with(|| {
             tables.push(Table::File(photometry, OnceLock::new()));
             tables.len() - 1
         });
+        let mean = (luminaire.flux_lm() / (4.0 * PI) / *mean_cd) as f32;
         lights.push(CoarseLight {
             position: (luminaire.position - *origin).as_vec3(),
             radius_m: luminaire.shape.radius_m() as f32,
             luminaire_from_world: luminaire.world_from_luminaire.transpose().as_mat3(),
-            factor: luminaire.dimming as f32,
-            spread_cd,
+            mean,
+            spread: spread * mean,
             table,
         });
     }
 
-    /// About what up to [`LANES`] lights give to a place in lx, each its intensity times cosine
-    /// over squared distance; 0 only from behind, with all of its shape. Where both sides count, no
-    /// cosine is taken.
+    /// About what up to [`LANES`] lights give to a place up to a factor, each its intensity times
+    /// cosine over squared distance; 0 only from behind, with all of its shape. Where both sides
+    /// count, no cosine is taken.
     pub(super) fn weights(&self, numbers: &[usize], place: Asking) -> [f64; LANES] {
         let (mut toward, mut local) = ([[0.0_f32; LANES]; 3], [[0.0_f32; LANES]; 3]);
         let mut radii_m = [1.0_f32; LANES];
@@ -144,9 +147,9 @@ impl<'a> CoarseLights<'a> {
         array::from_fn(|lane| {
             let Some(&number) = numbers.get(lane) else { return 0.0 };
             let light = &self.lights[number];
-            let cd = light.factor * self.tables[light.table].at(cells[lane] as usize);
-            let lx = cd * geometry.cosines[lane] + light.spread_cd;
-            f64::from(lx * geometry.per_m2[lane])
+            let intensity = light.mean * self.tables[light.table].at(cells[lane] as usize);
+            let facing = intensity * geometry.cosines[lane] + light.spread;
+            f64::from(facing * geometry.per_m2[lane])
         })
     }
 }
@@ -192,9 +195,10 @@ impl Geometry {
     }
 }
 
-/// Root mean squares of what the directions of each cell get: the variance of a choice is least
-/// where the probabilities are in proportion to them.
+/// Root mean squares of what the directions of each cell get, over the mean of all, with a share of
+/// that: the variance of a choice is least where the probabilities are in proportion to them.
 fn table(photometry: &Photometry) -> Box<[f32]> {
+    let mean_cd = (photometry.flux_lm() / (4.0 * PI)).max(f64::MIN_POSITIVE);
     let parts = SIDE * PER_CELL;
     let place = |part: usize| 2.0 * (part as f64 + 0.5) / parts as f64 - 1.0;
     let cell = |number: usize| {
@@ -206,8 +210,7 @@ fn table(photometry: &Photometry) -> Box<[f32]> {
             cd * cd
         });
         let mean_square = squares.sum::<f64>() / (PER_CELL * PER_CELL) as f64;
-        let least_cd = DEFENSIVE_SHARE * photometry.flux_lm() / (4.0 * PI);
-        (mean_square.sqrt() + least_cd) as f32
+        (mean_square.sqrt() / mean_cd + DEFENSIVE_SHARE) as f32
     };
     (0..SIDE * SIDE).map(cell).collect()
 }
@@ -310,6 +313,7 @@ mod tests {
             let numbers: [usize; LANES] = array::from_fn(|lane| (i as usize + 7 * lane) % 64);
             let weights = coarse.weights(&numbers, Asking { position, side: Some(n) });
             for (weight, number) in weights.iter().zip(numbers) {
+                let weight = &(weight * coarse.mean_cd);
                 let Light::Point(point) = &lights[number] else { unreachable!() };
                 let way = point.position - position;
                 let lx_of_cos = |cos: f64| point.intensity_cd * cos / way.length_squared();
