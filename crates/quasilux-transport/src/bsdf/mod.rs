@@ -198,11 +198,6 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// Whether all that it sends on of light is shown in images.
-    pub(crate) fn shows_images_alone(&self) -> bool {
-        self.image_reflectance(1.0).is_some() && self.straight_transmittance(1.0).is_none()
-    }
-
     /// What goes straight through at this cosine; `None` where nothing does.
     pub(crate) fn straight_transmittance(&self, cos: f64) -> Option<S> {
         match self {

@@ -53,9 +53,8 @@ impl<'a> AreaLuminaires<'a> {
             _ => None,
         });
         let lights: Vec<AreaLuminaire<'_>> = luminaires.collect();
-        let origin = bounds.map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high));
         let luminaires = lights.iter().map(|light| light.luminaire);
-        let coarse = CoarseLights::with_areas(origin, luminaires);
+        let coarse = CoarseLights::with_areas(luminaires);
         let choice = LightChoice::new(lights.len(), bounds);
         Self { lights, coarse, choice }
     }

@@ -6,7 +6,7 @@
 //! be right: one is 0 only where the light gives nothing.
 
 use super::selection::{Asking, DEFENSIVE_SHARE, LANES};
-use glam::{DVec3, Mat3, Vec3};
+use glam::{DVec3, Mat3};
 use quasilux_photometry::Photometry;
 use quasilux_scene::Light;
 use quasilux_scene::light::{Luminaire, PointLight};
@@ -20,15 +20,13 @@ use std::sync::{Arc, OnceLock};
 const SIDE: usize = 64;
 /// Directions along each side of a cell.
 const PER_CELL: usize = 2;
-/// More than the rounding of cosines, and of lengths over that of the scene.
+/// More than the rounding of cosines.
 const SLACK: f32 = 1e-4;
 /// The least square of a distance: weights are numbers at a light, too.
 const MIN_SQUARE_M2: f32 = 1e-12;
 
 /// What is known of some lights.
 pub(super) struct CoarseLights<'a> {
-    /// Positions are told from here.
-    origin: DVec3,
     /// The mean intensity of all lights together, in cd: weights are relative to it, so that they
     /// are numbers in single precision, the same for lights that are all dimmed.
     mean_cd: f64,
@@ -38,8 +36,8 @@ pub(super) struct CoarseLights<'a> {
 
 /// A light whose intensities have a table.
 struct CoarseLight {
-    /// From the origin to its centre, in m.
-    position: Vec3,
+    /// Of its centre.
+    position: DVec3,
     radius_m: f32,
     luminaire_from_world: Mat3,
     /// Its mean intensity.
@@ -56,8 +54,8 @@ enum Table<'a> {
 }
 
 impl<'a> CoarseLights<'a> {
-    pub(super) fn points(origin: DVec3, lights: &[&'a Light]) -> Self {
-        let mut all = Self::new(origin, lights.iter().map(|light| light.flux_lm()));
+    pub(super) fn points(lights: &[&'a Light]) -> Self {
+        let mut all = Self::new(lights.iter().map(|light| light.flux_lm()));
         let mut table_of = BTreeMap::new();
         for light in lights {
             match light {
@@ -70,11 +68,8 @@ impl<'a> CoarseLights<'a> {
     }
 
     /// With a share for what their shapes have beside their centres.
-    pub(super) fn with_areas(
-        origin: DVec3,
-        luminaires: impl Iterator<Item = &'a Luminaire> + Clone,
-    ) -> Self {
-        let mut all = Self::new(origin, luminaires.clone().map(Luminaire::flux_lm));
+    pub(super) fn with_areas(luminaires: impl Iterator<Item = &'a Luminaire> + Clone) -> Self {
+        let mut all = Self::new(luminaires.clone().map(Luminaire::flux_lm));
         let mut table_of = BTreeMap::new();
         for luminaire in luminaires {
             all.push(luminaire, DEFENSIVE_SHARE as f32, &mut table_of);
@@ -83,16 +78,16 @@ impl<'a> CoarseLights<'a> {
     }
 
     /// None yet.
-    fn new(origin: DVec3, fluxes_lm: impl Iterator<Item = f64>) -> Self {
+    fn new(fluxes_lm: impl Iterator<Item = f64>) -> Self {
         let mean_cd = fluxes_lm.sum::<f64>() / (4.0 * PI);
         let mean_cd = if mean_cd > 0.0 { mean_cd } else { 1.0 };
-        Self { origin, mean_cd, lights: Vec::new(), tables: vec![Table::Point] }
+        Self { mean_cd, lights: Vec::new(), tables: vec![Table::Point] }
     }
 
     fn push_point(&mut self, &PointLight { position, intensity_cd }: &PointLight) {
         let mean = (intensity_cd / self.mean_cd) as f32;
         self.lights.push(CoarseLight {
-            position: (position - self.origin).as_vec3(),
+            position,
             radius_m: 0.0,
             luminaire_from_world: Mat3::IDENTITY,
             mean,
@@ -108,7 +103,7 @@ impl<'a> CoarseLights<'a> {
         spread: f32,
         table_of: &mut BTreeMap<*const Photometry, usize>,
     ) {
-        let Self { origin, mean_cd, lights, tables } = self;
+        let Self { mean_cd, lights, tables } = self;
         let photometry = &*luminaire.photometry;
         let table = *table_of.entry(photometry).or_insert_with(|| {
             tables.push(Table::File(photometry, OnceLock::new()));
@@ -116,7 +111,7 @@ impl<'a> CoarseLights<'a> {
         });
         let mean = (luminaire.flux_lm() / (4.0 * PI) / *mean_cd) as f32;
         lights.push(CoarseLight {
-            position: (luminaire.position - *origin).as_vec3(),
+            position: luminaire.position,
             radius_m: luminaire.shape.radius_m() as f32,
             luminaire_from_world: luminaire.world_from_luminaire.transpose().as_mat3(),
             mean,
@@ -131,10 +126,9 @@ impl<'a> CoarseLights<'a> {
     pub(super) fn weights(&self, numbers: &[usize], place: Asking) -> [f64; LANES] {
         let (mut toward, mut local) = ([[0.0_f32; LANES]; 3], [[0.0_f32; LANES]; 3]);
         let mut radii_m = [1.0_f32; LANES];
-        let from = (place.position - self.origin).as_vec3();
         for (lane, number) in numbers.iter().enumerate() {
             let light = &self.lights[*number];
-            let way = light.position - from;
+            let way = (light.position - place.position).as_vec3();
             let turned = light.luminaire_from_world * -way;
             for axis in 0..3 {
                 toward[axis][lane] = way[axis];
@@ -253,7 +247,8 @@ pub(crate) fn coarse_tables_bytes(lights: &[Light]) -> u64 {
         Light::Point(_) | Light::Area(_) => None,
     };
     let files: BTreeSet<*const Photometry> = lights.iter().filter_map(photometry).collect();
-    (files.len() * SIDE * SIDE * size_of::<f32>()) as u64
+    // One of points, one of luminous areas.
+    (2 * files.len() * SIDE * SIDE * size_of::<f32>()) as u64
 }
 
 #[cfg(test)]
@@ -306,7 +301,7 @@ mod tests {
             Light::Point(PointLight { position, intensity_cd: f64::from(1 + i) })
         };
         let lights: Vec<Light> = (0..64).map(light).collect();
-        let coarse = CoarseLights::points(DVec3::ONE, &lights.iter().collect::<Vec<&Light>>());
+        let coarse = CoarseLights::points(&lights.iter().collect::<Vec<&Light>>());
         for i in 0..200 {
             let position = 9.0 * DVec3::new(number(i, 0.569_84), number(i, 0.324_718), 0.1);
             let n = DVec3::from_array(sample_uniform_sphere([number(i, 0.3) + 0.5, 0.1]));

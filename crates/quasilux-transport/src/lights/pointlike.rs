@@ -35,8 +35,7 @@ impl<'a> PointLikes<'a> {
             Light::Area(_) => false,
         };
         let lights: Vec<&Light> = scene.lights.iter().filter(is_pointlike).collect();
-        let origin = bounds.map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high));
-        let coarse = CoarseLights::points(origin, &lights);
+        let coarse = CoarseLights::points(&lights);
         let choice = LightChoice::new(lights.len(), bounds);
         Self { lights, coarse, choice }
     }

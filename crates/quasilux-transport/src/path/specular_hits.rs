@@ -1,12 +1,13 @@
 //! Test for missed specular hits: whether one more hit of an emitting facet, over mirrors or
 //! through glass, would move a value by more than its half-width.
 //!
-//! Next-event estimation sees past specular surfaces where plane mirrors show images. Past others a
-//! path finds an emitting facet by chance, and then all of its luminance at once: `pi L` lux where
-//! it started with the cosine distribution. Of a small bright facet a run may see no hit, or one of
-//! three, and its spread does not tell. With n paths one hit more or less is `pi L / n`; where that
-//! is more than the half-width and hits of this light are few, the value has no interval yet. Hits
-//! of another light, however many, say nothing of it.
+//! Next-event estimation sees past specular surfaces where plane mirrors show images, and through
+//! flat panes. Past others, and where light comes over mirrors and through panes, a path finds an
+//! emitting facet by chance, and then all of its luminance at once: `pi L` lux where it started
+//! with the cosine distribution. Of a small bright facet a run may see no hit, or one of three, and
+//! its spread does not tell. With n paths one hit more or less is `pi L / n`; where that is more
+//! than the half-width and hits of this light are few, the value has no interval yet. Hits of
+//! another light, however many, say nothing of it.
 
 use crate::codec::{Sums, add_count};
 use crate::spectrum::Spectrum;

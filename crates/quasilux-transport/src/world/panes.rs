@@ -37,8 +37,10 @@ pub(crate) fn transmittances<S: Spectrum>(
         let mut left = 0;
         for (i, hit) in hits.iter().enumerate() {
             let Some(hit) = hit else { continue };
+            let RayQuery { ray, excluded } = &queries[i];
+            let hit = world.unless_flush(*hit, ray, excluded[0]);
             let passage = &mut passages[numbers[i]];
-            let beyond = world.beyond_pane(&queries[i], hit);
+            let beyond = world.beyond_pane(&queries[i], &hit);
             *passage = passage.zip(beyond).map(|(Passage { transmitted, panes }, beyond)| {
                 queries[left] = beyond.query;
                 Passage { transmitted: transmitted * beyond.transmitted, panes: panes + 1 }

@@ -5,8 +5,9 @@
 use crate::images::add_panel;
 use crate::scenes::{diffuse, mirror, point_light, points, room};
 use glam::DVec3;
+use quasilux_scene::bsdf::Pane;
 use quasilux_scene::light::AreaLight;
-use quasilux_scene::{Light, Scene};
+use quasilux_scene::{Bsdf, Light, Scene};
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 
 const SIZE: DVec3 = DVec3::new(5.0, 4.0, 3.0);
@@ -48,9 +49,18 @@ fn add_light(scene: &mut Scene, at: DVec3, luminance_cd_m2: f64) {
 }
 
 fn run(scene: &Scene, seed: u64, max_samples: u64) -> Estimates {
+    run_with_images(scene, Some(0), seed, max_samples)
+}
+
+fn run_with_images(
+    scene: &Scene,
+    image_depth: Option<u32>,
+    seed: u64,
+    max_samples: u64,
+) -> Estimates {
     let settings = Settings {
         estimator: EstimatorKind::Path,
-        image_depth: Some(0),
+        image_depth,
         rel_tol: 0.02,
         max_samples: Some(max_samples),
         seed,
@@ -116,6 +126,22 @@ fn assert_glints_are_known(room: &Scene, luminance_cd_m2: f64) {
     }
     println!("{missed} of 144 values are too low, {kept} have an interval");
     assert!(missed > 16, "{missed}");
+}
+
+/// All light of a small lamp behind a pane is asked for: nothing is left to chance.
+#[test]
+fn a_lamp_behind_a_pane_is_no_glint() {
+    let mut scene = room(SIZE, diffuse(0.5));
+    let pane = Bsdf::Pane(Pane::Clear { eta: 1.5 });
+    let corner = DVec3::new(2.0, 1e-3, 1e-3);
+    let edges = [DVec3::Y * (SIZE.y - 2e-3), DVec3::Z * (SIZE.z - 2e-3)];
+    add_panel(&mut scene, corner, edges[0], edges[1], pane);
+    add_light(&mut scene, DVec3::new(4.0, 2.1, 1.6), LUMINANCE_CD_M2);
+    let places: Vec<(DVec3, DVec3)> = places().map(|at| (at, DVec3::X)).collect();
+    scene.sensors.push(points("probes", &places));
+    let estimates = run_with_images(&scene, None, 1, 256);
+    let intervals = estimates.point_intervals(0);
+    assert!(intervals.iter().all(|it| it.half_width.is_some()), "{:?}", estimates.warnings);
 }
 
 /// Where one hit counts less than the half-width, values keep their intervals.

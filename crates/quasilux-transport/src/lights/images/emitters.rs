@@ -84,6 +84,12 @@ impl EmitterImages {
         self.images.left_out
     }
 
+    /// The most that the mirrors of any image reflect.
+    pub(super) fn most_reflected(&self) -> f64 {
+        let images = self.images.nodes.iter().filter(|image| image.depth > 0);
+        images.map(|image| image.reflected).fold(0.0, f64::max)
+    }
+
     /// Asks for the light of one point of one image, weighted against other techniques: of a
     /// direction and of what a steradian of the light's luminance gives along it in lx, were all of
     /// it reflected, `beside_sr` is the density of these in sr^-1.

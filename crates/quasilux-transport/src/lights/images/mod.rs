@@ -198,12 +198,29 @@ impl SpecularImages {
     }
 
     /// The most that is left of light of an area light that comes over specular surfaces and that
-    /// no image shows.
+    /// nobody asks for: what no image shows, and what comes over mirrors and through panes.
     pub(crate) fn most_left_out<S: Spectrum>(&self, world: &World<S>) -> f64 {
-        let is_shown = |facet: &Facet| world.bsdf_of(facet).shows_images_alone();
+        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0).is_some();
         let mut specular = world.facets.iter().filter(|facet| world.bsdf_of(facet).is_specular());
-        let is_complete = self.mirrors.curved_facets == 0 && specular.all(is_shown);
-        if is_complete { self.emitters.left_out() } else { 1.0 }
+        if self.mirrors.curved_facets > 0 || !specular.all(is_shown) {
+            return 1.0;
+        }
+        let left_out = self.emitters.left_out();
+        if self.mixes_mirrors_and_panes(world) {
+            left_out.max(self.emitters.most_reflected())
+        } else {
+            left_out
+        }
+    }
+
+    /// Whether light may be mirrored in one plane and let through a pane in another.
+    fn mixes_mirrors_and_panes<S: Spectrum>(&self, world: &World<S>) -> bool {
+        let is_pane = |facet: &Facet| world.bsdf_of(facet).straight_transmittance(1.0).is_some();
+        let mut panes = (0..).zip(&world.facets).filter(|(_, facet)| is_pane(facet));
+        panes.any(|(number, _)| {
+            let own = usize::from(self.mirrors.of_facet(number).is_some());
+            self.mirrors.planes.len() > own
+        })
     }
 
     /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.
